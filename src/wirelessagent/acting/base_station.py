@@ -1,0 +1,28 @@
+"""Carrying a decision out: the base class of every base station."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import ClassVar
+
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.scene import Scene
+
+
+@dataclass(frozen=True)
+class BaseStation(ABC):
+    """Something that applies a decision and reads back what it did.
+
+    Subclass as a frozen dataclass with keyword-only fields, which become options everywhere. Every base station is
+    given the scene; those that reach real equipment may ignore it.
+    """
+
+    name: ClassVar[str]
+
+    scene: Scene | None = None
+
+    @abstractmethod
+    def apply(self, decision: Decision) -> Outcome:
+        """Put the decision into effect and return what was read back; all or nothing."""

@@ -1,0 +1,54 @@
+"""How to optimise: the base class of every method."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import ClassVar
+
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.errors import UnsupportedProblemError
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.objective import Objective
+from wirelessagent.model.problem import Problem
+
+
+@dataclass(frozen=True, kw_only=True)
+class Method(ABC):
+    """A way to solve problems. Subclass as a frozen keyword-only dataclass; its fields become options everywhere.
+
+    Attributes:
+        name: the registered name, equal to the entry point's.
+        objectives: names of the objectives it solves; None for all.
+        constraints: fields of :class:`Problem` that it honours beside the objective and ``max_power_w``; a problem
+            that sets others is refused, never solved as if they were not there.
+    """
+
+    name: ClassVar[str]
+    objectives: ClassVar[tuple[str, ...] | None] = None
+    constraints: ClassVar[frozenset[str]] = frozenset()
+
+    @abstractmethod
+    def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
+        """The decision for ``problem`` on the estimated channel, with what certificate the method has."""
+
+    def objective_of(self, problem: Problem) -> Objective:
+        """The problem's objective, after a check that this method solves such problems."""
+        objective = problem.objective
+        if isinstance(objective, str):
+            raise UnsupportedProblemError(
+                f"the objective {objective!r} is only a name: call wirelessagent.decide(), which looks it up, "
+                "or give an Objective"
+            )
+        if self.objectives is not None and objective.name not in self.objectives:
+            raise UnsupportedProblemError(
+                f"method {self.name!r} does not solve {objective.name!r}; it solves {', '.join(self.objectives)}"
+            )
+        surplus = problem.constraints().keys() - self.constraints - {"max_power_w"}
+        if surplus:
+            raise UnsupportedProblemError(
+                f"method {self.name!r} does not honour {', '.join(sorted(surplus))}: "
+                "leave them out or name another method"
+            )
+        return objective

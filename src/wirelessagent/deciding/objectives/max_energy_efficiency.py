@@ -1,0 +1,39 @@
+"""P3 of the paper: the most bits per joule."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.metrics import energy_efficiency_bit_per_j
+from wirelessagent.model.objective import Objective
+from wirelessagent.model.phrases import phrases
+
+
+@dataclass(frozen=True, kw_only=True)
+class MaxEnergyEfficiency(Objective):
+    """The most bits per joule drawn, Σ r / (Σ p/ξ + P_c); problem P3 of the paper."""
+
+    name = "max_energy_efficiency"
+    aliases = ("P3",)
+    unit = "bit/J"
+    default_method = "fractional"
+    phrases = phrases(
+        en=["energy efficiency", "most bits per joule", "best trade-off between rate and power"],
+        zh=["能效", "能量效率", "每焦耳比特数", "兼顾速率和功耗"],
+    )
+
+    def utility(self, rate: FloatArray) -> float:
+        return float(rate.sum())
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[float, FloatArray]:
+        rate = np.where(price < 1.0, max_rate, min_rate)
+        with np.errstate(invalid="ignore"):
+            surplus = np.where(rate > 0, (1.0 - price) * rate, 0.0)
+        return float(surplus.sum()), rate
+
+    def value(self, rate: FloatArray, power_w: float, cell: Cell) -> float:
+        return energy_efficiency_bit_per_j(float(rate.sum()), power_w, cell)

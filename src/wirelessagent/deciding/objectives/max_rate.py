@@ -1,0 +1,34 @@
+"""P1 of the paper: the largest (weighted) sum rate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.objective import Objective
+from wirelessagent.model.phrases import phrases
+
+
+@dataclass(frozen=True, kw_only=True)
+class MaxRate(Objective):
+    """The largest sum of the users' rates, Σ r; problem P1 of the paper."""
+
+    name = "max_rate"
+    aliases = ("P1",)
+    unit = "bit/s"
+    default_method = "water_filling"
+    phrases = phrases(
+        en=["maximum rate", "highest throughput", "as fast as possible", "more speed"],
+        zh=["最大速率", "最高吞吐量", "越快越好", "提高网速"],
+    )
+
+    def utility(self, rate: FloatArray) -> float:
+        return float(rate.sum())
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[float, FloatArray]:
+        rate = np.where(price < 1.0, max_rate, min_rate)
+        with np.errstate(invalid="ignore"):
+            surplus = np.where(rate > 0, (1.0 - price) * rate, 0.0)
+        return float(surplus.sum()), rate

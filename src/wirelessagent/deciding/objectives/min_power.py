@@ -1,0 +1,37 @@
+"""P2 of the paper: the least radiated power that carries the promised rates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.objective import Objective
+from wirelessagent.model.phrases import phrases
+
+
+@dataclass(frozen=True, kw_only=True)
+class MinPower(Objective):
+    """The least radiated power, Σ p, that carries every promised rate; problem P2 of the paper."""
+
+    name = "min_power"
+    aliases = ("P2",)
+    unit = "W"
+    direction = "min"
+    default_method = "exclusive_sets"
+    phrases = phrases(
+        en=["minimum power", "save power", "as little power as possible", "lowest transmit power"],
+        zh=["最小功率", "省电", "降低功耗", "节省功率"],
+    )
+
+    def utility(self, rate: FloatArray) -> float:
+        del rate  # rates beyond the promised ones are worth nothing
+        return 0.0
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[float, FloatArray]:
+        del max_rate
+        return float(-(price * min_rate).sum()), min_rate
+
+    def value(self, rate: FloatArray, power_w: float, cell: Cell) -> float:
+        del rate, cell
+        return power_w

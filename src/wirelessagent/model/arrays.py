@@ -1,0 +1,53 @@
+"""Array types and the checks that every type of the model shares.
+
+Arrays inside the model are read-only: a frozen dataclass whose arrays could be written to would not be frozen.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from wirelessagent.model.errors import InputError
+
+FloatArray: TypeAlias = NDArray[np.float64]
+IntArray: TypeAlias = NDArray[np.int64]
+BoolArray: TypeAlias = NDArray[np.bool_]
+
+
+def frozen(array: NDArray[Any]) -> NDArray[Any]:
+    """A read-only array with the same content; copies only what someone else could still write to."""
+    if array.flags.writeable or array.base is not None:
+        array = array.copy()
+    array.flags.writeable = False
+    return array
+
+
+def float_array(name: str, value: ArrayLike) -> FloatArray:
+    """``value`` as a read-only float64 array, or an error that names it."""
+    try:
+        return frozen(np.asarray(value, dtype=np.float64))
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} must be numbers; got {value!r:.80}") from error
+
+
+def per_user(name: str, value: ArrayLike, num_users: int) -> FloatArray:
+    """A scalar or one value per user, as a read-only array of shape (user,)."""
+    array = float_array(name, value)
+    if array.ndim > 1 or (array.ndim == 1 and array.size not in (1, num_users)):
+        raise InputError(f"{name} must be one value or one per user ({num_users}); got shape {array.shape}")
+    return frozen(np.broadcast_to(array, (num_users,)).copy())
+
+
+def positive(name: str, value: float, *, zero: bool = False, infinite: bool = False) -> float:
+    """``value`` as a float that is positive (or zero, or infinite, where allowed), or an error that names it."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} must be a number; got {value!r}") from error
+    wanted = "zero or more" if zero else "more than zero"
+    if np.isnan(number) or number < 0 or (number == 0 and not zero) or (np.isinf(number) and not infinite):
+        raise InputError(f"{name} must be {wanted}{'' if infinite else ' and finite'}; got {value!r}")
+    return number

@@ -1,0 +1,89 @@
+"""Who gets which subcarrier at what power, with a certificate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray, IntArray, frozen
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.problem import Problem
+
+Status: TypeAlias = Literal["optimal", "feasible", "infeasible", "undecided"]
+
+OPTIMAL_GAP = 1e-9
+"""Relative gap up to which a decision counts as optimal."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bracket:
+    """A figure known from two sides: it is at least this and at most that; NaN where a side is not known.
+
+    Of the power that promised rates need, ``at_least`` is proven and ``at_most`` was found to suffice; of the largest
+    common factor on the promised rates, ``at_least`` was found and ``at_most`` is proven.
+    """
+
+    at_least: float
+    at_most: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Decision:
+    """An allocation for the current slot.
+
+    Attributes:
+        owner: the user of each subcarrier, −1 for nobody, shape (subcarrier,).
+        power_w: radiated power on each subcarrier, shape (subcarrier,).
+        rate_bps: each user's predicted rate on the estimated channel, shape (user,); this is what is promised.
+        status: "optimal" (gap ≤ 1e-9 or proven), "feasible", "infeasible" (with proof) or "undecided" (nothing
+            feasible found and no proof that nothing exists).
+        value: the objective's value on the estimated channel; NaN where nothing feasible was found.
+        bound: the best value that any allocation can reach on the estimated channel; NaN if the method has none.
+        gap: \\|value − bound\\| / \\|bound\\|; 0/0 is 0; NaN without a bound.
+        unit: the unit of ``value`` and ``bound``.
+        reason: one sentence on why it is infeasible or undecided; empty otherwise.
+        price_of_power: change of the best value per extra watt, in the value's unit per W; NaN if not known.
+        price_of_rate: change of the best value per extra bit/s promised to each user, shape (user,);
+            empty if not known.
+        needed_power_w: the power that the promised rates need, whatever the budget; None where none are promised.
+        rate_scaling: the largest common factor on the promised rates that the budget carries; None likewise.
+        iterations: outer iterations done by the method.
+        method: registered name of the method.
+        problem: the problem solved, with its objective resolved.
+        cell: the cell it was solved for.
+        user_names: one name per user.
+    """
+
+    owner: IntArray
+    power_w: FloatArray
+    rate_bps: FloatArray
+    status: Status
+    value: float
+    bound: float
+    gap: float
+    unit: str
+    method: str
+    problem: Problem
+    cell: Cell
+    user_names: tuple[str, ...]
+    reason: str = ""
+    price_of_power: float = np.nan
+    price_of_rate: FloatArray = field(default_factory=lambda: np.empty(0))
+    needed_power_w: Bracket | None = None
+    rate_scaling: Bracket | None = None
+    iterations: int = 0
+
+    def __post_init__(self) -> None:
+        for name in ("owner", "power_w", "rate_bps", "price_of_rate"):
+            object.__setattr__(self, name, frozen(getattr(self, name)))
+
+    @property
+    def is_usable(self) -> bool:
+        """Whether the allocation keeps every constraint and may be applied."""
+        return self.status in ("optimal", "feasible")
+
+    @property
+    def total_power_w(self) -> float:
+        return float(self.power_w.sum())

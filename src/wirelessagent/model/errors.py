@@ -1,0 +1,61 @@
+"""What can go wrong, in one tree.
+
+WirelessAgentError
+├── InputError                     something the caller gave; the command line exits with 2
+│   ├── FileFormatError            a file that is not what it should be
+│   ├── UnknownNameError           a plug-in, experiment or operation that does not exist
+│   ├── UnsupportedProblemError    a method that does not solve this problem
+│   └── UnclearRequestError        a sentence that needs a question back
+├── PluginError                    a plug-in that cannot be loaded, or two that share a name
+└── MissingDependencyError         an optional package that is not installed
+
+Every message says what was wrong, the value received and what to do next.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class WirelessAgentError(Exception):
+    """The root: catch this to catch all that the library raises on purpose."""
+
+
+class InputError(WirelessAgentError, ValueError):
+    """Something the caller gave cannot be used."""
+
+
+class FileFormatError(InputError):
+    """A file is not what it should be."""
+
+
+class UnknownNameError(InputError):
+    """A name that nothing is registered under."""
+
+    def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
+        names = sorted(known)
+        close = get_close_matches(name, names, n=1)
+        hint = f"did you mean {close[0]!r}? " if close else ""
+        super().__init__(f"unknown {kind} {name!r}: {hint}known are {', '.join(names) or 'none'}")
+
+
+class UnsupportedProblemError(InputError):
+    """A method was given a problem that it does not solve."""
+
+
+class UnclearRequestError(InputError):
+    """A sentence that must be answered with a question."""
+
+
+class PluginError(WirelessAgentError):
+    """A plug-in cannot be loaded, or two share a name."""
+
+
+class MissingDependencyError(WirelessAgentError, ImportError):
+    """An optional package is needed and not installed."""
+
+    def __init__(self, package: str, extra: str, purpose: str) -> None:
+        super().__init__(
+            f"{purpose} needs the package {package!r}, which is not installed: pip install 'wirelessagent[{extra}]'"
+        )

@@ -1,0 +1,89 @@
+"""The figures of merit of an allocation on a given channel, predicted or achieved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.rates import user_rate_bps
+
+RATE_TOLERANCE = 1e-9
+"""Relative shortfall up to which a rate counts as kept."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinkMetrics:
+    """What an allocation gives on one channel.
+
+    Attributes:
+        user_rate_bps: each user's rate, shape (user,).
+        sum_rate_bps: total rate if the link adapts ideally to the channel.
+        goodput_bps: total of the committed rates that the channel carries; a user whose rate falls short of its
+            commitment counts nothing.
+        power_w: radiated power.
+        energy_efficiency_bit_per_j: sum rate over drawn power, P/ξ + P_c.
+        spectral_efficiency_bps_per_hz: sum rate over the total bandwidth, N·B.
+        jain_index: fairness of the rates, (Σ r)²/(K Σ r²), in [1/K, 1]; Jain, Chiu and Hawe (1984).
+    """
+
+    user_rate_bps: FloatArray
+    sum_rate_bps: float
+    goodput_bps: float
+    power_w: float
+    energy_efficiency_bit_per_j: float
+    spectral_efficiency_bps_per_hz: float
+    jain_index: float
+
+
+def kept(rate_bps: FloatArray, promised_bps: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """True where a rate reaches what was promised, within the tolerance."""
+    return rate_bps >= promised_bps * (1.0 - RATE_TOLERANCE)
+
+
+def jain_index(rate_bps: FloatArray) -> float:
+    """Jain's fairness index; 0 where nobody gets anything.
+
+    >>> jain_index(np.array([1.0, 1.0])), jain_index(np.array([1.0, 0.0]))
+    (1.0, 0.5)
+    """
+    largest = float(np.max(rate_bps, initial=0.0))
+    if largest == 0.0:
+        return 0.0
+    share = rate_bps / largest
+    return float(share.sum() ** 2 / (share.size * np.square(share).sum()))
+
+
+def energy_efficiency_bit_per_j(sum_rate_bps: float, power_w: float, cell: Cell) -> float:
+    """Sum rate over drawn power, P/ξ + P_c, in bit/J; 0 where nothing is drawn and nothing sent."""
+    drawn = power_w / cell.amplifier_efficiency + cell.circuit_power_w
+    return sum_rate_bps / drawn if drawn > 0 else 0.0
+
+
+def link_metrics(
+    gain: FloatArray,
+    owner: IntArray,
+    power_w: FloatArray,
+    cell: Cell,
+    *,
+    committed_bps: FloatArray | None = None,
+) -> LinkMetrics:
+    """Metrics on ``gain`` (user, subcarrier) of an owner and a power per subcarrier.
+
+    ``committed_bps`` (user,) are the rates that were promised; None takes the rates that ``gain`` carries.
+    """
+    rate = user_rate_bps(gain, owner, power_w, cell)
+    committed = rate if committed_bps is None else committed_bps
+    total = float(rate.sum())
+    radiated = float(power_w.sum())
+    return LinkMetrics(
+        user_rate_bps=rate,
+        sum_rate_bps=total,
+        goodput_bps=float(np.where(kept(rate, committed), committed, 0.0).sum()),
+        power_w=radiated,
+        energy_efficiency_bit_per_j=energy_efficiency_bit_per_j(total, radiated, cell),
+        spectral_efficiency_bps_per_hz=total / (gain.shape[-1] * cell.subcarrier_bandwidth_hz),
+        jain_index=jain_index(rate),
+    )

@@ -1,0 +1,110 @@
+"""What the base station was told about the channel: a power-gain matrix with holes, eq. (2) of the paper."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from wirelessagent.model.arrays import BoolArray, FloatArray, float_array
+from wirelessagent.model.errors import InputError
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChannelObservation:
+    """Observed power gains, NaN where missing.
+
+    Attributes:
+        gain: linear power gain, float64, shape (user, subcarrier) or (slot, user, subcarrier), NaN = missing. With
+            slots the last one is the current one and the others are history.
+        noise_variance: variance of the measurement error of each gain, same shape (or a scalar); None if unknown.
+        user_names: one name per user; "user 1" … by default.
+        subcarrier_frequencies_hz: centre frequencies, shape (subcarrier,); None if unknown.
+        slot_times_s: time of each slot, shape (slot,), increasing; None if unknown.
+    """
+
+    gain: FloatArray
+    noise_variance: FloatArray | None = None
+    user_names: tuple[str, ...] = field(default=())
+    subcarrier_frequencies_hz: FloatArray | None = None
+    slot_times_s: FloatArray | None = None
+
+    def __post_init__(self) -> None:
+        gain = float_array("gain", self.gain)
+        if gain.ndim not in (2, 3) or gain.size == 0:
+            raise InputError(
+                "gain must have shape (user, subcarrier) or (slot, user, subcarrier), none of them zero; "
+                f"got shape {gain.shape}"
+            )
+        check_gain(gain)
+        object.__setattr__(self, "gain", gain)
+        if self.noise_variance is not None:
+            variance = float_array("noise_variance", np.broadcast_to(self.noise_variance, gain.shape))
+            if not np.all(variance[~np.isnan(gain)] >= 0):
+                raise InputError("noise_variance must be zero or more wherever a gain was observed")
+            object.__setattr__(self, "noise_variance", variance)
+        names = tuple(self.user_names) or tuple(f"user {k + 1}" for k in range(self.num_users))
+        if len(names) != self.num_users or len(set(names)) != len(names):
+            raise InputError(f"user_names must be {self.num_users} different names; got {names}")
+        object.__setattr__(self, "user_names", names)
+        self._check_axis("subcarrier_frequencies_hz", self.num_subcarriers)
+        self._check_axis("slot_times_s", self.num_slots)
+
+    def _check_axis(self, name: str, size: int) -> None:
+        value: ArrayLike | None = getattr(self, name)
+        if value is None:
+            return
+        axis = float_array(name, value)
+        if axis.shape != (size,) or not np.all(np.isfinite(axis)) or np.any(np.diff(axis) <= 0):
+            raise InputError(f"{name} must be {size} finite, increasing values; got shape {axis.shape}")
+        object.__setattr__(self, name, axis)
+
+    @property
+    def num_users(self) -> int:
+        return self.gain.shape[-2]
+
+    @property
+    def num_subcarriers(self) -> int:
+        return self.gain.shape[-1]
+
+    @property
+    def num_slots(self) -> int:
+        return self.gain.shape[0] if self.gain.ndim == 3 else 1
+
+    @property
+    def slots(self) -> FloatArray:
+        """The gain as (slot, user, subcarrier), whatever it came as."""
+        return self.gain if self.gain.ndim == 3 else self.gain[np.newaxis]
+
+    @property
+    def current(self) -> FloatArray:
+        """The current slot's gain, shape (user, subcarrier), NaN = missing."""
+        return self.slots[-1]
+
+    @property
+    def current_noise_variance(self) -> FloatArray:
+        """Measurement-error variance of the current slot, shape (user, subcarrier); 0 where unknown."""
+        if self.noise_variance is None:
+            return np.zeros(self.current.shape)
+        return self.noise_variance if self.gain.ndim == 2 else self.noise_variance[-1]
+
+    @property
+    def missing(self) -> BoolArray:
+        """True where the current slot has no observation, shape (user, subcarrier)."""
+        return np.isnan(self.current)
+
+
+def check_gain(gain: FloatArray) -> None:
+    """Raise an :class:`InputError` that names the first negative or infinite entry."""
+    with np.errstate(invalid="ignore"):
+        bad = np.argwhere(np.isinf(gain) | (gain < 0))
+    if len(bad):
+        index = tuple(int(i) for i in bad[0])
+        where = ", ".join(
+            f"{axis} {i}" for axis, i in zip(("slot", "user", "subcarrier")[-gain.ndim :], index, strict=True)
+        )
+        raise InputError(
+            f"a power gain must be finite and zero or more; got {gain[index]:g} at {where} (counted from 0). "
+            "Mark missing entries with NaN; give dB values as unit='db'"
+        )

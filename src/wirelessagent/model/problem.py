@@ -1,0 +1,93 @@
+"""One composable problem: an objective and whatever tightens the cell's limits."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen, per_user, positive
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.errors import InputError
+from wirelessagent.model.objective import Objective
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What to optimise, under which constraints. None means: as the cell has it, or not constrained.
+
+    Attributes:
+        objective: a registered name or alias ("max_rate", "P1"), or an objective with its options.
+        weights: relative worth of each user's rate, one value or (user,).
+        min_rate_bps: rate each user must get, one value or (user,), in bit/s.
+        max_rate_bps: rate beyond which a user has nothing to send, one value or (user,), in bit/s; inf = full buffer.
+        max_power_w: radiated power budget in W; at most the cell's.
+        subcarrier_max_power_w: power cap per subcarrier in W, one value or (subcarrier,).
+        forbidden: True where a user may not use a subcarrier, shape (user, subcarrier).
+        users: the users to serve, counted from 0; None serves all.
+        resource_block_group_size: number of adjacent subcarriers that are assigned together.
+        outage_probability: accepted probability that a user's true rate stays below the promised one.
+    """
+
+    objective: str | Objective
+    _: KW_ONLY
+    weights: ArrayLike | None = None
+    min_rate_bps: ArrayLike | None = None
+    max_rate_bps: ArrayLike | None = None
+    max_power_w: float | None = None
+    subcarrier_max_power_w: ArrayLike | None = None
+    forbidden: BoolArray | None = None
+    users: tuple[int, ...] | None = None
+    resource_block_group_size: int = 1
+    outage_probability: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("weights", "min_rate_bps", "max_rate_bps", "subcarrier_max_power_w"):
+            value = getattr(self, name)
+            if value is None:
+                continue
+            array = float_array(name, value)
+            finite = np.all(np.isfinite(array)) or name in ("max_rate_bps", "subcarrier_max_power_w")
+            if np.isnan(array).any() or np.any(array < 0) or not finite:
+                raise InputError(f"{name} must be zero or more{'' if finite else ' and finite'}; got {value!r:.80}")
+            object.__setattr__(self, name, array)
+        if self.max_power_w is not None:
+            object.__setattr__(self, "max_power_w", positive("max_power_w", self.max_power_w))
+        if self.forbidden is not None:
+            object.__setattr__(self, "forbidden", frozen(np.asarray(self.forbidden, dtype=bool)))
+        if self.users is not None:
+            users = tuple(int(user) for user in self.users)
+            if not users or len(set(users)) != len(users) or min(users) < 0:
+                raise InputError(f"users must be different user numbers from 0; got {self.users!r}")
+            object.__setattr__(self, "users", users)
+        if self.resource_block_group_size < 1:
+            raise InputError(f"resource_block_group_size must be 1 or more; got {self.resource_block_group_size!r}")
+        if self.outage_probability is not None and not 0 < self.outage_probability < 1:
+            raise InputError(f"outage_probability must be between 0 and 1; got {self.outage_probability!r}")
+
+    def budget_w(self, cell: Cell) -> float:
+        """The power budget in W; an error where the problem asks for more than the cell may radiate."""
+        if self.max_power_w is None:
+            return cell.max_power_w
+        if self.max_power_w > cell.max_power_w * (1 + 1e-12):
+            raise InputError(
+                f"max_power_w = {self.max_power_w:g} W is above the cell's limit of {cell.max_power_w:g} W: "
+                "ask for less, or raise the cell's max_power_w"
+            )
+        return self.max_power_w
+
+    def min_rates_bps(self, num_users: int) -> FloatArray:
+        """The rate each user must get, shape (user,), 0 where there is no promise."""
+        return per_user("min_rate_bps", 0.0 if self.min_rate_bps is None else self.min_rate_bps, num_users)
+
+    def constraints(self) -> dict[str, object]:
+        """The constraints that are set, by field name, for messages and records."""
+        names = (
+            "weights", "min_rate_bps", "max_rate_bps", "max_power_w", "subcarrier_max_power_w", "forbidden",
+            "users", "outage_probability",
+        )  # fmt: skip
+        found: dict[str, object] = {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+        if self.resource_block_group_size > 1:
+            found["resource_block_group_size"] = self.resource_block_group_size
+        return found

@@ -1,0 +1,55 @@
+"""Conversions between linear SI quantities and the logarithmic ones that people write.
+
+Inside the library everything is linear SI; a logarithmic quantity carries its unit in its name.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray
+
+
+def db(ratio: FloatArray | float, *, floor_db: float = -np.inf) -> FloatArray:
+    """10 log10 of a power ratio; zero becomes ``floor_db``.
+
+    >>> float(db(100.0))
+    20.0
+    """
+    with np.errstate(divide="ignore"):
+        return np.maximum(10.0 * np.log10(ratio), floor_db)
+
+
+def from_db(value_db: FloatArray | float) -> FloatArray:
+    """The power ratio of a value in dB.
+
+    >>> float(from_db(30.0))
+    1000.0
+    """
+    return np.power(10.0, np.asarray(value_db, dtype=np.float64) / 10.0)
+
+
+def dbm_to_w(value_dbm: float) -> float:
+    """Watts of a power in dBm: 30 dBm is 1 W.
+
+    >>> dbm_to_w(43.0103)  # doctest: +ELLIPSIS
+    20.00...
+    """
+    return float(10.0 ** ((value_dbm - 30.0) / 10.0))
+
+
+_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+
+
+def human(value: float, unit: str) -> str:
+    """A figure as people read it: three significant digits and an SI prefix.
+
+    >>> human(1.234e7, "bit/s"), human(0.0421, "W"), human(0, "W")
+    ('12.3 Mbit/s', '42.1 mW', '0 W')
+    """
+    if not np.isfinite(value) or value == 0:
+        return f"{value:g} {unit}".replace("nan", "–")
+    for scale, prefix in _PREFIXES:
+        if abs(value) >= scale * 0.9995:
+            return f"{value / scale:.3g} {prefix}{unit}"
+    return f"{value:.3g} {unit}"

@@ -1,0 +1,228 @@
+"""The one door for plug-ins: channel sources, repairers, objectives, methods and base stations.
+
+A plug-in is a class in one file and one entry point in the group of its kind, for example
+
+    [project.entry-points."wirelessagent.objective"]
+    alpha_fairness = "my_package.alpha_fairness:AlphaFairness"
+
+The built-in ones enter the same way. Two plug-ins of one name are an error that names both packages, raised when the
+name is asked for; one that fails to load is named with its package, and the others go on working.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import importlib
+import types
+import typing
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+from typing import Any, Literal, TypeAlias, cast, get_args
+
+from wirelessagent.model.errors import InputError, PluginError, UnknownNameError
+from wirelessagent.model.objective import Objective
+
+Kind: TypeAlias = Literal["channel_source", "repairer", "objective", "method", "base_station"]
+
+KINDS: tuple[Kind, ...] = get_args(Kind)
+
+_BASES: dict[Kind, str] = {
+    "channel_source": "wirelessagent.sensing.source:ChannelSource",
+    "repairer": "wirelessagent.repairing.repairer:Repairer",
+    "objective": "wirelessagent.model.objective:Objective",
+    "method": "wirelessagent.deciding.method:Method",
+    "base_station": "wirelessagent.acting.base_station:BaseStation",
+}
+
+_SIMPLE_TYPES: tuple[type, ...] = (bool, int, float, str, Path)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Option:
+    """A field of a plug-in that a user may set: on the command line, in a request, from the LLM."""
+
+    name: str
+    type: type
+    default: Any
+    required: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plugin:
+    """What is registered under a name: where it comes from and, once loaded, its class or why it failed."""
+
+    kind: Kind
+    name: str
+    package: str
+    target: str
+    cls: type[Any] | None
+    error: str = ""
+
+    @property
+    def summary(self) -> str:
+        """The first line of its docstring."""
+        text = (self.cls.__doc__ or "").strip() if self.cls else ""
+        return text.splitlines()[0] if text else self.error
+
+    @property
+    def options(self) -> tuple[Option, ...]:
+        return options_of(self.cls) if self.cls else ()
+
+
+def names(kind: Kind) -> list[str]:
+    """Every registered name of a kind, sorted."""
+    return sorted(_entry_points(kind))
+
+
+def plugin(kind: Kind, name: str) -> Plugin:
+    """The plug-in of this name, loaded if it can be; a plug-in that fails carries its error.
+
+    Raises:
+        UnknownNameError: nothing is registered under the name.
+        PluginError: two packages registered it.
+    """
+    entries = _entry_points(kind).get(name)
+    if entries is None:
+        raise UnknownNameError(kind.replace("_", " "), name, names(kind))
+    if len(entries) > 1:
+        owners = " and ".join(f"{package_of(entry)} ({entry.value})" for entry in entries)
+        raise PluginError(f"two plug-ins are called {name!r} ({kind}): {owners}; remove or rename one")
+    return _load(kind, entries[0])
+
+
+def plugins(kind: Kind) -> list[Plugin]:
+    """Every plug-in of a kind; duplicates and failures carry their error instead of a class."""
+    found: list[Plugin] = []
+    for name, entries in sorted(_entry_points(kind).items()):
+        try:
+            found.append(plugin(kind, name))
+        except PluginError as error:
+            owners = " and ".join(package_of(entry) for entry in entries)
+            target = " and ".join(entry.value for entry in entries)
+            found.append(Plugin(kind=kind, name=name, package=owners, target=target, cls=None, error=str(error)))
+    return found
+
+
+def create(kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *args: Any) -> Any:
+    """An instance of the plug-in ``name`` with its options; positional ``args`` go before them.
+
+    Raises:
+        InputError: an option that it does not have, or a value that it refuses.
+    """
+    found = plugin(kind, name)
+    if found.cls is None:
+        raise PluginError(found.error)
+    given = dict(options or {})
+    known = {option.name: option for option in found.options}
+    for key in given:
+        if key not in known:
+            raise UnknownNameError(f"option of the {kind.replace('_', ' ')} {name!r}", key, known)
+    missing = [option.name for option in known.values() if option.required and option.name not in given]
+    if missing:
+        raise InputError(f"the {kind.replace('_', ' ')} {name!r} needs {', '.join(missing)}")
+    return found.cls(*args, **{key: _convert(known[key], value) for key, value in given.items()})
+
+
+def objective(name: str, options: Mapping[str, Any] | None = None) -> Objective:
+    """The objective of this name or alias ("max_rate" or "P1"), with its options."""
+    if name not in _entry_points("objective"):
+        for found in plugins("objective"):
+            if found.cls is not None and name in cast("type[Objective]", found.cls).aliases:
+                return cast(Objective, create("objective", found.name, options))
+    return cast(Objective, create("objective", name, options))
+
+
+@functools.cache
+def options_of(cls: type[Any]) -> tuple[Option, ...]:
+    """The fields of a plug-in class that hold a simple value (number, text, switch, path, or None)."""
+    hints = typing.get_type_hints(cls)
+    options: list[Option] = []
+    for item in dataclasses.fields(cls):
+        simple = _simple_type(hints[item.name])
+        if item.init and simple is not None:
+            has_default = item.default is not dataclasses.MISSING
+            default = item.default if has_default else None
+            factory = item.default_factory is not dataclasses.MISSING
+            options.append(
+                Option(name=item.name, type=simple, default=default, required=not has_default and not factory)
+            )
+    return tuple(options)
+
+
+def package_of(entry: metadata.EntryPoint) -> str:
+    """The distribution that an entry point belongs to."""
+    return entry.dist.name if entry.dist is not None else "unknown package"
+
+
+def refresh() -> None:
+    """Forget what was found, so that packages installed since are seen."""
+    _entry_points.cache_clear()
+    _load.cache_clear()
+
+
+@functools.cache
+def _entry_points(kind: Kind) -> dict[str, list[metadata.EntryPoint]]:
+    found: dict[str, list[metadata.EntryPoint]] = {}
+    for entry in metadata.entry_points(group=f"wirelessagent.{kind}"):
+        same = found.setdefault(entry.name, [])
+        if not any(other.value == entry.value for other in same):  # one package found twice on the path is one plug-in
+            same.append(entry)
+    return found
+
+
+@functools.cache
+def _load(kind: Kind, entry: metadata.EntryPoint) -> Plugin:
+    package = package_of(entry)
+    known = functools.partial(Plugin, kind=kind, name=entry.name, package=package, target=entry.value)
+    try:
+        cls = entry.load()
+        _check(kind, entry.name, cls)
+    except Exception as error:  # noqa: BLE001  # a stranger's code may fail in any way, and must not take the rest down
+        reason = f"{type(error).__name__}: {error}"
+        return known(cls=None, error=f"the {kind} {entry.name!r} of {package} cannot be loaded: {reason}")
+    return known(cls=cls)
+
+
+def _check(kind: Kind, name: str, cls: object) -> None:
+    module, _, attribute = _BASES[kind].partition(":")
+    base: type[Any] = getattr(importlib.import_module(module), attribute)
+    if not (isinstance(cls, type) and issubclass(cls, base)):
+        raise PluginError(f"{cls!r} is not a subclass of {base.__name__}")
+    if not dataclasses.is_dataclass(cls):
+        raise PluginError(f"{cls.__name__} is not a dataclass: decorate it with @dataclass(frozen=True, kw_only=True)")
+    if getattr(cls, "name", None) != name:
+        raise PluginError(
+            f"its entry point is called {name!r} but {cls.__name__}.name is {getattr(cls, 'name', None)!r}"
+        )
+
+
+def _simple_type(hint: Any) -> type[Any] | None:
+    """The simple type of a field's annotation, seen through Literal and Optional; None if it holds anything else."""
+    if typing.get_origin(hint) is Literal:
+        return cast("type[Any]", type(get_args(hint)[0]))
+    if isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union:
+        rest = [part for part in get_args(hint) if part is not type(None)]
+        return _simple_type(rest[0]) if len(rest) == 1 else None
+    return hint if hint in _SIMPLE_TYPES else None
+
+
+def _convert(option: Option, value: Any) -> Any:
+    """An option's value in its field's type; text from a command line is read."""
+    if value is None or (isinstance(value, option.type) and not (option.type is int and isinstance(value, bool))):
+        return value
+    if option.type is bool and isinstance(value, str):
+        switches = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
+        if value.lower() in switches:
+            return switches[value.lower()]
+    elif option.type is not bool and isinstance(value, str | int | float) and not isinstance(value, bool):
+        try:
+            converted = option.type(value)
+        except (ValueError, TypeError, OverflowError):
+            pass
+        else:
+            if not isinstance(value, float) or option.type is not int or converted == value:
+                return converted
+    raise InputError(f"{option.name} must be of type {option.type.__name__}; got {value!r}")
