@@ -1,0 +1,83 @@
+"""A base station behind a file: the allocation is written for other software to take up, whole or not at all."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from wirelessagent.acting.base_station import BaseStation, check_applicable
+from wirelessagent.model.atomic import write_atomically
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.errors import InputError
+from wirelessagent.model.outcome import Outcome
+
+
+@dataclass(frozen=True)
+class FileBaseStation(BaseStation):
+    """Writes the allocation as JSON, CSV or NPZ, by the file's suffix, atomically.
+
+    CSV has a line per subcarrier: ``subcarrier,owner,user_name,power_w`` with subcarriers and owners counted from 0 and
+    owner −1 for nobody. JSON and NPZ hold ``owner``, ``power_w``, ``promised_bps`` and ``user_names``.
+    """
+
+    name = "file"
+
+    path: Path = Path("allocation.json")
+
+    def apply(self, decision: Decision) -> Outcome:
+        path = Path(self.path)
+        writer = _WRITERS.get(path.suffix.lower())
+        if writer is None:
+            raise InputError(f"an allocation is written as {', '.join(_WRITERS)}; got {path.name!r}")
+        check_applicable(decision, decision.cell if self.scene is None else self.scene.cell)
+        write_atomically(path, lambda stream: writer(stream, decision))
+        return Outcome(
+            base_station=self.name,
+            owner=decision.owner,
+            power_w=decision.power_w,
+            promised_bps=decision.rate_bps,
+            written_to=path,
+        )
+
+
+def _write_json(stream: BinaryIO, decision: Decision) -> None:
+    content = {
+        "owner": decision.owner.tolist(),
+        "power_w": decision.power_w.tolist(),
+        "promised_bps": decision.rate_bps.tolist(),
+        "user_names": list(decision.user_names),
+    }
+    stream.write(json.dumps(content, ensure_ascii=False, allow_nan=False, indent=1).encode())
+
+
+def _write_csv(stream: BinaryIO, decision: Decision) -> None:
+    text = io.StringIO(newline="")
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(["subcarrier", "owner", "user_name", "power_w"])
+    for n, (owner, power) in enumerate(zip(decision.owner.tolist(), decision.power_w.tolist(), strict=True)):
+        rows.writerow([n, owner, decision.user_names[owner] if owner >= 0 else "", repr(power)])
+    stream.write(text.getvalue().encode())
+
+
+def _write_npz(stream: BinaryIO, decision: Decision) -> None:
+    np.savez(
+        stream,
+        owner=decision.owner,
+        power_w=decision.power_w,
+        promised_bps=decision.rate_bps,
+        user_names=np.array(decision.user_names),
+    )
+
+
+_WRITERS: dict[str, Callable[[BinaryIO, Decision], None]] = {
+    ".json": _write_json,
+    ".csv": _write_csv,
+    ".npz": _write_npz,
+}

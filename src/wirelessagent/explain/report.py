@@ -1,0 +1,82 @@
+"""Predicted beside achieved: what a decision promised and what the true channel gave."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.metrics import LinkMetrics, energy_efficiency_bit_per_j, jain_index
+from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.units import human
+
+_FIGURES = (
+    ("Sum rate", "sum_rate_bps", "bit/s"),
+    ("Goodput", "goodput_bps", "bit/s"),
+    ("Radiated power", "power_w", "W"),
+    ("Energy efficiency", "energy_efficiency_bit_per_j", "bit/J"),
+    ("Spectral efficiency", "spectral_efficiency_bps_per_hz", "bit/s/Hz"),
+    ("Jain's fairness index", "jain_index", ""),
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Report:
+    """A decision's metrics on the estimated channel and, where the truth is known, on the true one.
+
+    Attributes:
+        decision: what was decided.
+        predicted: metrics on the estimated channel; its rates are the promised ones.
+        achieved: metrics on the true channel; None where it is not known.
+        missed_users: numbers of the users whose true rate fell short of the promise, counted from 0.
+    """
+
+    decision: Decision
+    predicted: LinkMetrics
+    achieved: LinkMetrics | None
+    missed_users: tuple[int, ...]
+
+    def figures(self) -> list[tuple[str, str, str]]:
+        """(figure, predicted, achieved) as text, "–" where the truth is not known."""
+        return [
+            (
+                label,
+                human(getattr(self.predicted, name), unit).strip(),
+                "–" if self.achieved is None else human(getattr(self.achieved, name), unit).strip(),
+            )
+            for label, name, unit in _FIGURES
+        ]
+
+    def __str__(self) -> str:
+        lines = [f"{'':22} {'predicted':>16} {'achieved':>16}"]
+        lines += [f"{label:22} {before:>16} {after:>16}" for label, before, after in self.figures()]
+        if self.achieved is not None:
+            served = int(np.count_nonzero(self.decision.rate_bps > 0))
+            lines.append(f"{len(self.missed_users)} of {served} served users missed their promised rate")
+        return "\n".join(lines)
+
+
+def report(decision: Decision, outcome: Outcome | None = None) -> Report:
+    """The report of a decision and, if it was applied, of what the base station read back."""
+    return Report(
+        decision=decision,
+        predicted=predicted_metrics(decision),
+        achieved=None if outcome is None else outcome.achieved,
+        missed_users=() if outcome is None else tuple(int(user) for user in np.flatnonzero(outcome.missed)),
+    )
+
+
+def predicted_metrics(decision: Decision) -> LinkMetrics:
+    """The decision's metrics on the channel that it was made for."""
+    total = float(decision.rate_bps.sum())
+    cell = decision.cell
+    return LinkMetrics(
+        user_rate_bps=decision.rate_bps,
+        sum_rate_bps=total,
+        goodput_bps=total,
+        power_w=decision.total_power_w,
+        energy_efficiency_bit_per_j=energy_efficiency_bit_per_j(total, decision.total_power_w, cell),
+        spectral_efficiency_bps_per_hz=total / (decision.owner.size * cell.subcarrier_bandwidth_hz),
+        jain_index=jain_index(decision.rate_bps),
+    )
