@@ -42,8 +42,8 @@ class Report:
         return [
             (
                 label,
-                human(getattr(self.predicted, name), unit).strip(),
-                "–" if self.achieved is None else human(getattr(self.achieved, name), unit).strip(),
+                human(getattr(self.predicted, name), unit),
+                "–" if self.achieved is None else human(getattr(self.achieved, name), unit),
             )
             for label, name, unit in _FIGURES
         ]

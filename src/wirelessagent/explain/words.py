@@ -1,0 +1,141 @@
+"""A decision in a few sentences, every figure computed from the decision itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from wirelessagent.explain.report import Report
+from wirelessagent.model.decision import OPTIMAL_GAP, Decision
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.units import db, human
+
+_ENGLISH: Mapping[str, str] = {
+    "allocation": "{used} of {total} subcarriers serve {served} of {users} users with {power} of the {budget} allowed.",
+    "optimal": "This is the optimum on the estimated channel: the bound proves that nothing does better.",
+    "gap": "Nothing on the estimated channel does better than {bound}; this decision is within {gap:.2g} % of that.",
+    "no_bound": "The method {method} gives no bound, so how far this is from the best is not known.",
+    "infeasible": "This cannot be done, and that is proven: {reason}",
+    "undecided": "No allocation was found that does this, and no proof that there is none: {reason}",
+    "power_max": "One more watt would buy about {price} at the margin.",
+    "rate_price": "One more {step} for {user} would cost about {price} at the margin, the dearest of all.",
+    "idle": "{names} get nothing: on their best subcarrier the winner's gain is {margin:.1f} dB higher ({closest}).",
+    "repaired": "{missing} of {entries} gains were missing and repaired by {method}; "
+    "{resting} of the {used} subcarriers in use rest on a repaired gain.",
+    "complete": "No gain was missing, so nothing was repaired.",
+    "kept": "On the true channel every promised rate was kept.",
+    "missed": "On the true channel {names} missed the promised rate; {achieved} of {predicted} arrived.",
+    "comma": ", ",
+}
+
+_CHINESE: Mapping[str, str] = {
+    "allocation": "{total} 个子载波中使用了 {used} 个，"
+    "服务 {users} 个用户中的 {served} 个，功率 {power}（上限 {budget}）。",
+    "optimal": "这是估计信道上的最优解：对偶界证明没有更好的分配。",
+    "gap": "在估计信道上任何分配都不会优于 {bound}；本方案与该界相差不超过 {gap:.2g} %。",
+    "no_bound": "方法 {method} 不提供界，因此与最优解的差距未知。",
+    "infeasible": "该要求无法满足，并且已被证明：{reason}",
+    "undecided": "没有找到满足要求的分配，也没有证明它不存在：{reason}",
+    "power_max": "边际上每增加一瓦约可换来 {price}。",
+    "rate_price": "边际上给 {user} 再增加 {step} 约需 {price}，是所有用户中最贵的。",
+    "idle": "{names} 没有分到子载波：在其最好的子载波上，胜者的增益高 {margin:.1f} dB（{closest}）。",
+    "repaired": "{entries} 个增益中缺失 {missing} 个，由 {method} 修复；"
+    "使用的 {used} 个子载波中有 {resting} 个依赖修复值。",
+    "complete": "没有缺失的增益，因此无需修复。",
+    "kept": "在真实信道上，所有承诺的速率都已兑现。",
+    "missed": "在真实信道上 {names} 未达到承诺速率；承诺 {predicted}，实际到达 {achieved}。",
+    "comma": "、",
+}
+
+
+def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") -> list[str]:
+    """Why the decision is what it is, in English or Chinese ("zh"), one sentence per item."""
+    words = _CHINESE if language == "zh" else _ENGLISH
+    decision = report.decision
+    if not decision.is_usable:
+        return [words[decision.status].format(reason=decision.reason)]
+    said = [_allocation(words, decision), _certificate(words, decision)]
+    said += _prices(words, decision)
+    said += _idle_users(words, decision, estimate)
+    said.append(_repair(words, decision, estimate))
+    said += _outcome(words, report)
+    return said
+
+
+def _allocation(words: Mapping[str, str], decision: Decision) -> str:
+    used = int(np.count_nonzero(decision.power_w > 0))
+    return words["allocation"].format(
+        used=used,
+        total=decision.owner.size,
+        served=int(np.count_nonzero(decision.rate_bps > 0)),
+        users=decision.rate_bps.size,
+        power=human(decision.total_power_w, "W"),
+        budget=human(decision.problem.budget_w(decision.cell), "W"),
+    )
+
+
+def _certificate(words: Mapping[str, str], decision: Decision) -> str:
+    if np.isnan(decision.gap):
+        return words["no_bound"].format(method=decision.method)
+    if decision.status == "optimal" and decision.gap <= OPTIMAL_GAP:
+        return words["optimal"]
+    return words["gap"].format(bound=human(decision.bound, decision.unit), gap=100 * decision.gap)
+
+
+def _prices(words: Mapping[str, str], decision: Decision) -> list[str]:
+    said: list[str] = []
+    if decision.price_of_power > 0:
+        said.append(words["power_max"].format(price=human(decision.price_of_power, decision.unit)))
+    if decision.price_of_rate.size and np.nanmax(decision.price_of_rate) > 0:
+        dearest = int(np.nanargmax(decision.price_of_rate))
+        price = human(float(decision.price_of_rate[dearest]) * 100e3, decision.unit)
+        said.append(words["rate_price"].format(step="100 kbit/s", user=decision.user_names[dearest], price=price))
+    return said
+
+
+def _idle_users(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate) -> list[str]:
+    """Who gets nothing, and by what margin the closest of them was beaten."""
+    idle = np.flatnonzero(decision.rate_bps <= 0)
+    wanted = decision.problem.min_rate_bps
+    if not idle.size or wanted is not None:
+        return []
+    best = estimate.gain.max(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        margin_db = db(best / estimate.gain[idle]).min(axis=1)
+    closest = int(np.argmin(margin_db))
+    if not np.isfinite(margin_db[closest]) or margin_db[closest] <= 0:
+        return []
+    names = [decision.user_names[user] for user in idle]
+    return [
+        words["idle"].format(names=words["comma"].join(names), margin=float(margin_db[closest]), closest=names[closest])
+    ]
+
+
+def _repair(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate) -> str:
+    missing = int(estimate.repaired.sum())
+    if not missing:
+        return words["complete"]
+    in_use = np.flatnonzero((decision.owner >= 0) & (decision.power_w > 0))
+    return words["repaired"].format(
+        missing=missing,
+        entries=estimate.repaired.size,
+        method=estimate.method,
+        used=in_use.size,
+        resting=int(estimate.repaired[decision.owner[in_use], in_use].sum()),
+    )
+
+
+def _outcome(words: Mapping[str, str], report: Report) -> list[str]:
+    if report.achieved is None:
+        return []
+    if not report.missed_users:
+        return [words["kept"]]
+    names = [report.decision.user_names[user] for user in report.missed_users]
+    return [
+        words["missed"].format(
+            names=words["comma"].join(names),
+            achieved=human(report.achieved.goodput_bps, "bit/s"),
+            predicted=human(report.predicted.sum_rate_bps, "bit/s"),
+        )
+    ]

@@ -1,0 +1,123 @@
+"""The command line: one command per operation, its options the fields of the request.
+
+Errors are one line on stderr. Exit codes: 0 done, 1 failed, 2 bad input or a question back, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any
+
+import typer
+from pydantic import ValidationError
+
+from wirelessagent.interfaces.cli_options import Parameters, as_flag
+from wirelessagent.interfaces.cli_output import Listener, show
+from wirelessagent.operations.catalogue import OPERATIONS
+from wirelessagent.operations.operation import AnyOperation, InputError, WirelessAgentError, installed_version, silent
+
+_EPILOG = "Errors go to stderr; exit code 2 means bad input, 1 a failure."
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line and exit."""
+    sys.exit(run(sys.argv[1:] if arguments is None else list(arguments)))
+
+
+def run(arguments: list[str]) -> int:
+    """Run the command line and return its exit code."""
+    command = typer.main.get_command(_app(arguments))
+    try:
+        code = command.main(args=arguments, prog_name="wirelessagent", standalone_mode=False)
+    except typer.TyperException as error:
+        return _fail(error.format_message(), 2)
+    except InputError as error:
+        return _fail(str(error), 2)
+    except WirelessAgentError as error:
+        return _fail(str(error), 1)
+    except (KeyboardInterrupt, typer.Abort):
+        return _fail("interrupted", 130)
+    except BrokenPipeError:
+        sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115  # whoever read our output has gone
+        return 1
+    except MemoryError:
+        return _fail("not enough memory for this input", 1)
+    except Exception as error:
+        if os.environ.get("WIRELESSAGENT_DEBUG"):
+            raise
+        return _fail(
+            f"internal error, please report it: {type(error).__name__}: {error} (WIRELESSAGENT_DEBUG=1 shows where)", 1
+        )
+    return code if isinstance(code, int) else 0
+
+
+def _fail(message: str, code: int) -> int:
+    line = " ".join(message.split())
+    print(f"wirelessagent: {line}", file=sys.stderr)  # noqa: T201
+    return code
+
+
+def _app(arguments: list[str]) -> typer.Typer:
+    """The application. Only the command in use gets its parameters: looking up every plug-in's options takes time."""
+    app = typer.Typer(
+        name="wirelessagent",
+        no_args_is_help=True,
+        add_completion=False,
+        rich_markup_mode="rich",
+        epilog=_EPILOG,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    app.callback(help="From an operator's words to a certified OFDMA allocation.")(_root)
+    wanted = next((word for word in arguments if not word.startswith("-")), "")
+    for operation in OPERATIONS:
+        parameters = Parameters(operation.request) if operation.name == wanted else None
+        app.command(name=operation.name, help=operation.summary + ".", epilog=_EPILOG)(_command(operation, parameters))
+    return app
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        print(f"wirelessagent {installed_version()}")  # noqa: T201
+        raise typer.Exit
+
+
+def _root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    del version
+
+
+def _command(operation: AnyOperation, parameters: Parameters | None) -> Callable[..., int]:
+    def command(**values: Any) -> int:
+        assert parameters is not None  # a command that runs is the one that was asked for
+        as_json = values.pop("json")
+        request = _request(operation, parameters.values(values))
+        if as_json:
+            record = operation.run(request, silent)
+            print(record.model_dump_json(indent=2))  # noqa: T201
+        else:
+            with Listener() as listener:
+                record = operation.run(request, listener)
+            show(record)
+        return 2 if record.needs_answer else 0
+
+    if parameters is not None:
+        command.__signature__ = parameters.signature()  # type: ignore[attr-defined]
+        command.__annotations__ = parameters.annotations()
+    else:
+        command.__signature__ = Parameters.empty()  # type: ignore[attr-defined]
+        command.__annotations__ = {}
+    return command
+
+
+def _request(operation: AnyOperation, values: dict[str, Any]) -> Any:
+    try:
+        return operation.request(**values)
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = as_flag(str(first["loc"][0])) if first["loc"] else operation.name
+        raise InputError(f"{name}: {first['msg'].lower()}; got {first['input']!r}") from error

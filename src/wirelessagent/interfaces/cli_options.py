@@ -1,0 +1,129 @@
+"""Request fields as parameters of a command: arguments, options, and the options of every plug-in."""
+
+from __future__ import annotations
+
+import inspect
+import types
+import typing
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args, get_origin
+
+import typer
+from pydantic.fields import FieldInfo
+
+from wirelessagent.operations.fields import Option, OptionsOf, PluginName, Positional, plugin_names, plugin_options
+from wirelessagent.operations.operation import Request
+
+_SIMPLE = (str, int, float, bool, Path)
+
+
+def as_flag(name: str) -> str:
+    """The option that sets a field.
+
+    >>> as_flag("min_rate_bps")
+    '--min-rate-bps'
+    """
+    return "--" + name.replace("_", "-")
+
+
+class Parameters:
+    """The parameters of the command for a request, and how their values become the request's fields."""
+
+    def __init__(self, request: type[Request]) -> None:
+        self._fields = request.model_fields
+        self._parameters: list[inspect.Parameter] = []
+        self._plugin_fields: dict[str, list[tuple[str, str]]] = {}
+        for name, info in self._fields.items():
+            if _mark(info, OptionsOf) is None:
+                self._add(name, *_field_parameter(name, info, _panel(request, name)))
+        for name, info in self._fields.items():
+            mark = _mark(info, OptionsOf)
+            if mark is not None:
+                self._add_plugin_options(name, mark)
+        self._add("json", Annotated[bool, typer.Option("--json", help="Print the record as JSON.")], False)
+
+    def _add(self, name: str, annotation: Any, default: Any = None) -> None:
+        self._parameters.append(
+            inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, annotation=annotation, default=default)
+        )
+
+    def _add_plugin_options(self, field: str, mark: OptionsOf) -> None:
+        """One option per name that plug-ins of this kind have; with the kind in front where the name is taken."""
+        by_name: dict[str, list[tuple[str, Option]]] = {}
+        for plugin, option in plugin_options(mark):
+            by_name.setdefault(option.name, []).append((plugin, option))
+        taken = {parameter.name for parameter in self._parameters}
+        for option_name, owners in by_name.items():
+            name = f"{mark.kind}_{option_name}" if option_name in taken else option_name
+            self._plugin_fields.setdefault(field, []).append((name, option_name))
+            self._add(name, _plugin_parameter(name, owners, f"Options of {mark.kind.replace('_', ' ')}s"))
+
+    def signature(self) -> inspect.Signature:
+        return inspect.Signature(self._parameters)
+
+    def annotations(self) -> dict[str, Any]:
+        return {parameter.name: parameter.annotation for parameter in self._parameters}
+
+    @staticmethod
+    def empty() -> inspect.Signature:
+        return inspect.Signature([])
+
+    def values(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """The request's field values from the command's; what was not given is left to the request's defaults."""
+        found = {name: given[name] for name in self._fields if given.get(name) not in (None, [])}
+        for field, names in self._plugin_fields.items():
+            options = {option: given[name] for name, option in names if given[name] is not None}
+            if options:
+                found[field] = options
+        return found
+
+
+def _mark(info: FieldInfo, mark: type[Any]) -> Any:
+    return next((item for item in info.metadata if isinstance(item, mark)), None)
+
+
+def _panel(request: type[Request], name: str) -> str:
+    """The panel of the class that declares a field."""
+    owner = next(cls for cls in request.__mro__ if name in inspect.get_annotations(cls))
+    return getattr(owner, "panel", "Options")
+
+
+def _field_parameter(name: str, info: FieldInfo, panel: str) -> tuple[Any, Any]:
+    """A field's annotation for Typer, and its default there: None for "not given"."""
+    plugin = _mark(info, PluginName)
+    text = info.description or ""
+    if plugin is not None:
+        text += f": {', '.join(plugin_names(plugin.kind))}"
+    kind = _parameter_type(info.annotation)
+    if _mark(info, Positional) is not None:
+        required = info.is_required()
+        return Annotated[kind if required else kind | None, typer.Argument(help=text)], ... if required else None
+    default = info.default if not info.is_required() and info.default_factory is None else None
+    shown = str(default) if default is not None else False
+    option = typer.Option(as_flag(name), help=text, show_default=shown, rich_help_panel=panel)
+    return Annotated[kind | None, option], None
+
+
+def _plugin_parameter(name: str, owners: list[tuple[str, Option]], panel: str) -> Any:
+    """An option that one or several plug-ins share."""
+    kinds = {option.type for _, option in owners}
+    kind: Any = kinds.pop() if len(kinds) == 1 else str
+    defaults = [f"{plugin} ({'needed' if option.required else option.default})" for plugin, option in owners]
+    flags = [f"{as_flag(name)}/--no-{name.replace('_', '-')}"] if kind is bool else [as_flag(name)]
+    option = typer.Option(*flags, help=f"of {', '.join(defaults)}", show_default=False, rich_help_panel=panel)
+    return Annotated[kind | None, option]
+
+
+def _parameter_type(annotation: Any) -> Any:
+    """The type that Typer reads a field as; text for whatever the request parses itself."""
+    if get_origin(annotation) is Annotated:
+        annotation = get_args(annotation)[0]
+    if isinstance(annotation, types.UnionType) or get_origin(annotation) is typing.Union:
+        kinds = [_parameter_type(part) for part in get_args(annotation) if part is not type(None)]
+        return kinds[0] if len(kinds) == 1 else str
+    if get_origin(annotation) is list:
+        return list[_parameter_type(get_args(annotation)[0])]  # type: ignore[misc]
+    if get_origin(annotation) is Literal or annotation in _SIMPLE:
+        return annotation
+    return str

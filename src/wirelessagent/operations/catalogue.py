@@ -1,0 +1,15 @@
+"""The list from which every surface is derived."""
+
+from __future__ import annotations
+
+from wirelessagent.operations.ask import ASK
+from wirelessagent.operations.compare import COMPARE
+from wirelessagent.operations.intent import INTENT
+from wirelessagent.operations.list_plugins import PLUGINS
+from wirelessagent.operations.operation import AnyOperation
+from wirelessagent.operations.repair import REPAIR
+from wirelessagent.operations.reproduce import REPRODUCE
+from wirelessagent.operations.simulate import SIMULATE
+from wirelessagent.operations.solve import SOLVE
+
+OPERATIONS: tuple[AnyOperation, ...] = (ASK, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, PLUGINS)

@@ -1,0 +1,47 @@
+"""Answers: typed, JSON-able, and able to show themselves as text and tables on any surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, TypeAlias
+
+import numpy as np
+from pydantic import BaseModel, BeforeValidator, ConfigDict
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """A table for people: all cells are text; numbers come with their units in the column's name or in the cell."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+Block: TypeAlias = str | Table
+
+
+class Record(BaseModel):
+    """The base of all records. NaN and infinity become null in JSON."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, ser_json_inf_nan="null")
+
+    def blocks(self) -> list[Block]:
+        """The record as paragraphs and tables, in the order in which people read them."""
+        return []
+
+    @property
+    def needs_answer(self) -> bool:
+        """Whether nothing was done and the user has to say more."""
+        return False
+
+
+def _as_list(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+
+
+Vector: TypeAlias = Annotated[list[float], BeforeValidator(_as_list)]
+Matrix: TypeAlias = Annotated[list[list[float]], BeforeValidator(_as_list)]
+Integers: TypeAlias = Annotated[list[int], BeforeValidator(_as_list)]
+Switches: TypeAlias = Annotated[list[bool], BeforeValidator(_as_list)]
+SwitchMatrix: TypeAlias = Annotated[list[list[bool]], BeforeValidator(_as_list)]

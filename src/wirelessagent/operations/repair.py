@@ -1,0 +1,113 @@
+"""repair: fill the holes of a gain matrix, with how sure each filled entry is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field
+
+from wirelessagent import __version__, chain
+from wirelessagent.model.units import db
+from wirelessagent.operations.answers import EstimateAnswer
+from wirelessagent.operations.channel_file import ChannelFile
+from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
+from wirelessagent.operations.operation import Event, Operation, Progress
+from wirelessagent.operations.record import Block, Record, Table
+from wirelessagent.operations.simulate import describe
+from wirelessagent.sensing.npz import write_npz
+
+
+class RepairRequest(ChannelFile):
+    panel = "Options"
+
+    method: Annotated[str, PluginName("repairer")] = Field(chain.DEFAULT_REPAIRER, description="repairer")
+    method_options: Annotated[PluginOptions, OptionsOf("repairer")] = Field(
+        default_factory=dict, description="options of the repairer"
+    )
+    out: Path | None = Field(None, description="NPZ file to write gain, gain_variance and repaired to")
+
+
+class RepairRecord(Record):
+    """A repaired gain matrix. The error is known only where the file holds the truth."""
+
+    facts: dict[str, str]
+    missing: int
+    entries: int
+    estimate: EstimateAnswer
+    normalised_rmse: float | None
+    out: Path | None
+
+    def blocks(self) -> list[Block]:
+        said: list[Block] = [self._summary(), self._users()]
+        if self.normalised_rmse is not None:
+            said.append(f"error of the repaired entries: {self.normalised_rmse:.3g} of the user's mean gain (RMSE)")
+        return [*said, f"written to {self.out}"] if self.out else said
+
+    def _summary(self) -> str:
+        if not self.missing:
+            return "nothing was missing, so nothing was repaired"
+        return f"{self.missing} of {self.entries} gains repaired by {self.estimate.method}"
+
+    def _users(self) -> Table:
+        rows: list[tuple[str, ...]] = []
+        for k, name in enumerate(self.estimate.user_names):
+            gain, repaired = np.array(self.estimate.gain[k]), np.array(self.estimate.repaired[k])
+            deviation = np.sqrt(np.array(self.estimate.gain_variance[k])[repaired])
+            relative = f"{np.mean(deviation) / gain.mean():.0%} of the mean" if repaired.any() and gain.any() else "–"
+            level = f"{float(db(gain.mean(), floor_db=-400.0)):.1f} dB"
+            note = "never observed: a guess" if name in self.estimate.unobserved_users else ""
+            rows.append((name, level, str(int(repaired.sum())), relative, note))
+        return Table(
+            title="Repaired channel",
+            columns=("user", "mean gain", "repaired", "typical uncertainty", "note"),
+            rows=tuple(rows),
+        )
+
+
+def run(request: RepairRequest, progress: Progress) -> RepairRecord:
+    scene = request.scene(progress)
+    seen = scene.sensed
+    estimate = chain.repair(seen, request.method, **request.method_options)
+    progress(Event(stage="repair", message=describe(seen)))
+    if request.out is not None:
+        arrays: dict[str, Any] = {
+            "gain": estimate.gain,
+            "gain_variance": estimate.gain_variance,
+            "repaired": estimate.repaired,
+            "user_names": np.array(estimate.user_names),
+        }
+        meta = {
+            "generator": f"wirelessagent {__version__}, repairer {estimate.method}",
+            "axes": "user,subcarrier",
+            "units": "linear power gain",
+            "rb_bandwidth_hz": scene.cell.subcarrier_bandwidth_hz,
+            "noise_w_per_rb": scene.cell.noise_power_w,
+        }
+        write_npz(request.out, arrays, meta)
+    return RepairRecord(
+        facts=dict(scene.facts),
+        missing=int(seen.missing.sum()),
+        entries=seen.missing.size,
+        estimate=EstimateAnswer.of(estimate),
+        normalised_rmse=_error(estimate.gain, scene.current_truth, estimate.repaired),
+        out=request.out,
+    )
+
+
+def _error(gain: np.ndarray, truth: np.ndarray | None, repaired: np.ndarray) -> float | None:
+    """RMSE over the repaired entries, each in units of its user's mean true gain; None where it cannot be known."""
+    if truth is None or not repaired.any() or not np.all(truth.mean(axis=1) > 0):
+        return None
+    error = (gain - truth) / truth.mean(axis=1, keepdims=True)
+    return float(np.sqrt(np.mean(error[repaired] ** 2)))
+
+
+REPAIR = Operation(
+    name="repair",
+    summary="Fill the holes of a gain matrix, with how sure each filled entry is",
+    request=RepairRequest,
+    record=RepairRecord,
+    run=run,
+)

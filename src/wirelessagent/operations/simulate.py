@@ -1,0 +1,125 @@
+"""simulate: draw a channel, lose some of it, and write both."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field
+
+from wirelessagent import __version__, chain
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.model.scene import Scene
+from wirelessagent.model.units import db
+from wirelessagent.operations.cell_options import CellOptions
+from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
+from wirelessagent.operations.operation import Event, Operation, Progress
+from wirelessagent.operations.record import Block, Matrix, Record, Table, Vector
+from wirelessagent.sensing.loss import parse as parse_loss
+from wirelessagent.sensing.npz import write_npz
+
+
+class SimulateRequest(CellOptions):
+    panel = "Options"
+
+    source: Annotated[str, PluginName("channel_source")] = Field("rayleigh", description="channel source")
+    source_options: Annotated[PluginOptions, OptionsOf("channel_source")] = Field(
+        default_factory=dict, description="options of the channel source"
+    )
+    loss: list[str] = Field(
+        default_factory=list,
+        description="what gets lost: random:RATE, bursts:RATE, subcarriers:RATE, users:COUNT, stale:SLOTS, "
+        "when_weak:RATE; several with +",
+    )
+    seed: int = Field(1, description="seed of every draw")
+    out: Path | None = Field(None, description="NPZ file to write the observed and the true gains to")
+
+
+class SimulateRecord(Record):
+    """A drawn channel. ``gain`` is the current slot as observed, null = missing; ``truth`` without the loss."""
+
+    facts: dict[str, str]
+    num_slots: int
+    num_users: int
+    num_subcarriers: int
+    missing: int
+    user_names: list[str]
+    user_mean_gain: Vector
+    gain: Matrix
+    truth: Matrix | None
+    seed: int
+    out: Path | None
+
+    def blocks(self) -> list[Block]:
+        gains = [f"{float(db(gain, floor_db=-400.0)):.1f} dB" for gain in self.user_mean_gain]
+        lost = [f"{sum(np.isnan(row))} of {len(row)}" for row in self.gain]
+        rows = tuple(zip(self.user_names, gains, lost, strict=True))
+        said: list[Block] = [
+            "\n".join(f"{label}: {text}" for label, text in self.facts.items()),
+            Table(title="Channel", columns=("user", "mean gain", "missing subcarriers"), rows=rows),
+        ]
+        return [*said, f"written to {self.out}"] if self.out else said
+
+
+def run(request: SimulateRequest, progress: Progress) -> SimulateRecord:
+    losses = [parse_loss(text) for text in request.loss]
+    scene = chain.simulate(request.source, request.cell(), seed=request.seed, **request.source_options)
+    seen = scene.observe(*losses, seed=request.seed)
+    progress(Event(stage="sense", message=describe(seen)))
+    if request.out is not None:
+        write_npz(request.out, *scene_arrays(scene, seen))
+    truth = scene.current_truth
+    return SimulateRecord(
+        facts=dict(scene.facts),
+        num_slots=seen.num_slots,
+        num_users=seen.num_users,
+        num_subcarriers=seen.num_subcarriers,
+        missing=int(seen.missing.sum()),
+        user_names=list(seen.user_names),
+        user_mean_gain=(seen.current if truth is None else truth).mean(axis=1),  # pyright: ignore[reportArgumentType]
+        gain=seen.current,  # pyright: ignore[reportArgumentType]
+        truth=truth,  # pyright: ignore[reportArgumentType]
+        seed=request.seed,
+        out=request.out,
+    )
+
+
+def describe(seen: ChannelObservation) -> str:
+    """The size of an observation and what is missing, in one sentence."""
+    missing = int(seen.missing.sum())
+    share = missing / seen.missing.size
+    history = f", {seen.num_slots} slots" if seen.num_slots > 1 else ""
+    return (
+        f"{seen.num_users} users × {seen.num_subcarriers} subcarriers{history}; "
+        f"{missing} of {seen.missing.size} gains missing ({share:.0%})"
+    )
+
+
+def scene_arrays(scene: Scene, seen: ChannelObservation) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The arrays and the metadata under which an observed scene is written, and read back by the file source."""
+    arrays: dict[str, Any] = {"gain": seen.gain, "user_names": np.array(seen.user_names)}
+    optional = {
+        "truth": scene.truth,
+        "noise_variance": seen.noise_variance,
+        "subcarrier_frequencies_hz": seen.subcarrier_frequencies_hz,
+        "slot_times_s": seen.slot_times_s,
+    }
+    arrays.update({name: value for name, value in optional.items() if value is not None})
+    meta = {
+        "generator": f"wirelessagent {__version__}",
+        "axes": "slot,user,subcarrier" if seen.gain.ndim == 3 else "user,subcarrier",
+        "units": "linear power gain",
+        "rb_bandwidth_hz": scene.cell.subcarrier_bandwidth_hz,
+        "noise_w_per_rb": scene.cell.noise_power_w,
+    }
+    return arrays, meta
+
+
+SIMULATE = Operation(
+    name="simulate",
+    summary="Draw a channel, lose some of it, and write both",
+    request=SimulateRequest,
+    record=SimulateRecord,
+    run=run,
+)

@@ -1,0 +1,125 @@
+"""solve: decide on a gain matrix from a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
+
+from wirelessagent import chain
+from wirelessagent.acting.file import FileBaseStation
+from wirelessagent.explain.report import Report, report
+from wirelessagent.explain.words import explain
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.problem import Problem
+from wirelessagent.model.scene import Scene
+from wirelessagent.model.units import human
+from wirelessagent.operations.answers import (
+    DecisionAnswer,
+    ReportAnswer,
+    certificate_line,
+    report_table,
+    user_table,
+)
+from wirelessagent.operations.channel_file import ChannelFile
+from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
+from wirelessagent.operations.operation import Event, Operation, Progress
+from wirelessagent.operations.problem_options import ProblemOptions
+from wirelessagent.operations.record import Block, Table
+
+
+class ProblemOnFile(ProblemOptions, ChannelFile):
+    """A problem on a channel in a file, repaired where it has holes."""
+
+    panel = "Options"
+
+    repairer: Annotated[str, PluginName("repairer")] = Field(
+        chain.DEFAULT_REPAIRER, description="repairer, where something is missing"
+    )
+    repairer_options: Annotated[PluginOptions, OptionsOf("repairer")] = Field(
+        default_factory=dict, description="options of the repairer"
+    )
+
+    def posed(self, progress: Progress) -> tuple[Scene, ChannelEstimate, Problem]:
+        """The scene, its estimate and the problem on it."""
+        scene = self.scene(progress, wanted_power_w=self.max_power_w)
+        problem = self.problem(scene.sensed.user_names)
+        estimate = chain.repair(scene.sensed, self.repairer, **self.repairer_options)
+        if estimate.repaired.any():
+            progress(
+                Event(stage="repair", message=f"{int(estimate.repaired.sum())} gains repaired by {estimate.method}")
+            )
+        return scene, estimate, problem
+
+
+class SolveRequest(ProblemOnFile):
+    method: Annotated[str | None, PluginName("method")] = Field(
+        None, description="method; the objective's own if not given"
+    )
+    method_options: Annotated[PluginOptions, OptionsOf("method")] = Field(
+        default_factory=dict, description="options of the method"
+    )
+    out: Path | None = Field(None, description="file to write the allocation to: JSON, CSV or NPZ")
+
+
+class SolveRecord(DecisionAnswer):
+    """The decision, its predicted figures and an explanation."""
+
+    facts: dict[str, str]
+    repaired: int
+    report: ReportAnswer
+    explanation: list[str]
+    out: Path | None
+    summary: str = Field(exclude=True)
+    tables: list[Table] = Field(exclude=True)
+
+    def blocks(self) -> list[Block]:
+        said: list[Block] = [self.summary, *self.tables, " ".join(self.explanation)]
+        return [*said, f"written to {self.out}"] if self.out else said
+
+
+def run(request: SolveRequest, progress: Progress) -> SolveRecord:
+    scene, estimate, problem = request.posed(progress)
+    decision = chain.decide(estimate, problem, scene.cell, request.method, **request.method_options)
+    if request.out is not None:
+        FileBaseStation(scene, path=request.out).apply(decision)
+    made = report(decision)
+    return SolveRecord(
+        **DecisionAnswer.fields_of(decision),
+        facts=dict(scene.facts),
+        repaired=int(estimate.repaired.sum()),
+        report=ReportAnswer.of(made),
+        explanation=explain(estimate, made),
+        out=request.out,
+        summary=certificate_line(decision),
+        tables=_tables(decision, made, estimate),
+    )
+
+
+def _tables(decision: Decision, made: Report, estimate: ChannelEstimate) -> list[Table]:
+    if decision.is_usable:
+        return [user_table(made, estimate), report_table(made)]
+    return [figures_of_infeasibility(decision)]
+
+
+def figures_of_infeasibility(decision: Decision) -> Table:
+    """What the request would need and what could be had, each from both sides."""
+    rows: list[tuple[str, str, str]] = []
+    if decision.needed_power_w is not None:
+        need = decision.needed_power_w
+        rows.append(("power that the promised rates need", human(need.at_least, "W"), human(need.at_most, "W")))
+    if decision.rate_scaling is not None:
+        scale = decision.rate_scaling
+        rows.append(("largest common scaling of the promised rates", f"{scale.at_least:.3g}", f"{scale.at_most:.3g}"))
+    return Table(title="What it would take", columns=("figure", "at least", "at most"), rows=tuple(rows))
+
+
+SOLVE = Operation(
+    name="solve",
+    summary="Decide who gets which subcarrier at what power, on a gain matrix from a file",
+    request=SolveRequest,
+    record=SolveRecord,
+    run=run,
+)
