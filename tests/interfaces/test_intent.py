@@ -1,0 +1,331 @@
+"""What an operator says, and what is understood: objective and figures, or a question back.
+
+The sentences were written before the lexicon. A sentence that is not understood may cost a question; one that is
+misunderstood may never cost an action.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from wirelessagent import plugins
+from wirelessagent.deciding.objectives.max_rate import MaxRate
+from wirelessagent.language.intent import CONSTRAINTS, Intent
+from wirelessagent.language.offline import OfflineRecogniser, recognise
+from wirelessagent.model.errors import InputError
+from wirelessagent.model.phrases import phrases
+
+RATE, POWER, EE = "max_rate", "min_power", "max_energy_efficiency"
+
+ALLOCATE: list[tuple[str, str, dict[str, float]]] = [
+    # the paper's own sentences and the design's
+    ("Higher speed for video streaming", RATE, {}),
+    ("Save power for sensors", POWER, {}),
+    ("Balance performance and energy", EE, {}),
+    ("Balance performance and EE", EE, {}),
+    ("At least 1 Mbit/s each, at most 10 W", RATE, {"min_rate_bps": 1e6, "max_power_w": 10.0}),
+    ("Save power for sensors, 200 kbit/s each", POWER, {"min_rate_bps": 200e3}),
+    # the highest rate
+    ("Make it faster", RATE, {}),
+    ("I want the fastest network possible", RATE, {}),
+    ("maximise throughput", RATE, {}),
+    ("Maximize the sum rate", RATE, {}),
+    ("max rate", RATE, {}),
+    ("max_rate", RATE, {}),
+    ("P1", RATE, {}),
+    ("Boost the downloads", RATE, {}),
+    ("We need more capacity tonight", RATE, {}),
+    ("Give everyone as much bandwidth as possible", RATE, {}),
+    ("Push the data rate as high as you can", RATE, {}),
+    ("speed up the network please", RATE, {}),
+    ("The video keeps buffering", RATE, {}),
+    ("My internet is too slow", RATE, {}),
+    ("It's not fast enough", RATE, {}),
+    ("Can you increase the upload speed?", RATE, {}),
+    ("could we get higher data rates with 15 W?", RATE, {"max_power_w": 15.0}),
+    ("Go full speed, but stay under 8 watts", RATE, {"max_power_w": 8.0}),
+    ("Highest throughput within 40 dBm", RATE, {"max_power_w": 10.0}),
+    ("Maximum throughput with 500 mW", RATE, {"max_power_w": 0.5}),
+    ("Best spectral efficiency", RATE, {}),
+    ("maximise throughput, no user below 500 kbps", RATE, {"min_rate_bps": 5e5}),
+    ("Faster downloads, half a megabit per second for everyone, no more than twelve watts", RATE,
+     {"min_rate_bps": 5e5, "max_power_w": 12.0}),
+    ("More speed, 8 users, 5 W", RATE, {"max_power_w": 5.0}),
+    ("Higher speed, nobody needs more than 20 Mbit/s", RATE, {"max_rate_bps": 20e6}),
+    ("HIGHER SPEED FOR VIDEO STREAMING", RATE, {}),
+    ("as fast as possible, max power 1,500 mW", RATE, {"max_power_w": 1.5}),
+    ("Maximise the rate with 95 % reliability", RATE, {"outage_probability": 0.05}),
+    ("highest rate, outage below 1 %", RATE, {"outage_probability": 0.01}),
+    ("max throughput, 10 W, no wait, 25 W", RATE, {"max_power_w": 25.0}),
+    ("maximum rate at 0.25 MB/s minimum per user", RATE, {"min_rate_bps": 2e6}),
+    # the least power
+    ("save energy", POWER, {}),
+    ("Reduce the transmit power", POWER, {}),
+    ("minimise power consumption", POWER, {}),
+    ("Use as little power as possible", POWER, {}),
+    ("min power", POWER, {}),
+    ("Let's go green", POWER, {}),
+    ("Extend the battery life of the meters", POWER, {}),
+    ("low power mode for the IoT devices", POWER, {}),
+    ("Cut the electricity bill", POWER, {}),
+    ("We are using too much energy", POWER, {}),
+    ("the batteries drain too fast", POWER, {}),
+    ("stop wasting power", POWER, {}),
+    ("Keep transmit power as low as possible with 1 Mbps per user", POWER, {"min_rate_bps": 1e6}),
+    ("Least power that gives every user at least 300 kbit/s", POWER, {"min_rate_bps": 3e5}),
+    ("save battery, 64 kbps each, up to 23 dBm", POWER, {"min_rate_bps": 64e3, "max_power_w": 10**-0.7}),
+    ("minimum power, each user must get 2 Mb/s", POWER, {"min_rate_bps": 2e6}),
+    ("Lower energy consumption, guarantee 1.5 megabits per second", POWER, {"min_rate_bps": 1.5e6}),
+    ("please economise on power", POWER, {}),
+    ("Save power and promise 100 kbit/s with 5 % outage", POWER, {"min_rate_bps": 1e5, "outage_probability": 0.05}),
+    ("Exactly 1 Mbit/s for each user with minimal power", POWER, {"min_rate_bps": 1e6}),
+    # the most bits per joule
+    ("maximise energy efficiency", EE, {}),
+    ("most bits per joule", EE, {}),
+    ("Be as energy-efficient as possible", EE, {}),
+    ("I want the best trade-off between rate and power", EE, {}),
+    ("max EE", EE, {}),
+    ("Find a good compromise between speed and battery", EE, {}),
+    ("energy efficient operation, circuit power 5 W", EE, {"circuit_power_w": 5.0}),
+    ("Best energy efficiency with 4 W of circuit power and at most 10 W", EE,
+     {"circuit_power_w": 4.0, "max_power_w": 10.0}),
+    ("efficiency first: bits per joule, Pc = 2 W", EE, {"circuit_power_w": 2.0}),
+    ("get the most data out of every joule", EE, {}),
+    # negation
+    ("I don't care about speed, save power", POWER, {}),
+    ("Don't worry about battery, I want throughput", RATE, {}),
+    ("No need to save power, go faster", RATE, {}),
+    ("power doesn't matter, just speed", RATE, {}),
+    ("Not speed but power saving", POWER, {}),
+    ("Don't waste power", POWER, {}),
+    ("Why not save some power?", POWER, {}),
+    ("don't forget to save energy", POWER, {}),
+    # typos
+    ("Hihger spede for video steaming, more througput", RATE, {}),
+    ("maximze thoughput", RATE, {}),
+    ("redcue the powr consumption", POWER, {}),
+    ("energy effeciency", EE, {}),
+    # Chinese
+    ("提高视频流的速度", RATE, {}),
+    ("传感器省电", POWER, {}),
+    ("能效最高", EE, {}),
+    ("又快又省电", EE, {}),
+    ("网速太慢了", RATE, {}),
+    ("下载快一点", RATE, {}),
+    ("最大化吞吐量,功率不超过10瓦", RATE, {"max_power_w": 10.0}),
+    ("越快越好,总功率最多20瓦", RATE, {"max_power_w": 20.0}),
+    ("每个用户至少1兆,最多10瓦", RATE, {"min_rate_bps": 1e6, "max_power_w": 10.0}),
+    ("速率最大,每人不低于500kbps", RATE, {"min_rate_bps": 5e5}),
+    ("给用户更高的速率", RATE, {}),
+    ("视频老是卡顿", RATE, {}),
+    ("尽量降低发射功率,每个用户200千比特每秒", POWER, {"min_rate_bps": 2e5}),
+    ("节能,每用户至少两兆", POWER, {"min_rate_bps": 2e6}),
+    ("功耗越低越好", POWER, {}),
+    ("请用最小的功率保证每人半兆", POWER, {"min_rate_bps": 5e5}),
+    ("延长电池寿命", POWER, {}),
+    ("兼顾速率和功耗", EE, {}),
+    ("每焦耳传更多比特", EE, {}),
+    ("提高能量效率,电路功率5瓦", EE, {"circuit_power_w": 5.0}),
+    ("在速度和能耗之间取得平衡", EE, {}),
+    ("不用省电,速度要快", RATE, {}),
+    ("速度无所谓,省电就行", POWER, {}),
+    ("最高吞吐量,中断概率5%", RATE, {"outage_probability": 0.05}),
+    ("最大速率,可靠性百分之九十九", RATE, {"outage_probability": 0.01}),
+]  # fmt: skip
+
+ASK_BACK = [
+    "", "   ", "???", "hello", "make it better", "asdkj qweoi zxcv", "optimise", "do something", "你好", "优化一下", "speed",
+    "don't save power today", "I don't care about speed", "不要省电", "不在乎速度",
+    "maximum speed and minimum power", "save power and go faster", "速度最快,功率最低",
+    "Use at most 10 W", "10 W", "每人1兆", "everyone gets 1 Mbit/s", "Reduce power to 5 W",
+    "max rate with 0 W", "max rate with -5 W", "save power, -1 Mbit/s each", "save power, 0 kbit/s each", "省电,每人零兆",
+    "maximum throughput, power 10", "save power, rate 5 each", "max rate, at least 2M each",
+    "max rate with at least 5 W", "save 5 W of power", "Reduce power by 3 W", "save 20 % of the power", "功率降低5瓦",
+    "save power, leave user 3 out", "max rate, user 2 gets at least 1 Mbit/s", "最大速率,用户3至少1兆",
+    "max rate, at most 1 W per user", "max rate, at least 20 Mbit/s in total", "最大速率,总速率至少20兆",
+    "save power, 1 Mbit/s for video and 200 kbit/s for sensors", "highest speed with 500 MW", "max rate, latency below 10 ms",
+    "max rate, 2 MB/S each", "proportional fairness", "share it fairly", "按比例公平分配",
+    "max rate between 5 and 10 W", "max rate, at least 5 Mbit/s and at most 1 Mbit/s each", "save power, 100 % reliability",
+    "max rate at most a few watts", "slow down", "lower the speed", "increase the power", "not faster",
+    "we only get 2 Mbit/s right now, make it faster",
+]  # fmt: skip
+
+OUT_OF_SCOPE = [
+    "what's the weather?", "Tell me a joke", "who won the football match yesterday?", "今天天气怎么样?", "write a poem",
+    "reduce latency", "improve the coverage at the cell edge", "降低时延", "order me a pizza",
+]  # fmt: skip
+
+QUESTIONS = ["why did user 3 get nothing?", "what is energy efficiency?", "how much power do we use?", "What can you do?",
+             "为什么用户3没有速率?", "现在用了多少功率?", "Is the power low?"]  # fmt: skip
+
+COMMANDS = ["undo", "apply it", "compare with the last one", "撤销", "应用", "compare max rate and min power"]
+
+
+@pytest.mark.parametrize(("text", "objective", "constraints"), ALLOCATE)
+def test_understood(text: str, objective: str, constraints: dict[str, float]) -> None:
+    intent = recognise(text)
+    assert (intent.kind, intent.objective) == ("allocate", objective), intent
+    assert dict(intent.constraints) == pytest.approx(constraints, rel=1e-12)
+    assert intent.confidence >= 0.7
+    for words in intent.evidence.values():
+        assert all(part in text for part in words.split(" … "))
+
+
+@pytest.mark.parametrize("text", ASK_BACK)
+def test_unclear_gets_a_question(text: str) -> None:
+    intent = recognise(text)
+    assert intent.kind == "clarify", intent
+    assert intent.objective is None
+    assert intent.reply.endswith(("?", "?"))
+
+
+@pytest.mark.parametrize(
+    ("kind", "text"),
+    [("out_of_scope", t) for t in OUT_OF_SCOPE]
+    + [("question", t) for t in QUESTIONS]
+    + [("command", t) for t in COMMANDS],
+)
+def test_neither_acts_nor_asks(kind: str, text: str) -> None:
+    intent = recognise(text)
+    assert (intent.kind, intent.objective, dict(intent.constraints)) == (kind, None, {}), intent
+    assert intent.reply
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("max rate with -5 W", ["-5 W"]),
+        ("max rate with 0 W", ["0 W"]),
+        ("maximum throughput, power 10", ["10", "W", "dBm"]),
+        ("highest speed with 500 MW", ["500 MW", "mW"]),
+        ("save power, 1 Mbit/s for video and 200 kbit/s for sensors", ["1 Mbit/s", "200 kbit/s"]),
+        ("10 W", ["10 W", "rate"]),
+        ("everyone gets 1 Mbit/s", ["1 Mbit/s", "least power", "highest"]),
+        ("save power and go faster", ["energy efficiency"]),
+        ("功率10瓦", ["10瓦", "能效"]),
+        ("最大速率,功率-5瓦", ["-5瓦"]),
+        ("max rate, 2 MB/S each", ["bits", "bytes"]),
+    ],
+)
+def test_the_question_is_specific(text: str, named: list[str]) -> None:
+    reply = recognise(text).reply
+    assert all(word in reply for word in named), reply
+
+
+def test_restatement_has_figures_and_units() -> None:
+    reply = recognise("At least 1 Mbit/s each, at most 10 W").reply
+    assert "1 Mbit/s" in reply
+    assert "10 W" in reply
+    intent = recognise("最高吞吐量,每人至少1兆,最多10瓦,中断概率5%")
+    assert intent.language == "zh"
+    assert all(part in intent.reply for part in ("1 Mbit/s", "10 W", "5 %"))
+
+
+def test_evidence_quotes_the_operator() -> None:
+    intent = recognise("Please SAVE Power for sensors, 200 kbit/s each")
+    assert intent.evidence["objective"] == "SAVE Power"
+    assert intent.evidence["min_rate_bps"] == "200 kbit/s"
+    intent = recognise("Highest rate with 30 % of the CSI missing")
+    assert (intent.kind, intent.objective, dict(intent.constraints)) == ("allocate", RATE, {})
+    assert intent.evidence["not_used"] == "30 %"
+
+
+def test_a_small_typo_lowers_confidence() -> None:
+    assert recognise("maximise througput").confidence < recognise("maximise throughput").confidence
+
+
+@dataclass(frozen=True, kw_only=True)
+class AlphaFairness(MaxRate):
+    """Somebody else's objective."""
+
+    name = "alpha_fairness"
+    aliases = ("alpha",)
+    phrases = phrases(en=["share alpha-fairly"], zh=["α公平"])
+
+
+def with_third_party(monkeypatch: pytest.MonkeyPatch, *extra: plugins.Plugin) -> None:
+    found = plugins.plugins("objective")
+    monkeypatch.setattr(plugins, "plugins", lambda kind: [*found, *extra])
+
+
+@pytest.mark.parametrize(
+    "text", ["Share alpha-fairly", "please share alpha fairly, at most 10 W", "按α公平分配,最多10瓦", "alpha fairness"]
+)
+def test_a_plugin_brings_its_own_words(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert recognise(text).objective is None
+    other: dict[str, Any] = {"kind": "objective", "package": "p", "target": "t"}
+    with_third_party(
+        monkeypatch,
+        plugins.Plugin(name="alpha_fairness", cls=AlphaFairness, **other),
+        plugins.Plugin(name="broken", cls=None, error="no such module", **other),
+    )
+    intent = recognise(text)
+    assert (intent.kind, intent.objective) == ("allocate", "alpha_fairness")
+    assert intent.constraints == ({"max_power_w": 10.0} if "10" in text else {})
+    assert recognise("Higher speed for video streaming").objective == RATE
+    question = recognise("优化一下" if "公平" in text else "optimise").reply
+    assert "α公平" in question or "share alpha-fairly" in question
+
+
+def test_an_objective_that_is_not_registered_is_never_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = [found for found in plugins.plugins("objective") if found.name != RATE]
+    monkeypatch.setattr(plugins, "plugins", lambda kind: kept)
+    assert recognise("Higher speed for video streaming").objective is None
+    assert recognise("At least 1 Mbit/s each, at most 10 W").objective is None
+    assert recognise("Save power for sensors").objective == POWER
+
+
+@settings(deadline=None, max_examples=300)
+@given(
+    st.text(max_size=120)
+    | st.lists(
+        st.sampled_from(
+            "save power faster not don't 10 W -5 0 mW 1 Mbit/s at least most % each , . ? and 省电 快 至少 兆 瓦 "
+            "user 3 maximise rate minimum between EE balance 95 reliability no".split()
+        ),
+        max_size=14,
+    ).map(" ".join)
+)
+def test_any_text_is_answered_and_no_impossible_figure_leaves(text: str) -> None:
+    intent = recognise(text)
+    assert intent.reply
+    assert (intent.kind == "allocate") == (intent.objective is not None)
+    assert set(intent.constraints) <= set(CONSTRAINTS)
+    for name, value in intent.constraints.items():
+        assert 0 < value < math.inf
+        assert name != "outage_probability" or value < 1
+
+
+@settings(deadline=None)
+@given(st.text(alphabet=st.characters(categories=["P", "S", "Z", "C"]), max_size=60))
+def test_nothing_but_signs_never_acts(text: str) -> None:
+    assert recognise(text).objective is None
+
+
+def test_a_very_long_text_is_refused_with_a_question() -> None:
+    intent = recognise("save power " * 100_000)
+    assert intent.kind == "clarify"
+    assert len(intent.reply) < 500
+
+
+def test_intent_refuses_what_cannot_be() -> None:
+    given_: dict[str, Any] = {"language": "en", "confidence": 0.9, "evidence": {}, "reply": "x", "recogniser": "r"}
+    Intent(kind="allocate", objective=RATE, constraints={"max_power_w": 1.0}, **given_)
+    with pytest.raises(InputError, match="objective"):
+        Intent(kind="allocate", objective=None, constraints={}, **given_)
+    with pytest.raises(InputError, match="max_power_w"):
+        Intent(kind="allocate", objective=RATE, constraints={"max_power_w": 0.0}, **given_)
+    with pytest.raises(InputError, match="altitude"):
+        Intent(kind="allocate", objective=RATE, constraints={"altitude": 1.0}, **given_)
+    with pytest.raises(InputError, match="confidence"):
+        Intent(kind="clarify", objective=None, constraints={}, **(given_ | {"confidence": 1.5}))
+
+
+def test_the_class_and_the_function_agree() -> None:
+    assert OfflineRecogniser().recognise("Save power for sensors") == recognise("Save power for sensors")
