@@ -86,7 +86,7 @@ def run(request: PluginsRequest, progress: Progress) -> PluginsRecord:
     del progress
     if request.kind is not None and request.kind not in plugins.KINDS:
         raise UnknownNameError("kind of plug-in", request.kind, plugins.KINDS)
-    kinds = [kind for kind in plugins.KINDS if request.kind in (None, kind)]
+    kinds: list[plugins.Kind] = [kind for kind in plugins.KINDS if request.kind in (None, kind)]
     return PluginsRecord(plugins=[PluginAnswer.of(found) for kind in kinds for found in plugins.plugins(kind)])
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, TypeAlias, cast
 
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict
@@ -37,7 +37,7 @@ class Record(BaseModel):
 
 
 def _as_list(value: Any) -> Any:
-    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+    return cast("Any", value).tolist() if isinstance(value, np.ndarray | np.generic) else value
 
 
 Vector: TypeAlias = Annotated[list[float], BeforeValidator(_as_list)]
