@@ -1,0 +1,247 @@
+"""The one door to matplotlib, typed: figures of panels, drawn without pyplot and without its global state.
+
+Only what our pictures need is let through. matplotlib is an optional package; it is imported when a canvas is made.
+Colours are those of Okabe and Ito (2008), which colour-blind readers can tell apart, and viridis or cividis where a
+scale is needed.
+"""
+# matplotlib's signatures take keyword arguments of unknown type
+# pyright: reportUnknownMemberType=false, reportUnknownVariableType=false, reportUnknownArgumentType=false
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from wirelessagent.model.arrays import BoolArray, FloatArray
+from wirelessagent.model.atomic import write_atomically
+from wirelessagent.model.errors import InputError, MissingDependencyError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+FORMATS: dict[str, dict[str, None]] = {".png": {}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+"""Known suffixes and the metadata that is left out, so that a picture does not depend on the day it was drawn."""
+
+PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#F0E442")
+"""Okabe and Ito's colours, the strongest on white first."""
+
+GREY = "#8A8A8A"
+_MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+_DOTS_PER_INCH = 150
+
+
+def check_suffix(path: Path) -> str:
+    """The suffix of a picture's file, or an :class:`InputError` that lists those that can be written."""
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
+        raise InputError(f"a picture is written as {', '.join(FORMATS)}; got {path.name!r}: change the suffix")
+    return suffix
+
+
+class Canvas:
+    """A figure of ``rows`` × ``columns`` panels, counted row by row."""
+
+    def __init__(self, *, rows: int = 1, columns: int = 1, width_in: float, height_in: float) -> None:
+        try:
+            from matplotlib.backends.backend_agg import FigureCanvasAgg
+            from matplotlib.figure import Figure
+        except ImportError as error:
+            raise MissingDependencyError("matplotlib", "plot", "drawing a picture") from error
+        self.figure: Figure = Figure(figsize=(width_in, height_in), dpi=_DOTS_PER_INCH, layout="constrained")
+        FigureCanvasAgg(self.figure)
+        self.figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)  # pyright: ignore[reportOptionalMemberAccess, reportCallIssue]
+        grid: Sequence[Axes] = self.figure.subplots(rows, columns, squeeze=False).ravel().tolist()
+        self.panels: tuple[Panel, ...] = tuple(Panel(axes) for axes in grid)
+
+    def title(self, text: str) -> None:
+        self.figure.suptitle(text, fontsize=12)
+
+    def save(self, path: Path) -> None:
+        """Write the picture as PNG, SVG or PDF by its suffix, whole or not at all."""
+        suffix = check_suffix(path)
+        write_atomically(path, lambda stream: self.figure.savefig(stream, format=suffix[1:], metadata=FORMATS[suffix]))
+
+
+class Panel:
+    """One pair of axes."""
+
+    def __init__(self, axes: Axes) -> None:
+        self.axes = axes
+        axes.tick_params(labelsize=9)
+        for side in ("top", "right"):
+            axes.spines[side].set_visible(False)
+
+    def describe(self, title: str, x_label: str, y_label: str) -> None:
+        self.axes.set_title(title, fontsize=11, loc="left")
+        self.axes.set_xlabel(x_label, fontsize=10)
+        self.axes.set_ylabel(y_label, fontsize=10)
+
+    def grid(self) -> None:
+        self.axes.grid(visible=True, color="#DDDDDD", linewidth=0.6)
+        self.axes.set_axisbelow(True)
+
+    def scales(self, *, x: Literal["linear", "log"] = "linear", y: Literal["linear", "log"] = "linear") -> None:
+        self.axes.set_xscale(x)
+        self.axes.set_yscale(y)
+
+    def limits(self, *, x: tuple[float, float] | None = None, y: tuple[float, float] | None = None) -> None:
+        if x is not None:
+            self.axes.set_xlim(x)
+        if y is not None:
+            self.axes.set_ylim(y)
+
+    def ticks(
+        self, axis: Literal["x", "y"], at: Sequence[float], labels: Sequence[str], *, slanted: bool = False
+    ) -> None:
+        """Ticks with these labels and no others, in between neither."""
+        if axis == "x":
+            self.axes.set_xticks(
+                list(at), list(labels), rotation=30 if slanted else 0, ha="right" if slanted else "center"
+            )
+            self.axes.set_xticks([], minor=True)
+        else:
+            self.axes.set_yticks(list(at), list(labels))
+            self.axes.set_yticks([], minor=True)
+
+    def curve(
+        self,
+        x: ArrayLike,
+        y: ArrayLike,
+        *,
+        label: str,
+        style: int,
+        half_width: ArrayLike | None = None,
+        marked: bool = True,
+        joined: bool = True,
+    ) -> None:
+        """A curve in the palette's colour and marker number ``style``, with error bars of ± ``half_width``."""
+        self.axes.errorbar(
+            np.asarray(x, dtype=float),
+            np.asarray(y, dtype=float),
+            yerr=None if half_width is None else np.asarray(half_width, dtype=float),
+            label=label,
+            color=PALETTE[style % len(PALETTE)],
+            linestyle="-" if joined else "none",
+            marker=_MARKERS[style % len(_MARKERS)] if marked else "none",
+            markersize=5,
+            linewidth=1.6,
+            capsize=2.5,
+        )
+
+    def bars(
+        self,
+        x: ArrayLike,
+        height: ArrayLike,
+        *,
+        width: float,
+        colour: str | Sequence[str],
+        label: str | None = None,
+        half_width: ArrayLike | None = None,
+    ) -> None:
+        self.axes.bar(
+            np.asarray(x, dtype=float),
+            np.asarray(height, dtype=float),
+            width=width,
+            color=colour,
+            label=label,
+            yerr=None if half_width is None else np.asarray(half_width, dtype=float),
+            capsize=2.5,
+            edgecolor="#333333" if width > 0.2 and np.size(x) <= 64 else "none",
+            linewidth=0.4,
+        )
+
+    def marks(self, x: ArrayLike, y: ArrayLike, *, size_pt: float, shape: str, colour: str, label: str | None) -> None:
+        """Separate marks with a thin edge, so that they show on light and dark ground."""
+        self.axes.plot(
+            np.asarray(x, dtype=float),
+            np.asarray(y, dtype=float),
+            linestyle="none",
+            marker=shape,
+            markersize=size_pt,
+            markerfacecolor=colour,
+            markeredgecolor="black",
+            markeredgewidth=min(0.8, size_pt / 5),
+            label=label,
+        )
+
+    def level(self, y: float, *, label: str, colour: str = "black") -> None:
+        """A dashed line across the panel."""
+        self.axes.axhline(y, color=colour, linestyle="--", linewidth=1.3, label=label)
+
+    def segments(self, x_from: ArrayLike, x_to: ArrayLike, y: ArrayLike, *, label: str) -> None:
+        self.axes.hlines(np.asarray(y), np.asarray(x_from), np.asarray(x_to), color="black", linewidth=1.8, label=label)
+
+    def matrix(self, values: FloatArray, *, limits: tuple[float, float], clipped: bool, colour_label: str) -> None:
+        """A (row, column) image with its colour scale; NaN entries show as hatched grey."""
+        self.axes.patch.set(facecolor="#D9D9D9", edgecolor="#8A8A8A", hatch="//////", linewidth=0.0)
+        image = self.axes.imshow(
+            np.ma.masked_invalid(values), aspect="auto", interpolation="nearest", cmap="viridis",
+            vmin=limits[0], vmax=limits[1],
+        )  # fmt: skip
+        for side in ("top", "right"):
+            self.axes.spines[side].set_visible(True)
+        bar = self._figure().colorbar(image, ax=self.axes, extend="min" if clipped else "neither", pad=0.02)
+        bar.set_label(colour_label, fontsize=10)
+        bar.ax.tick_params(labelsize=9)
+
+    def fade(self, where: BoolArray) -> None:
+        """Make these entries of the matrix paler, for matrices too fine for marks."""
+        self.axes.imshow(
+            np.where(where[..., np.newaxis], (1.0, 1.0, 1.0, 0.5), 0.0), aspect="auto", interpolation="nearest"
+        )
+
+    def colour_scale(self, count: int, *, label: str) -> tuple[str, ...]:
+        """``count`` colours along cividis, with their scale (1 … count) beside the panel."""
+        from matplotlib import colormaps
+        from matplotlib.cm import ScalarMappable
+        from matplotlib.colors import Normalize, to_hex
+
+        scale = ScalarMappable(Normalize(1, count), colormaps["cividis"])
+        bar = self._figure().colorbar(scale, ax=self.axes, pad=0.02)
+        bar.set_label(label, fontsize=10)
+        bar.ax.tick_params(labelsize=9)
+        return tuple(to_hex(rgba) for rgba in colormaps["cividis"](np.linspace(0.0, 1.0, count)).tolist())
+
+    def swatch(self, colour: str, label: str) -> None:
+        """An entry in the legend for a colour, without anything drawn."""
+        self.axes.bar([np.nan], [np.nan], color=colour, edgecolor="#333333", linewidth=0.4, label=label)
+
+    def note(self, text: str) -> None:
+        """Text in the middle of the panel."""
+        self.axes.text(
+            0.5, 0.5, text, transform=self.axes.transAxes, ha="center", va="center", fontsize=10,
+            bbox={"boxstyle": "round,pad=0.5", "facecolor": "white", "edgecolor": "#8A8A8A"},
+        )  # fmt: skip
+
+    def legend(self, *, columns: int = 1, at_top: bool = False) -> None:
+        """The legend, where it covers least or in the headroom at the top."""
+        handles, labels = self.axes.get_legend_handles_labels()
+        if labels:
+            self.axes.legend(
+                handles, labels, fontsize=8.5, ncols=columns, framealpha=0.9, loc="upper center" if at_top else "best",
+                columnspacing=0.9, handlelength=1.2, handletextpad=0.5,
+            )  # fmt: skip
+
+    def size_pt(self) -> tuple[float, float]:
+        """Width and height of the panel in points, roughly, before the layout is made."""
+        box = self.axes.get_position()
+        width, height = self._figure().get_size_inches()
+        return 72.0 * width * box.width, 72.0 * height * box.height
+
+    def _figure(self) -> Figure:
+        figure = self.axes.get_figure(root=True)
+        assert figure is not None
+        return figure
+
+
+def can_show(text: str) -> bool:
+    """Whether the font that matplotlib brings has every character of ``text``."""
+    from matplotlib import font_manager
+
+    font = font_manager.get_font(font_manager.findfont("DejaVu Sans"))
+    return text.isprintable() and "$" not in text and all(font.get_char_index(ord(c)) != 0 for c in text)
