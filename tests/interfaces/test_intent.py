@@ -177,12 +177,21 @@ def test_understood(text: str, objective: str, constraints: dict[str, float]) ->
         assert all(part in text for part in words.split(" … "))
 
 
+@pytest.mark.parametrize(("text", "objective", "constraints"), [case for case in ALLOCATE if "," in case[0]])
+def test_full_width_commas_mean_the_same(text: str, objective: str, constraints: dict[str, float]) -> None:
+    if not text.isascii():
+        text = text.replace(",", "\uff0c")
+    intent = recognise(text)
+    assert intent.objective == objective
+    assert dict(intent.constraints) == pytest.approx(constraints, rel=1e-12)
+
+
 @pytest.mark.parametrize("text", ASK_BACK)
 def test_unclear_gets_a_question(text: str) -> None:
     intent = recognise(text)
     assert intent.kind == "clarify", intent
     assert intent.objective is None
-    assert intent.reply.endswith(("?", "?"))
+    assert intent.reply.endswith(("?", "\uff1f"))
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,160 @@
+"""Numbers as people write them: digits, English words and Chinese numerals, exact as decimals.
+
+Missing on purpose: ordinals, fractions other than halves and quarters, and vague amounts ("a few"), which are reported
+as numbers without a value so that nobody acts on half of one ("a few hundred" is not 100).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from decimal import Decimal
+
+_ONES = (
+    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen "
+    "eighteen nineteen"
+)
+_TENS = "twenty thirty forty fifty sixty seventy eighty ninety"
+_SMALL = {
+    **{word: Decimal(value) for value, word in enumerate(_ONES.split())},
+    **{word: Decimal(10 * value) for value, word in enumerate(_TENS.split(), start=2)},
+    "a": Decimal(1),
+    "an": Decimal(1),
+}
+_SCALES = {"hundred": Decimal(100), "thousand": Decimal(10**3), "million": Decimal(10**6), "billion": Decimal(10**9)}
+_VAGUE = ("few", "several", "couple", "dozen", "dozens", "hundreds", "thousands", "third", "tenth")
+_PARTS = {"half": Decimal("0.5"), "quarter": Decimal("0.25"), "quarters": Decimal("0.25")}
+
+_CHINESE_DIGITS = {c: d for d, c in enumerate("零一二三四五六七八九")} | {"〇": 0, "两": 2}
+_CHINESE_SCALES = {"十": 10, "百": 100, "千": 1000}
+_CHINESE_BIG = {"万": 10**4, "亿": 10**8}
+
+_DIGITS = (
+    r"(?:(?:[1-9][0-9]{0,2}(?:,[0-9]{3})+|[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9]))(?:\.[0-9]+)?(?![0-9]|[.,][0-9])"
+    r"|[0-9]+[.,][0-9]+(?![0-9]|[.,][0-9])|\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
+)
+_WORD = (
+    r"(?:" + "|".join(sorted([*_SMALL, *_SCALES, *_PARTS, *_VAGUE, "and", "point", "of"], key=len, reverse=True)) + r")"
+)
+_NUMBER = re.compile(
+    rf"(?P<minus>(?<![A-Za-z0-9_)])-(?=[0-9.])|(?i:\b(?:minus|negative)\s+)|负\s*)?"
+    rf"(?:(?P<digits>(?<![A-Za-z0-9_.]){_DIGITS})(?:\s?(?P<scale>(?i:hundred|thousand|million|billion)\b|[百千]?万|百|亿|千(?!瓦时|赫|米)))?"
+    rf"|(?P<words>(?i:\b{_WORD}(?:[\s-]+{_WORD})*\b))"
+    rf"|(?P<chinese>[几零〇一二两三四五六七八九十百千万亿半][零〇一二两三四五六七八九十百千万亿点半]*))"
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Number:
+    """A number and where it stands; ``value`` is None where the amount is vague or not understood."""
+
+    value: Decimal | None
+    start: int
+    end: int
+    form: str
+
+
+def numbers(text: str) -> Iterator[Number]:
+    """Every number in normalised text, from left to right, not overlapping."""
+    position = 0
+    while match := _NUMBER.search(text, position):
+        position = match.end()
+        form = "digits" if match["digits"] else "words" if match["words"] else "chinese"
+        start, end, value = match.start(), match.end(), _value_of(match, form)
+        if form == "words":
+            start, end, value = _trim_words(match)
+        if value is not None and match["minus"]:
+            value = -value
+        if end > start:
+            yield Number(value=value, start=start, end=end, form=form)
+
+
+def _value_of(match: re.Match[str], form: str) -> Decimal | None:
+    if form == "chinese":
+        return chinese_value(match["chinese"])
+    if form == "words":
+        return None
+    digits = match["digits"]
+    if re.search(r"[1-9][0-9]{0,2}(?:,[0-9]{3})+(?![0-9])", digits):
+        digits = digits.replace(",", "")
+    value = Decimal(digits.replace(" ", "").replace(",", "."))
+    for letter in match["scale"] or "" if not (match["scale"] or "").isascii() else ():
+        value *= _CHINESE_SCALES.get(letter) or _CHINESE_BIG[letter]
+    return value * _SCALES.get((match["scale"] or "").lower(), 1)
+
+
+def _trim_words(match: re.Match[str]) -> tuple[int, int, Decimal | None]:
+    """Where the number stands once "and", "of" or "point" at its ends are cut off, and its value."""
+    words = list(re.finditer(r"[A-Za-z]+", match["words"]))
+    names = [word.group().lower() for word in words]
+    loose = ("and", "of", "point")
+    first = next((i for i, name in enumerate(names) if name not in loose), None)
+    if first is None:
+        return match.start(), match.start(), None
+    last = max(i for i, name in enumerate(names) if name not in loose)
+    start = match.start() if match["minus"] else match.start("words") + words[first].start()
+    value = None if first and names[first - 1] == "of" else words_value(names[first : last + 1])
+    return start, match.start("words") + words[last].end(), value
+
+
+def words_value(words: list[str]) -> Decimal | None:
+    """The value of a number in English words; None where they do not make one.
+
+    >>> words_value("three hundred and fifty".split()), words_value("one and a half".split())
+    (Decimal('350'), Decimal('1.5'))
+    """
+    whole, group, fraction = Decimal(0), None, ""
+    for index, word in enumerate(words):
+        if word == "point":
+            fraction = "."
+        elif fraction and word in _SMALL and _SMALL[word] < 10:
+            fraction += str(_SMALL[word])
+        elif word in _VAGUE:
+            return None
+        elif word in ("and", "of") or (word in ("a", "an") and index):
+            continue
+        elif word in _PARTS:
+            times = word == "quarters" and group is not None
+            group = group * _PARTS[word] if times and group is not None else (group or 0) + _PARTS[word]
+        elif word in _SCALES:
+            group = (Decimal(1) if group is None else group) * _SCALES[word]
+            if _SCALES[word] > 100:
+                whole, group = whole + group, None
+        elif group is not None and not (group % 10 == 0 and _SMALL[word] < 10) and group % 100 != 0:
+            return None  # "two three" is not a number
+        else:
+            group = (group or Decimal(0)) + _SMALL[word]
+    return whole + (group or 0) + (Decimal("0" + fraction) if len(fraction) > 1 else 0)
+
+
+def chinese_value(numeral: str) -> Decimal | None:
+    """The value of a Chinese numeral, colloquial endings included; None where it is not one.
+
+    >>> chinese_value("一百零五"), chinese_value("一千五"), chinese_value("三点五"), chinese_value("半")
+    (Decimal('105'), Decimal('1500'), Decimal('3.5'), Decimal('0.5'))
+    """
+    if numeral == "半":
+        return Decimal("0.5")
+    whole, _, fraction = numeral.partition("点")
+    if "几" in numeral or "半" in numeral or any(c not in _CHINESE_DIGITS for c in fraction):
+        return None
+    total, section, digit, scale = 0, 0, 0, 1
+    previous = ""
+    for letter in whole:
+        if letter in _CHINESE_DIGITS:
+            if previous in _CHINESE_DIGITS and previous not in "零〇":
+                return None  # "三五" means three to five
+            digit, scale = _CHINESE_DIGITS[letter], (1 if previous in ("", "零", "〇", "十") else scale)
+        elif letter in _CHINESE_SCALES:
+            scale = _CHINESE_SCALES[letter]
+            multiplies = previous in _CHINESE_SCALES  # 三百千: three hundred kilo-
+            section, digit = section * scale if multiplies else section + (digit or 1) * scale, 0
+            scale //= 10
+        else:
+            scale = _CHINESE_BIG[letter]
+            total, section, digit = total + (section + digit or 1) * scale, 0, 0
+            scale //= 10
+        previous = letter
+    value = Decimal(total + section + digit * max(scale, 1))
+    return value + Decimal("0." + "".join(str(_CHINESE_DIGITS[c]) for c in fraction)) if fraction else value

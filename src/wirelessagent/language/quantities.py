@@ -1,0 +1,216 @@
+"""The quantity parser: the only source of figures. Every recogniser, offline or not, takes its numbers from here.
+
+A figure is a number, a unit and what bounds it, in SI: "at most 200 mW" is 0.2 W, a ceiling. Counts and names
+("8 users", "user 3", "5G", "20 MHz") are none. A bound that cannot be read ("below 10 ms", "at most a few watts") is
+reported with the kind "other", so that nobody drops half of a request unseen.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Literal, TypeAlias
+
+from wirelessagent.language.comparators import Comparator, comparison
+from wirelessagent.language.numerals import Number, numbers
+from wirelessagent.language.text import CJK, normalise
+from wirelessagent.language.units import Unit, unit_at
+
+QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
+
+# A bare number may be followed by these; any other word makes it a count of that word or an unknown unit.
+_AFTER_BARE = re.compile(
+    r"\s*(?:$|[,;:!?。\uff0c\uff1b、)\]]|\.(?![0-9])|(?i:(?:please|and|or|for|each|per|max|maximum|min|minimum|with|at|but|then|now|thanks|"
+    rf"to|in|on|the|while|when|apiece)\b)|[{CJK}])"
+)
+_SUFFIX = re.compile(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9/])")
+_SUFFIXES = {"k": Decimal(10**3), "K": Decimal(10**3), "M": Decimal(10**6), "G": Decimal(10**9)}
+_NAMES = re.compile(
+    r"(?i:(?:\b(?:users?|ues?|slots?|subcarriers?|channels?|carrier|cells?|number|numbers|no\.?|and|to|release|version|mode"
+    r"|device|sensor|band|seed|step|case|at|day|room)|[#№])\s*$)|(?:用户|子载波|信道|小区|第|方案|模式|时隙)\s*$"
+)
+_CHINESE_COUNTED = re.compile(
+    r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
+)
+_GENERATION = re.compile(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
+_HUNDREDTHS = re.compile(r"百分之$")
+_RANGE = re.compile(r"\s*(?:-|–|—|~|(?i:to\b|and\b|through\b)|到|至)\s*$")
+_TRAILING_HALF = re.compile(r"半(?!小时)")
+_APIECE = re.compile(r"(?i)\s*(?:each|apiece|per\s+(?:user|person|head))\b")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Quantity:
+    """A figure in a sentence.
+
+    Attributes:
+        value: in SI units: W, bit/s, or a ratio to 1; may be zero, negative, or inf where it is beyond any figure.
+        kind: power, rate, ratio, bare (no unit) or other (a bound in words or units that are not known; its value is 0).
+        text: the words of number and unit, as they stand at [start, end) of the sentence.
+        comparator: at_least, at_most, exactly, or None.
+        phrase_start, phrase_end: the span with the comparator and the noun between them.
+        doubtful: the spelling leaves bits or bytes open.
+    """
+
+    value: float
+    kind: QuantityKind
+    text: str
+    start: int
+    end: int
+    comparator: Comparator | None = None
+    phrase_start: int
+    phrase_end: int
+    doubtful: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Reading:
+    """A number with the unit that follows it, before its bounds are known."""
+
+    number: Number
+    unit: Unit | None
+    start: int
+    end: int
+    factor: Decimal = Decimal(1)
+
+
+def parse_quantities(text: str) -> tuple[Quantity, ...]:
+    """Every quantity of a sentence, from left to right, not overlapping.
+
+    >>> [(q.kind, q.value, q.comparator) for q in parse_quantities("at least 1 Mbit/s each, at most 20 dBm")]
+    [('rate', 1000000.0, 'at_least'), ('power', 0.1, 'at_most')]
+    """
+    plain = normalise(text)
+    readings = _readings(plain)
+    found: list[Quantity] = []
+    after = 0
+    for index, reading in enumerate(readings):
+        following = readings[index + 1] if index + 1 < len(readings) else None
+        in_range = following is not None and following.unit is not None and _joined(plain, reading, following)
+        if in_range and following is not None:
+            continue  # the lower end of a range: read together with the upper one
+        lower = readings[index - 1] if index and _joined(plain, readings[index - 1], reading) else None
+        if lower is not None and reading.unit is not None:
+            found.extend(_range(text, lower, reading))
+        else:
+            quantity = _bounded(text, plain, reading, after)
+            if quantity is None:
+                continue
+            found.append(quantity)
+        after = found[-1].phrase_end
+    return tuple(found)
+
+
+def _readings(plain: str) -> list[_Reading]:
+    readings: list[_Reading] = []
+    blocked = 0
+    for number in numbers(plain):
+        if number.start < blocked:
+            continue
+        reading = _read(plain, number)
+        readings.append(reading)
+        blocked = reading.end
+    return readings
+
+
+def _read(plain: str, number: Number) -> _Reading:
+    hundredths = _HUNDREDTHS.search(plain, max(0, number.start - 3), number.start)
+    if hundredths is not None:
+        unit = Unit(kind="ratio", end=number.end, factor=Decimal("0.01"))
+        return _Reading(number=number, unit=unit, start=hundredths.start(), end=number.end)
+    unit = unit_at(plain, number.end)
+    if unit is not None:
+        end = unit.end
+        if unit.level_dbm is None and number.value is not None and _TRAILING_HALF.match(plain, end):
+            number = Number(value=number.value + Decimal("0.5"), start=number.start, end=number.end, form=number.form)
+            end += 1
+        return _Reading(number=number, unit=unit, start=number.start, end=end)
+    suffix = _SUFFIX.match(plain, number.end) if number.form == "digits" else None
+    if suffix is not None and not _GENERATION.match(plain, number.start):
+        return _Reading(
+            number=number, unit=None, start=number.start, end=suffix.end(), factor=_SUFFIXES[suffix["suffix"]]
+        )
+    return _Reading(number=number, unit=None, start=number.start, end=number.end)
+
+
+def _joined(plain: str, lower: _Reading, upper: _Reading) -> bool:
+    """Whether two readings are the ends of one range, "1 to 2 Mbit/s"."""
+    gap = plain[lower.end : upper.start]
+    if lower.number.value is None or upper.number.value is None or _RANGE.match(gap) is None:
+        return False
+    if lower.unit is not None and (upper.unit is None or upper.unit.kind != lower.unit.kind):
+        return False
+    if "and" not in gap.lower():
+        return upper.unit is not None and not (lower.unit is None and _NAMES.search(plain[: lower.start][-12:]))
+    return re.search(r"(?i)between\s*$", plain[max(0, lower.start - 12) : lower.start]) is not None
+
+
+def _range(text: str, lower: _Reading, upper: _Reading) -> list[Quantity]:
+    assert upper.unit is not None
+    assert lower.number.value is not None
+    assert upper.number.value is not None
+    low, high = (lower.unit or upper.unit).value(lower.number.value), upper.unit.value(upper.number.value)
+    spans: tuple[tuple[_Reading, float, Comparator], ...] = ((lower, low, "at_least"), (upper, high, "at_most"))
+    return [
+        Quantity(
+            value=value, kind=upper.unit.kind, text=text[part.start : part.end], start=part.start, end=part.end,
+            comparator=comparator, phrase_start=part.start, phrase_end=part.end, doubtful=upper.unit.doubtful,
+        )
+        for part, value, comparator in spans
+    ]  # fmt: skip
+
+
+def _bounded(text: str, plain: str, reading: _Reading, after: int) -> Quantity | None:
+    number, unit = reading.number, reading.unit
+    kind: QuantityKind = unit.kind if unit is not None and number.value is not None else "other"
+    bounds = comparison(plain, reading.start, reading.end, kind=kind, after=after)
+    if kind == "other" and number.value is not None:
+        kind_or_none = _kind_without_unit(plain, reading, bounded=bounds.comparator is not None)
+        if kind_or_none is None:
+            return None
+        kind = kind_or_none
+    elif number.value is None and bounds.comparator is None and unit is None:
+        return None
+    if _is_article(plain, reading) and not (unit is not None and (bounds.comparator or _apiece(plain, unit))):
+        return None
+    value = 0.0
+    if number.value is not None and kind != "other":
+        value = unit.value(number.value) if unit is not None else float(number.value * reading.factor)
+    return Quantity(
+        value=value, kind=kind, text=text[reading.start : reading.end], start=reading.start, end=reading.end,
+        comparator=bounds.comparator, phrase_start=bounds.start, phrase_end=bounds.end,
+        doubtful=unit is not None and unit.doubtful,
+    )  # fmt: skip
+
+
+def _is_article(plain: str, reading: _Reading) -> bool:
+    return plain[reading.number.start : reading.number.end].lower() in ("a", "an")
+
+
+def _apiece(plain: str, unit: Unit) -> bool:
+    """ "A megabit each": the article counts; "not a watt more" has none."""
+    return unit.kind == "rate" and _APIECE.match(plain, unit.end) is not None
+
+
+def _kind_without_unit(plain: str, reading: _Reading, *, bounded: bool) -> QuantityKind | None:
+    """A number without a known unit: bare, a bound that is not understood, or nothing (a count, a name)."""
+    if reading.number.form != "digits" and not bounded:
+        return None
+    if reading.number.form == "chinese" or _counted_in_chinese(plain, reading.end):
+        return None
+    named = _NAMES.search(plain, max(0, reading.start - 16), reading.start) is not None
+    glued = (
+        _GENERATION.match(plain, reading.start) is not None or plain[max(0, reading.start - 1) : reading.start] == "/"
+    )
+    if glued or plain[reading.end : reading.end + 1] == "/":
+        return "other" if bounded else None
+    if named:
+        return None
+    if _AFTER_BARE.match(plain, reading.end):
+        return "bare"
+    return "other" if bounded else None
+
+
+def _counted_in_chinese(plain: str, end: int) -> bool:
+    return _CHINESE_COUNTED.match(plain, end) is not None

@@ -1,0 +1,140 @@
+"""The units that may follow a number, and what one of them is in SI.
+
+Capitals count where they tell prefixes or bits and bytes apart: mW is a thousandth and MW a million watts, Mb/s are
+bits and MB/s bytes. Where they cannot (nobody means milli-bits), they are forgiven: "mbps" and "MBPS" are Mbit/s. A
+spelling that leaves bits or bytes open ("MB/S") is marked doubtful. A bit or byte without a prefix needs its "per
+second", and bytes always do: "10 GB" is a file, "a bit faster" is no rate.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Literal, TypeAlias
+
+from wirelessagent.model.units import dbm_to_w
+
+UnitKind: TypeAlias = Literal["power", "rate", "ratio"]
+
+_PREFIXES = {
+    "": 0, "n": -9, "nano": -9, "纳": -9, "u": -6, "μ": -6, "micro": -6, "微": -6, "m": -3, "milli": -3, "毫": -3,
+    "k": 3, "K": 3, "kilo": 3, "千": 3, "M": 6, "mega": 6, "兆": 6, "G": 9, "g": 9, "giga": 9, "吉": 9,
+    "T": 12, "t": 12, "tera": 12, "太": 12,
+}  # fmt: skip
+
+_PER_SECOND = r"(?:\s*(?:/|\bper\b|\ba\b|\bp\b|每)\s*(?:seconds?\b|secs?\b|s\b|秒钟?)|ps\b)"
+_END = r"(?![A-Za-z0-9])"
+
+_LEVEL = re.compile(rf"(?i:(?P<level>dbmw|dbm|dbw){_END})|(?P<zh_level>分贝毫瓦|毫瓦分贝|分贝瓦)")
+_WATT = re.compile(
+    rf"(?P<symbol>[nuμmkKMG]?)[wW]{_END}|(?i:(?P<word>nano|micro|milli|kilo|mega|giga)?[ -]?watts?{_END})"
+    r"|(?P<zh>[纳微毫千兆]?)瓦特?(?!时|分贝)"
+)
+_BIT = re.compile(
+    rf"(?P<prefix>[kKmMgGtT]?)(?P<binary>i?)(?:(?P<short>[bB])(?P<ps>[pP][sS]){_END}"
+    rf"|(?P<core>(?i:bits?|bytes?)|[bB])(?:(?i:{_PER_SECOND})(?P<per>)|{_END}))"
+)
+_BIT_WORD = re.compile(
+    rf"(?i:(?P<word>kilo|mega|giga|tera)[ -]?(?P<core>bits?|bytes?)(?:{_PER_SECOND}(?P<per>)|{_END}))"
+)
+_BIT_ZH = re.compile(
+    rf"(?:(?P<prefix>[千兆吉太kKmMgG]?)\s?(?P<core>比特|字节)|(?P<mega>兆)(?P<latin>(?i:bits?|b|(?=ps))?)(?![瓦赫焦]|\s*(?i:hz|w|b)))"
+    rf"(?P<per>(?i:{_PER_SECOND}|ps{_END}))?"
+)
+_RATIO = re.compile(rf"%|(?i:(?:percent|per\s+cent|pct){_END})")
+_NOT_A_RATE_OR_POWER = re.compile(
+    r"\s*(?:/|每)\s*(?!user|ue\b|person|device|sensor|人|用户|subscriber|head|each)(?=[A-Za-z])"
+    r"|\s*(?i:per\s+(?:\w?hz|hertz|megahertz|kilohertz|joules?|j|watts?|w|hours?|symbol|bit)\b)"
+    r"|[\s·-]*(?i:h|hrs?|hours?)\b|小时|\s*/?每?(?:赫兹?|焦耳?)"
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unit:
+    """A unit found in a text: multiply by ``factor``, or take ``level_dbm`` as the dBm of 0 of it."""
+
+    kind: UnitKind
+    end: int
+    factor: Decimal = Decimal(1)
+    level_dbm: float | None = None
+    doubtful: bool = False
+
+    def value(self, number: Decimal) -> float:
+        """The SI value of a number of this unit; inf where it is beyond any figure."""
+        if self.level_dbm is None:
+            return float(number * self.factor)
+        try:
+            return dbm_to_w(float(number) + self.level_dbm)
+        except OverflowError:
+            return float("inf")
+
+
+def unit_at(text: str, position: int) -> Unit | None:
+    """The unit that begins at this place of a normalised text, after at most a space or a hyphen."""
+    gap = re.compile(r"\s{0,2}|-|个").match(text, position)
+    for start in sorted({gap.end() if gap else position, position}, reverse=True):
+        for read in (_level, _power, _rate, _ratio):
+            found = read(text, start)
+            if found is not None:
+                strange = found.kind != "ratio" and _NOT_A_RATE_OR_POWER.match(text, found.end)
+                return None if strange else found
+    return None
+
+
+def _level(text: str, start: int) -> Unit | None:
+    match = _LEVEL.match(text, start)
+    if match is None:
+        return None
+    in_watts = (match["level"] or "").lower() == "dbw" or match["zh_level"] == "分贝瓦"
+    return Unit(kind="power", end=match.end(), level_dbm=30.0 if in_watts else 0.0)
+
+
+def _power(text: str, start: int) -> Unit | None:
+    match = _WATT.match(text, start)
+    if match is None:
+        return None
+    prefix = match["symbol"] or (match["word"] or "").lower() or match["zh"] or ""
+    return Unit(kind="power", end=match.end(), factor=Decimal(10) ** _PREFIXES[prefix])
+
+
+def _rate(text: str, start: int) -> Unit | None:
+    match = _BIT_ZH.match(text, start)
+    if match is not None:
+        prefix = match["mega"] or match["prefix"]
+        per_second = match["per"] is not None or text[max(0, start - 12) : start].find("每秒") >= 0
+        if not per_second and (match["core"] == "字节" or not prefix):
+            return None
+        bits = 8 if match["core"] == "字节" else 1
+        return Unit(kind="rate", end=match.end(), factor=bits * _scale(prefix, binary=False))
+    match = _BIT_WORD.match(text, start)
+    if match is not None:
+        return _unit_of_bits(match, match["word"].lower(), match["core"].lower().startswith("byte"))
+    match = _BIT.match(text, start)
+    if match is None:
+        return None
+    prefix, core = match["prefix"], match["short"] or match["core"]
+    is_bytes = core.lower().startswith("byte") or core == "B"
+    if match["short"] == "B" and match["ps"] == "PS":
+        is_bytes = False  # in capitals throughout: the usual bps, shouted
+    return _unit_of_bits(match, prefix, is_bytes)
+
+
+def _unit_of_bits(match: re.Match[str], prefix: str, is_bytes: bool) -> Unit | None:
+    groups = match.groupdict()
+    per_second = groups.get("per") is not None or bool(groups.get("ps"))
+    if not per_second and (is_bytes or not prefix):
+        return None
+    factor = _scale(prefix, binary=bool(groups.get("binary"))) * (8 if is_bytes else 1)
+    doubtful = match["core"] == "B" and match.group().endswith("S")
+    return Unit(kind="rate", end=match.end(), factor=factor, doubtful=doubtful)
+
+
+def _scale(prefix: str, *, binary: bool) -> Decimal:
+    power = _PREFIXES["M" if prefix == "m" else prefix]
+    return Decimal(1024) ** (power // 3) if binary else Decimal(10) ** power
+
+
+def _ratio(text: str, start: int) -> Unit | None:
+    match = _RATIO.match(text, start)
+    return Unit(kind="ratio", end=match.end(), factor=Decimal("0.01")) if match else None
