@@ -1,0 +1,5 @@
+"""``python -m wirelessagent``."""
+
+from wirelessagent.interfaces.cli import main
+
+main()
