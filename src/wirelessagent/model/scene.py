@@ -63,5 +63,8 @@ class Scene:
         rng = np.random.default_rng(seed)
         masks = [loss.missing(slots, rng) for loss in losses]
         lost = functools.reduce(np.logical_or, masks, np.zeros(slots.shape, dtype=bool))
-        gain = np.where(lost, np.nan, slots).reshape(self.sensed.gain.shape)
-        return replace(self.sensed, gain=gain)
+        lost = lost.reshape(self.sensed.gain.shape)
+        noise_variance = self.sensed.noise_variance
+        if noise_variance is not None:  # it grows with the gain, so that of a lost entry would tell what was lost
+            noise_variance = np.where(lost, np.nan, noise_variance)
+        return replace(self.sensed, gain=np.where(lost, np.nan, self.sensed.gain), noise_variance=noise_variance)
