@@ -23,7 +23,7 @@ def normalised_gain(gain: FloatArray, cell: Cell) -> FloatArray:
 def useful_power_w(gain: FloatArray, cell: Cell) -> FloatArray:
     """The power at which the spectral-efficiency cap is reached, (2^c − 1)/a, in W; infinite without a cap."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        power = (np.exp2(cell.max_spectral_efficiency) - 1.0) / normalised_gain(gain, cell)
+        power = np.expm1(np.log(2.0) * cell.max_spectral_efficiency) / normalised_gain(gain, cell)
     return np.where(np.isnan(power), np.inf, power)
 
 

@@ -1,0 +1,40 @@
+"""Bounds that prove how good a decision is; each holds for any price, the right one makes it tight.
+
+They are worked out from the gains and the price alone, not from the allocation that they judge.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.surplus import surplus
+
+_STEP = 4e-16
+
+
+def rate_bound_nats(form: NormalForm, price: float) -> float:
+    """The most nats that the budget can carry: Φ(1, μ) + μ P_max, the Lagrangian dual of P1."""
+    return _best_surplus(form, price) + price * form.budget_w
+
+
+def efficiency_bound_nats_per_j(form: NormalForm, price: float) -> float:
+    """The most nats per joule, R/(P + ξ P_c), from a price of power near the right one.
+
+    An efficiency q cannot be reached if R − q (P + C) < 0 for all allocations, which a price μ ≥ q proves where
+    Φ(1, μ) + μ P_max − q (P_max + C) < 0. That holds above q = (Φ(1, μ) + μ P_max)/(P_max + C), and this q is at most μ
+    just where Φ(1, μ) ≤ μ C. So the price is raised by as little as makes that true.
+    """
+    step = _STEP
+    value = _best_surplus(form, price)
+    while value > price * form.circuit_w:
+        price *= 1.0 + step
+        step *= 2.0
+        value = _best_surplus(form, price)
+    return min(price, (value + price * form.budget_w) / (form.budget_w + form.circuit_w))
+
+
+def _best_surplus(form: NormalForm, price: float) -> float:
+    """Φ(1, μ): at equal weights the user with the best gain is worth most, whatever the price."""
+    best = form.best_snr_per_w[np.newaxis]
+    return surplus(best, form.caps_w(best), np.ones(1), price)

@@ -1,0 +1,81 @@
+"""From an allocation and a bound to a decision that carries its certificate."""
+
+from __future__ import annotations
+
+from typing import TypedDict, Unpack
+
+import numpy as np
+
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.decision import OPTIMAL_GAP, Bracket, Decision, Status
+from wirelessagent.model.rates import user_rate_bps
+
+
+class Figures(TypedDict, total=False):
+    """What else a decision may carry; see :class:`Decision`."""
+
+    reason: str
+    price_of_power: float
+    price_of_rate: FloatArray
+    needed_power_w: Bracket | None
+    rate_scaling: Bracket | None
+    iterations: int
+
+
+def relative_gap(value: float, bound: float) -> float:
+    """|value − bound| / |bound|; 0/0 is 0, and NaN where there is no bound.
+
+    >>> relative_gap(0.0, 0.0), relative_gap(99.0, 100.0)
+    (0.0, 0.01)
+    """
+    distance = abs(value - bound)
+    if distance == 0.0 or np.isnan(distance):
+        return distance
+    return distance / abs(bound) if bound != 0.0 else np.inf
+
+
+def certified(
+    form: NormalForm, owner: IntArray, power_w: FloatArray, bound: float, **figures: Unpack[Figures]
+) -> Decision:
+    """The decision for an allocation that keeps every constraint; ``bound`` in the objective's unit, NaN for none."""
+    rate_bps = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
+    value = form.objective.value(rate_bps, float(power_w.sum()), form.cell)
+    gap = relative_gap(value, bound)
+    status: Status = "optimal" if gap <= OPTIMAL_GAP else "feasible"
+    return _decision(form, owner, power_w, rate_bps, status, value, bound, gap, figures)
+
+
+def nothing(form: NormalForm, status: Status, bound: float, **figures: Unpack[Figures]) -> Decision:
+    """The decision where nothing feasible was found: nobody owns anything, and the ``reason`` says why."""
+    users, subcarriers = form.snr_per_w.shape
+    owner = np.full(subcarriers, -1, dtype=np.int64)
+    return _decision(form, owner, np.zeros(subcarriers), np.zeros(users), status, np.nan, bound, np.nan, figures)
+
+
+def _decision(
+    form: NormalForm,
+    owner: IntArray,
+    power_w: FloatArray,
+    rate_bps: FloatArray,
+    status: Status,
+    value: float,
+    bound: float,
+    gap: float,
+    figures: Figures,
+) -> Decision:
+    return Decision(
+        owner=owner,
+        power_w=power_w,
+        rate_bps=rate_bps,
+        status=status,
+        value=value,
+        bound=bound,
+        gap=gap,
+        unit=form.objective.unit,
+        method=form.method,
+        problem=form.problem,
+        cell=form.cell,
+        user_names=form.estimate.user_names,
+        **figures,
+    )

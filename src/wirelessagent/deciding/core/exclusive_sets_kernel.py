@@ -1,0 +1,195 @@
+"""Conflict-free sets of subcarriers for promised rates, by greedy saving, and the least power on given sets.
+
+Within its set S a user reaches its rate R at least power by water-filling in rates: r_n = min(max(z + ln a_n, 0), c_n)
+with Σ r_n = R and p_n = (e^r_n − 1)/a_n. So the level comes from the same kernel as P1's, on floors −ln a.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wirelessagent.deciding.core.water_filling_kernel import water_level
+from wirelessagent.kernels import kernel
+from wirelessagent.model.arrays import FloatArray, IntArray
+
+SLACK = 1.0 - 1e-12
+"""Share of a promised rate that the ceilings of a set must reach; the rest is rounding."""
+
+
+@kernel
+def fill_rate(
+    snr_per_w: FloatArray,
+    log_snr: FloatArray,
+    ceiling: FloatArray,
+    members: IntArray,
+    size: int,
+    nats: float,
+    floor: FloatArray,
+    cap: FloatArray,
+) -> tuple[float, float]:
+    """Level and least power for ``nats`` on the first ``size`` of ``members`` (row arrays of one user).
+
+    The level is that of r_n = min(max(level − ln(max a/a_n), 0), ceiling). The power is infinite where the set cannot
+    carry the rate. ``floor`` and ``cap`` are scratch.
+    """  # fmt: skip
+    capacity = 0.0
+    top = best_member(snr_per_w, members, size)
+    for i in range(size):
+        capacity += ceiling[members[i]]
+    if size == 0 or capacity < nats * SLACK:
+        return 0.0, np.inf
+    for i in range(size):
+        floor[i] = log_ratio(snr_per_w, log_snr, top, members[i])
+        cap[i] = ceiling[members[i]]
+    level = water_level(floor, cap, size, nats)
+    power = 0.0
+    for i in range(size):
+        n = members[i]
+        rate = min(level - log_ratio(snr_per_w, log_snr, top, n), ceiling[n])
+        if rate > 0.0:
+            power += np.expm1(rate) / snr_per_w[n]
+    return level, power
+
+
+@kernel
+def best_member(snr_per_w: FloatArray, members: IntArray, size: int) -> int:
+    """The subcarrier with the best gain among the first ``size`` members; −1 if there are none."""
+    top = -1
+    for i in range(size):
+        if top < 0 or snr_per_w[members[i]] > snr_per_w[top]:
+            top = members[i]
+    return top
+
+
+@kernel
+def log_ratio(snr_per_w: FloatArray, log_snr: FloatArray, top: int, n: int) -> float:
+    """ln(a_top/a_n), also where the two are so close that the difference of their logarithms is only rounding."""
+    difference = log_snr[top] - log_snr[n]
+    if difference > 0.1:
+        return difference
+    return np.log1p((snr_per_w[top] - snr_per_w[n]) / snr_per_w[n])
+
+
+@kernel
+def best_free(snr_per_w: FloatArray, owner: IntArray) -> int:
+    """The free subcarrier with the best gain in a user's row, −1 if none is of use."""
+    found = -1
+    best = 0.0
+    for n in range(owner.size):
+        if owner[n] < 0 and snr_per_w[n] > best:
+            best = snr_per_w[n]
+            found = n
+    return found
+
+
+@kernel
+def grow_sets(
+    snr_per_w: FloatArray, log_snr: FloatArray, ceiling: FloatArray, nats: FloatArray, owner: IntArray
+) -> None:
+    """Give free subcarriers away one by one, each to the user whose power falls most by its best free one.
+
+    Users that cannot reach their rate yet come first, the neediest ahead: the one for which the whole rate on its best
+    free subcarrier would cost most. So nobody is left empty while others collect.
+
+    Args:
+        snr_per_w, log_snr: a and ln a, shape (user, subcarrier), C-contiguous.
+        ceiling: most nats on each subcarrier, same shape.
+        nats: promised rate, shape (user,); users with 0 get nothing.
+        owner: shape (subcarrier,), −1 where free; written.
+    """
+    users, subcarriers = snr_per_w.shape
+    members = np.empty((users, subcarriers + 1), dtype=np.int64)
+    size = np.zeros(users, dtype=np.int64)
+    cost = np.empty(users)
+    candidate = np.empty(users, dtype=np.int64)
+    merit = np.empty(users)
+    floor = np.empty(subcarriers)
+    cap = np.empty(subcarriers)
+    for n in range(subcarriers):
+        if owner[n] >= 0:
+            members[owner[n], size[owner[n]]] = n
+            size[owner[n]] += 1
+    for k in range(users):
+        cost[k] = fill_rate(
+            snr_per_w[k], log_snr[k], ceiling[k], members[k], size[k], nats[k], floor, cap
+        )[1]  # fmt: skip
+        candidate[k] = -2
+    while True:
+        chosen = -1
+        urgent = False
+        for k in range(users):
+            if nats[k] <= 0.0 or candidate[k] == -1:
+                continue
+            if candidate[k] == -2 or owner[candidate[k]] >= 0:
+                n = best_free(snr_per_w[k], owner)
+                candidate[k] = n
+                if n < 0:
+                    continue
+                if cost[k] == np.inf:
+                    merit[k] = nats[k] - log_snr[k, n]
+                else:
+                    members[k, size[k]] = n
+                    merit[k] = cost[k] - fill_rate(
+                        snr_per_w[k], log_snr[k], ceiling[k], members[k], size[k] + 1, nats[k], floor, cap
+                    )[1]  # fmt: skip
+                    if merit[k] <= 0.0:
+                        candidate[k] = -1  # its later candidates are worse still
+                        continue
+            unserved = cost[k] == np.inf
+            if chosen < 0 or (unserved and not urgent) or (unserved == urgent and merit[k] > merit[chosen]):
+                chosen = k
+                urgent = unserved
+        if chosen < 0:
+            return
+        n = candidate[chosen]
+        owner[n] = chosen
+        members[chosen, size[chosen]] = n
+        size[chosen] += 1
+        cost[chosen] = fill_rate(
+            snr_per_w[chosen], log_snr[chosen], ceiling[chosen], members[chosen], size[chosen], nats[chosen], floor, cap
+        )[1]  # fmt: skip
+        candidate[chosen] = -2
+
+
+@kernel
+def least_power(
+    snr_per_w: FloatArray,
+    log_snr: FloatArray,
+    ceiling: FloatArray,
+    nats: FloatArray,
+    owner: IntArray,
+    power_w: FloatArray,
+    log_price: FloatArray,
+) -> float:
+    """Per-user water-filling to the promised rates on given sets: the total power, infinite where it cannot be.
+
+    Writes ``power_w`` (subcarrier,) and ``log_price`` (user,), ln of dP_k/dR_k in W per nat, which is the water level
+    v with r_n = ln(a_n v): infinite where every ceiling is reached, NaN for users that are not served.
+    """  # fmt: skip
+    users, subcarriers = snr_per_w.shape
+    members = np.empty(subcarriers, dtype=np.int64)
+    floor = np.empty(subcarriers)
+    cap = np.empty(subcarriers)
+    total = 0.0
+    power_w[:] = 0.0
+    for k in range(users):
+        log_price[k] = np.nan
+        if nats[k] <= 0.0:
+            continue
+        size = 0
+        for n in range(subcarriers):
+            if owner[n] == k:
+                members[size] = n
+                size += 1
+        level, power = fill_rate(snr_per_w[k], log_snr[k], ceiling[k], members, size, nats[k], floor, cap)
+        total += power
+        if power == np.inf:
+            continue
+        top = best_member(snr_per_w[k], members, size)
+        log_price[k] = level - log_snr[k, top]
+        for i in range(size):
+            n = members[i]
+            rate = min(level - log_ratio(snr_per_w[k], log_snr[k], top, n), ceiling[k, n])
+            if rate > 0.0:
+                power_w[n] = np.expm1(rate) / snr_per_w[k, n]
+    return total

@@ -1,0 +1,138 @@
+"""A problem in the terms that the methods share: SNR per watt, rates in nats, powers in W.
+
+With a = g/(Γ N0 B) a subcarrier carries min(ln(1 + p a), c ln 2) nats at the power p, and B (1 − o)/ln 2 bit/s per nat.
+Pairs that may not be used (users not served, forbidden pairs, subcarriers without power) have a = 0, so that no
+algorithm needs to know of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.deciding.method import Method
+from wirelessagent.model.arrays import BoolArray, FloatArray
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.errors import InputError
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.objective import Objective
+from wirelessagent.model.problem import Problem
+from wirelessagent.model.rates import normalised_gain
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class NormalForm:
+    """What a method solves, and what its decision must carry.
+
+    Attributes:
+        method: registered name of the method.
+        objective: the objective, resolved.
+        problem: the problem.
+        cell: the cell.
+        estimate: the estimated channel.
+        snr_per_w: a, shape (user, subcarrier), in 1/W; 0 where a pair may not be used.
+        budget_w: power budget.
+        cap_w: power cap of each subcarrier, shape (subcarrier,); infinite where there is none.
+        max_nats: the largest rate of a subcarrier in nats; infinite where there is none.
+        promised_nats: the rate each served user must get, shape (user,).
+        bps_per_nat: bit/s that one nat on a subcarrier is worth.
+    """
+
+    method: str
+    objective: Objective
+    problem: Problem
+    cell: Cell
+    estimate: ChannelEstimate
+    snr_per_w: FloatArray
+    budget_w: float
+    cap_w: FloatArray
+    max_nats: float
+    promised_nats: FloatArray
+    bps_per_nat: float
+
+    @classmethod
+    def of(cls, method: Method, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> NormalForm:
+        """The normal form of a problem that ``method`` solves.
+
+        Raises:
+            UnsupportedProblemError: it does not.
+            InputError: a constraint does not fit the estimate's shape, or the gains leave the range of numbers.
+        """
+        objective = method.objective_of(problem)
+        cap_w = _caps_w(problem, estimate.num_subcarriers)
+        with np.errstate(over="ignore"):
+            snr_per_w = normalised_gain(estimate.gain, cell)
+        if np.isinf(snr_per_w).any():
+            raise InputError(
+                f"gains up to {estimate.gain.max():g} over a noise of {cell.noise_power_w:g} W are out of range: "
+                "a power gain is at most about 1; was it given in dB, or as unit='db' by mistake?"
+            )
+        served = _served(problem, estimate.num_users)
+        usable = served[:, np.newaxis] & _allowed(problem, estimate.gain.shape) & (cap_w > 0)
+        bps_per_nat = cell.data_bandwidth_hz / np.log(2.0)
+        return cls(
+            method=method.name,
+            objective=objective,
+            problem=problem,
+            cell=cell,
+            estimate=estimate,
+            snr_per_w=np.where(usable, snr_per_w, 0.0),
+            budget_w=problem.budget_w(cell),
+            cap_w=cap_w,
+            max_nats=cell.max_spectral_efficiency * np.log(2.0),
+            promised_nats=np.where(served, problem.min_rates_bps(estimate.num_users), 0.0) / bps_per_nat,
+            bps_per_nat=bps_per_nat,
+        )
+
+    @property
+    def max_snr(self) -> float:
+        """The SNR at which a subcarrier reaches its largest rate, infinite where there is none."""
+        with np.errstate(over="ignore"):
+            return float(np.expm1(self.max_nats))
+
+    @property
+    def circuit_w(self) -> float:
+        """Circuit power as the amplifier sees it, ξ P_c: then efficiency is ξ R/(P + ξ P_c)."""
+        return self.cell.amplifier_efficiency * self.cell.circuit_power_w
+
+    @property
+    def best_snr_per_w(self) -> FloatArray:
+        """a of the best user on each subcarrier, shape (subcarrier,)."""
+        return self.snr_per_w.max(axis=0)
+
+    def caps_w(self, snr_per_w: FloatArray) -> FloatArray:
+        """The useful power on subcarriers with ``snr_per_w`` (…, subcarrier): their caps, and where the rate is full."""
+        with np.errstate(divide="ignore", over="ignore"):
+            return np.where(snr_per_w > 0, np.minimum(self.cap_w, self.max_snr / snr_per_w), 0.0)
+
+
+def _served(problem: Problem, num_users: int) -> BoolArray:
+    if problem.users is None:
+        return np.ones(num_users, dtype=bool)
+    if max(problem.users) >= num_users:
+        raise InputError(f"users {problem.users} go beyond the {num_users} of the channel, counted from 0")
+    served = np.zeros(num_users, dtype=bool)
+    served[list(problem.users)] = True
+    return served
+
+
+def _allowed(problem: Problem, shape: tuple[int, ...]) -> BoolArray:
+    if problem.forbidden is None:
+        return np.ones(shape, dtype=bool)
+    if problem.forbidden.shape != shape:
+        raise InputError(
+            f"forbidden must have the channel's shape (user, subcarrier) = {shape}; got {problem.forbidden.shape}"
+        )
+    return ~problem.forbidden
+
+
+def _caps_w(problem: Problem, num_subcarriers: int) -> FloatArray:
+    if problem.subcarrier_max_power_w is None:
+        return np.full(num_subcarriers, np.inf)
+    cap = np.asarray(problem.subcarrier_max_power_w, dtype=np.float64)
+    if cap.ndim > 1 or cap.size not in (1, num_subcarriers):
+        raise InputError(
+            f"subcarrier_max_power_w must be one value or one per subcarrier ({num_subcarriers}); got shape {cap.shape}"
+        )
+    return np.broadcast_to(cap, (num_subcarriers,)).copy()
