@@ -1,0 +1,1 @@
+"""What the repairers share: users' levels, neighbours in frequency, correlation between users, honest variances."""

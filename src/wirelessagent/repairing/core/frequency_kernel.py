@@ -1,0 +1,166 @@
+"""Predicting every entry of a gain matrix from its nearest known neighbours in frequency, itself excluded.
+
+Gains are relative to each user's mean. With correlation ρ(Δ) = 1 − γ(Δ) over frequency, γ(Δ) = (Δ/c)²/(1 + (Δ/c)²)
+(the gain's under Rayleigh fading with an exponential power-delay profile of rms delay spread 1/(2πc)), the best
+weights of the neighbours at distances l and r on either side are those of two-point linear prediction,
+
+    w_l = (ρ_l − ρ_r ρ_lr) / (1 − ρ_lr²),    w_r likewise,
+
+and the mean gets 1 − w_l − w_r: linear interpolation for a wide coherence c, the mean alone for a narrow one. Where
+the two would add up to more than 1 they are scaled down to 1, so that the prediction stays an average.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from wirelessagent.kernels import kernel
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
+
+SMALLEST_ERROR = 1e-12
+"""Floor of the expected squared relative error, so that its logarithm and its inverse exist."""
+
+LEAST_SHARE_OF_MEAN = 1e-6
+"""Weight that the mean always keeps, so that nothing is estimated as 0 between two readings of 0."""
+
+
+@kernel
+def nearest_known(known: BoolArray) -> tuple[IntArray, IntArray]:
+    """Index of the nearest known entry strictly below and above each one, −1 for none; shapes (user, subcarrier)."""
+    num_users, num_subcarriers = known.shape
+    below = np.full(known.shape, -1, dtype=np.int64)
+    above = np.full(known.shape, -1, dtype=np.int64)
+    for k in range(num_users):
+        for n in range(1, num_subcarriers):
+            below[k, n] = n - 1 if known[k, n - 1] else below[k, n - 1]
+        for n in range(num_subcarriers - 2, -1, -1):
+            above[k, n] = n + 1 if known[k, n + 1] else above[k, n + 1]
+    return below, above
+
+
+@kernel
+def decorrelation(distance: float, coherence: float) -> float:
+    """γ = 1 − ρ at a distance, in a form that keeps its digits when small; 0 at distance 0."""
+    ratio = distance / coherence
+    return ratio * ratio / (1.0 + ratio * ratio)
+
+
+@kernel
+def two_sided(below: float, above: float, coherence: float) -> tuple[float, float, float]:
+    """Weights of the neighbours at distances ``below`` and ``above``, and the expected squared error in units of the
+    variance: (1 − s)² + 2(w_l γ_l + w_r γ_r) − 2 w_l w_r γ_lr with s = w_l + w_r."""
+    g_below, g_above = decorrelation(below, coherence), decorrelation(above, coherence)
+    g_between = decorrelation(below + above, coherence)
+    scale = g_between * (2.0 - g_between)
+    w_below = (g_above + g_between - g_below - g_above * g_between) / scale
+    w_above = (g_below + g_between - g_above - g_below * g_between) / scale
+    excess = max(1.0, (w_below + w_above) / (1.0 - LEAST_SHARE_OF_MEAN))
+    w_below, w_above = w_below / excess, w_above / excess
+    rest = 1.0 - w_below - w_above
+    error = rest * rest + 2.0 * (w_below * g_below + w_above * g_above) - 2.0 * w_below * w_above * g_between
+    return w_below, w_above, error
+
+
+@kernel
+def fading_variance(gain: float, error: float) -> float:
+    """Variance of a gain predicted as ``gain`` when the expected squared error is ``error``, both relative.
+
+    A complex Gaussian channel known up to a diffuse power s has a noncentral χ² gain: of mean ĝ it has the variance
+    ĝ² − (ĝ − s)². On average over ĝ that is 2s − s² = ``error``. So peaks are less certain than fades.
+    """
+    diffuse = 1.0 - math.sqrt(1.0 - min(error, 1.0))
+    certain = max(gain - diffuse, 0.0)
+    return max((gain - certain) * (gain + certain), SMALLEST_ERROR)
+
+
+@kernel
+def mean_of_others(relative: FloatArray, known: BoolArray, count: int, total: float, n: int) -> float:
+    """Mean of the ``count`` known entries of a row of sum ``total``, the n-th left out; 1 where none remains."""
+    if not known[n]:
+        return total / count if count > 0 else 1.0
+    return (total - relative[n]) / (count - 1) if count > 1 else 1.0
+
+
+@kernel
+def predict_entry(
+    relative: FloatArray, position: FloatArray, n: int, left: int, right: int, mean: float, coherence: float
+) -> tuple[float, float]:
+    """The n-th entry of a row from its neighbours at ``left`` and ``right`` (−1 for none) and the mean, and the
+    expected squared error."""
+    value, error = mean, 1.0
+    if left >= 0 and right >= 0:
+        w_left, w_right, error = two_sided(position[n] - position[left], position[right] - position[n], coherence)
+        value = mean + w_left * (relative[left] - mean) + w_right * (relative[right] - mean)
+    elif left >= 0 or right >= 0:
+        near = max(left, right)
+        decorrelated = decorrelation(abs(position[n] - position[near]), coherence)
+        value = relative[near] + decorrelated * (mean - relative[near])
+        error = decorrelated * (2.0 - decorrelated)
+    value = max(value, 0.0)
+    return value, fading_variance(value, error)
+
+
+@kernel
+def predict(
+    relative: FloatArray, known: BoolArray, position: FloatArray, coherence: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Every entry predicted from the known ones other than itself, and the expected squared error.
+
+    Shapes: ``relative`` and ``known`` (user, subcarrier), ``position`` (subcarrier,), ``coherence`` (user,) in units
+    of ``position``. ``relative`` is 0 where not known.
+    """
+    below, above = nearest_known(known)
+    predicted, expected = np.empty(relative.shape), np.empty(relative.shape)
+    for k in range(relative.shape[0]):
+        count, total = known[k].sum(), relative[k].sum()
+        for n in range(relative.shape[1]):
+            mean = mean_of_others(relative[k], known[k], count, total, n)
+            predicted[k, n], expected[k, n] = predict_entry(
+                relative[k], position, n, below[k, n], above[k, n], mean, coherence[k]
+            )
+    return predicted, expected
+
+
+@kernel
+def misfit(relative: FloatArray, known: BoolArray, position: FloatArray, candidates: FloatArray) -> FloatArray:
+    """Σ (ln v + e²/v) over each user's known entries left out one by one; shape (user, candidate).
+
+    Twice the negative logarithm of a Gaussian likelihood, for each candidate coherence; 0 for users with fewer than
+    two known entries.
+    """
+    below, above = nearest_known(known)
+    found = np.zeros((relative.shape[0], candidates.size))
+    for k in range(relative.shape[0]):
+        count, total = known[k].sum(), relative[k].sum()
+        if count < 2:
+            continue
+        for n in range(relative.shape[1]):
+            if not known[k, n]:
+                continue
+            mean = mean_of_others(relative[k], known[k], count, total, n)
+            for c in range(candidates.size):
+                value, variance = predict_entry(relative[k], position, n, below[k, n], above[k, n], mean, candidates[c])
+                error = relative[k, n] - value
+                found[k, c] += math.log(variance) + error * error / variance
+    return found
+
+
+@kernel
+def interpolate(relative: FloatArray, known: BoolArray, position: FloatArray) -> FloatArray:
+    """Linear interpolation of every entry between the nearest known ones other than itself, shape (user, subcarrier).
+
+    Beyond the outermost known entry its value; 1 where there is no other known entry.
+    """
+    below, above = nearest_known(known)
+    found = np.ones(relative.shape)
+    for k in range(relative.shape[0]):
+        for n in range(relative.shape[1]):
+            left, right = below[k, n], above[k, n]
+            if left >= 0 and right >= 0:
+                share = (position[n] - position[left]) / (position[right] - position[left])
+                found[k, n] = (1.0 - share) * relative[k, left] + share * relative[k, right]
+            elif left >= 0 or right >= 0:
+                found[k, n] = relative[k, max(left, right)]
+    return found

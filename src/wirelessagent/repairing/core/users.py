@@ -1,0 +1,58 @@
+"""Neighbours among the users: what the others' surprises on a subcarrier say about one's own.
+
+If users i and k are correlated, then where frequency neighbours under-predict i they under-predict k too. The
+surprises left after prediction over frequency are nearly independent from subcarrier to subcarrier, so their
+correlation can be told from chance within one slot; that of the gains themselves cannot, since one slot holds only
+few independent fades.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wirelessagent.model.arrays import BoolArray, FloatArray
+
+INDEPENDENT_SHARE = 0.5
+"""Independent comparisons per subcarrier that two users share: neighbouring surprises are not quite independent."""
+
+
+def correlation_beyond_chance(surprise: FloatArray, known: BoolArray) -> FloatArray:
+    """Correlation between users that the surprises prove, shape (user, user), ≥ 0, with a diagonal of zeros.
+
+    The mean over all pairs counts by as much as its square exceeds four times its variance under independence; the
+    pairs keep of their deviation from it the share by which they scatter more than chance would let them.
+    """
+    seen = np.where(known, surprise, 0.0)
+    mask = known.astype(np.float64)
+    power = (seen**2) @ mask.T
+    scale = np.sqrt(power * power.T)
+    raw = np.divide(seen @ seen.T, scale, out=np.zeros_like(scale), where=scale > 0)
+    count = INDEPENDENT_SHARE * (mask @ mask.T) * (scale > 0)
+    np.fill_diagonal(count, 0.0)
+    total = count.sum()
+    if total == 0:
+        return np.zeros_like(raw)
+    mean = float((count * raw).sum() / total)
+    chance = 2.0 / total  # each pair is counted twice
+    common = mean * max(0.0, 1.0 - 4.0 * chance / mean**2) if mean > 0 else 0.0
+    scatter = float((count * (raw - mean) ** 2).sum() / total)
+    chance_of_pair = np.count_nonzero(count) / total
+    beyond = max(0.0, scatter - 1.5 * chance_of_pair)
+    own = beyond / (beyond + np.divide(1.0, count, out=np.full_like(count, np.inf), where=count > 0))
+    pairs = np.clip(common + own * (raw - mean), 0.0, 0.99)
+    return np.where(count > 0, pairs, common) * (1.0 - np.eye(len(raw)))
+
+
+def averaged(surprise: FloatArray, known: BoolArray, correlation: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The surprise to expect of each entry from the other users', and the share of its variance thus explained.
+
+    t_kn = Σ_j c_kj u_jn / (1 + Σ_j c_kj − c̄_kn) over the users j known at n, with c̄ their own mean correlation
+    (Σ c²/Σ c): the best weights where all users are equally correlated. Shapes (user, subcarrier).
+    """
+    seen = np.where(known, surprise, 0.0)
+    mask = known.astype(np.float64)
+    total = correlation @ mask
+    squares = correlation**2 @ mask
+    between = np.divide(squares, total, out=np.zeros_like(total), where=total > 0)
+    scale = 1.0 + total - between
+    return (correlation @ seen) / scale, np.minimum(squares / scale, 0.99)
