@@ -32,6 +32,7 @@ PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#0
 
 GREY = "#8A8A8A"
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+_LINES = ("-", "--", "-.", ":", "--", "-.", "-", ":")
 _DOTS_PER_INCH = 150
 
 
@@ -43,15 +44,22 @@ def check_suffix(path: Path) -> str:
     return suffix
 
 
+def require_matplotlib() -> None:
+    """Raise :class:`MissingDependencyError` where matplotlib is not installed, before work is done in vain."""
+    try:
+        import matplotlib.figure  # noqa: F401  # pyright: ignore[reportUnusedImport]
+    except ImportError as error:
+        raise MissingDependencyError("matplotlib", "plot", "drawing a picture") from error
+
+
 class Canvas:
     """A figure of ``rows`` × ``columns`` panels, counted row by row."""
 
     def __init__(self, *, rows: int = 1, columns: int = 1, width_in: float, height_in: float) -> None:
-        try:
-            from matplotlib.backends.backend_agg import FigureCanvasAgg
-            from matplotlib.figure import Figure
-        except ImportError as error:
-            raise MissingDependencyError("matplotlib", "plot", "drawing a picture") from error
+        require_matplotlib()
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
         self.figure: Figure = Figure(figsize=(width_in, height_in), dpi=_DOTS_PER_INCH, layout="constrained")
         FigureCanvasAgg(self.figure)
         self.figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)  # pyright: ignore[reportOptionalMemberAccess, reportCallIssue]
@@ -116,17 +124,24 @@ class Panel:
         label: str,
         style: int,
         half_width: ArrayLike | None = None,
+        between: tuple[FloatArray, FloatArray] | None = None,
         marked: bool = True,
         joined: bool = True,
     ) -> None:
-        """A curve in the palette's colour and marker number ``style``, with error bars of ± ``half_width``."""
+        """A curve in the palette's colour and marker number ``style``.
+
+        Error bars reach ± ``half_width``, or are ``between`` a lower and an upper value of each point.
+        """
+        error = None if half_width is None else np.asarray(half_width, dtype=float)
+        if between is not None:
+            error = np.stack([np.asarray(y, dtype=float) - between[0], between[1] - np.asarray(y, dtype=float)])
         self.axes.errorbar(
             np.asarray(x, dtype=float),
             np.asarray(y, dtype=float),
-            yerr=None if half_width is None else np.asarray(half_width, dtype=float),
+            yerr=error,
             label=label,
             color=PALETTE[style % len(PALETTE)],
-            linestyle="-" if joined else "none",
+            linestyle=_LINES[style % len(_LINES)] if joined else "none",
             marker=_MARKERS[style % len(_MARKERS)] if marked else "none",
             markersize=5,
             linewidth=1.6,
@@ -173,6 +188,13 @@ class Panel:
         """A dashed line across the panel."""
         self.axes.axhline(y, color=colour, linestyle="--", linewidth=1.3, label=label)
 
+    def guide(self, x: ArrayLike, y: ArrayLike, *, label: str) -> None:
+        """A thin dashed curve to compare others with."""
+        self.axes.plot(
+            np.asarray(x, dtype=float), np.asarray(y, dtype=float),
+            color="black", linestyle="--", linewidth=1.0, label=label,
+        )  # fmt: skip
+
     def segments(self, x_from: ArrayLike, x_to: ArrayLike, y: ArrayLike, *, label: str) -> None:
         self.axes.hlines(np.asarray(y), np.asarray(x_from), np.asarray(x_to), color="black", linewidth=1.8, label=label)
 
@@ -218,14 +240,20 @@ class Panel:
             bbox={"boxstyle": "round,pad=0.5", "facecolor": "white", "edgecolor": "#8A8A8A"},
         )  # fmt: skip
 
-    def legend(self, *, columns: int = 1, at_top: bool = False) -> None:
-        """The legend, where it covers least or in the headroom at the top."""
+    def legend(
+        self, *, columns: int = 1, place: Literal["best", "upper left", "upper center", "lower right"] = "best"
+    ) -> None:
+        """The legend, where it covers least unless a place is named; nothing where nothing has a label."""
         handles, labels = self.axes.get_legend_handles_labels()
         if labels:
             self.axes.legend(
-                handles, labels, fontsize=8.5, ncols=columns, framealpha=0.9, loc="upper center" if at_top else "best",
-                columnspacing=0.9, handlelength=1.2, handletextpad=0.5,
+                handles, labels, fontsize=8.5, ncols=columns, framealpha=0.9, loc=place,
+                columnspacing=0.9, handlelength=1.4, handletextpad=0.5,
             )  # fmt: skip
+
+    def plain_ticks(self, axis: Literal["x", "y"], at: Sequence[float]) -> None:
+        """Ticks at these values, written out, on a logarithmic axis too."""
+        self.ticks(axis, at, [f"{value:g}" for value in at])
 
     def size_pt(self) -> tuple[float, float]:
         """Width and height of the panel in points, roughly, before the layout is made."""

@@ -93,7 +93,7 @@ def _colour_limits(gain_db: FloatArray) -> tuple[float, float, bool]:
 def _user_ticks(panel: Panel, axis: str, names: list[str]) -> None:
     step = max(1, -(-len(names) // _MOST_NAMED))
     shown = range(0, len(names), step)
-    slanted = axis == "x" and max(len(names[k]) for k in shown) * len(shown) > 40
+    slanted = axis == "x" and max(len(names[k]) for k in shown) * len(shown) > 56
     panel.ticks("y" if axis == "y" else "x", list(shown), [names[k] for k in shown], slanted=slanted)
 
 
@@ -159,8 +159,8 @@ def _owner_colours(panel: Panel, decision: Decision, names: list[str]) -> dict[i
 def _headroom(panel: Panel, tallest: float, *, entries: int, columns: int) -> None:
     """Room above the bars for a legend of so many entries, and the legend."""
     rows = -(-entries // columns)
-    panel.limits(y=(0.0, tallest * (1.05 + 0.12 * rows) or 1.0))
-    panel.legend(columns=columns, at_top=True)
+    panel.limits(y=(0.0, tallest * (1.10 + 0.12 * rows) or 1.0))
+    panel.legend(columns=columns, place="upper center")
 
 
 def _water_level_w(estimate: ChannelEstimate, decision: Decision) -> float | None:

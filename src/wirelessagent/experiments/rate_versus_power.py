@@ -1,0 +1,138 @@
+"""What repair is worth in rate: sum rate and goodput on the true channel against the power budget; Fig. 3.
+
+Sum rate lets the link adapt ideally to the true channel after the allocation was made on the estimate, so it only
+feels wrong owners and powers. Goodput counts a user's rate as it was committed on the estimate, and only if the true
+channel carries it.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from wirelessagent import chain
+from wirelessagent.experiments.draws import Seeds, run_draws
+from wirelessagent.experiments.experiment import Experiment, Progress, Result
+from wirelessagent.experiments.scenario import Scenario
+from wirelessagent.experiments.statistics import mean_interval, ratio_interval
+from wirelessagent.experiments.table import Table, table_of
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.metrics import link_metrics
+from wirelessagent.model.problem import Problem
+from wirelessagent.pictures.canvas import Canvas
+
+PERFECT = "perfect"
+_MEGABIT = 1e6
+
+
+@dataclass(frozen=True, kw_only=True)
+class RateVersusPower(Experiment):
+    """Max-rate decisions made with perfect, repaired and mean-filled channel knowledge, all on the same draws.
+
+    The interval of perfect knowledge is that of its mean; the others' is that of their difference from it, draw by
+    draw, for that is what the curves are compared by. A share is a ratio of means.
+
+    Attributes:
+        scenario: the cell, channel and loss; the paper's Fig. 3 has 30 % loss.
+        repairers: who repairs; ``user_mean`` is the paper's traditional filling.
+        max_powers_w: the power budgets.
+    """
+
+    name = "rate_versus_power"
+    summary = "Achieved sum rate and goodput against the power budget at 30 % loss (the paper's Fig. 3)"
+
+    scenario: Scenario = field(default_factory=lambda: Scenario(loss_rate=0.3))
+    repairers: tuple[str, ...] = ("nncf", "user_mean")
+    max_powers_w: tuple[float, ...] = (1.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0)
+
+    def run(
+        self, *, draws: int, seed: int, progress: Progress | None = None, executor: Executor | None = None
+    ) -> Result:
+        draw = RateDraw(self.scenario, self.repairers, self.max_powers_w)
+        rates = run_draws(draw, draws=draws, seed=seed, progress=progress, executor=executor) / _MEGABIT
+        table = self._table(rates)
+        return Result(table=table, findings=self._findings(table), draws=draws)
+
+    def _table(self, rates: FloatArray) -> Table:
+        """The table of rates in Mbit/s of shape (draw, knowledge, power, [sum rate, goodput])."""
+        perfect = rates[:, :1]
+        mean, own_half = mean_interval(rates)
+        half = np.concatenate([own_half[:1], mean_interval(rates - perfect)[1][1:]])
+        share, share_half = ratio_interval(rates, np.broadcast_to(perfect, rates.shape))
+        figures = np.stack([mean, half, share, share_half], axis=-1).reshape(*mean.shape[:2], -1)
+        return table_of(
+            (
+                "max_power_w", "csi",
+                "sum_rate_mbps", "sum_rate_mbps_ci95", "sum_rate_share", "sum_rate_share_ci95",
+                "goodput_mbps", "goodput_mbps_ci95", "goodput_share", "goodput_share_ci95",
+            ),
+            [
+                (power, csi, *figures[i, j].tolist())
+                for i, csi in enumerate((PERFECT, *self.repairers))
+                for j, power in enumerate(self.max_powers_w)
+            ],
+        )  # fmt: skip
+
+    def _findings(self, table: Table) -> dict[str, Any]:
+        at_full_power = table.where(max_power_w=self.max_powers_w[-1])
+        return {
+            f"{quantity}_share_of_perfect_at_{self.max_powers_w[-1]:g}_w": {
+                repairer: float(at_full_power.where(csi=repairer).numbers(f"{quantity}_share")[0])
+                for repairer in self.repairers
+            }
+            for quantity in ("sum_rate", "goodput")
+        }
+
+    def picture(self, table: Table) -> Canvas:
+        canvas = Canvas(columns=2, width_in=11.0, height_in=4.8)
+        highest = float(np.max([table.numbers("sum_rate_mbps"), table.numbers("goodput_mbps")]))
+        for panel, quantity, title in zip(
+            canvas.panels, ("sum_rate", "goodput"), ("Sum rate, ideal link adaptation", "Goodput"), strict=True
+        ):
+            for csi in table.values("csi"):
+                rows = table.where(csi=csi)
+                share = float(rows.numbers(f"{quantity}_share")[-1])
+                panel.curve(
+                    rows.numbers("max_power_w"),
+                    rows.numbers(f"{quantity}_mbps"),
+                    half_width=rows.numbers(f"{quantity}_mbps_ci95"),
+                    label="perfect CSI" if csi == PERFECT else f"repaired by {csi}: {share:.1%} at full power",
+                    style=_STYLES.get(str(csi), 3),
+                )
+            panel.describe(title, "Power budget (W)", "Achieved on the true channel (Mbit/s)")
+            panel.grid()
+            panel.limits(y=(0.0, 1.12 * highest))
+            panel.legend(place="lower right")
+        canvas.title("Max rate on incomplete channel knowledge, 95 % confidence intervals")
+        return canvas
+
+
+_STYLES = {PERFECT: 6, "nncf": 1, "user_mean": 0}
+"""Black, red and blue, as in the paper's figure."""
+
+
+@dataclass(frozen=True)
+class RateDraw:
+    """One draw: achieved sum rate and goodput in bit/s, shape (knowledge, power, 2)."""
+
+    scenario: Scenario
+    repairers: tuple[str, ...]
+    max_powers_w: tuple[float, ...]
+
+    def __call__(self, seeds: Seeds) -> FloatArray:
+        scene, observation = self.scenario.sense(seeds)
+        cell = self.scenario.cell
+        perfect = chain.perfect(scene)
+        estimates = [perfect, *(chain.repair(observation, name) for name in self.repairers)]
+        rates = np.empty((len(estimates), len(self.max_powers_w), 2))
+        for i, estimate in enumerate(estimates):
+            for j, power in enumerate(self.max_powers_w):
+                decision = chain.decide(estimate, Problem("max_rate", max_power_w=power), cell)
+                achieved = link_metrics(
+                    perfect.gain, decision.owner, decision.power_w, cell, committed_bps=decision.rate_bps
+                )
+                rates[i, j] = achieved.sum_rate_bps, achieved.goodput_bps
+        return rates

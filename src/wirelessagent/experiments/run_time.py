@@ -1,0 +1,147 @@
+"""How long repair and decision take as the matrix grows: the paper's claim of linear scaling (section III.C).
+
+Timed are the library's calls as a user makes them, checks and certificates included, so small matrices show the fixed
+cost of a call. The exponent is therefore fitted to the larger half of the sizes. Times are this machine's: of all
+experiments only this one gives another table at each run.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wirelessagent import chain
+from wirelessagent.experiments.draws import seeds_of
+from wirelessagent.experiments.experiment import Experiment, Progress, Result
+from wirelessagent.experiments.scenario import Scenario
+from wirelessagent.experiments.statistics import log_log_slope
+from wirelessagent.experiments.table import Table, Value, table_of
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.problem import Problem
+from wirelessagent.pictures.canvas import Canvas
+from wirelessagent.sensing.rayleigh import Rayleigh
+
+_SWEEPS = {"subcarriers": "Subcarriers N", "users": "Users K"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunTime(Experiment):
+    """Median and quartiles of the time of each stage over repeated calls on one channel.
+
+    Attributes:
+        num_subcarriers: sizes N of the first sweep, at ``users_held`` users.
+        num_users: sizes K of the second sweep, at ``subcarriers_held`` subcarriers.
+        users_held: K of the first sweep.
+        subcarriers_held: N of the second sweep.
+        loss_rate: share of the entries to be repaired.
+        min_rate_bps: the rate that minimum power must carry for each user.
+        most_repeats: calls per point, where as many draws are asked for.
+    """
+
+    name = "run_time"
+    summary = "Run time of repair and of each objective's method against N and K (the linear-scaling claim)"
+
+    num_subcarriers: tuple[int, ...] = (32, 64, 128, 256, 512, 1024, 2048)
+    num_users: tuple[int, ...] = (4, 8, 16, 32, 64, 128)
+    users_held: int = 8
+    subcarriers_held: int = 256
+    loss_rate: float = 0.2
+    min_rate_bps: float = 1e5
+    most_repeats: int = 40
+
+    def run(
+        self, *, draws: int, seed: int, progress: Progress | None = None, executor: Executor | None = None
+    ) -> Result:
+        del executor  # calls that share the processor with others cannot be timed
+        repeats = min(draws, self.most_repeats)
+        points = [("subcarriers", self.users_held, size) for size in self.num_subcarriers]
+        points += [("users", size, self.subcarriers_held) for size in self.num_users]
+        rows: list[tuple[Value, ...]] = []
+        for done, (sweep, num_users, num_subcarriers) in enumerate(points, start=1):
+            for stage, call in self._stages(num_users, num_subcarriers, seed).items():
+                quartiles = np.percentile(_times_us(call, repeats), (50, 25, 75)).tolist()
+                rows.append((sweep, num_users, num_subcarriers, stage, *quartiles))
+            if progress is not None:
+                progress(done, len(points))
+        columns = (
+            "sweep", "num_users", "num_subcarriers", "stage",
+            "time_median_us", "time_lower_quartile_us", "time_upper_quartile_us",
+        )  # fmt: skip
+        table = table_of(columns, rows)
+        return Result(table=table, findings=self._findings(table), draws=repeats)
+
+    def _stages(self, num_users: int, num_subcarriers: int, seed: int) -> dict[str, Callable[[], object]]:
+        """The calls to time at one size."""
+        channel = Rayleigh(num_users=num_users, num_subcarriers=num_subcarriers)
+        scenario = Scenario(channel=channel, loss_rate=self.loss_rate)
+        _, observation = scenario.sense(seeds_of(seed, 0))
+        estimate = chain.repair(observation, "nncf")
+        problems = (
+            Problem("max_rate"),
+            Problem("min_power", min_rate_bps=self.min_rate_bps),
+            Problem("max_energy_efficiency"),
+        )
+        stages: dict[str, Callable[[], object]] = {"repair, nncf": lambda: chain.repair(observation, "nncf")}
+        for problem in problems:
+            stages[f"{problem.objective}, {chain.default_method(problem)}"] = _decision(problem, estimate, scenario)
+        return stages
+
+    def _findings(self, table: Table) -> dict[str, Any]:
+        return {
+            f"exponent_in_{sweep}": {str(stage): _exponent(table, sweep, stage) for stage in table.values("stage")}
+            for sweep in _SWEEPS
+        }
+
+    def picture(self, table: Table) -> Canvas:
+        canvas = Canvas(columns=2, width_in=11.0, height_in=4.8)
+        for panel, (sweep, label) in zip(canvas.panels, _SWEEPS.items(), strict=True):
+            for style, stage in enumerate(table.values("stage")):
+                rows = table.where(sweep=sweep, stage=stage)
+                median = rows.numbers("time_median_us")
+                panel.curve(
+                    rows.numbers(f"num_{sweep}"),
+                    median,
+                    between=(rows.numbers("time_lower_quartile_us"), rows.numbers("time_upper_quartile_us")),
+                    label=f"{stage}: ∝ size^{_exponent(table, sweep, stage):.2f}",
+                    style=style,
+                )
+            held = self.users_held if sweep == "subcarriers" else self.subcarriers_held
+            other = "K" if sweep == "subcarriers" else "N"
+            panel.describe(f"{other} = {held}", label, "Time of a call (µs), median and quartiles")
+            panel.scales(x="log", y="log")
+            panel.plain_ticks("x", self.num_subcarriers if sweep == "subcarriers" else self.num_users)
+            panel.grid()
+            panel.legend(place="upper left")
+        lowest, highest = table.numbers("time_lower_quartile_us").min(), table.numbers("time_upper_quartile_us").max()
+        for panel in canvas.panels:
+            panel.limits(y=(float(lowest) / 1.5, float(highest) * 20.0))
+        canvas.title("Run time; exponents fitted to the larger half of the sizes")
+        return canvas
+
+
+def _decision(problem: Problem, estimate: ChannelEstimate, scenario: Scenario) -> Callable[[], object]:
+    return lambda: chain.decide(estimate, problem, scenario.cell)
+
+
+def _times_us(call: Callable[[], object], repeats: int) -> FloatArray:
+    """Times of ``repeats`` calls in µs, after one that is not counted because it may compile."""
+    call()
+    times = np.empty(repeats)
+    for i in range(repeats):
+        start = time.perf_counter()
+        call()
+        times[i] = 1e6 * (time.perf_counter() - start)
+    return times
+
+
+def _exponent(table: Table, sweep: str, stage: Value) -> float:
+    """The exponent of time against size over the larger half of a sweep's sizes."""
+    rows = table.where(sweep=sweep, stage=stage)
+    half = len(rows.rows) // 2
+    return log_log_slope(rows.numbers(f"num_{sweep}")[half:], rows.numbers("time_median_us")[half:])

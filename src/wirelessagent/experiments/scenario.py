@@ -1,0 +1,41 @@
+"""The world of an experiment: a cell, a simulated channel and what gets lost of it."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, field
+
+from wirelessagent.experiments.draws import Seeds
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.model.scene import Scene
+from wirelessagent.sensing import loss
+from wirelessagent.sensing.rayleigh import Rayleigh
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scenario:
+    """The paper's set-up (section IV.A): Rayleigh fading with path loss, entries lost at random.
+
+    Attributes:
+        cell: the cell; by default the paper's.
+        channel: the simulated channel; by default of the paper's size, with the delay spread that it leaves open.
+        loss_rate: probability that an entry is missing.
+    """
+
+    cell: Cell = field(default_factory=Cell)
+    channel: Rayleigh = field(default_factory=Rayleigh)
+    loss_rate: float = 0.2
+
+    def sense(self, seeds: Seeds) -> tuple[Scene, ChannelObservation]:
+        """The cell of a draw, with its true channel, and what is observed of it."""
+        scene = self.channel.observe(self.cell, seed=seeds.channel)
+        return scene, scene.observe(loss.random(self.loss_rate), seed=seeds.loss)
+
+    def with_loss(self, loss_rate: float) -> Scenario:
+        return dataclasses.replace(self, loss_rate=loss_rate)
+
+    def with_delay_spread(self, rms_delay_spread_s: float) -> Scenario:
+        return dataclasses.replace(
+            self, channel=dataclasses.replace(self.channel, rms_delay_spread_s=rms_delay_spread_s)
+        )
