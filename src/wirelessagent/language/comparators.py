@@ -87,6 +87,7 @@ _NEGATION = re.compile(
     r"doesn't|mustn't|must not|shouldn't|should not|won't|avoid|nowhere|neither)\b|[不别勿没无]"
 )
 _AFTER_RE = re.compile(rf"(?i)[\s-]*(?P<word>{_any_of(list(_AFTER))})(?!\s*(?:of\s+|is\s+)?[0-9])")
+_LOOSE = re.compile(r"(?i)(?:max|min)(?:imum)?\b")  # "maximum rate at 1 Mbit/s minimum" wishes first and bounds after
 _POWER_RE = re.compile("(?i)" + _any_of(_POWER_NOUNS))
 _RATE_RE = re.compile("(?i)" + _any_of(_RATE_NOUNS))
 _CLAUSE = re.compile(CLAUSE_END)
@@ -105,7 +106,8 @@ def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Com
     """How the figure at [start, end) of a normalised text is bounded; words before ``after`` are another's."""
     found = _before(text, start, kind=kind, after=after)
     behind = _AFTER_RE.match(text, end)
-    if found is not None:
+    own = behind is None or not _LOOSE.match(text, found[1]) if found is not None else False
+    if found is not None and own:
         return Comparison(comparator=found[0], start=found[1], end=end)
     if behind is not None and _takes(kind, text[behind.end() : behind.end() + 12]):
         return Comparison(comparator=_AFTER[" ".join(behind["word"].lower().split())], start=start, end=behind.end())

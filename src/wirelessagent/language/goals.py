@@ -1,0 +1,226 @@
+"""Which objective a sentence means: directions paired with what they apply to, negations, and the wish for a balance.
+
+"Higher" beside "speed" is a signal for max_rate, "save" beside "power" for min_power; a term may also be a signal by
+itself. A negation turns off the first thing named after it in its clause. One objective with enough weight and no rival is
+clear; anything else is not, and says why.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
+
+from wirelessagent.language.vocabulary import Found
+
+Verdict: TypeAlias = Literal["clear", "none", "weak", "contradiction", "negated", "opposite"]
+
+ENOUGH = 0.7
+_REACH_BEFORE, _REACH_AFTER, _REACH_OF_NOT = 4, 3, 6
+
+_DIRECTIONS = ("up", "down", "want", "keep", "waste")
+_OBJECTS = ("rate", "stream", "power", "battery", "efficiency")
+_UNSERVED = ("less_rate", "more_power")
+
+# What a direction and its object mean together, and how much that weighs.
+_PAIRS: dict[tuple[str, str], tuple[str, float]] = {
+    ("up", "rate"): ("max_rate", 1.0),
+    ("want", "rate"): ("max_rate", 0.8),
+    ("keep", "rate"): ("max_rate", 0.8),
+    ("down", "rate"): ("less_rate", 1.0),
+    ("up", "stream"): ("max_rate", 0.7),
+    ("down", "power"): ("min_power", 1.0),
+    ("keep", "power"): ("min_power", 0.8),
+    ("waste", "power"): ("min_power", 1.0),
+    ("up", "power"): ("more_power", 1.0),
+    ("up", "battery"): ("min_power", 0.8),
+    ("down", "battery"): ("min_power", 1.0),
+    ("want", "battery"): ("min_power", 0.8),
+    ("keep", "battery"): ("min_power", 0.8),
+    ("waste", "battery"): ("min_power", 1.0),
+    ("up", "efficiency"): ("max_energy_efficiency", 0.6),
+    ("want", "efficiency"): ("max_energy_efficiency", 0.6),
+}
+_ALONE: dict[str, tuple[str, float]] = {
+    "rate": ("max_rate", 0.4),
+    "battery": ("min_power", 0.4),
+    "efficiency": ("max_energy_efficiency", 0.4),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Signal:
+    """A hint at an objective: where it stands, how much it weighs, whether it was negated."""
+
+    objective: str
+    weight: float
+    start: int
+    end: int
+    first: int
+    last: int
+    clause: int
+    corrected: bool
+    negated: bool = False
+    immune: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Goal:
+    """The objective that a sentence means, or why none is clear.
+
+    Attributes:
+        objective: its name where the verdict is clear; the best guess where it is weak; else empty.
+        options: the objectives that are in play, best first.
+        spans: the characters [start, end) that say so, from left to right.
+        confidence: 0 to 1.
+    """
+
+    verdict: Verdict
+    objective: str = ""
+    options: tuple[str, ...] = ()
+    spans: tuple[tuple[int, int], ...] = ()
+    confidence: float = 0.0
+
+
+def goal_of(found: Sequence[Found]) -> Goal:
+    """The goal that the terms of a sentence make together."""
+    signals = _negate(_signals(found), found)
+    signals = _balanced(signals, found)
+    positive: dict[str, float] = {}
+    for signal in signals:
+        if not signal.negated:
+            positive[signal.objective] = positive.get(signal.objective, 0.0) + signal.weight
+    negated = {signal.objective for signal in signals if signal.negated}
+    strong = [name for name in sorted(positive, key=lambda name: -positive[name]) if positive[name] >= ENOUGH]
+    spans = tuple((s.start, s.end) for s in signals if strong and s.objective == strong[0] and not s.negated)
+    if any(name in _UNSERVED for name in strong):
+        return Goal(verdict="opposite", options=tuple(strong), spans=spans)
+    if len(strong) > 1 or (strong and strong[0] in negated):
+        return Goal(verdict="contradiction", options=tuple(strong), spans=spans)
+    if not strong:
+        return _unclear(positive, negated)
+    slips = any(s.corrected for s in signals if s.objective == strong[0])
+    others = sum(weight for name, weight in positive.items() if name != strong[0])
+    best = max(s.weight for s in signals if s.objective == strong[0] and not s.negated)
+    confidence = 0.8 + 0.075 * min(best, 2.0) - 0.1 * slips - 0.1 * min(others, 1.0)
+    return Goal(verdict="clear", objective=strong[0], options=tuple(strong), spans=spans, confidence=confidence)
+
+
+def _unclear(positive: dict[str, float], negated: set[str]) -> Goal:
+    served = [name for name in positive if name not in _UNSERVED and name not in negated]
+    if negated - {"less_rate", "more_power"}:
+        return Goal(verdict="negated", options=tuple(sorted(negated - set(_UNSERVED))))
+    if served:
+        best = max(served, key=lambda name: positive[name])
+        return Goal(verdict="weak", objective=best, options=(best,))
+    return Goal(verdict="none")
+
+
+def _signals(found: Sequence[Found]) -> list[Signal]:
+    pairs = _pair(found)
+    signals: list[Signal] = []
+    for item in found:
+        if item.term.concept == "direct":
+            signals.append(_signal(item, item, item.term.objective, item.term.weight))
+        elif item.term.concept in _OBJECTS:
+            direction = pairs.get(item.first)
+            meaning = None if direction is None else _PAIRS.get((direction.term.concept, item.term.concept))
+            if direction is not None and meaning is not None:
+                signals.append(_signal(direction, item, *meaning))
+            elif item.term.concept in _ALONE:
+                signals.append(_signal(item, item, *_ALONE[item.term.concept]))
+    return signals
+
+
+def _signal(one: Found, other: Found, objective: str, weight: float) -> Signal:
+    a, b = (one, other) if one.first <= other.first else (other, one)
+    return Signal(
+        objective=objective, weight=weight, start=a.start, end=b.end, first=a.first, last=b.last, clause=a.clause,
+        corrected=a.corrected or b.corrected, immune=one.term.concept in ("waste", "keep"),
+    )  # fmt: skip
+
+
+def _pair(found: Sequence[Found]) -> dict[int, Found]:
+    """The direction of each object, by the object's first unit: the nearest in its clause, before rather than after."""
+    candidates: list[tuple[float, Found, Found]] = []
+    for item in found:
+        if item.term.concept not in _OBJECTS:
+            continue
+        for direction in found:
+            if direction.term.concept not in _DIRECTIONS or direction.clause != item.clause:
+                continue
+            before = direction.last <= item.first
+            gap = item.first - direction.last if before else direction.first - item.last
+            reach = 1 if item.term.concept == "stream" else _REACH_BEFORE if before else _REACH_AFTER
+            if gap <= reach and not _blocked(found, direction, item):
+                vague = 0.75 if direction.term.concept == "want" else 0.0
+                candidates.append((gap + (0.0 if before else 0.5) + vague, item, direction))
+    chosen: dict[int, Found] = {}
+    taken: set[int] = set()
+    for _, item, direction in sorted(candidates, key=lambda entry: entry[0]):
+        after = direction.first >= item.last
+        if item.first not in chosen and not (after and direction.first in taken):
+            chosen[item.first] = direction
+            taken.add(direction.first)
+    return chosen
+
+
+def _blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
+    """Whether another object stands between the two, unless "and" or "or" joins it to this one."""
+    low, high = min(direction.last, item.last), max(direction.first, item.first)
+    between = [other for other in found if low <= other.first < high and other is not item and other is not direction]
+    objects = [other for other in between if other.term.concept in _OBJECTS or other.term.concept == "direct"]
+    joined = any(other.term.concept == "join" for other in between)
+    return bool(objects) and not joined
+
+
+def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
+    """Signals with those turned off that a negation refers to; a negated wish for less rate is one for rate."""
+    turned_off: set[int] = set()
+    named = [item for item in found if item.term.concept in (*_OBJECTS, "direct")]
+    joins = [item.first for item in found if item.term.concept == "join"]
+    for item in found:
+        same = [other for other in named if other.clause == item.clause]
+        if item.term.concept == "not":
+            ahead = [other for other in same if item.last <= other.first < item.last + _REACH_OF_NOT]
+            turned_off.update(other.first for other in _with_joined(ahead, joins))
+        elif item.term.concept == "not_after":
+            behind = [other for other in same if item.first - _REACH_OF_NOT <= other.first < item.first]
+            turned_off.update(other.first for other in behind[-1:])
+    result: list[Signal] = []
+    for signal in signals:
+        hit = not signal.immune and any(signal.first <= place < signal.last for place in turned_off)
+        if hit and signal.objective in _UNSERVED:
+            if signal.objective == "less_rate":
+                result.append(replace(signal, objective="max_rate", weight=0.8))
+            continue
+        result.append(replace(signal, negated=hit))
+    return result
+
+
+def _with_joined(ahead: Sequence[Found], joins: Sequence[int]) -> list[Found]:
+    """The first of the things named, and those that stand right beside it after an "and" or an "or"."""
+    reached = list(ahead[:1])
+    for other in ahead[1:]:
+        if other.first - reached[-1].last == 1 and reached[-1].last in joins:
+            reached.append(other)
+        else:
+            break
+    return reached
+
+
+def _balanced(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
+    """With a word of balance between rate and power, both wishes become one for energy efficiency."""
+    words = [item for item in found if item.term.concept == "balance"]
+    both = [item for item in found if item.term.concept == "both"]
+    paired = [item for item in found if item.term.concept == "paired"]
+    wishes = {signal.objective for signal in signals if not signal.negated}
+    if not words and wishes >= {"max_rate", "min_power"}:
+        words = both or (paired if len(paired) > 1 else [])
+    concepts = {item.term.concept for item in found}
+    for_rate = concepts & {"rate", "stream", "performance"} or "max_rate" in wishes
+    for_power = concepts & {"power", "battery"} or "min_power" in wishes
+    if not words or not for_rate or not for_power or any(signal.negated for signal in signals):
+        return signals
+    kept = [s for s in signals if s.objective not in ("max_rate", "min_power", *_UNSERVED)]
+    return [*kept, _signal(words[0], words[-1], "max_energy_efficiency", 1.5)]
