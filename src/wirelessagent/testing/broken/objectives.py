@@ -1,0 +1,247 @@
+"""Objectives that :class:`ObjectiveContract` must reject."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.objective import Objective
+from wirelessagent.model.phrases import phrases
+
+Conjugate = tuple[float, FloatArray]
+
+_DEAR = 1e3
+"""A price per utility, far above what a rate is worth."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SumRate(Objective):
+    """Σ r, sound: the broken ones below differ from it in one thing each."""
+
+    name = "sum_rate"
+    unit = "bit/s"
+    phrases = phrases(en=["as much as possible"])
+    caught_by = ""
+
+    def utility(self, rate: FloatArray) -> float:
+        return float(rate.sum())
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        rate = np.where(price < 1, max_rate, min_rate)
+        return float(((1 - price) * rate).sum()), rate
+
+
+class NotDecorated(SumRate):
+    """Its field never becomes an option, because the class is not a dataclass of its own."""
+
+    caught_by = "test_is_a_frozen_dataclass"
+    weight: float = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class BadlyNamed(SumRate):
+    """A name that no command line can take."""
+
+    name = "Sum Rate"
+    caught_by = "test_has_a_name"
+
+
+@dataclass(frozen=True, kw_only=True)
+class WithoutSummary(SumRate):
+    caught_by = "test_has_a_summary"
+
+
+@dataclass(frozen=True, kw_only=True)
+class WithoutDefault(SumRate):
+    """Needs something that cannot be written on a command line."""
+
+    caught_by = "test_can_be_made_from_its_options"
+    table: tuple[float, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class HoldsALambda(SumRate):
+    """Cannot travel to another process."""
+
+    caught_by = "test_survives_pickling"
+    worth: Callable[[float], float] = lambda rate: rate
+
+
+@dataclass(frozen=True, kw_only=True)
+class HoldsAList(SumRate):
+    """Cannot be a key."""
+
+    caught_by = "test_is_a_value"
+    levels: list[float] = field(default_factory=list[float])
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhrasesAsText(SumRate):
+    """One string is a phrase per letter."""
+
+    phrases = cast("Any", {"en": "as much as possible"})
+    caught_by = "test_phrases_are_words_by_language"
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnknownDirection(SumRate):
+    """Neither max nor min."""
+
+    direction = cast("Any", "up")
+    caught_by = "test_direction_is_known"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Convex(SumRate):
+    """Σ r²: the more, the more it wants, and no price balances it."""
+
+    caught_by = "test_utility_is_concave"
+
+    def utility(self, rate: FloatArray) -> float:
+        return float(np.square(rate).sum())
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        with np.errstate(invalid="ignore"):
+            ends = np.square(min_rate) - price * min_rate, max_rate * (max_rate - price)
+        return float(np.maximum(*ends).sum()), np.where(ends[1] > ends[0], max_rate, min_rate)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Falling(SumRate):
+    """−Σ r: less is better."""
+
+    caught_by = "test_utility_does_not_fall_with_rate"
+
+    def utility(self, rate: FloatArray) -> float:
+        return -float(rate.sum())
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        return float(-((1 + price) * min_rate).sum()), min_rate
+
+    def value(self, rate: FloatArray, power_w: float, cell: Cell) -> float:
+        return float(rate.sum())
+
+
+@dataclass(frozen=True, kw_only=True)
+class IgnoresLimits(SumRate):
+    """The maximum over other limits than it was given."""
+
+    caught_by = "test_conjugate_rates_are_within_the_limits"
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        return SumRate.conjugate(self, price, min_rate / 2, max_rate * 2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class OverstatesConjugate(SumRate):
+    """One thousandth above what its rates reach."""
+
+    caught_by = "test_conjugate_is_reached_by_its_rates"
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        rate = np.where(price < 1, max_rate, min_rate)
+        return float((np.where(price < 1, 1.001, 0.999) * (1 - price) * rate).sum()), rate
+
+
+@dataclass(frozen=True, kw_only=True)
+class StopsAtTheLowestRate(SumRate):
+    """A true figure of the wrong rates, as a local optimum would be."""
+
+    caught_by = "test_conjugate_is_never_beaten"
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        if np.isinf(max_rate).any():
+            return SumRate.conjugate(self, price, min_rate, max_rate)
+        return float(((1 - price) * min_rate).sum()), min_rate
+
+
+@dataclass(frozen=True, kw_only=True)
+class LostWithoutAHighestRate(SumRate):
+    """Infinity minus infinity."""
+
+    caught_by = "test_conjugate_holds_without_a_highest_rate"
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        rate = np.where(price < 1, max_rate, min_rate)
+        with np.errstate(invalid="ignore"):
+            return float(rate.sum() - (price * rate).sum()), rate
+
+
+@dataclass(frozen=True, kw_only=True)
+class ForgetsWhatIsFree(SumRate):
+    """A guard against a division by a price of zero that drops the user."""
+
+    caught_by = "test_conjugate_does_not_rise_with_price"
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        rate = np.where(price < 1, max_rate, min_rate)
+        return float(np.where(price > 0, (1 - price) * rate, -1e12).sum()), rate
+
+
+@dataclass(frozen=True, kw_only=True)
+class MispricesTheDear(SumRate):
+    """A shortcut at high prices that charges too much."""
+
+    caught_by = "test_conjugate_is_convex_in_price"
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        rate = np.where(price < 1, max_rate, min_rate)
+        charge = np.minimum(price, _DEAR) + 1.5 * np.maximum(price - _DEAR, 0)
+        return float(((1 - charge) * rate).sum()), rate
+
+
+@dataclass(frozen=True, kw_only=True)
+class WritesToItsArguments(SumRate):
+    """Saves an array and spoils the caller's."""
+
+    caught_by = "test_leaves_its_arguments_alone"
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        max_rate[price >= 1] = min_rate[price >= 1]
+        return float(((1 - price) * max_rate).sum()), max_rate
+
+
+@dataclass(frozen=True, kw_only=True)
+class ValuePerUser(SumRate):
+    """An array where one figure is wanted."""
+
+    caught_by = "test_value_is_a_number"
+
+    def value(self, rate: FloatArray, power_w: float, cell: Cell) -> float:
+        return rate.sum(keepdims=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class WrongDirection(SumRate):
+    """Says that less is better, and means more."""
+
+    direction = "min"
+    caught_by = "test_value_favours_rate_and_not_power"
+
+
+BROKEN: tuple[SumRate, ...] = (
+    NotDecorated(),
+    BadlyNamed(),
+    WithoutSummary(),
+    WithoutDefault(table=(1.0,)),
+    HoldsALambda(),
+    HoldsAList(),
+    PhrasesAsText(),
+    UnknownDirection(),
+    Convex(),
+    Falling(),
+    IgnoresLimits(),
+    OverstatesConjugate(),
+    StopsAtTheLowestRate(),
+    LostWithoutAHighestRate(),
+    ForgetsWhatIsFree(),
+    MispricesTheDear(),
+    WritesToItsArguments(),
+    ValuePerUser(),
+    WrongDirection(),
+)

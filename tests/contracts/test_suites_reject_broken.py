@@ -1,0 +1,76 @@
+"""The contract suites tested: each broken plug-in fails exactly the check it names, and no check goes untested."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+import wirelessagent as wa
+from wirelessagent.testing.broken import base_stations, methods, objectives, repairers, sources
+from wirelessagent.testing.channels import known_scene
+from wirelessagent.testing.contract import Contract
+
+SUITES: dict[str, tuple[type[Contract], Any, Any]] = {
+    "source": (wa.testing.ChannelSourceContract, sources.BROKEN, sources.Fading()),
+    "repairer": (wa.testing.RepairerContract, repairers.BROKEN, repairers.MeanFill()),
+    "objective": (wa.testing.ObjectiveContract, objectives.BROKEN, objectives.SumRate()),
+    "method": (wa.testing.MethodContract, methods.BROKEN, methods.InTurn()),
+    "base_station": (wa.testing.BaseStationContract, base_stations.BROKEN, base_stations.Obedient),
+}
+
+
+def suite_of(kind: str, subject: Any) -> Contract:
+    attribute = staticmethod(subject) if kind == "base_station" else subject
+    return type("Suite", (SUITES[kind][0],), {kind: attribute})()
+
+
+def plugin_of(kind: str, subject: Any) -> Any:
+    return subject(known_scene()) if kind == "base_station" else subject
+
+
+def every_broken_plugin() -> Iterator[Any]:
+    for kind, (_, subjects, _) in SUITES.items():
+        for subject in subjects:
+            yield pytest.param(kind, subject, id=f"{kind}-{type(plugin_of(kind, subject)).__name__}")
+
+
+@pytest.mark.parametrize("kind", SUITES)
+def test_what_the_broken_ones_are_made_from_is_sound(kind: str) -> None:
+    assert suite_of(kind, SUITES[kind][2]).failures() == {}
+
+
+@pytest.mark.parametrize(("kind", "subject"), every_broken_plugin())
+def test_a_broken_plugin_fails_the_check_it_names_and_no_other(kind: str, subject: Any) -> None:
+    assert list(suite_of(kind, subject).failures()) == [plugin_of(kind, subject).caught_by]
+
+
+@pytest.mark.parametrize("kind", SUITES)
+def test_every_check_rejects_some_broken_plugin(kind: str) -> None:
+    suite, subjects, _ = SUITES[kind]
+    assert set(suite.checks()) == {plugin_of(kind, subject).caught_by for subject in subjects}
+
+
+def test_a_source_that_does_not_draw_must_not_depend_on_the_seed() -> None:
+    class Suite(wa.testing.ChannelSourceContract):
+        source = sources.Fading()
+        random = False
+
+    assert list(Suite().failures()) == ["test_the_seed_matters_if_it_draws"]
+
+
+def test_a_coarse_power_setting_is_sound_if_it_is_stated() -> None:
+    class Suite(wa.testing.BaseStationContract):
+        power_step_w = 0.1
+
+        def base_station(self, scene: wa.Scene) -> wa.BaseStation:
+            return base_stations.RoundsPower(scene)
+
+    assert Suite().failures() == {}
+
+
+def test_a_failure_says_what_was_wrong_and_what_was_received() -> None:
+    message = str(suite_of("objective", objectives.BadlyNamed()).failures()["test_has_a_name"])
+    assert "lower case" in message
+    assert "'Sum Rate'" in message
