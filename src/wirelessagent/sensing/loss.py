@@ -4,7 +4,8 @@
 
 A pattern strikes each slot independently. Rates are shares of a slot's gains and are kept as exactly as whole entries
 allow: where rate × entries is not whole, it is rounded up or down at random, so that the mean is the rate. A pattern
-with a rate below 1 never loses a whole slot; several together, :func:`stale` and a count of all :func:`users` can.
+with a rate below 1 never loses a whole slot, even where its rate would round to that; several together, :func:`stale`
+and a count of all :func:`users` can.
 Entries that are missing already (a measured file with holes) are struck like the others and stay missing.
 """
 
