@@ -54,6 +54,8 @@ def _target(path: Path) -> Path:
             raise InputError(f"cannot write {path}: it is a folder; name a file in it")
         if target.exists() and not target.is_file():
             raise InputError(f"cannot write {path}: it is not an ordinary file; name another one")
+        if target.exists() and not os.access(target, os.W_OK):
+            raise InputError(f"cannot write {path}: it is write-protected; name another file or allow writing")
         if not target.parent.is_dir():
             raise InputError(f"cannot write {path}: the folder {target.parent} does not exist; create it first")
     except (OSError, ValueError) as error:  # a name that is too long, or holds a NUL

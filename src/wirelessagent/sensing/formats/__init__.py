@@ -1,0 +1,1 @@
+"""File formats: each file here turns bytes into named arrays, and knows nothing of channels."""
