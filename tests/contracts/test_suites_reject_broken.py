@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -30,10 +29,11 @@ def plugin_of(kind: str, subject: Any) -> Any:
     return subject(known_scene()) if kind == "base_station" else subject
 
 
-def every_broken_plugin() -> Iterator[Any]:
-    for kind, (_, subjects, _) in SUITES.items():
-        for subject in subjects:
-            yield pytest.param(kind, subject, id=f"{kind}-{type(plugin_of(kind, subject)).__name__}")
+EVERY_BROKEN_PLUGIN = [
+    pytest.param(kind, subject, id=f"{kind}-{type(plugin_of(kind, subject)).__name__}")
+    for kind, (_, subjects, _) in SUITES.items()
+    for subject in subjects
+]
 
 
 @pytest.mark.parametrize("kind", SUITES)
@@ -41,7 +41,7 @@ def test_what_the_broken_ones_are_made_from_is_sound(kind: str) -> None:
     assert suite_of(kind, SUITES[kind][2]).failures() == {}
 
 
-@pytest.mark.parametrize(("kind", "subject"), every_broken_plugin())
+@pytest.mark.parametrize(("kind", "subject"), EVERY_BROKEN_PLUGIN)
 def test_a_broken_plugin_fails_the_check_it_names_and_no_other(kind: str, subject: Any) -> None:
     assert list(suite_of(kind, subject).failures()) == [plugin_of(kind, subject).caught_by]
 

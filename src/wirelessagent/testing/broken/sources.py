@@ -26,8 +26,8 @@ class Fading(ChannelSource):
     def observe(self, cell: Cell, *, seed: int = 0) -> Scene:
         truth = rayleigh_gain(8, 20, seed=seed)[0]
         deviation = 0.01 * truth
-        error = np.random.default_rng(seed).normal(size=truth.shape).clip(-3, 3)
-        sensed = ChannelObservation(gain=truth + deviation * error, noise_variance=np.square(deviation))
+        sign = np.random.default_rng(seed).choice(np.array([-1.0, 1.0]), size=truth.shape)
+        sensed = ChannelObservation(gain=truth + sign * deviation, noise_variance=np.square(deviation))
         return Scene(cell=cell, sensed=sensed, truth=truth, facts={"Fading": "Rayleigh"})
 
 
