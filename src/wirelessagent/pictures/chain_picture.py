@@ -35,11 +35,7 @@ def draw_chain(
     outcome: Outcome | None,
     path: Path,
 ) -> None:
-    """Write the picture of a run to ``path`` (PNG, SVG or PDF), whole or not at all.
-
-    Four panels: the sensed gains with their holes, the repaired ones with the repaired entries marked, owner and
-    power of each subcarrier, and each user's predicted rate beside the achieved one. Users and subcarriers are
-    counted from 1 unless users have names of their own.
+    """Write the picture of a run, :func:`chain_canvas`, to ``path``: PNG, SVG or PDF, whole or not at all.
 
     Raises:
         InputError: an unknown suffix, or a path that cannot be written.
@@ -47,6 +43,18 @@ def draw_chain(
     """
     path = Path(path)
     check_suffix(path)
+    chain_canvas(observation=observation, estimate=estimate, decision=decision, outcome=outcome).save(path)
+
+
+def chain_canvas(
+    *, observation: ChannelObservation, estimate: ChannelEstimate, decision: Decision, outcome: Outcome | None
+) -> Canvas:
+    """The picture of a run, in four panels.
+
+    The sensed gains with their holes, the repaired ones with the repaired entries marked, owner and power of each
+    subcarrier, and each user's predicted rate beside the achieved one. Subcarriers are counted from 1, and so are
+    users whose names the font cannot show.
+    """
     canvas = Canvas(rows=2, columns=2, width_in=11.0, height_in=7.4)
     sensed, repaired, allocation, rates = canvas.panels
     names = _labels(decision.user_names)
@@ -63,7 +71,7 @@ def draw_chain(
     repaired.describe(f"Repaired by {estimate.method} ({mark})" if lost else "Nothing to repair", "Subcarrier", "")
     _draw_allocation(allocation, estimate, decision, names)
     _draw_rates(rates, decision, outcome, names)
-    canvas.save(path)
+    return canvas
 
 
 def _labels(user_names: tuple[str, ...]) -> list[str]:
