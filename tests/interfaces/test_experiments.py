@@ -1,0 +1,252 @@
+"""Experiments: files that can be reproduced, pictures that are their tables, statistics that are what they claim."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import multiprocessing
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from wirelessagent.experiments import catalogue
+from wirelessagent.experiments.catalogue import EXPERIMENTS, reproduce
+from wirelessagent.experiments.draws import Seeds, run_draws, seeds_of
+from wirelessagent.experiments.error_sweep import SweepDraw
+from wirelessagent.experiments.error_versus_delay_spread import ErrorVersusDelaySpread
+from wirelessagent.experiments.repair_error import squared_errors
+from wirelessagent.experiments.run_time import RunTime
+from wirelessagent.experiments.scenario import Scenario
+from wirelessagent.experiments.statistics import (
+    last_crossing,
+    log_log_slope,
+    mean_interval,
+    ratio_interval,
+    root_ratio_interval,
+)
+from wirelessagent.experiments.table import Table, table_of
+from wirelessagent.model.errors import InputError, UnknownNameError
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.model.scene import Scene
+from wirelessagent.sensing.rayleigh import Rayleigh
+
+SMALL = {
+    "run_time": RunTime(num_subcarriers=(8, 16, 32, 64), num_users=(2, 4), users_held=2, subcarriers_held=16),
+    "error_versus_delay_spread": ErrorVersusDelaySpread(rms_delay_spreads_ns=(30.0, 100.0, 1000.0)),
+}
+"""Experiments that are too long for a test as they stand."""
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    monkeypatch.setattr(catalogue, "EXPERIMENTS", {**EXPERIMENTS, **SMALL})
+
+
+@pytest.mark.parametrize("name", EXPERIMENTS)
+def test_each_writes_a_picture_a_table_and_a_record(tmp_path, name):
+    reported = []
+    paths = reproduce(name, out=tmp_path / "new" / "folder", draws=3, seed=5, progress=lambda *at: reported.append(at))
+
+    assert [path.name for path in paths] == [f"{name}.png", f"{name}.csv", f"{name}.json"]
+    assert sorted(path.name for path in paths[0].parent.iterdir()) == sorted(path.name for path in paths)
+    assert paths[0].read_bytes().startswith(b"\x89PNG")
+    record = json.loads(paths[2].read_text())
+    assert (record["experiment"], record["seed"]) == (name, 5)
+    assert {"version", "configuration", "findings", "draws", "summary"} <= record.keys()
+    assert "date" not in paths[2].read_text()
+    assert reported[-1][0] == reported[-1][1]
+
+
+@pytest.mark.parametrize("name", [name for name in EXPERIMENTS if name != "run_time"])
+def test_the_same_seed_writes_the_same_files(tmp_path, name):
+    first, second = (reproduce(name, out=tmp_path / folder, draws=3, seed=2) for folder in ("one", "two"))
+    other = reproduce(name, out=tmp_path / "other", draws=3, seed=3)
+
+    for one, two in zip(first, second, strict=True):
+        assert one.read_bytes() == two.read_bytes()
+    assert first[1].read_bytes() != other[1].read_bytes()
+
+
+@pytest.mark.parametrize("name", EXPERIMENTS)
+def test_what_is_plotted_is_what_the_table_holds(name):
+    experiment = catalogue.EXPERIMENTS[name]
+    table = experiment.run(draws=3, seed=1).table
+    canvas = experiment.picture(table)
+
+    columns = [
+        table.numbers(column) for column in table.columns if not isinstance(table.rows[0][_at(table, column)], str)
+    ]
+    held = np.unique(np.concatenate(columns))
+    plotted = np.concatenate([_plotted(panel.axes) for panel in canvas.panels])
+    assert plotted.size >= len(table.rows)
+    assert np.isin(plotted, held).all()
+
+
+def _at(table: Table, column: str) -> int:
+    return table.columns.index(column)
+
+
+def _plotted(axes) -> np.ndarray:
+    """The y values of every curve and bar of a panel but for guides, which have no marker."""
+    curves = [container.lines[0].get_ydata() for container in axes.containers if hasattr(container, "lines")]
+    bars = [bar.get_height() for bar in axes.patches]
+    return np.concatenate([*curves, bars])
+
+
+@pytest.mark.parametrize("name", EXPERIMENTS)
+def test_every_axis_is_labelled(name):
+    experiment = catalogue.EXPERIMENTS[name]
+    canvas = experiment.picture(experiment.run(draws=2, seed=1).table)
+
+    for panel in canvas.panels:
+        assert "(" in panel.axes.get_ylabel(), "a quantity names its unit"
+        assert panel.axes.get_xlabel() or panel.axes.get_xticklabels()
+
+
+@pytest.mark.parametrize("name", ["rate_versus_power", "error_versus_loss", "modes"])
+def test_neither_the_executor_nor_its_size_matters(name):
+    experiment = EXPERIMENTS[name]
+    alone = experiment.run(draws=41, seed=1)
+    with ThreadPoolExecutor(3) as threads:
+        assert experiment.run(draws=41, seed=1, executor=threads).table == alone.table
+
+
+def test_draws_run_in_other_processes():
+    draw = SweepDraw((Scenario(channel=Rayleigh(num_users=2, num_subcarriers=4)),), ("user_mean",))
+    with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as processes:
+        spread = run_draws(draw, draws=25, seed=9, executor=processes)
+
+    assert np.array_equal(spread, run_draws(draw, draws=25, seed=9))
+
+
+def test_a_longer_run_starts_with_the_shorter_one_and_no_seed_repeats():
+    long, short = (run_draws(_seed_pair, draws=draws, seed=4) for draws in (50, 7))
+
+    assert np.array_equal(long[:7], short)
+    assert np.unique(long).size == long.size
+    assert seeds_of(4, 0) != seeds_of(5, 0)
+
+
+def _seed_pair(seeds: Seeds) -> np.ndarray:
+    return np.array([seeds.channel, seeds.loss], dtype=float)
+
+
+def test_more_draws_narrow_the_intervals():
+    few, many = (EXPERIMENTS["rate_versus_power"].run(draws=draws, seed=1).table for draws in (8, 128))
+
+    narrower = many.numbers("goodput_mbps_ci95") < few.numbers("goodput_mbps_ci95")
+    assert narrower.all()
+
+
+def test_a_single_draw_has_no_interval_and_an_empty_cell(tmp_path):
+    _, table, _ = reproduce("rate_versus_power", out=tmp_path, draws=1)
+
+    rows = list(csv.DictReader(io.StringIO(table.read_text())))
+    assert {row["sum_rate_mbps_ci95"] for row in rows} == {""}
+    assert all(float(row["sum_rate_mbps"]) > 0 for row in rows)
+
+
+def test_perfect_knowledge_keeps_every_promise_and_is_never_beaten():
+    table = EXPERIMENTS["rate_versus_power"].run(draws=20, seed=3).table
+    perfect = table.where(csi="perfect")
+
+    assert np.allclose(perfect.numbers("goodput_mbps"), perfect.numbers("sum_rate_mbps"), rtol=1e-12)
+    assert (perfect.numbers("sum_rate_share") == 1).all()
+    for csi in ("nncf", "user_mean"):
+        rows = table.where(csi=csi)
+        assert (rows.numbers("sum_rate_share") <= 1 + 1e-9).all()
+        assert (rows.numbers("goodput_mbps") < rows.numbers("sum_rate_mbps")).all()
+
+
+def test_each_mode_is_best_at_what_it_is_for():
+    table = EXPERIMENTS["modes"].run(draws=30, seed=1).table
+    figures = {
+        column: dict(zip(table.values("strategy"), table.numbers(column), strict=True))
+        for column in ("sum_rate_mbps", "power_w", "energy_efficiency_mbit_per_j")
+    }
+
+    assert max(figures["sum_rate_mbps"], key=figures["sum_rate_mbps"].get) == "max rate"
+    assert min(figures["power_w"], key=figures["power_w"].get) == "min power"
+    efficiency = figures["energy_efficiency_mbit_per_j"]
+    assert max(efficiency, key=efficiency.get) == "max energy efficiency"
+    shares = [table.numbers(f"{status}_share") for status in ("optimal", "feasible", "infeasible", "undecided")]
+    assert np.allclose(np.sum(shares, axis=0), 1.0, rtol=1e-12)
+
+
+def test_repair_by_nncf_cuts_the_error_at_the_nominal_delay_spread_and_the_literal_one_does_not():
+    result = SMALL["error_versus_delay_spread"].run(draws=40, seed=1)
+    at_100_ns = result.table.where(rms_delay_spread_ns=100.0)
+    cut = dict(zip(at_100_ns.values("repairer"), at_100_ns.numbers("cut"), strict=True))
+
+    assert cut["user_mean"] == 0
+    assert cut["nncf"] > 0.67
+    assert cut["nncf_paper"] < 0
+    reached = result.findings["cut_of_67%_holds_up_to_ns"]
+    assert 100 < reached["nncf"] < 1000
+    assert reached["nncf_paper"] is None
+
+
+def test_errors_are_relative_to_the_users_mean_and_floored_in_db():
+    truth = np.array([[1.0, 3.0, 2.0], [2e-9, 2e-9, 2e-9]])
+    observed = np.array([[1.0, 3.0, np.nan], [2e-9, 2e-9, 2e-9]])
+    scene = Scene(cell=Scenario().cell, sensed=ChannelObservation(gain=truth), truth=truth)
+
+    sums = squared_errors(scene, ChannelObservation(gain=observed), ["user_mean"])
+
+    assert sums[0].tolist() == pytest.approx([0.0, 0.0, 1.0], abs=1e-15)
+    nulled = Scene(cell=scene.cell, sensed=scene.sensed, truth=np.array([[1.0, 3.0, 0.0], [2e-9, 2e-9, 2e-9]]))
+    sums = squared_errors(nulled, ChannelObservation(gain=observed), ["user_mean"])
+    level = 4.0 / 3.0
+    floored_db = 10 * np.log10(2.0 / level) + 30.0
+    assert sums[0].tolist() == pytest.approx([(2.0 / level) ** 2, floored_db**2, 1.0], rel=1e-12)
+
+
+def test_intervals_cover_what_they_say():
+    rng = np.random.default_rng(0)
+    samples = rng.exponential(size=(60, 2000))
+    counts = rng.integers(1, 6, size=samples.shape)
+
+    mean, half = mean_interval(samples)
+    assert np.mean(np.abs(mean - 1.0) <= half) == pytest.approx(0.94, abs=0.02)
+    ratio, half = ratio_interval(samples * counts, counts.astype(float))
+    assert np.mean(np.abs(ratio - 1.0) <= half) == pytest.approx(0.94, abs=0.025)
+
+
+def test_statistics_in_closed_form():
+    mean, half = mean_interval(np.array([1.0, np.nan, 3.0]))
+    assert (mean, half) == (2.0, pytest.approx(12.706204736, rel=1e-9))
+    root, half = root_ratio_interval(np.array([4.0, 4.0]), np.array([1.0, 1.0]))
+    assert (root, half) == (2.0, 0.0)
+    assert log_log_slope(np.array([1.0, 10.0]), np.array([5.0, 0.5])) == pytest.approx(-1.0, rel=1e-12)
+    spread = np.array([10.0, 100.0, 1000.0])
+    assert last_crossing(spread, np.array([0.9, 0.7, 0.5]), 0.6) == pytest.approx(10**2.5, rel=1e-12)
+    assert last_crossing(spread, np.array([0.5, 0.7, 0.5]), 0.6) is None
+    assert last_crossing(spread, np.array([0.9, 0.8, 0.7]), 0.6) == 1000.0
+
+
+def test_a_table_survives_its_csv():
+    table = table_of(("name", "x_w"), [("a", np.float64(0.1) + 0.2), ("b", np.nan), ("c, d", 3)])
+
+    assert table.to_csv() == 'name,x_w\na,0.30000000000000004\nb,\n"c, d",3\n'
+
+
+@pytest.mark.parametrize("wrong", [{"draws": 0}, {"seed": -1}])
+def test_impossible_settings_are_refused_before_anything_is_written(tmp_path, wrong):
+    with pytest.raises(InputError, match=r"draws must be 1 or more and seed 0 or more"):
+        reproduce("channel_recovery", out=tmp_path / "new", **wrong)
+
+    assert not (tmp_path / "new").exists()
+
+
+def test_an_unknown_experiment_names_the_known_ones(tmp_path):
+    with pytest.raises(UnknownNameError, match="did you mean 'run_time'"):
+        reproduce("runtime", out=tmp_path)
+
+
+def test_a_folder_that_cannot_be_made_is_an_input_error(tmp_path):
+    (tmp_path / "file").write_text("")
+
+    with pytest.raises(InputError, match="cannot be made"):
+        reproduce("channel_recovery", out=tmp_path / "file" / "folder")
