@@ -210,6 +210,7 @@ def test_time_root_has_the_exact_covariance(turns_per_slot: float) -> None:
     root = time_root(60, turns_per_slot)
     apart = np.subtract.outer(np.arange(60), np.arange(60))
     np.testing.assert_allclose(root @ root.T, j0(2 * np.pi * turns_per_slot * apart), atol=1e-11)
+    np.testing.assert_allclose(root, root.T, atol=1e-12)
 
 
 def test_a_cell_at_rest_does_not_change() -> None:
