@@ -41,7 +41,7 @@ from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.intent import IntentRecord
 from wirelessagent.operations.operation import Event, Operation, Progress, silent
 from wirelessagent.operations.record import Block, Matrix, Record, Table
-from wirelessagent.operations.simulate import describe
+from wirelessagent.operations.simulate import LOSS_USAGE, describe
 from wirelessagent.operations.solve import figures_of_infeasibility
 from wirelessagent.sensing.loss import parse as parse_loss
 
@@ -185,7 +185,9 @@ class AskRequest(CellOptions):
         default_factory=dict, description="options of the channel source"
     )
     loss: list[str] | None = Field(
-        None, description="what gets lost, as in random:0.2; that for a simulated cell, nothing for a file"
+        None,
+        description=f"what gets lost, several joined by +: {LOSS_USAGE}; "
+        "random:0.2 for a simulated cell and nothing for a file if not given",
     )
     repairer: Annotated[str, PluginName("repairer")] = Field(chain.DEFAULT_REPAIRER, description="repairer")
     repairer_options: Annotated[PluginOptions, OptionsOf("repairer")] = Field(

@@ -16,8 +16,11 @@ from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
 from wirelessagent.operations.record import Block, Matrix, Record, Table, Vector
+from wirelessagent.sensing.loss import PATTERNS
 from wirelessagent.sensing.loss import parse as parse_loss
 from wirelessagent.sensing.npz import write_npz
+
+LOSS_USAGE = ", ".join(pattern.usage for pattern in PATTERNS.values())
 
 
 class SimulateRequest(CellOptions):
@@ -29,8 +32,7 @@ class SimulateRequest(CellOptions):
     )
     loss: list[str] = Field(
         default_factory=list,
-        description="what gets lost: random:RATE, bursts:RATE, subcarriers:RATE, users:COUNT, stale:SLOTS, "
-        "when_weak:RATE; several with +",
+        description=f"what gets lost, several joined by +: {LOSS_USAGE}",
     )
     seed: int = Field(1, description="seed of every draw")
     out: Path | None = Field(None, description="NPZ file to write the observed and the true gains to")
