@@ -34,6 +34,33 @@ def efficiency_bound_nats_per_j(form: NormalForm, price: float) -> float:
     return min(price, (value + price * form.budget_w) / (form.budget_w + form.circuit_w))
 
 
+def best_efficiency_nats_per_j(form: NormalForm) -> float:
+    """:func:`efficiency_bound_nats_per_j` at the price of the exact method, for methods that do not know it."""
+    from wirelessagent.deciding.core.fractional_kernel import max_efficiency
+
+    price = max_efficiency(
+        form.snr_per_w[np.newaxis], form.cap_w, form.max_snr, np.array([form.budget_w]), form.circuit_w
+    )[2]
+    return efficiency_bound_nats_per_j(form, float(price[0]))
+
+
+def best_rate_nats(form: NormalForm) -> float:
+    """:func:`rate_bound_nats` at the price of the exact method, for methods that do not know it."""
+    from wirelessagent.deciding.core.water_filling_kernel import max_rate
+
+    price = max_rate(form.snr_per_w[np.newaxis], form.cap_w, form.max_snr, np.array([form.budget_w]))[2]
+    return rate_bound_nats(form, float(price[0]))
+
+
+def known_bound(form: NormalForm) -> float:
+    """The bound without promised rates, in the objective's unit; NaN for objectives that none is known for here."""
+    if form.objective.name == "max_rate":
+        return best_rate_nats(form) * form.bps_per_nat
+    if form.objective.name == "max_energy_efficiency":
+        return best_efficiency_nats_per_j(form) * form.bps_per_nat * form.cell.amplifier_efficiency
+    return 0.0 if form.objective.name == "min_power" else np.nan
+
+
 def _best_surplus(form: NormalForm, price: float) -> float:
     """Φ(1, μ): at equal weights the user with the best gain is worth most, whatever the price."""
     best = form.best_snr_per_w[np.newaxis]

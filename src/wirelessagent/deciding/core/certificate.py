@@ -48,7 +48,7 @@ def certified(
 
 def nothing(form: NormalForm, status: Status, bound: float, **figures: Unpack[Figures]) -> Decision:
     """The decision where nothing feasible was found: nobody owns anything, and the ``reason`` says why."""
-    users, subcarriers = form.snr_per_w.shape
+    users, subcarriers = form.estimate.num_users, form.estimate.num_subcarriers
     owner = np.full(subcarriers, -1, dtype=np.int64)
     return _decision(form, owner, np.zeros(subcarriers), np.zeros(users), status, np.nan, bound, np.nan, figures)
 

@@ -47,7 +47,7 @@ def fill_rate(
         n = members[i]
         rate = min(level - log_ratio(snr_per_w, log_snr, top, n), ceiling[n])
         if rate > 0.0:
-            power += np.expm1(rate) / snr_per_w[n]
+            power += float(np.expm1(rate) / snr_per_w[n])
     return level, power
 
 

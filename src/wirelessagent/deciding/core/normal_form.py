@@ -102,7 +102,7 @@ class NormalForm:
         return self.snr_per_w.max(axis=0)
 
     def caps_w(self, snr_per_w: FloatArray) -> FloatArray:
-        """The useful power on subcarriers with ``snr_per_w`` (…, subcarrier): their caps, and where the rate is full."""
+        """The most useful power for ``snr_per_w`` (…, subcarrier): the cap, or less where the rate is full before."""
         with np.errstate(divide="ignore", over="ignore"):
             return np.where(snr_per_w > 0, np.minimum(self.cap_w, self.max_snr / snr_per_w), 0.0)
 

@@ -17,14 +17,18 @@ import numpy as np
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray
 
-TEMPERATURES = (0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3)
+TEMPERATURES = (0.03, 0.01, 3e-3, 1e-3)
 """T in units of the mean price of a subcarrier."""
 
 STEPS = 6
 HALVINGS = 8
 LONGEST_STEP = 1.0
 HIGHEST_LOG_PRICE = 500.0
-NEGLIGIBLE = 1e-9
+FLAT = 1e-4
+LOG_NEGLIGIBLE = np.log(1e-7)
+"""Logarithm of the share below which a user counts for nothing on a subcarrier."""
+SMALL = 1e-3
+"""A share below which a user counts on the diagonal of the Hessian only: dense pairs would cost most of the time."""
 
 
 @kernel
@@ -52,7 +56,7 @@ def priced_terms(
             if r <= 0.0:
                 r = 0.0
             elif r < ceiling[n, k]:
-                t = price[k] * (r - 1.0) + inverse_snr[n, k]
+                t = price[k] * ((r - 1.0) + inverse_snr[n, k] / price[k] if r > 0.1 else r + np.expm1(-r))
             else:
                 r = ceiling[n, k]
                 t = price[k] * r - cap_w[n, k]
@@ -94,7 +98,7 @@ def smoothed(
         size = 0
         for k in range(users):
             distance = (term[n, k] - highest) / temperature
-            if distance > -30.0:
+            if distance > LOG_NEGLIGIBLE:
                 share[size] = np.exp(distance)
                 sum_of_shares += share[size]
                 active[size] = k
@@ -108,11 +112,15 @@ def smoothed(
             hessian[k, k] += share[i] * worth[i] * worth[i] / temperature
             if 0.0 < rate[n, k] < ceiling[n, k]:
                 hessian[k, k] += share[i] * price[k]
+        kept = 0
         for i in range(size):
+            if share[i] > SMALL:
+                share[kept], worth[kept], active[kept] = share[i], worth[i], active[i]
+                kept += 1
+        for i in range(kept):
             pull = share[i] * worth[i] / temperature
-            if share[i] > NEGLIGIBLE:
-                for j in range(size):
-                    hessian[active[i], active[j]] -= pull * share[j] * worth[j]
+            for j in range(kept):
+                hessian[active[i], active[j]] -= pull * share[j] * worth[j]
     return total
 
 
@@ -187,6 +195,7 @@ def climb_prices(
             iterations += 1
             scale = 1.0
             moved = False
+            trial, trial_value = here, value
             for _ in range(HALVINGS):
                 trial = here + scale * np.minimum(np.maximum(step, -LONGEST_STEP), LONGEST_STEP)
                 trial = np.minimum(np.maximum(trial, -HIGHEST_LOG_PRICE), HIGHEST_LOG_PRICE)
@@ -205,6 +214,6 @@ def climb_prices(
             if worth - total > best:
                 best = worth - total
                 log_price[:] = here
-            if gain <= 1e-6 * relative_temperature * abs(value):
+            if gain <= FLAT * relative_temperature * abs(value):
                 break
     return best, iterations

@@ -20,7 +20,7 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 
 @kernel
 def water_level(floor: FloatArray, cap: FloatArray, size: int, total: float) -> float:
-    """The level τ over the first ``size`` floors (the lowest is 0); infinite where the caps hold no more than ``total``.
+    """The level τ over the first ``size`` floors (the lowest is 0); infinite where the caps hold at most ``total``.
 
     Each round fills the floors that are left as if there were neither caps nor dry floors, and then fixes for good
     whichever of the two was violated by more. ``floor`` and ``cap`` are used up.
