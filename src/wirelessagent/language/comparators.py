@@ -21,7 +21,8 @@ def _listed(words: str) -> list[str]:
 
 # Comparatives, which a negation turns round.
 _ABOVE = _listed(
-    "more_than greater_than higher_than over above beyond exceed exceeds exceeding going_over 超过 大于 高于 多于 超出 >"
+    "more_than greater_than higher_than over above beyond exceed exceeds exceeding going_over "
+    "超过 大于 高于 多于 超出 >"
 )
 _BELOW = _listed("less_than lower_than fewer_than smaller_than slower_than under below beneath 低于 小于 少于 <")
 _AT_LEAST = _listed(
@@ -30,8 +31,8 @@ _AT_LEAST = _listed(
 )
 _AT_MOST = _listed(
     "at_most no_more_than not_more_than no_higher_than no_greater_than up_to within maximum max pmax limit limited_to "
-    "limit_of cap capped_at cap_of ceiling budget budget_of 不超过 最多 至多 不高于 不大于 不多于 最高 最大 上限 限制在 "
-    "控制在 限定在 以内 ≤ <= =<"
+    "limit_of cap capped_at cap_of ceiling budget budget_of "
+    "不超过 最多 至多 不高于 不大于 不多于 最高 最大 上限 限制在 控制在 限定在 以内 ≤ <= =<"
 )
 _EXACTLY = _listed("exactly precisely 恰好 正好 刚好 等于")
 

@@ -1,8 +1,8 @@
 """Which constraint each figure of a sentence means, or the question that it raises.
 
-A power is the budget unless the words around it say circuit; a rate is promised to every user unless it is bounded from
-above; a percentage is an outage or a reliability. Everything that does not fit (a total rate, one user's rate, an amount to
-save, a figure without a unit, zero watts) raises a doubt instead of being dropped or bent.
+A power is the budget unless the words around it say circuit; a rate is promised to every user unless it is bounded
+from above; a percentage is an outage or a reliability. Everything that does not fit (a total rate, one user's rate, an
+amount to save, a figure without a unit, zero watts) raises a doubt instead of being dropped or bent.
 """
 
 from __future__ import annotations
@@ -18,14 +18,16 @@ from wirelessagent.language.text import CLAUSE_END
 _HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
 
 _CIRCUIT = re.compile(
-    r"(?i)\b(?:circuit|static|fixed|idle|overhead|baseline)\b[\w ]*|\bp_?c\b|电路\w*|静态\w*|固定功\w"
+    r"(?i)\b(?:circuit|static|fixed|idle|overhead|baseline)\b(?:\s+(?:power|energy|consumption|draw)\b)*|\bp_?c\b|"
+    r"(?:电路|静态|固定)(?:功率|功耗|能耗|消耗)?"
 )
 _CORRECTION = re.compile(
-    r"(?i)\b(?:no,? wait|wait|sorry|i mean|i meant|make that|scratch that|rather|correction|oops)\b|不对|应该是|改成|算了"
+    r"(?i)\b(?:no,? wait|wait|sorry|i mean|i meant|make that|scratch that|rather|correction|oops)\b|"
+    r"不对|应该是|改成|算了"
 )
 _PER_USER = re.compile(
-    r"(?i)\s*(?:each\b|apiece\b|(?:per|a|for (?:each|every))\s+(?:user|ue|person|head|subscriber|device|sensor|subcarrier|"
-    r"channel|carrier|antenna)|/\s*(?:user|ue)|每)"
+    r"(?i)\s*(?:each\b|apiece\b|(?:per|a|for (?:each|every))\s+(?:user|ue|person|head|subscriber|device|sensor|"
+    r"subcarrier|channel|carrier|antenna)|/\s*(?:user|ue)|每)"
 )
 _TOTAL_BEFORE = re.compile(
     r"(?i)(?:\b(?:total|sum|overall|aggregate|combined|cell|network)\s+(?:data\s+)?(?:rate|throughput|speed|capacity)|"
@@ -57,6 +59,8 @@ _NAMED_USER = re.compile(
     r"(?P<number>[0-9]+)|#\s*(?P<hash>[0-9]+)|(?:用户|子载波|信道|时隙)\s*(?P<zh>[0-9一二三四五六七八九十]+)|(?P<hao>[0-9]+)\s*号"
     r"|\b(?:first|second|third|last)\s+(?:user|ue|subcarrier)\b|第[0-9一二三四五六七八九十]+个"
 )
+_COUNTED_USERS = re.compile(r"(?i)\b[0-9]+ (?:users|ues|subscribers)\b|[0-9]+\s*个用户")
+_HALVED = re.compile(r"(?i)\bby (?:a )?(?:half|third|quarter)\b|\bhalf (?:the|of the|as much)\b|\bhalve\b|减半|一半")
 _CUT = re.compile(CLAUSE_END)
 
 
@@ -72,8 +76,8 @@ class Doubt:
 class Reading:
     """The constraints of a sentence, the words that each came from, and what is in doubt.
 
-    ``masked`` are the spans that are used up, so that their words do not count as wishes again; ``not_used`` are figures
-    that describe the channel rather than ask for something.
+    ``masked`` are the spans that are used up, so that their words do not count as wishes again; ``not_used`` are
+    figures that describe the channel rather than ask for something.
     """
 
     values: Mapping[str, float]
@@ -81,7 +85,7 @@ class Reading:
     doubts: Sequence[Doubt]
     not_used: Sequence[str]
     masked: Sequence[tuple[int, int]]
-    exact_rate: bool
+    exact: frozenset[str]
 
 
 def read_constraints(text: str, plain: str, quantities: Sequence[Quantity]) -> Reading:
@@ -89,7 +93,7 @@ def read_constraints(text: str, plain: str, quantities: Sequence[Quantity]) -> R
     reader = _Reader(text, plain, quantities)
     for index in range(len(quantities)):
         reader.take(index)
-    reader.take_named_users()
+    reader.take_users()
     return reader.result()
 
 
@@ -104,7 +108,7 @@ class _Reader:
         self._doubts: list[Doubt] = []
         self._not_used: list[str] = []
         self._masked: list[tuple[int, int]] = []
-        self._exact_rate = False
+        self._exact: set[str] = set()
         self._used_to = 0
 
     def result(self) -> Reading:
@@ -114,7 +118,7 @@ class _Reader:
             self._doubts.append(Doubt(key="rates_crossed", names=names))
         return Reading(
             values=self._values, evidence=self._evidence, doubts=self._doubts, not_used=self._not_used,
-            masked=self._masked, exact_rate=self._exact_rate,
+            masked=self._masked, exact=frozenset(self._exact),
         )  # fmt: skip
 
     def take(self, index: int) -> None:
@@ -126,7 +130,9 @@ class _Reader:
         cut = _CUT.search(self._plain, figure.end, after_to)
         after = self._plain[figure.end : cut.start() if cut else after_to]
         self._masked.append((figure.phrase_start, figure.phrase_end))
-        if figure.kind == "bare":
+        if figure.kind == "bare" and 0 < figure.value < 1 and _is_probability(before, after):
+            self._take_ratio(figure, before, after)
+        elif figure.kind == "bare":
             self._doubt("unit_missing", figure)
         elif figure.kind == "other":
             self._doubt("not_understood", figure)
@@ -141,8 +147,14 @@ class _Reader:
         else:
             self._take_rate(figure, before, after)
 
-    def take_named_users(self) -> None:
-        """A user or subcarrier that is named: nothing can be asked of a single one yet."""
+    def take_users(self) -> None:
+        """How many users there are is the channel's affair; a user or subcarrier that is named can't be served yet."""
+        for match in _COUNTED_USERS.finditer(self._plain):
+            if not any(figure.start <= match.start() < figure.end for figure in self._quantities):
+                self._not_used.append(self._text[match.start() : match.end()])
+        halved = _HALVED.search(self._plain)
+        if halved is not None:
+            self._doubts.append(Doubt(key="change", names={"text": self._text[halved.start() : halved.end()]}))
         for match in _NAMED_USER.finditer(self._plain):
             group = match.lastgroup
             place = match.start(group) if group is not None else match.start()
@@ -188,7 +200,8 @@ class _Reader:
             self._set("max_rate_bps", figure.value, figure)
         else:
             self._set("min_rate_bps", figure.value, figure)
-            self._exact_rate = self._exact_rate or figure.comparator == "exactly"
+            if figure.comparator == "exactly":
+                self._set("max_rate_bps", figure.value, figure)
 
     def _take_ratio(self, figure: Quantity, before: str, after: str) -> None:
         around = before + " " + after
@@ -215,12 +228,18 @@ class _Reader:
                 return
             start = self._last_end[name]
             self._masked.append((start + correction.start(), start + correction.end()))
+        if figure.comparator == "exactly":
+            self._exact.add(name)
         self._values[name] = value
         self._evidence[name] = figure.text
         self._last_end[name] = figure.end
 
     def _doubt(self, key: str, figure: Quantity) -> None:
         self._doubts.append(Doubt(key=key, names={"text": figure.text}))
+
+
+def _is_probability(before: str, after: str) -> bool:
+    return any(pattern.search(before + " " + after) for pattern in (_OUTAGE, _RELIABLE, _MISSING))
 
 
 def _is_change(before: str, after: str) -> bool:

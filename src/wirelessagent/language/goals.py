@@ -1,8 +1,8 @@
 """Which objective a sentence means: directions paired with what they apply to, negations, and the wish for a balance.
 
 "Higher" beside "speed" is a signal for max_rate, "save" beside "power" for min_power; a term may also be a signal by
-itself. A negation turns off the first thing named after it in its clause. One objective with enough weight and no rival is
-clear; anything else is not, and says why.
+itself. A negation turns off the first thing named after it in its clause. One objective with enough weight and no rival
+is clear; anything else is not, and says why.
 """
 
 from __future__ import annotations
@@ -99,11 +99,25 @@ def goal_of(found: Sequence[Found]) -> Goal:
         return Goal(verdict="contradiction", options=tuple(strong), spans=spans)
     if not strong:
         return _unclear(positive, negated)
+    if _joined_with_another(signals, strong[0], found):
+        return Goal(verdict="contradiction", options=tuple(positive), spans=spans)
     slips = any(s.corrected for s in signals if s.objective == strong[0])
     others = sum(weight for name, weight in positive.items() if name != strong[0])
     best = max(s.weight for s in signals if s.objective == strong[0] and not s.negated)
     confidence = 0.8 + 0.075 * min(best, 2.0) - 0.1 * slips - 0.1 * min(others, 1.0)
     return Goal(verdict="clear", objective=strong[0], options=tuple(strong), spans=spans, confidence=confidence)
+
+
+def _joined_with_another(signals: Sequence[Signal], objective: str, found: Sequence[Found]) -> bool:
+    """Whether an "and" ties the clear wish to a bare word for another one: "battery saving and speed"."""
+    joins = {item.first for item in found if item.term.concept == "join"}
+    wished = [signal for signal in signals if signal.objective == objective and not signal.negated]
+    others = [signal for signal in signals if signal.objective != objective and not signal.negated]
+    return any(
+        (a.last in joins and b.first == a.last + 1) or (b.last in joins and a.first == b.last + 1)
+        for a in wished
+        for b in others
+    )
 
 
 def _unclear(positive: dict[str, float], negated: set[str]) -> Goal:
@@ -152,8 +166,9 @@ def _pair(found: Sequence[Found]) -> dict[int, Found]:
             before = direction.last <= item.first
             gap = item.first - direction.last if before else direction.first - item.last
             reach = 1 if item.term.concept == "stream" else _REACH_BEFORE if before else _REACH_AFTER
-            if gap <= reach and not _blocked(found, direction, item):
-                vague = 0.75 if direction.term.concept == "want" else 0.0
+            means = (direction.term.concept, item.term.concept) in _PAIRS
+            if means and gap <= reach and not _blocked(found, direction, item):
+                vague = 1.5 if direction.term.concept == "want" else 0.0
                 candidates.append((gap + (0.0 if before else 0.5) + vague, item, direction))
     chosen: dict[int, Found] = {}
     taken: set[int] = set()
@@ -181,7 +196,7 @@ def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     joins = [item.first for item in found if item.term.concept == "join"]
     for item in found:
         same = [other for other in named if other.clause == item.clause]
-        if item.term.concept == "not":
+        if item.term.concept == "not" or (item.term.concept == "over" and _prefers(found, item)):
             ahead = [other for other in same if item.last <= other.first < item.last + _REACH_OF_NOT]
             turned_off.update(other.first for other in _with_joined(ahead, joins))
         elif item.term.concept == "not_after":
@@ -196,6 +211,11 @@ def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
             continue
         result.append(replace(signal, negated=hit))
     return result
+
+
+def _prefers(found: Sequence[Found], over: Found) -> bool:
+    """Whether "over" ranks wishes, as in "prefer speed over battery life"."""
+    return any(item.term.concept == "want" and item.clause == over.clause and item.first < over.first for item in found)
 
 
 def _with_joined(ahead: Sequence[Found], joins: Sequence[int]) -> list[Found]:

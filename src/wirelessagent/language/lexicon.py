@@ -1,56 +1,61 @@
 """The words of the offline recogniser, English and Chinese, as plain data.
 
-One string of terms per concept, apart by spaces; an underscore joins the words of a phrase, apostrophes are left out
-("dont"). Longer phrases win over shorter ones, so an exception is a longer phrase with another concept: "dont forget" is
-polite, "dont" negates. A concept is what a term does in a sentence; :mod:`wirelessagent.language.goals` combines them.
+One string of terms per concept, apart by spaces; an underscore joins the words of a phrase, and apostrophes are left
+out ("dont").
+
+Longer phrases win over shorter ones, so an exception is a longer phrase of another concept: "dont forget"
+is polite, "dont" negates. A concept is what a term does in a sentence; ``goals`` combines them.
 """
 
 from __future__ import annotations
 
-# Terms that mean an objective by themselves; "less_rate" and "more_power" are wishes that no objective serves.
+# Terms that mean an objective by themselves; "less_rate" is a wish that no objective serves.
 DIRECT: dict[str, str] = {
     "max_rate": (
-        "faster fastest fast quick quicker quickest speedy as_fast_as_possible speed_up speeding_up accelerate "
-        "full_speed full_throttle top_speed high_speed too_slow so_slow very_slow really_slow is_slow slow sluggish "
-        "buffering buffers stutters stuttering lagging laggy lags not_fast_enough isnt_fast_enough more_data "
-        "spectral_efficiency spectrum_efficiency spectrally_efficient rate_maximisation rate_maximization rmax "
-        "快 更快 快一点 快点 快些 快一些 最快 越快越好 要快 加速 提速 高速 高速率 太慢 太卡 很慢 好慢 慢 网速慢 "
-        "卡顿 很卡 好卡 缓冲 流畅 更流畅 不够快 频谱效率 谱效"
+        "faster fastest quicker quickest speedy make_it_fast want_it_fast go_fast be_fast as_fast_as_possible speed_up "
+        "speeding_up accelerate full_speed full_throttle top_speed high_speed too_slow so_slow very_slow really_slow "
+        "is_slow slow sluggish buffering buffers stutters stuttering lagging laggy lags not_fast_enough "
+        "isnt_fast_enough more_data really_fast very_fast super_fast fast_network fast_internet fast_wifi "
+        "spectral_efficiency spectrum_efficiency spectrally_efficient rate_maximisation rate_maximization rmax 快 更快 "
+        "快一点 快点 快些 快一些 最快 越快越好 要快 加速 提速 高速 高速率 太慢 太卡 很慢 好慢 慢 网速慢 卡顿 很卡 好卡 "
+        "缓冲 流畅 更流畅 不够快 频谱效率 谱效"
     ),
     "min_power": (
-        "green greener go_green eco eco_mode low_power low_energy power_saving energy_saving battery_saving "
-        "drain drains draining drain_too_fast drains_too_fast draining_too_fast drain_fast drains_fast "
-        "too_much_power too_much_energy too_much_electricity economical power_minimisation power_minimization pmin "
-        "省电 省点电 节能 节电 低功耗 省能 绿色 环保 费电 太费电 耗电 耗电太快 耗电太多 功耗太高 功率太大 功耗太大 能耗太高"
+        "green greener go_green eco eco_mode low_power low_energy power_saving energy_saving battery_saving drain "
+        "drains draining drain_too_fast drains_too_fast draining_too_fast drain_fast drains_fast too_much_power "
+        "too_much_energy too_much_electricity economical power_minimisation power_minimization pmin 省电 省点电 节能 "
+        "节电 低功耗 省能 绿色 环保 费电 太费电 耗电 耗电太快 耗电太多 功耗太高 功率太大 功耗太大 能耗太高"
     ),
     "max_energy_efficiency": (
-        "energy_efficiency energy_efficient energy_efficiently power_efficiency power_efficient ee "
-        "bits_per_joule bit_per_joule bits_joule bit_j per_joule every_joule each_joule bits_per_watt rate_per_watt "
-        "每焦耳 每焦 能效 能效比 能量效率 能源效率 高能效 又快又省电 又快又省 又省电又快 既快又省电 既快又省 既省电又快"
+        "energy_efficiency energy_efficient energy_efficiently power_efficiency power_efficient ee bits_per_joule "
+        "bit_per_joule bits_joule bit_j per_joule energy_per_bit joules_per_bit joule_per_bit power_per_bit "
+        "every_joule each_joule bits_per_watt rate_per_watt per_watt each_watt every_watt 每比特能耗 每焦耳 每焦 能效 "
+        "能效比 能量效率 能源效率 高能效 又快又省电 又快又省 又省电又快 既快又省电 既快又省 既省电又快"
     ),
     "less_rate": "slow_down slowing_down slower throttle 放慢 慢一点 慢点 慢一些 降速 限速",
 }
 
-# Directions and what they apply to.
+
+# Directions.
 UP = (
     "more higher high highest increase increases increasing increased raise raising boost boosting maximise maximize "
     "maximising maximizing maximises maximizes maximised maximized max maximum maximal most improve improving improved "
-    "enhance best greatest better good great greater bigger biggest larger largest lots_of plenty_of as_much up push "
-    "crank double extend extending prolong longer not_enough top upgrade "
-    "提高 提升 增加 加大 增大 最大化 最大 最高 更高 更大 更多 高 大 高一点 改善 加快 尽量高 越高越好 越大越好 越多越好 "
-    "尽可能高 尽可能大 不够 延长 更长 更好 多"
+    "enhance fast quick best greatest better good great greater bigger biggest larger largest lots_of as_much up push "
+    "crank double extend extending prolong longer not_enough top upgrade 提高 提升 增加 加大 增大 最大化 最大 最高 "
+    "更高 更大 更多 高 大 高一点 改善 加快 尽量高 越高越好 越大越好 越多越好 尽可能高 尽可能大 不够 延长 更长 更好 多"
 )
 DOWN = (
-    "less lower low lowest reduce reduces reducing reduced decrease decreasing cut cutting minimise minimize "
-    "minimising minimizing minimises minimizes minimised minimized min minimum minimal save saving saves saved "
-    "conserve conserving least little as_little smallest smaller economise economize economise_on economize_on trim "
-    "lessen spare preserve turn_down down "
-    "降低 减少 减小 降 减 最小化 最小 最低 更低 更少 更小 省 节省 节约 少用 少 低 小 低一点 低一些 小一点 少一点 "
-    "尽量低 尽量少 越低越好 越少越好 越小越好 尽可能低 尽可能小 尽可能少 压低"
+    "less fewer fewest as_few lower low lowest reduce reduces reducing reduced decrease decreasing cut cutting "
+    "minimise minimize minimising minimizing minimises minimizes minimised minimized min minimum minimal save saving "
+    "saves saved conserve conserving least little as_little smallest smaller economise economize economise_on "
+    "economize_on trim lessen spare preserve turn_down down 降低 减少 减小 降 减 最小化 最小 最低 更低 更少 更小 省 "
+    "节省 节约 少用 少 低 小 低一点 低一些 小一点 少一点 尽量低 尽量少 越低越好 越少越好 越小越好 尽可能低 尽可能小 "
+    "尽可能少 压低"
 )
 WANT = (
-    "want need needs give prioritise prioritize priority favour favor prefer focus_on just only optimise optimize "
-    "care_about all_about matters first important 要 想要 需要 优先 只要 只管 关注 优化 重要 保障"
+    "want need needs give prioritise prioritize priority favour favor prefer focus_on its_about it_is_about just only "
+    "optimise optimize care_about above_all is_everything comes_first all_about matters first important 第一 要 想要 "
+    "需要 优先 只要 只管 关注 优化 重要 保障"
 )
 KEEP = (
     "without_losing without_hurting without_sacrificing without_compromising without_reducing without_lowering "
@@ -58,18 +63,20 @@ KEEP = (
 )
 WASTE = "waste wasting wasted wastes wasteful 浪费"
 
+# What a direction applies to.
 RATE = (
     "rate rates speed speeds throughput thruput capacity bandwidth bitrate bit_rate data_rate data_rates download "
     "downloads downloading upload uploads uploading sum_rate goodput connection connections 速率 速度 网速 吞吐量 吞吐 "
     "容量 带宽 下载 上传 下载速度 上传速度 总速率 和速率 码率 数据率 数据速率 传输速率"
 )
-STREAM = "video videos streaming stream streams gaming video_quality video_streaming video_stream video_streams " + (
-    "视频 视频流 直播 游戏 画质 视频质量"
+STREAM = (
+    "video videos streaming stream streams gaming video_quality video_streaming video_stream video_streams 视频 视频流 "
+    "直播 游戏 画质 视频质量"
 )
 PERFORMANCE = "performance quality qos 性能 质量 体验"
 POWER = (
     "power energy consumption power_consumption energy_consumption electricity transmit_power transmission_power "
-    "radiated_power tx_power watts wattage emissions power_usage energy_usage energy_use power_use power_draw "
+    "radiated_power tx_power watt watts wattage emissions power_usage energy_usage energy_use power_use power_draw "
     "功率 功耗 能耗 电 电量 电力 耗电量 发射功率 能量 能源 电费 总功率 能源消耗 能量消耗 用电"
 )
 BATTERY = "battery batteries battery_life battery_lifetime 电池 续航 电池寿命 电池续航"
@@ -79,8 +86,9 @@ EFFICIENCY = "efficiency efficient efficiently 效率 高效"
 NOT = (
     "not no dont do_not doesnt does_not didnt never without isnt arent wont cant cannot shouldnt neednt no_need "
     "no_need_to dont_need_to forget forget_about ignore nevermind never_mind dont_care dont_care_about do_not_care "
-    "dont_worry_about no_matter stop instead_of rather_than regardless_of avoid skip not_interested_in "
-    "不要 别 不用 不必 无需 不需要 不在乎 不关心 不在意 不管 不考虑 不 无须 没必要 不想 停止 先不 不是 忽略 不追求"
+    "dont_worry_about no_matter stop instead_of rather_than regardless_of avoid skip not_interested_in 不要 别 不用 "
+    "不必 无需 不需要 不在乎 不关心 不在意 不管 不考虑 不 无须 无论 不管多少 无论多少 没必要 不想 停止 先不 不是 忽略 "
+    "不追求"
 )
 NOT_AFTER = (
     "doesnt_matter does_not_matter dont_matter do_not_matter not_important isnt_important unimportant irrelevant "
@@ -89,22 +97,24 @@ NOT_AFTER = (
 )
 POLITE = (
     "can could would will shall please lets let_us how_about what_about why_not why_dont is_it_possible_to "
-    "i_want_you_to dont_forget do_not_forget not_only no_wait nothing_but make_sure "
-    "能不能 能否 可以 可不可以 请 帮 麻烦 要不要 不但 不仅 别忘了 不错 大家 大约 差不多 不好意思 大概 多个"
+    "i_want_you_to dont_forget do_not_forget not_only no_wait nothing_but make_sure green_light high_speed_train "
+    "at_high_speed 能不能 能否 能 哪怕 赶快 尽快 可以 可不可以 请 帮 麻烦 要不要 不但 不仅 别忘了 不错 大家 大约 "
+    "差不多 不好意思 大概 多个"
 )
 SPLIT = "but instead however yet while whereas 但 但是 而 而是 不过"
 JOIN = "and or nor plus 和 与 及 或 以及"
 BALANCE = (
-    "balance balanced balancing tradeoff trade_off trade_offs compromise sweet_spot middle_ground "
-    "平衡 均衡 兼顾 权衡 折中 折衷 两全 取舍"
+    "balance balanced balancing tradeoff trade_off trade_offs compromise sweet_spot middle_ground 平衡 均衡 兼顾 权衡 "
+    "折中 折衷 两全 取舍"
 )
-BOTH = "both"
+BOTH = "both 都要 都想要"
 PAIRED = "又 又要 既 既要"  # two of them say "both"
+OVER = "over"  # after a word of preference it sets one wish below another
 
 # Topics.
 FAIR = (
     "fair fairly fairness equal equally equitable evenly proportional_fairness proportionally_fair pf max_min "
-    "公平 均等 平均分配 比例公平"
+    "maximise_the_minimum maximize_the_minimum worst_user weakest_user 最差用户 公平 均等 平均分配 比例公平"
 )
 UNSUPPORTED = (
     "latency delay delays jitter ping response_time handover handovers coverage beamforming antenna antennas tilt "
@@ -112,32 +122,37 @@ UNSUPPORTED = (
 )
 DOMAIN = (
     "user users ue subcarrier subcarriers channel channels csi cell cells network base_station allocation spectrum "
-    "signal snr sensor sensors iot device devices wireless internet wifi 5g 6g gain repair waterfilling "
-    "用户 小区 电路 子载波 信道 网络 基站 频谱 传感器 物联网 设备 信号 分配 资源"
+    "signal snr sensor sensors iot device devices wireless internet wifi 5g 6g gain repair waterfilling 用户 小区 电路 "
+    "子载波 信道 网络 基站 频谱 传感器 物联网 设备 信号 分配 资源"
 )
 OFF_TOPIC = (
-    "weather joke football soccer pizza poem song music movie recipe stock stocks news president translate dinner lunch "
-    "coffee cook holiday essay homework 天气 笑话 足球 比赛 电影 唱歌 诗 新闻 股票 吃饭 做饭 翻译 披萨 外卖"
+    "weather joke football soccer pizza poem song music movie recipe stock stocks news president translate dinner "
+    "lunch coffee cook holiday essay homework 天气 笑话 足球 比赛 电影 唱歌 诗 新闻 股票 星期 几点 吃饭 做饭 翻译 披萨 "
+    "外卖"
 )
-COMMAND = "undo revert apply compare confirm history replay redo rollback roll_back cancel 撤销 撤回 应用 比较 对比 确认 取消 回退"
+COMMAND = (
+    "undo revert apply compare confirm history replay redo rollback roll_back cancel explain 撤销 撤回 应用 比较 对比 "
+    "确认 取消 回退 解释 解释一下"
+)
 HELP = "help what_can_you_do what_do_you_do who_are_you 你能做什么 你会什么 帮助 你是谁"
 QUESTION = (
-    "why what whats which who whos how when where is are was were does did do_you do_we do_they do_users explain "
-    "为什么 为何 怎么 什么 多少 哪个 哪些 哪 谁 吗 怎样 怎么样 解释"
+    "why what whats which who whos how when where is are was were does did do_you do_we do_they do_users do_i 为什么 "
+    "为何 怎么 什么 多少 哪个 哪些 哪 谁 吗 怎样 怎么样"
 )
 GREETING = "hello hi hey thanks thank_you good_morning good_evening 你好 您好 谢谢"
 
 CONCEPTS: dict[str, str] = {
     "up": UP, "down": DOWN, "want": WANT, "keep": KEEP, "waste": WASTE, "rate": RATE, "stream": STREAM,
     "performance": PERFORMANCE, "power": POWER, "battery": BATTERY, "efficiency": EFFICIENCY, "not": NOT,
-    "not_after": NOT_AFTER, "polite": POLITE, "split": SPLIT, "join": JOIN, "balance": BALANCE, "both": BOTH, "paired": PAIRED,
-    "fair": FAIR, "unsupported": UNSUPPORTED, "domain": DOMAIN, "off_topic": OFF_TOPIC, "command": COMMAND,
-    "help": HELP, "question": QUESTION, "greeting": GREETING,
+    "not_after": NOT_AFTER, "polite": POLITE, "split": SPLIT, "join": JOIN, "balance": BALANCE, "both": BOTH,
+    "paired": PAIRED, "over": OVER, "fair": FAIR, "unsupported": UNSUPPORTED, "domain": DOMAIN,
+    "off_topic": OFF_TOPIC, "command": COMMAND, "help": HELP, "question": QUESTION, "greeting": GREETING,
 }  # fmt: skip
 
 # Right words that are one letter away from a term: never "corrected".
-NOT_TYPOS = frozenset(
-    "spend spent boots greet greed treat lease leash fasten foster fester hangover apple fairy decay relay powder poker "
-    "steed waits wants paste taste small witch quite quiet latte lover liver tower mower covers steak steam steal forests "
-    "closer losing choose these those there their about after other under below cheap sleep price large early light night".split()
+RIGHT_WORDS = (
+    "about after apple below boots cheap choose closer covers decay early fairy fasten fester forests foster greed "
+    "greet hangover large latte lease leash light liver losing lover mower night other paste poker powder price quiet "
+    "quite relay sleep small spend spent steak steal steam steed taste their there these those tower treat under waits "
+    "wants witch"
 )

@@ -32,7 +32,7 @@ _CHINESE_BIG = {"万": 10**4, "亿": 10**8}
 
 _DIGITS = (
     r"(?:(?:[1-9][0-9]{0,2}(?:,[0-9]{3})+|[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9]))(?:\.[0-9]+)?(?![0-9]|[.,][0-9])"
-    r"|[0-9]+[.,][0-9]+(?![0-9]|[.,][0-9])|\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
+    r"|[0-9]+[.,][0-9]+(?![0-9]|[.,][0-9])|[0-9]+(?:[.,][0-9]+){2,}|\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
 )
 _WORD = (
     r"(?:" + "|".join(sorted([*_SMALL, *_SCALES, *_PARTS, *_VAGUE, "and", "point", "of"], key=len, reverse=True)) + r")"
@@ -40,7 +40,7 @@ _WORD = (
 _NUMBER = re.compile(
     rf"(?P<minus>(?<![A-Za-z0-9_)])-(?=[0-9.])|(?i:\b(?:minus|negative)\s+)|负\s*)?"
     rf"(?:(?P<digits>(?<![A-Za-z0-9_.]){_DIGITS})(?:\s?(?P<scale>(?i:hundred|thousand|million|billion)\b|[百千]?万|百|亿|千(?!瓦时|赫|米)))?"
-    rf"|(?P<words>(?i:\b{_WORD}(?:[\s-]+{_WORD})*\b))"
+    rf"|(?P<words>(?i:(?<!\bas\s)\b{_WORD}(?:[\s-]+{_WORD})*\b))"
     rf"|(?P<chinese>[几零〇一二两三四五六七八九十百千万亿半][零〇一二两三四五六七八九十百千万亿点半]*))"
 )
 
@@ -76,8 +76,12 @@ def _value_of(match: re.Match[str], form: str) -> Decimal | None:
     if form == "words":
         return None
     digits = match["digits"]
-    if re.search(r"[1-9][0-9]{0,2}(?:,[0-9]{3})+(?![0-9])", digits):
+    if re.match(r"[1-9][0-9]{0,2}(?:,[0-9]{3})+(?![0-9])", digits):
         digits = digits.replace(",", "")
+    elif re.match(r"[1-9][0-9]{0,2}(?:\.[0-9]{3}){2,}(?![0-9])", digits):
+        digits = digits.replace(".", "")
+    if len(re.findall(r"[.,]", digits)) > 1:
+        return None  # "1,23,456": what the marks mean is anybody's guess
     value = Decimal(digits.replace(" ", "").replace(",", "."))
     for letter in match["scale"] or "" if not (match["scale"] or "").isascii() else ():
         value *= _CHINESE_SCALES.get(letter) or _CHINESE_BIG[letter]

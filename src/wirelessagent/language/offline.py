@@ -1,9 +1,9 @@
-"""The offline recogniser: a lexicon and rules, no model and no network. It acts only when it is sure, and asks otherwise.
+"""The offline recogniser: a lexicon and rules, no model, no network. It acts only when it is sure, and asks otherwise.
 
-Figures first (:mod:`quantities`, :mod:`constraints`), then the objective from the words that remain (:mod:`vocabulary`,
-:mod:`goals`). Two figures without a wish are the one default: a rate for each user under a power limit means the highest
-total rate with both; a rate or a limit alone is asked about. Any registered objective is understood by its name, its aliases
-and its own phrases.
+Figures first (``quantities``, ``constraints``), then the objective from the words that remain (``vocabulary``,
+``goals``). There is one default: a rate for each user under a power limit, with no wish, means the highest total rate
+with both; a rate or a limit alone is asked about. Any registered objective is understood by its name, its aliases and
+its own phrases.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ NAME = "offline"
 _MAX_CHARACTERS = 2000
 _DEFAULT_CONFIDENCE = 0.75
 _BUILT_IN_ORDER = ("max_rate", "min_power", "max_energy_efficiency")
+_COMPARE = ("compare", "比较", "对比")
 _ABOUT_THE_NETWORK = ("rate", "stream", "power", "battery", "efficiency", "performance", "domain", "direct", "fair")
 
 
@@ -71,7 +72,7 @@ class _Answer:
         )  # fmt: skip
 
     def allocate(self, objective: str, reading: Reading, words: str, confidence: float) -> Intent:
-        dropped = {"max_rate_bps"} if reading.exact_rate and objective == "min_power" else set[str]()
+        dropped = reading.exact & {"max_rate_bps"} if objective == "min_power" else frozenset[str]()
         values = {name: reading.values[name] for name in CONSTRAINTS if name in reading.values and name not in dropped}
         evidence = {name: reading.evidence[name] for name in values}
         if words:
@@ -90,7 +91,9 @@ class _Understanding:
     def __init__(self, text: str, own: tuple[OwnWords, ...], voice: Voice) -> None:
         self._text, self._own, self._voice, self._answer = text, own, voice, _Answer(voice)
         plain = normalise(text)
-        self._reading = read_constraints(text, plain, parse_quantities(text))
+        quantities = parse_quantities(text)
+        self._has_figures = bool(quantities)
+        self._reading = read_constraints(text, plain, quantities)
         self._units: list[Unit] = units_of(plain, self._reading.masked)
         self._found: list[Found] = _vocabulary(own).find(self._units)
         self._concepts = {item.term.concept for item in self._found}
@@ -106,12 +109,12 @@ class _Understanding:
         signalled = self._goal.verdict in ("clear", "contradiction")
         first = self._found[0] if self._found else None
         leads = first is not None and first.first == 0
-        about_network = bool(self._concepts & set(_ABOUT_THE_NETWORK)) or bool(self._reading.values)
+        about_network = bool(self._concepts & set(_ABOUT_THE_NETWORK)) or self._has_figures
         if "help" in self._concepts and not signalled:
             return self._answer.tell("question", "help", 0.9)
-        if first is not None and leads and first.term.concept == "command" and not first.corrected:
-            if not signalled or self._text_of(first).lower() in ("compare", "比较", "对比"):
-                return self._answer.tell("command", "command", 0.85)
+        commanded = first is not None and leads and first.term.concept == "command" and not first.corrected
+        if first is not None and commanded and (not signalled or self._text_of(first).lower() in _COMPARE):
+            return self._answer.tell("command", "command", 0.85)
         if self._is_question(leads):
             if about_network:
                 return self._answer.tell("question", "question", 0.8)
@@ -140,6 +143,9 @@ class _Understanding:
         if "unsupported" in self._concepts and self._goal.verdict == "clear":
             goal = self._voice.label(self._goal.objective)
             return self._answer.ask("unsupported_with_goal", 0.8, text=self._words_for("unsupported"), goal=goal)
+        exact_power = "max_power_w" in self._reading.exact and self._goal.objective == "min_power"
+        if exact_power:
+            return self._answer.ask("exact_power", 0.8, text=self._reading.evidence["max_power_w"])
         return None
 
     def _request(self) -> Intent:
@@ -169,7 +175,9 @@ class _Understanding:
 
     def _unclear(self) -> Intent:
         if self._goal.verdict == "weak" and self._goal.objective in self._voice.labels:
-            return self._answer.ask("weak", 0.6, goal=self._voice.label(self._goal.objective))
+            guess = self._goal.objective
+            others = self._voice.choices(without=guess)
+            return self._answer.ask("weak", 0.6, goal=self._voice.label(guess), choices=others)
         return self._answer.ask("greeting" if "greeting" in self._concepts else "unclear")
 
     def _quoted(self, values: Mapping[str, float]) -> str:

@@ -35,6 +35,7 @@ _CHINESE_COUNTED = re.compile(
 )
 _GENERATION = re.compile(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
 _HUNDREDTHS = re.compile(r"百分之$")
+_FOREIGN_UNIT = re.compile(r"\s?[A-Za-zμ][A-Za-zμ/]*")
 _RANGE = re.compile(r"\s*(?:-|–|—|~|(?i:to\b|and\b|through\b)|到|至)\s*$")
 _TRAILING_HALF = re.compile(r"半(?!小时)")
 _APIECE = re.compile(r"(?i)\s*(?:each|apiece|per\s+(?:user|person|head))\b")
@@ -46,7 +47,7 @@ class Quantity:
 
     Attributes:
         value: in SI units: W, bit/s, or a ratio to 1; may be zero, negative, or inf where it is beyond any figure.
-        kind: power, rate, ratio, bare (no unit) or other (a bound in words or units that are not known; its value is 0).
+        kind: power, rate, ratio, bare (no unit) or other (a bound that is not understood; its value is 0).
         text: the words of number and unit, as they stand at [start, end) of the sentence.
         comparator: at_least, at_most, exactly, or None.
         phrase_start, phrase_end: the span with the comparator and the noun between them.
@@ -94,7 +95,8 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
         if lower is not None and reading.unit is not None:
             found.extend(_range(text, lower, reading))
         else:
-            quantity = _bounded(text, plain, reading, after)
+            until = following.start if following is not None else len(plain)
+            quantity = _bounded(text, plain, reading, after=after, until=until)
             if quantity is None:
                 continue
             found.append(quantity)
@@ -142,7 +144,9 @@ def _joined(plain: str, lower: _Reading, upper: _Reading) -> bool:
     if lower.unit is not None and (upper.unit is None or upper.unit.kind != lower.unit.kind):
         return False
     if "and" not in gap.lower():
-        return upper.unit is not None and not (lower.unit is None and _NAMES.search(plain[: lower.start][-12:]))
+        return upper.unit is not None and not (
+            lower.unit is None and _NAMES.search(plain, max(0, lower.start - 16), lower.start)
+        )
     return re.search(r"(?i)between\s*$", plain[max(0, lower.start - 12) : lower.start]) is not None
 
 
@@ -161,7 +165,8 @@ def _range(text: str, lower: _Reading, upper: _Reading) -> list[Quantity]:
     ]  # fmt: skip
 
 
-def _bounded(text: str, plain: str, reading: _Reading, after: int) -> Quantity | None:
+def _bounded(text: str, plain: str, reading: _Reading, *, after: int, until: int) -> Quantity | None:
+    """The quantity of one reading; its words lie between ``after`` and ``until``."""
     number, unit = reading.number, reading.unit
     kind: QuantityKind = unit.kind if unit is not None and number.value is not None else "other"
     bounds = comparison(plain, reading.start, reading.end, kind=kind, after=after)
@@ -177,9 +182,13 @@ def _bounded(text: str, plain: str, reading: _Reading, after: int) -> Quantity |
     value = 0.0
     if number.value is not None and kind != "other":
         value = unit.value(number.value) if unit is not None else float(number.value * reading.factor)
+    end = reading.end
+    foreign = _FOREIGN_UNIT.match(plain, end, until) if kind == "other" and unit is None else None
+    if foreign is not None:
+        end = foreign.end()
     return Quantity(
-        value=value, kind=kind, text=text[reading.start : reading.end], start=reading.start, end=reading.end,
-        comparator=bounds.comparator, phrase_start=bounds.start, phrase_end=bounds.end,
+        value=value, kind=kind, text=text[reading.start : end], start=reading.start, end=end,
+        comparator=bounds.comparator, phrase_start=bounds.start, phrase_end=max(end, bounds.end),
         doubtful=unit is not None and unit.doubtful,
     )  # fmt: skip
 
@@ -189,7 +198,7 @@ def _is_article(plain: str, reading: _Reading) -> bool:
 
 
 def _apiece(plain: str, unit: Unit) -> bool:
-    """ "A megabit each": the article counts; "not a watt more" has none."""
+    """Whether the article is a number: it is in "a megabit each", not in "not a watt more"."""
     return unit.kind == "rate" and _APIECE.match(plain, unit.end) is not None
 
 

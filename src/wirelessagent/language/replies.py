@@ -51,12 +51,12 @@ _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, 
 _SENTENCES: dict[str, dict[str, str]] = {
     "en": {
         "restated": "{goal}{constraints}.",
-        "not_used": " ({text} is taken from the measured channel itself.)",
+        "not_used": " ({text} is taken from the channel itself.)",
         "aim": "What should the cell aim for: {choices}?",
         "greeting": "Hello. What should the cell aim for: {choices}?",
         "empty": "Nothing was said. What should the cell aim for: {choices}?",
         "unclear": "I am not sure what you want. What should the cell aim for: {choices}?",
-        "weak": "Did you mean {goal}, or one of these: {choices}?",
+        "weak": "Did you mean {goal}, or rather {choices}?",
         "negated": "Understood what not to do. What should the cell aim for instead: {choices}?",
         "contradiction": (
             "You asked for {both}, which pull against each other. Which comes first, or do you want the compromise "
@@ -74,37 +74,26 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "too_long": "That is too long for one request. In a sentence or two: what should the cell aim for, {choices}?",
         "impossible": "{text} is not possible here. Which positive and finite figure did you mean?",
         "huge": "{text} is millions of watts, more than any cell radiates. Did you mean milliwatts (mW), and how many?",
-        "power_per_user": "I can limit the total power, not {text} per user. What should the total limit be, in W or dBm?",
+        "power_per_user": "I can limit the total power, not {text} per user. What should the total be, in W or dBm?",
         "power_floor": "I can't promise to radiate at least {text}. Did you mean at most {text}?",
         "change": "Is {text} the new limit, or the amount to change it by? If a change, what should the limit be?",
         "unit_missing": "{text} of what: W, mW or dBm of power, kbit/s or Mbit/s of rate, or %?",
-        "not_understood": "I can't use the limit {text}. Can you give it as a power (W, dBm) or a rate (kbit/s, Mbit/s)?",
+        "not_understood": "I can't use the limit {text}. Can you give it as a power (W, dBm) or a rate (Mbit/s)?",
         "bits_or_bytes": "Is {text} megabits or megabytes: bits (Mbit/s) or bytes (MB/s, eight times as much)?",
-        "share": "{text} of what? I can use an outage or a reliability; a limit on power or rate needs W or bit/s: which?",
+        "share": "{text} of what? I can use an outage or a reliability; a limit needs W or bit/s: which is it?",
         "total_rate": "I can promise a rate to each user, not a total of {text}. How much should each user get?",
         "status": "Is {text} what users have now, or the rate that each should get at least?",
         "conflict": "You gave both {one} and {other} for the same thing. Which one should I use?",
         "rates_crossed": "At least {low} and at most {high} can't both hold. Which rates did you mean?",
         "named_user": "I can't treat {text} differently from the others yet. Shall I apply the request to all users?",
         "exact_power": "Exactly {text} and the least power don't go together. Did you mean at most {text}?",
-        "question": (
-            "I carry out requests and can't answer questions yet; each result comes with its figures. You can ask for "
-            "{choices}, with limits such as 10 W or 1 Mbit/s each."
-        ),
-        "command": (
-            "There is no earlier allocation to work on here: each request stands by itself. You can ask for {choices}, "
-            "with limits such as 10 W or 1 Mbit/s each."
-        ),
-        "help": (
-            "I allocate subcarriers and power of a cell. You can ask for {choices}, with limits such as 10 W, 40 dBm, "
-            "1 Mbit/s each or 5 % outage."
-        ),
-        "out_of_scope": (
-            "That is outside what I do: I allocate subcarriers and power of a cell. You can ask for {choices}, with "
-            "limits such as 10 W or 1 Mbit/s each."
-        ),
-        "unsupported": "I can't steer {text}. You can ask for {choices}, with limits such as 10 W or 1 Mbit/s each.",
-        "restated_alone": "", "restated_limits": ": ", "or": " or ", "comma": ", ", "and": " and ",
+        "question": "I carry out requests and can't answer questions yet; each result brings its figures. {offers}",
+        "command": "There is no earlier allocation to work on: each request stands by itself. {offers}",
+        "help": "I allocate the subcarriers and the power of a cell. {offers}",
+        "out_of_scope": "That is outside what I do: I allocate the subcarriers and the power of a cell. {offers}",
+        "unsupported": "I can't steer {text}. {offers}",
+        "offers": "You can ask for {choices}, with limits such as 10 W, 40 dBm, 1 Mbit/s each or 5 % outage.",
+        "restated_alone": "", "restated_limits": ": ", "or": " or ", "either": " or ", "comma": ", ", "and": " and ",
     },
     "zh": {
         "restated": "{goal}{constraints}。",
@@ -113,7 +102,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "greeting": "你好。小区应以什么为目标：{choices}？",
         "empty": "没有内容。小区应以什么为目标：{choices}？",
         "unclear": "我不确定您的意思。小区应以什么为目标：{choices}？",
-        "weak": "您是指{goal}吗，还是其中之一：{choices}？",
+        "weak": "您是指{goal}，还是{choices}？",
         "negated": "明白不要什么了。那么应以什么为目标：{choices}？",
         "contradiction": "您要求{both}，两者相互矛盾。以哪个为先，还是取两者的折中即能效：{choices}？",
         "rivals": "您同时要求{both}。应以哪一个为目标：{choices}？",
@@ -138,12 +127,13 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "rates_crossed": "至少 {low} 与不超过 {high} 不能同时成立。您指的是哪些速率？",
         "named_user": "暂时不能单独对待{text}。是否对所有用户执行该请求？",
         "exact_power": "正好 {text} 与功率最低不能并存。您是指不超过 {text} 吗？",
-        "question": "我执行请求，暂不能回答问题；每个结果都附有数据。您可以要求{choices}，并附上限制，如 10 W 或每用户 1 Mbit/s。",
-        "command": "这里没有可操作的先前分配：每个请求都是独立的。您可以要求{choices}，并附上限制，如 10 W 或每用户 1 Mbit/s。",
-        "help": "我为小区分配子载波和功率。您可以要求{choices}，并附上限制，如 10 W、40 dBm、每用户 1 Mbit/s 或 5 % 中断概率。",
-        "out_of_scope": "这超出了我的范围：我为小区分配子载波和功率。您可以要求{choices}，并附上限制，如 10 W 或每用户 1 Mbit/s。",
-        "unsupported": "我不能控制{text}。您可以要求{choices}，并附上限制，如 10 W 或每用户 1 Mbit/s。",
-        "restated_alone": "", "restated_limits": "，", "or": "还是", "comma": "、", "and": "和",
+        "question": "我执行请求，暂不能回答问题；每个结果都附有数据。{offers}",
+        "command": "这里没有可操作的先前分配：每个请求都是独立的。{offers}",
+        "help": "我为小区分配子载波和功率。{offers}",
+        "out_of_scope": "这超出了我的范围：我为小区分配子载波和功率。{offers}",
+        "unsupported": "我不能控制{text}。{offers}",
+        "offers": "您可以要求{choices}，并附上限制，如 10 W、40 dBm、每用户 1 Mbit/s 或 5 % 中断概率。",
+        "restated_alone": "", "restated_limits": "，", "or": "还是", "either": "或", "comma": "、", "and": "和",
     },
 }  # fmt: skip
 
@@ -161,12 +151,14 @@ class Voice:
         self.labels = labels
 
     def say(self, key: str, **names: str) -> str:
-        """The sentence of this key with its names filled in; {choices} lists what is on offer."""
-        return _SENTENCES[self.language][key].format(**({"choices": self.choices()} | names))
+        """The sentence of this key with its names filled in; {choices} and {offers} list what is on offer."""
+        sentences = _SENTENCES[self.language]
+        offers = sentences["offers"].format(choices=self.choices("either"))
+        return sentences[key].format(**({"choices": self.choices(), "offers": offers} | names))
 
-    def choices(self) -> str:
+    def choices(self, last: str = "or", *, without: str = "") -> str:
         """The objectives on offer, "a, b or c"."""
-        return self._listed([self.label(name) for name in self.labels], "or")
+        return self._listed([self.label(name) for name in self.labels if name != without], last)
 
     def label(self, objective: str) -> str:
         return GOALS[self.language].get(objective) or self.labels.get(objective, objective)

@@ -1,8 +1,8 @@
 """Finding the known terms in a sentence: longest phrase first, any script, one slip of the finger forgiven.
 
 A sentence becomes units: Latin words, and single Chinese characters. Words of five letters or more that are unknown and
-one edit (a letter missing, added, changed or two swapped) from exactly one known word of the same first letter are read as
-that word. Figures are masked beforehand, so that "minimum" in "minimum 1 Mbit/s" is not taken for a wish.
+one edit (a letter missing, added, changed or two swapped) from exactly one known word of the same first letter are read
+as that word. Figures are masked beforehand, so that "minimum" in "minimum 1 Mbit/s" is not taken for a wish.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ MASK = "#"
 
 _UNIT = re.compile(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|(?P<cut>{CLAUSE_END})")
 _SHORTEST_CORRECTED = 5
+_RIGHT_WORDS = frozenset(lexicon.RIGHT_WORDS.split())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,7 +143,7 @@ class Vocabulary:
 
     @functools.lru_cache(maxsize=4096)  # noqa: B019  # one vocabulary lives as long as the process
     def _corrected(self, word: str) -> str:
-        if len(word) < _SHORTEST_CORRECTED or len(word) > 24 or word in self._words or word in lexicon.NOT_TYPOS:
+        if len(word) < _SHORTEST_CORRECTED or len(word) > 24 or word in self._words or word in _RIGHT_WORDS:
             return word
         near = {known for variant in _deletions(word) for known in self._slips.get(variant, ())}
         close = [known for known in near if known[0] == word[0] and _one_edit(word, known)]
