@@ -149,6 +149,19 @@ class GivesUpEarly(InTurn):
 
 
 @dataclass(frozen=True, kw_only=True)
+class ProvesTooMuch(InTurn):
+    """Takes every promise for impossible."""
+
+    caught_by = "test_solves_what_is_easy"
+
+    def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
+        decision = InTurn.solve(self, estimate, problem, cell)
+        if problem.min_rate_bps is None:
+            return decision
+        return dataclasses.replace(decision, status="infeasible", value=np.nan, gap=np.nan, reason="far too much")
+
+
+@dataclass(frozen=True, kw_only=True)
 class ServesAGhost(InTurn):
     """Gives a subcarrier to a user who does not exist."""
 
@@ -390,6 +403,7 @@ BROKEN: tuple[InTurn, ...] = (
     ReturnsATuple(),
     SignsAsAnother(),
     GivesUpEarly(),
+    ProvesTooMuch(),
     ServesAGhost(),
     NegativePower(),
     OverBudget(),
