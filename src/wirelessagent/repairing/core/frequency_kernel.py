@@ -41,26 +41,36 @@ def nearest_known(known: BoolArray) -> tuple[IntArray, IntArray]:
 
 
 @kernel
-def decorrelation(distance: float, coherence: float) -> float:
-    """γ = 1 − ρ at a distance, in a form that keeps its digits when small; 0 at distance 0."""
-    ratio = distance / coherence
-    return ratio * ratio / (1.0 + ratio * ratio)
+def two_sided(below: float, above: float, coherence: float) -> tuple[float, float, float]:
+    """Weights of the neighbours at distances ``below`` and ``above``, and the expected squared error in units of the
+    variance: (1 − s)² + 2(w_l γ_l + w_r γ_r) − 2 w_l w_r γ_lr with s = w_l + w_r.
+
+    Written in q = (Δ/c)² with ρ = 1/(1 + q) and γ = q/(1 + q), so that no digits are lost where all ρ are near 1.
+    """
+    scale = 1.0 / (coherence * coherence)
+    q_below, q_above = below * below * scale, above * above * scale
+    q_between = (below + above) * (below + above) * scale
+    one_below, one_above, one_between = 1.0 + q_below, 1.0 + q_above, 1.0 + q_between
+    share = one_between / (one_below * one_above * q_between * (2.0 + q_between))
+    w_below = (q_between - q_below + q_above * one_between) * share
+    w_above = (q_between - q_above + q_below * one_between) * share
+    if w_below + w_above > 1.0 - LEAST_SHARE_OF_MEAN:
+        shrink = (1.0 - LEAST_SHARE_OF_MEAN) / (w_below + w_above)
+        w_below, w_above = w_below * shrink, w_above * shrink
+    rest = 1.0 - w_below - w_above
+    # γ of each distance, over the common denominator: one division instead of three.
+    common = 2.0 / (one_below * one_above * one_between)
+    g_below = q_below * one_above * one_between * common
+    g_above = q_above * one_below * one_between * common
+    g_between = q_between * one_below * one_above * common
+    return w_below, w_above, rest * rest + w_below * g_below + w_above * g_above - w_below * w_above * g_between
 
 
 @kernel
-def two_sided(below: float, above: float, coherence: float) -> tuple[float, float, float]:
-    """Weights of the neighbours at distances ``below`` and ``above``, and the expected squared error in units of the
-    variance: (1 − s)² + 2(w_l γ_l + w_r γ_r) − 2 w_l w_r γ_lr with s = w_l + w_r."""
-    g_below, g_above = decorrelation(below, coherence), decorrelation(above, coherence)
-    g_between = decorrelation(below + above, coherence)
-    scale = g_between * (2.0 - g_between)
-    w_below = (g_above + g_between - g_below - g_above * g_between) / scale
-    w_above = (g_below + g_between - g_above - g_below * g_between) / scale
-    excess = max(1.0, (w_below + w_above) / (1.0 - LEAST_SHARE_OF_MEAN))
-    w_below, w_above = w_below / excess, w_above / excess
-    rest = 1.0 - w_below - w_above
-    error = rest * rest + 2.0 * (w_below * g_below + w_above * g_above) - 2.0 * w_below * w_above * g_between
-    return w_below, w_above, error
+def decorrelation(distance: float, coherence: float) -> float:
+    """γ = 1 − ρ at a distance, in a form that keeps its digits when small."""
+    ratio = distance / coherence
+    return ratio * ratio / (1.0 + ratio * ratio)
 
 
 @kernel
@@ -132,10 +142,12 @@ def misfit(relative: FloatArray, known: BoolArray, position: FloatArray, candida
     """
     below, above = nearest_known(known)
     found = np.zeros((relative.shape[0], candidates.size))
+    product = np.empty(candidates.size)
     for k in range(relative.shape[0]):
         count, total = known[k].sum(), relative[k].sum()
         if count < 2:
             continue
+        product[:] = 1.0
         for n in range(relative.shape[1]):
             if not known[k, n]:
                 continue
@@ -143,7 +155,12 @@ def misfit(relative: FloatArray, known: BoolArray, position: FloatArray, candida
             for c in range(candidates.size):
                 value, variance = predict_entry(relative[k], position, n, below[k, n], above[k, n], mean, candidates[c])
                 error = relative[k, n] - value
-                found[k, c] += math.log(variance) + error * error / variance
+                found[k, c] += error * error / variance
+                product[c] *= variance
+                if not 1e-200 < product[c] < 1e200:  # logarithms are dear: one for many factors
+                    found[k, c] += math.log(product[c])
+                    product[c] = 1.0
+        found[k] += np.log(product)
     return found
 
 
