@@ -13,7 +13,11 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-_STRUCTURE = {"DIMENSION_LIST", "REFERENCE_LIST", "CLASS", "NAME"}  # of dimension scales; no metadata
+from wirelessagent.model.errors import FileFormatError
+
+_ABOUT_DATA = {
+    "_FillValue", "missing_value", "scale_factor", "add_offset", "units", "MATLAB_class", "MATLAB_empty",
+}  # fmt: skip
 _MATLAB_STORES = ("#refs#", "#subsystem#")  # where MATLAB keeps the contents of cells and objects
 
 
@@ -68,8 +72,22 @@ def load(data: bytes, name: str) -> NDArray[Any]:
     with h5py.File(io.BytesIO(data), "r") as file:
         item: Any = file[name]
         if h5py.check_string_dtype(item.dtype) is not None:
+            _check_text_lengths(item, data)
             return np.asarray(item.asstr()[()], dtype=np.str_)
         return np.asarray(item[()])
+
+
+def _check_text_lengths(item: Any, data: bytes) -> None:
+    """Refuse texts that claim to be longer than the file, for which HDF5 would allocate up to 4 GiB each.
+
+    A text of variable length is stored as length (4 bytes), heap address (8) and index (4); HDF5 specification, IV.B.
+    """
+    start = item.id.get_offset()
+    if h5py.check_string_dtype(item.dtype).length is not None or start is None:
+        return
+    stored = np.frombuffer(data, dtype="<u4", count=4 * item.size, offset=start)
+    if stored.size and int(stored[::4].max()) > len(data):
+        raise FileFormatError(f"is damaged: a text in {item.name} claims {stored[::4].max()} bytes; write it again")
 
 
 def _dataset(name: str, item: Any) -> Dataset:
@@ -81,7 +99,7 @@ def _dataset(name: str, item: Any) -> Dataset:
         chunk_shape=tuple(int(length) for length in item.chunks or ()),
         is_outside=bool(item.is_virtual or item.external),
         dimensions=tuple(_dimension(dimension) for dimension in item.dims),
-        attributes=_attributes(item),
+        attributes=_attributes(item, _ABOUT_DATA),
     )
 
 
@@ -92,11 +110,11 @@ def _dimension(dimension: Any) -> str:
     return str(dimension[0].name).rpartition("/")[2] if len(dimension) else ""
 
 
-def _attributes(item: Any) -> dict[str, Any]:
-    """Attributes that are one number or one text."""
+def _attributes(item: Any, wanted: set[str] | None = None) -> dict[str, Any]:
+    """Those of the wanted attributes (all if None) that are one number or one text."""
     found: dict[str, Any] = {}
     for name in item.attrs:
-        if name in _STRUCTURE:
+        if wanted is not None and name not in wanted:
             continue
         value = item.attrs[name]
         if isinstance(value, np.ndarray) and value.size == 1 and value.dtype.names is None:
