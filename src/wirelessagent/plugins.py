@@ -19,6 +19,7 @@ import typing
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import metadata
+from numbers import Real
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, cast, get_args
 
@@ -129,9 +130,12 @@ def create(kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *
 def objective(name: str, options: Mapping[str, Any] | None = None) -> Objective:
     """The objective of this name or alias ("max_rate" or "P1"), with its options."""
     if name not in _entry_points("objective"):
-        for found in plugins("objective"):
-            if found.cls is not None and name in cast("type[Objective]", found.cls).aliases:
-                return cast(Objective, create("objective", found.name, options))
+        found = [item for item in plugins("objective") if item.cls is not None and name in item.cls.aliases]
+        if len(found) > 1:
+            owners = " and ".join(f"{item.name!r} of {item.package}" for item in found)
+            raise PluginError(f"two objectives have the alias {name!r}: {owners}; ask for one by its name")
+        if found:
+            return cast(Objective, create("objective", found[0].name, options))
     return cast(Objective, create("objective", name, options))
 
 
@@ -168,7 +172,8 @@ def _entry_points(kind: Kind) -> dict[str, list[metadata.EntryPoint]]:
     found: dict[str, list[metadata.EntryPoint]] = {}
     for entry in metadata.entry_points(group=f"wirelessagent.{kind}"):
         same = found.setdefault(entry.name, [])
-        if not any(other.value == entry.value for other in same):  # one package found twice on the path is one plug-in
+        known = {(other.value, package_of(other)) for other in same}
+        if (entry.value, package_of(entry)) not in known:  # one package found twice on the path is one plug-in
             same.append(entry)
     return found
 
@@ -180,7 +185,7 @@ def _load(kind: Kind, entry: metadata.EntryPoint) -> Plugin:
     try:
         cls = entry.load()
         _check(kind, entry.name, cls)
-    except Exception as error:  # noqa: BLE001  # a stranger's code may fail in any way, and must not take the rest down
+    except (Exception, SystemExit) as error:  # noqa: BLE001  # a stranger's code must not take the rest down
         reason = f"{type(error).__name__}: {error}"
         return known(cls=None, error=f"the {kind} {entry.name!r} of {package} cannot be loaded: {reason}")
     return known(cls=cls)
@@ -191,12 +196,13 @@ def _check(kind: Kind, name: str, cls: object) -> None:
     base: type[Any] = getattr(importlib.import_module(module), attribute)
     if not (isinstance(cls, type) and issubclass(cls, base)):
         raise PluginError(f"{cls!r} is not a subclass of {base.__name__}")
-    if not dataclasses.is_dataclass(cls):
+    if "__dataclass_params__" not in vars(cls):  # the base is a dataclass, so is_dataclass() is true of every subclass
         raise PluginError(f"{cls.__name__} is not a dataclass: decorate it with @dataclass(frozen=True, kw_only=True)")
     if getattr(cls, "name", None) != name:
         raise PluginError(
             f"its entry point is called {name!r} but {cls.__name__}.name is {getattr(cls, 'name', None)!r}"
         )
+    options_of(cls)  # annotations that cannot be resolved show here, not on a surface that lists them
 
 
 def _simple_type(hint: Any) -> type[Any] | None:
@@ -217,12 +223,12 @@ def _convert(option: Option, value: Any) -> Any:
         switches = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
         if value.lower() in switches:
             return switches[value.lower()]
-    elif option.type is not bool and isinstance(value, str | int | float) and not isinstance(value, bool):
+    elif option.type is not bool and not isinstance(value, bool) and isinstance(value, str | Real):
         try:
-            converted = option.type(value)
+            converted: Any = option.type(cast("Any", value))
         except (ValueError, TypeError, OverflowError):
             pass
         else:
-            if not isinstance(value, float) or option.type is not int or converted == value:
+            if isinstance(value, str) or option.type is not int or converted == value:
                 return converted
     raise InputError(f"{option.name} must be of type {option.type.__name__}; got {value!r}")
