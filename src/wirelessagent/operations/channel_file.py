@@ -5,15 +5,16 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, cast
 
 from pydantic import Field
 
-from wirelessagent import chain
+from wirelessagent import plugins
 from wirelessagent.model.scene import Scene
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.fields import OptionsOf, PluginOptions, Positional
 from wirelessagent.operations.operation import Event, Progress
+from wirelessagent.sensing.source import ChannelSource
 
 
 class ChannelFile(CellOptions):
@@ -42,7 +43,8 @@ def file_scene(
     wanted_power_w: float | None = None,
 ) -> Scene:
     """The scene in a file; options of the cell that were given win over what the file states."""
-    scene = chain.simulate("file", cell_options.cell(), **{**options, "path": path})
+    source = cast(ChannelSource, plugins.create("channel_source", "file", {**options, "path": path}))
+    scene = source.observe(cell_options.cell())
     scene = dataclasses.replace(scene, cell=cell_options.cell(scene.cell, wanted_power_w=wanted_power_w))
     understood = "; ".join(f"{label}: {text}" for label, text in scene.facts.items())
     progress(Event(stage="sense", message=f"{path}: {understood}"))

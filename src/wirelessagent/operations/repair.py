@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from wirelessagent import __version__, chain
+from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.model.units import db
 from wirelessagent.operations.answers import EstimateAnswer
 from wirelessagent.operations.channel_file import ChannelFile
@@ -96,7 +97,7 @@ def run(request: RepairRequest, progress: Progress) -> RepairRecord:
     )
 
 
-def _error(gain: np.ndarray, truth: np.ndarray | None, repaired: np.ndarray) -> float | None:
+def _error(gain: FloatArray, truth: FloatArray | None, repaired: BoolArray) -> float | None:
     """RMSE over the repaired entries, each in units of its user's mean true gain; None where it cannot be known."""
     if truth is None or not repaired.any() or not np.all(truth.mean(axis=1) > 0):
         return None
