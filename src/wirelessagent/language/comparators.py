@@ -79,8 +79,9 @@ def _any_of(words: list[str]) -> str:
 
 
 _GAP = re.compile(rf"(?i)(?:\s|{_any_of([*_FILLERS, *_POWER_NOUNS, *_RATE_NOUNS])}){{0,16}}$")
+_CAP = r"\b(?:cap|limit|restrict|throttle)(?:s|ped|ed|ting|ping)?\s+(?:[a-z]+\s+){0,4}(?:at|to)\b"  # "cap users at"
 _BEFORE = re.compile(
-    rf"(?i)(?P<at_least>{_any_of(_AT_LEAST)})|(?P<at_most>{_any_of(_AT_MOST)})|(?P<exactly>{_any_of(_EXACTLY)})"
+    rf"(?i)(?P<at_least>{_any_of(_AT_LEAST)})|(?P<at_most>{_CAP}|{_any_of(_AT_MOST)})|(?P<exactly>{_any_of(_EXACTLY)})"
     rf"|(?P<above>{_any_of(_ABOVE)})|(?P<below>{_any_of(_BELOW)})"
 )
 _NEGATION = re.compile(

@@ -46,6 +46,11 @@ _SET_TO = re.compile(
     r"(?:total\s+|max\w*\s+)?(?:transmit\s+|tx\s+|radiated\s+)?(?:power|budget)(?:\s+budget)?\s+(?:down\s+|up\s+)?(?:to|at)|"
     r"(?:总?发?射?功率)(?:降低?|减[小少]?|调|提高|升|增加?|设)(?:到|至|为)|(?:降低?|减[小少]?|提高)(?:总?发?射?功率)(?:到|至))\s*$"
 )
+_RATE_SET_TO = re.compile(
+    r"(?i)\b(?:raise|increase|bring|set|lift|boost|push|lower|reduce)\s+(?:the\s+|each\s+|every\s+|their\s+)*"
+    r"(?:min\w*\s+|user\w*\s+|data\s+|bit\s+)*(?:rates?|speeds?|throughput)\s+(?:up\s+|down\s+)?to\s+$|"
+    r"(?:速率|速度|网速)(?:提高|提升|增加|升|调|设)(?:到|至|为)\s*$"
+)
 _STATUS = re.compile(
     r"(?i)\b(?:currently|right now|at the moment|at present|only (?:get|gets|getting|have))\b|目前|当前|现在只|只有"
 )
@@ -190,6 +195,9 @@ class _Reader:
             if figure.phrase_start < figure.start
             else before
         )
+        setting = _RATE_SET_TO.search(before)
+        if setting is not None:
+            self._masked.append((figure.start - len(before) + setting.start(), figure.end))
         if not _PER_USER.match(after) and (_TOTAL_BEFORE.search(lead) or _TOTAL_AFTER.match(after)):
             self._doubt("total_rate", figure)
         elif _is_change(before, after):

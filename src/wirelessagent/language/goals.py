@@ -38,9 +38,11 @@ _PAIRS: dict[tuple[str, str], tuple[str, float]] = {
     ("want", "battery"): ("min_power", 0.8),
     ("keep", "battery"): ("min_power", 0.8),
     ("waste", "battery"): ("min_power", 1.0),
-    ("up", "efficiency"): ("max_energy_efficiency", 0.6),
-    ("want", "efficiency"): ("max_energy_efficiency", 0.6),
+    ("up", "efficiency"): ("max_energy_efficiency", 0.7),
+    ("want", "efficiency"): ("max_energy_efficiency", 0.7),
 }
+# Readings that yield to a nearer or plainer one: "save as much power as you can" asks for less of it.
+_VAGUE = {("want", "rate"): 1.5, ("want", "battery"): 1.5, ("want", "efficiency"): 1.5, ("up", "power"): 3.0}
 _ALONE: dict[str, tuple[str, float]] = {
     "rate": ("max_rate", 0.4),
     "battery": ("min_power", 0.4),
@@ -168,8 +170,8 @@ def _pair(found: Sequence[Found]) -> dict[int, Found]:
             reach = 1 if item.term.concept == "stream" else _REACH_BEFORE if before else _REACH_AFTER
             means = (direction.term.concept, item.term.concept) in _PAIRS
             if means and gap <= reach and not _blocked(found, direction, item):
-                vague = 1.5 if direction.term.concept == "want" else 0.0
-                candidates.append((gap + (0.0 if before else 0.5) + vague, item, direction))
+                cost = gap + (0.0 if before else 0.5) + _VAGUE.get((direction.term.concept, item.term.concept), 0.0)
+                candidates.append((cost, item, direction))
     chosen: dict[int, Found] = {}
     taken: set[int] = set()
     for _, item, direction in sorted(candidates, key=lambda entry: entry[0]):
@@ -184,6 +186,8 @@ def _blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
     """Whether another object stands between the two, unless "and" or "or" joins it to this one."""
     low, high = min(direction.last, item.last), max(direction.first, item.first)
     between = [other for other in found if low <= other.first < high and other is not item and other is not direction]
+    if direction.first >= item.last and any(other.term.concept == "question" for other in between):
+        return True  # "the speed is good" says how it is
     objects = [other for other in between if other.term.concept in _OBJECTS or other.term.concept == "direct"]
     joined = any(other.term.concept == "join" for other in between)
     return bool(objects) and not joined
@@ -196,7 +200,7 @@ def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     joins = [item.first for item in found if item.term.concept == "join"]
     for item in found:
         same = [other for other in named if other.clause == item.clause]
-        if item.term.concept == "not" or (item.term.concept == "over" and _prefers(found, item)):
+        if item.term.concept in ("not", "undo") or (item.term.concept == "over" and _prefers(found, item)):
             ahead = [other for other in same if item.last <= other.first < item.last + _REACH_OF_NOT]
             turned_off.update(other.first for other in _with_joined(ahead, joins))
         elif item.term.concept == "not_after":

@@ -12,12 +12,15 @@ from __future__ import annotations
 # Terms that mean an objective by themselves; "less_rate" is a wish that no objective serves.
 DIRECT: dict[str, str] = {
     "max_rate": (
-        "faster fastest quicker quickest speedy make_it_fast want_it_fast go_fast be_fast as_fast_as_possible speed_up "
+        "faster fastest quicker quickest speedy make_it_fast want_it_fast go_fast be_fast as_fast_as_possible "
+        "as_quick_as_possible speed_up  "
         "speeding_up accelerate full_speed full_throttle top_speed high_speed too_slow so_slow very_slow really_slow "
         "is_slow slow sluggish buffering buffers stutters stuttering lagging laggy lags not_fast_enough "
         "isnt_fast_enough more_data really_fast very_fast super_fast fast_network fast_internet fast_wifi "
         "spectral_efficiency spectrum_efficiency spectrally_efficient rate_maximisation rate_maximization rmax 快 更快 "
+        " "
         "快一点 快点 快些 快一些 最快 越快越好 要快 加速 提速 高速 高速率 太慢 太卡 很慢 好慢 慢 网速慢 卡顿 很卡 好卡 "
+        " "
         "缓冲 流畅 更流畅 不够快 频谱效率 谱效"
     ),
     "min_power": (
@@ -27,9 +30,10 @@ DIRECT: dict[str, str] = {
         "节电 低功耗 省能 绿色 环保 费电 太费电 耗电 耗电太快 耗电太多 功耗太高 功率太大 功耗太大 能耗太高"
     ),
     "max_energy_efficiency": (
-        "energy_efficiency energy_efficient energy_efficiently power_efficiency power_efficient ee bits_per_joule "
+        "per_unit_energy per_unit_of_energy energy_efficiency energy_efficient energy_efficiently power_efficiency "
+        "power_efficient ee bits_per_joule  "
         "bit_per_joule bits_joule bit_j per_joule energy_per_bit joules_per_bit joule_per_bit power_per_bit "
-        "every_joule each_joule bits_per_watt rate_per_watt per_watt each_watt every_watt 每比特能耗 每焦耳 每焦 能效 "
+        "every_joule each_joule bits_per_watt rate_per_watt per_watt each_watt every_watt 每比特能耗 每焦耳 每焦 能效  "
         "能效比 能量效率 能源效率 高能效 又快又省电 又快又省 又省电又快 既快又省电 既快又省 既省电又快"
     ),
     "less_rate": "slow_down slowing_down slower throttle 放慢 慢一点 慢点 慢一些 降速 限速",
@@ -39,13 +43,15 @@ DIRECT: dict[str, str] = {
 # Directions.
 UP = (
     "more higher high highest increase increases increasing increased raise raising boost boosting maximise maximize "
-    "maximising maximizing maximises maximizes maximised maximized max maximum maximal most improve improving improved "
-    "enhance fast quick best greatest better good great greater bigger biggest larger largest lots_of as_much up push "
+    "maximising maximizing maximises maximizes maximised maximized max maximum maximal most improve improving "
+    "improved  "
+    "enhance fast quick best greatest better good great greater bigger biggest larger largest lots_of as_much up "
+    "push  "
     "crank double extend extending prolong longer not_enough top upgrade 提高 提升 增加 加大 增大 最大化 最大 最高 "
     "更高 更大 更多 高 大 高一点 改善 加快 尽量高 越高越好 越大越好 越多越好 尽可能高 尽可能大 不够 延长 更长 更好 多"
 )
 DOWN = (
-    "less fewer fewest as_few lower low lowest reduce reduces reducing reduced decrease decreasing cut cutting "
+    "drop less fewer fewest as_few lower low lowest reduce reduces reducing reduced decrease decreasing cut cutting "
     "minimise minimize minimising minimizing minimises minimizes minimised minimized min minimum minimal save saving "
     "saves saved conserve conserving least little as_little smallest smaller economise economize economise_on "
     "economize_on trim lessen spare preserve turn_down down 降低 减少 减小 降 减 最小化 最小 最低 更低 更少 更小 省 "
@@ -53,7 +59,8 @@ DOWN = (
     "尽可能少 压低"
 )
 WANT = (
-    "want need needs give prioritise prioritize priority favour favor prefer focus_on its_about it_is_about just only "
+    "want need needs give prioritise prioritize priority favour favor prefer focus_on its_about it_is_about just "
+    "only  "
     "optimise optimize care_about above_all is_everything comes_first all_about matters first important 第一 要 想要 "
     "需要 优先 只要 只管 关注 优化 重要 保障"
 )
@@ -66,11 +73,13 @@ WASTE = "waste wasting wasted wastes wasteful 浪费"
 # What a direction applies to.
 RATE = (
     "rate rates speed speeds throughput thruput capacity bandwidth bitrate bit_rate data_rate data_rates download "
-    "downloads downloading upload uploads uploading sum_rate goodput connection connections 速率 速度 网速 吞吐量 吞吐 "
+    "downloads downloading upload uploads uploading sum_rate goodput connection connections 速率 速度 网速 吞吐量 "
+    "吞吐  "
     "容量 带宽 下载 上传 下载速度 上传速度 总速率 和速率 码率 数据率 数据速率 传输速率"
 )
 STREAM = (
-    "video videos streaming stream streams gaming video_quality video_streaming video_stream video_streams 视频 视频流 "
+    "video videos streaming stream streams gaming video_quality video_streaming video_stream video_streams 视频 "
+    "视频流  "
     "直播 游戏 画质 视频质量"
 )
 PERFORMANCE = "performance quality qos 性能 质量 体验"
@@ -84,10 +93,13 @@ EFFICIENCY = "efficiency efficient efficiently 效率 高效"
 
 # How a sentence is built.
 NOT = (
-    "not no dont do_not doesnt does_not didnt never without isnt arent wont cant cannot shouldnt neednt no_need "
+    "disable disabling turn_off turning_off switch_off deactivate exit leave quit abandon neither "
+    "more_important_than matters_more_than more_than 关闭 关掉 退出 停用 禁用 比 not no dont do_not doesnt "
+    "does_not didnt never without isnt arent wont cant cannot shouldnt neednt no_need  "
     "no_need_to dont_need_to forget forget_about ignore nevermind never_mind dont_care dont_care_about do_not_care "
     "dont_worry_about no_matter stop instead_of rather_than regardless_of avoid skip not_interested_in 不要 别 不用 "
-    "不必 无需 不需要 不在乎 不关心 不在意 不管 不考虑 不 无须 无论 不管多少 无论多少 没必要 不想 停止 先不 不是 忽略 "
+    "不必 无需 不需要 不在乎 不关心 不在意 不管 不考虑 不 无须 无论 不管多少 无论多少 没必要 不想 停止 先不 不是 "
+    "忽略  "
     "不追求"
 )
 NOT_AFTER = (
@@ -104,7 +116,8 @@ POLITE = (
 SPLIT = "but instead however yet while whereas 但 但是 而 而是 不过"
 JOIN = "and or nor plus 和 与 及 或 以及"
 BALANCE = (
-    "balance balanced balancing tradeoff trade_off trade_offs compromise sweet_spot middle_ground 平衡 均衡 兼顾 权衡 "
+    "balance balanced balancing tradeoff trade_off trade_offs compromise sweet_spot middle_ground 平衡 均衡 兼顾 "
+    "权衡  "
     "折中 折衷 两全 取舍"
 )
 BOTH = "both 都要 都想要"
@@ -121,19 +134,20 @@ UNSUPPORTED = (
     "interference roaming 时延 延迟 抖动 覆盖 切换 天线 干扰"
 )
 DOMAIN = (
-    "user users ue subcarrier subcarriers channel channels csi cell cells network base_station allocation spectrum "
-    "signal snr sensor sensors iot device devices wireless internet wifi 5g 6g gain repair waterfilling 用户 小区 电路 "
+    "power_cut power_outage power_failure 比特 比例 user users ue subcarrier subcarriers channel channels csi cell "
+    "cells network base_station allocation spectrum  "
+    "signal snr sensor sensors iot device devices wireless internet wifi 5g 6g gain repair waterfilling 用户 小区 "
+    "电路  "
     "子载波 信道 网络 基站 频谱 传感器 物联网 设备 信号 分配 资源"
 )
 OFF_TOPIC = (
     "weather joke football soccer pizza poem song music movie recipe stock stocks news president translate dinner "
-    "lunch coffee cook holiday essay homework 天气 笑话 足球 比赛 电影 唱歌 诗 新闻 股票 星期 几点 吃饭 做饭 翻译 披萨 "
+    "lunch coffee cook holiday essay homework 天气 笑话 足球 比赛 电影 唱歌 诗 新闻 股票 星期 几点 吃饭 做饭 翻译 "
+    "披萨  "
     "外卖"
 )
-COMMAND = (
-    "undo revert apply compare confirm history replay redo rollback roll_back cancel explain 撤销 撤回 应用 比较 对比 "
-    "确认 取消 回退 解释 解释一下"
-)
+COMMAND = "apply compare confirm history replay redo explain 应用 比较 对比 确认 历史 解释 解释一下"
+UNDO = "undo revert rollback roll_back cancel 撤销 撤回 取消 回退"  # a command, and a negation of what follows
 HELP = "help what_can_you_do what_do_you_do who_are_you 你能做什么 你会什么 帮助 你是谁"
 QUESTION = (
     "why what whats which who whos how when where is are was were does did do_you do_we do_they do_users do_i 为什么 "
@@ -146,13 +160,15 @@ CONCEPTS: dict[str, str] = {
     "performance": PERFORMANCE, "power": POWER, "battery": BATTERY, "efficiency": EFFICIENCY, "not": NOT,
     "not_after": NOT_AFTER, "polite": POLITE, "split": SPLIT, "join": JOIN, "balance": BALANCE, "both": BOTH,
     "paired": PAIRED, "over": OVER, "fair": FAIR, "unsupported": UNSUPPORTED, "domain": DOMAIN,
-    "off_topic": OFF_TOPIC, "command": COMMAND, "help": HELP, "question": QUESTION, "greeting": GREETING,
+    "off_topic": OFF_TOPIC, "command": COMMAND, "undo": UNDO, "help": HELP, "question": QUESTION, "greeting": GREETING,
 }  # fmt: skip
 
 # Right words that are one letter away from a term: never "corrected".
 RIGHT_WORDS = (
     "about after apple below boots cheap choose closer covers decay early fairy fasten fester forests foster greed "
-    "greet hangover large latte lease leash light liver losing lover mower night other paste poker powder price quiet "
-    "quite relay sleep small spend spent steak steal steam steed taste their there these those tower treat under waits "
+    "greet hangover large latte lease leash light liver losing lover mower night other paste poker powder price "
+    "quiet  "
+    "quite relay sleep small spend spent steak steal steam steed taste their there these those tower treat under "
+    "waits  "
     "wants witch"
 )

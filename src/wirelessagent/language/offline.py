@@ -112,8 +112,7 @@ class _Understanding:
         about_network = bool(self._concepts & set(_ABOUT_THE_NETWORK)) or self._has_figures
         if "help" in self._concepts and not signalled:
             return self._answer.tell("question", "help", 0.9)
-        commanded = first is not None and leads and first.term.concept == "command" and not first.corrected
-        if first is not None and commanded and (not signalled or self._text_of(first).lower() in _COMPARE):
+        if first is not None and leads and not first.corrected and self._commands(first, signalled):
             return self._answer.tell("command", "command", 0.85)
         if self._is_question(leads):
             if about_network:
@@ -125,6 +124,12 @@ class _Understanding:
         if "unsupported" in self._concepts and self._goal.verdict in ("none", "weak", "opposite"):
             return self._answer.tell("out_of_scope", "unsupported", 0.8, text=self._words_for("unsupported"))
         return None
+
+    def _commands(self, first: Found, signalled: bool) -> bool:
+        """Whether the sentence begins with a command about an earlier allocation, and names no wish of its own."""
+        if first.term.concept == "undo":
+            return self._goal.verdict in ("none", "weak")
+        return first.term.concept == "command" and (not signalled or self._text_of(first).lower() in _COMPARE)
 
     def _is_question(self, leads: bool) -> bool:
         asked = [item for item in self._found if item.term.concept == "question"]
@@ -168,7 +173,8 @@ class _Understanding:
         values = self._reading.values
         if not values:
             return None
-        if {"min_rate_bps", "max_power_w"} <= set(values) and "max_rate" in self._voice.labels:
+        no_other_wish = self._goal.verdict == "none" or self._goal.objective == "max_rate"
+        if {"min_rate_bps", "max_power_w"} <= set(values) and no_other_wish and "max_rate" in self._voice.labels:
             return self._answer.allocate("max_rate", self._reading, "", _DEFAULT_CONFIDENCE)
         key = "rate_only" if "min_rate_bps" in values else "limits_only"
         return self._answer.ask(key, constraints=self._quoted(values))
