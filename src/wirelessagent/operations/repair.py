@@ -101,8 +101,8 @@ def _error(gain: FloatArray, truth: FloatArray | None, repaired: BoolArray) -> f
     """RMSE over the repaired entries, each in units of its user's mean true gain; None where it cannot be known."""
     if truth is None or not repaired.any() or not np.all(truth.mean(axis=1) > 0):
         return None
-    error = (gain - truth) / truth.mean(axis=1, keepdims=True)
-    return float(np.sqrt(np.mean(error[repaired] ** 2)))
+    error: FloatArray = (gain - truth) / truth.mean(axis=1, keepdims=True)
+    return float(np.sqrt(np.mean(np.square(error[repaired]))))
 
 
 REPAIR = Operation(
