@@ -11,6 +11,9 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Bracket, Decision, Status
 from wirelessagent.model.rates import user_rate_bps
 
+_ROUNDING = 1e-12
+"""Value and bound are sums of many terms; up to this a value on the wrong side of its bound is on the bound."""
+
 
 class Figures(TypedDict, total=False):
     """What else a decision may carry; see :class:`Decision`."""
@@ -41,6 +44,9 @@ def certified(
     """The decision for an allocation that keeps every constraint; ``bound`` in the objective's unit, NaN for none."""
     rate_bps = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
     value = form.objective.value(rate_bps, float(power_w.sum()), form.cell)
+    beyond = value - bound if form.objective.direction == "max" else bound - value
+    if 0.0 < beyond <= _ROUNDING * abs(bound):
+        bound = value
     gap = relative_gap(value, bound)
     status: Status = "optimal" if gap <= OPTIMAL_GAP else "feasible"
     return _decision(form, owner, power_w, rate_bps, status, value, bound, gap, figures)

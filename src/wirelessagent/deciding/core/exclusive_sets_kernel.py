@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.water_filling_kernel import water_level
+from wirelessagent.deciding.core.water_filling_kernel import settle, water_level
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
@@ -154,7 +154,6 @@ def grow_sets(
 @kernel
 def least_power(
     snr_per_w: FloatArray,
-    log_snr: FloatArray,
     ceiling: FloatArray,
     nats: FloatArray,
     owner: IntArray,
@@ -164,32 +163,33 @@ def least_power(
     """Per-user water-filling to the promised rates on given sets: the total power, infinite where it cannot be.
 
     Writes ``power_w`` (subcarrier,) and ``log_price`` (user,), ln of dP_k/dR_k in W per nat, which is the water level
-    v with r_n = ln(a_n v): infinite where every ceiling is reached, NaN for users that are not served.
+    v with r_n = ln(a_n v): NaN for users that are not served.
     """  # fmt: skip
     users, subcarriers = snr_per_w.shape
-    members = np.empty(subcarriers, dtype=np.int64)
-    floor = np.empty(subcarriers)
+    snr = np.empty(subcarriers)
     cap = np.empty(subcarriers)
+    rate = np.empty(subcarriers)
     total = 0.0
     power_w[:] = 0.0
     for k in range(users):
         log_price[k] = np.nan
         if nats[k] <= 0.0:
             continue
-        size = 0
+        capacity = 0.0
+        last = -1
         for n in range(subcarriers):
-            if owner[n] == k:
-                members[size] = n
-                size += 1
-        level, power = fill_rate(snr_per_w[k], log_snr[k], ceiling[k], members, size, nats[k], floor, cap)
-        total += power
-        if power == np.inf:
+            mine = owner[n] == k
+            snr[n] = snr_per_w[k, n] if mine else 0.0
+            cap[n] = ceiling[k, n] if mine else 0.0
+            capacity += cap[n]
+            if snr[n] > 0.0 and (last < 0 or snr[n] > snr[last]):
+                last = n
+        if capacity < nats[k] * SLACK:
+            total = np.inf
             continue
-        top = best_member(snr_per_w[k], members, size)
-        log_price[k] = level - log_snr[k, top]
-        for i in range(size):
-            n = members[i]
-            rate = min(level - log_ratio(snr_per_w[k], log_snr[k], top, n), ceiling[k, n])
-            if rate > 0.0:
-                power_w[n] = np.expm1(rate) / snr_per_w[k, n]
+        log_price[k] = settle(snr, cap, nats[k], True, last, rate)
+        for n in range(subcarriers):
+            if rate[n] > 0.0:
+                power_w[n] = np.expm1(rate[n]) / snr[n]
+                total += power_w[n]
     return total

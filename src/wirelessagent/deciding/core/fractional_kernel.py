@@ -10,18 +10,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.water_filling_kernel import best_users, fill_power, set_power, vessel
+from wirelessagent.deciding.core.water_filling_kernel import best_users, disown_idle, fill_power, set_power, vessel
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
-MAX_ITERATIONS = 100
+MAX_STEPS = 100
 LOWEST_SNR = 1e-12
 """Without circuit power the efficiency is a supremum, approached as P → 0. Stopping at this SNR loses half of it."""
 
 
 @kernel
-def rate_and_power(snr_per_w: FloatArray, floor: FloatArray, cap: FloatArray, level: float) -> tuple[float, float]:
-    """Rate in nats and power in W of the water level τ (above the best subcarrier's floor).
+def efficiency_of(snr_per_w: FloatArray, power_w: FloatArray, circuit_w: float) -> float:
+    """R/(P + C) in nats per J.
 
     Logarithms of large SNRs are taken of their product, which saves most of them; small ones one by one, because
     1 + x would lose them.
@@ -30,44 +30,36 @@ def rate_and_power(snr_per_w: FloatArray, floor: FloatArray, cap: FloatArray, le
     power = 0.0
     product = 1.0
     for n in range(snr_per_w.size):
-        if level > floor[n]:
-            spent = min(level - floor[n], cap[n])
-            snr = spent * snr_per_w[n]
-            power += spent
-            if 0.5 < snr < 1e100:
-                product *= 1.0 + snr
-                if product > 1e200:
-                    rate += np.log(product)
-                    product = 1.0
-            else:
-                rate += np.log1p(snr)
-    return rate + np.log(product), power
+        power += power_w[n]
+        snr = power_w[n] * snr_per_w[n]
+        if 0.5 < snr < 1e100:
+            product *= 1.0 + snr
+            if product > 1e200:
+                rate += np.log(product)
+                product = 1.0
+        else:
+            rate += np.log1p(snr)
+    return (rate + np.log(product)) / (power + circuit_w)
 
 
 @kernel
-def efficient_level(
-    snr_per_w: FloatArray, floor: FloatArray, cap: FloatArray, budget_level: float, circuit_w: float
-) -> tuple[float, float, int]:
-    """The water level of the best efficiency, that efficiency in nats/J and the iterations done.
+def climb_efficiency(
+    snr_per_w: FloatArray, floor: FloatArray, cap: FloatArray, full: float, circuit_w: float, power_w: FloatArray
+) -> tuple[float, int]:
+    """Dinkelbach's method from the power ``power_w``, which is overwritten with the best; the efficiency and the steps.
 
-    ``budget_level`` is the level that spends the budget, which is returned if spending it all is best.
+    ``full`` is the level that spends the budget, which no step exceeds.
     """
     top = snr_per_w.max()
-    level = budget_level
-    rate, power = rate_and_power(snr_per_w, floor, cap, level)
-    efficiency = rate / (power + circuit_w)
-    if level < np.inf and top / (1.0 + level * top) >= efficiency:
-        return level, efficiency, 0
-    for iteration in range(1, MAX_ITERATIONS + 1):
-        wanted = min(max((top - efficiency) / efficiency, LOWEST_SNR) / top, budget_level)
-        rate, power = rate_and_power(snr_per_w, floor, cap, wanted)
-        better = rate / (power + circuit_w)
-        if better > efficiency:
-            level = wanted
+    efficiency = efficiency_of(snr_per_w, power_w, circuit_w)
+    for step in range(1, MAX_STEPS + 1):
+        level = max((top - efficiency) / efficiency, LOWEST_SNR) / top
+        set_power(floor, cap, min(level, full), power_w)
+        better = efficiency_of(snr_per_w, power_w, circuit_w)
         if better <= efficiency * (1.0 + 4e-16):
-            return level, max(better, efficiency), iteration
+            return better, step
         efficiency = better
-    return level, efficiency, MAX_ITERATIONS
+    return efficiency, MAX_STEPS
 
 
 @kernel
@@ -86,23 +78,21 @@ def max_efficiency(
     Returns:
         owner (batch, subcarrier), −1 where no power is spent; power in W, (batch, subcarrier); the price of power in
         nats per W, (batch,), which is the efficiency R/(P + ξ P_c) where the budget does not bind and no less where
-        it does; iterations (batch,).
+        it does; Dinkelbach's steps (batch,), 0 where the budget binds.
     """
     batch, _, subcarriers = snr_per_w.shape
     owner = np.empty((batch, subcarriers), dtype=np.int64)
     power = np.empty((batch, subcarriers))
     price = np.zeros(batch)
-    iterations = np.zeros(batch, dtype=np.int64)
+    steps = np.zeros(batch, dtype=np.int64)
     best = np.empty(subcarriers)
     floor = np.empty(subcarriers)
     cap = np.empty(subcarriers)
     for b in range(batch):
         best_users(snr_per_w[b], best, owner[b])
-        top = vessel(best, cap_w, max_snr, floor, cap)
-        full = fill_power(floor, cap, budget_w[b])
-        level = full
-        if cap.max() > 0.0:
-            level, efficiency, iterations[b] = efficient_level(best, floor, cap, full, circuit_w)
-            price[b] = max(efficiency, top / (1.0 + level * top)) if level == full else efficiency
-        set_power(floor, cap, level, owner[b], power[b])
-    return owner, power, price, iterations
+        vessel(best, cap_w, max_snr, floor, cap)
+        full, price[b] = fill_power(best, floor, cap, budget_w[b], power[b])
+        if cap.max() > 0.0 and price[b] < efficiency_of(best, power[b], circuit_w):
+            price[b], steps[b] = climb_efficiency(best, floor, cap, full, circuit_w, power[b])
+        disown_idle(power[b], owner[b])
+    return owner, power, price, steps

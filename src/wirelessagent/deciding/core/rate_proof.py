@@ -131,7 +131,7 @@ def _climb(form: NormalForm, snr: FloatArray, nats: FloatArray) -> tuple[FloatAr
     owner = np.full(subcarriers, -1, dtype=np.int64)
     price = np.empty(nats.size)
     grow_sets(snr, log, ceiling, nats, owner)
-    least_power(snr, log, ceiling, nats, owner, np.empty(subcarriers), price)
+    least_power(snr, ceiling, nats, owner, np.empty(subcarriers), price)
     share = nats * nats.size / subcarriers - np.max(log, axis=1)  # as if all had equally many subcarriers
     start = np.where(np.isfinite(price), price, np.where(np.isfinite(share), share, 0.0))
     with np.errstate(divide="ignore"):

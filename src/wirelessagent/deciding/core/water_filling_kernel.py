@@ -5,9 +5,10 @@ For floors f, caps u and a total t the level τ solves
     Σ_n min(max(τ − f_n, 0), u_n) = t.
 
 With f = 1/a and t a power this is problem P1; with f = −ln a and t a rate in nats, the same level is that of the least
-power for the rate. Floors are shifted so that the lowest is 0, which keeps every figure exact to a few rounding errors
-however far the gains lie apart; Michelot (1986) for the projection on a simplex, Bitran and Hax (1981) with caps.
-Textbook methods that drop the worst subcarrier first, or bisect to an absolute tolerance, fail there.
+power for the rate. Textbook methods that drop the worst subcarrier first, or bisect to an absolute tolerance, fail
+where the gains lie far apart. Here the level is found by projection (Michelot 1986; with caps Bitran and Hax 1981), and
+depths are measured from a floor that is itself wet and not full, with differences of floors taken on the gains, where
+they do not cancel. So every power is exact to a few rounding errors of the total.
 """
 
 from __future__ import annotations
@@ -71,8 +72,8 @@ def best_users(snr_per_w: FloatArray, best: FloatArray, owner: IntArray) -> None
 
 
 @kernel
-def vessel(snr_per_w: FloatArray, cap_w: FloatArray, max_snr: float, floor: FloatArray, cap: FloatArray) -> float:
-    """Write the shifted floors 1/a − min 1/a and the caps min(``cap_w``, max_snr/a); returns the largest a.
+def vessel(snr_per_w: FloatArray, cap_w: FloatArray, max_snr: float, floor: FloatArray, cap: FloatArray) -> None:
+    """Write the shifted floors 1/a − min 1/a and the caps min(``cap_w``, max_snr/a).
 
     The shift is done on a, where it does not cancel. A subcarrier that cannot be used has an infinite floor.
     """
@@ -81,31 +82,108 @@ def vessel(snr_per_w: FloatArray, cap_w: FloatArray, max_snr: float, floor: Floa
         snr = snr_per_w[n]
         floor[n] = (top - snr) / top / snr if snr > 0.0 else np.inf
         cap[n] = min(cap_w[n], max_snr / snr) if floor[n] < np.inf else 0.0
-    return top
 
 
 @kernel
-def fill_power(floor: FloatArray, cap: FloatArray, budget_w: float) -> float:
-    """The level to which ``budget_w`` fills a :func:`vessel`; infinite where every cap is reached."""
+def rise(high: float, low: float, in_logs: bool) -> float:
+    """How much higher the floor of the SNR ``low`` is than that of ``high``: ln(high/low), or 1/low − 1/high."""
+    if in_logs:
+        return np.log1p((high - low) / low)
+    return (high - low) / high / low
+
+
+@kernel
+def settle(snr: FloatArray, cap: FloatArray, total: float, in_logs: bool, last: int, amount: FloatArray) -> float:
+    """Fill up to the floor of the subcarrier ``last``, and spread the rest of ``total`` above it; exact with caps.
+
+    ``last`` is a guess at the worst subcarrier that gets wet; it is moved until it is right. Writes the amounts
+    (subcarrier,) and returns the price of one more unit: 1/level for powers, ln(level) for rates in nats.
+    """
+    size = snr.size
+    zero = np.empty(size)
+    room = np.empty(size)
+    too_high = False
+    while True:
+        volume = 0.0
+        count = 0
+        better = -1
+        worse = -1
+        for n in range(size):
+            amount[n] = 0.0
+            if snr[n] >= snr[last]:
+                amount[n] = min(rise(snr[n], snr[last], in_logs), cap[n])
+                volume += amount[n]
+                zero[count] = 0.0
+                room[count] = cap[n] - amount[n]
+                count += 1
+                if snr[n] > snr[last] and (better < 0 or snr[n] < snr[better]):
+                    better = n
+            elif snr[n] > 0.0 and (worse < 0 or snr[n] > snr[worse]):
+                worse = n
+        if volume > total and better >= 0:
+            last = better
+            too_high = True
+            continue
+        depth = water_level(zero, room, count, max(total - volume, 0.0))
+        ceiling = np.inf if worse < 0 else rise(snr[last], snr[worse], in_logs)
+        if depth <= ceiling or too_high:
+            depth = min(depth, ceiling)
+            break
+        last = worse
+    for n in range(size):
+        if snr[n] >= snr[last]:
+            amount[n] = min(amount[n] + depth, cap[n])
+    if in_logs:
+        return depth - np.log(snr[last])
+    return snr[last] / (1.0 + depth * snr[last])
+
+
+@kernel
+def fill_power(
+    snr_per_w: FloatArray, floor: FloatArray, cap: FloatArray, budget_w: float, power_w: FloatArray
+) -> tuple[float, float]:
+    """Fill a :func:`vessel` with ``budget_w``: writes the power, returns the level and the price of power, 1/(τ + 1/a).
+
+    The level is infinite and the price 0 where every cap is reached, or there is nothing to fill.
+    """
     wet_floor = np.empty(floor.size)
     wet_cap = np.empty(floor.size)
     size = 0
     roomy = False
+    top = -1
     for n in range(floor.size):
         # Once a subcarrier on the lowest floor can take the whole budget, nothing above the budget gets wet.
         if floor[n] < (budget_w if roomy else np.inf):
             wet_floor[size] = floor[n]
             wet_cap[size] = cap[n]
             size += 1
-            roomy = roomy or (floor[n] == 0.0 and cap[n] >= budget_w)
-    return water_level(wet_floor, wet_cap, size, budget_w)
+            if floor[n] == 0.0 and (top < 0 or cap[n] > cap[top]):
+                top = n
+                roomy = cap[n] >= budget_w
+    level = water_level(wet_floor, wet_cap, size, budget_w)
+    set_power(floor, cap, level, power_w)
+    if level == np.inf:
+        return level, 0.0
+    if level <= cap[top]:
+        return level, snr_per_w[top] / (1.0 + level * snr_per_w[top])
+    last = top  # the best subcarrier is full: measure from one that is not
+    for n in range(floor.size):
+        if floor[n] < level and snr_per_w[n] < snr_per_w[last]:
+            last = n
+    return level, settle(snr_per_w, cap, budget_w, False, last, power_w)
 
 
 @kernel
-def set_power(floor: FloatArray, cap: FloatArray, level: float, owner: IntArray, power_w: FloatArray) -> None:
-    """Write the power min(max(τ − f, 0), u) of each subcarrier; one that gets none has no owner."""
+def set_power(floor: FloatArray, cap: FloatArray, level: float, power_w: FloatArray) -> None:
+    """Write the power min(max(τ − f, 0), u) of each subcarrier."""
     for n in range(floor.size):
         power_w[n] = min(level - floor[n], cap[n]) if level > floor[n] else 0.0
+
+
+@kernel
+def disown_idle(power_w: FloatArray, owner: IntArray) -> None:
+    """A subcarrier without power has no owner."""
+    for n in range(power_w.size):
         if power_w[n] == 0.0:
             owner[n] = -1
 
@@ -135,8 +213,7 @@ def max_rate(
     cap = np.empty(subcarriers)
     for b in range(batch):
         best_users(snr_per_w[b], best, owner[b])
-        top = vessel(best, cap_w, max_snr, floor, cap)
-        level = fill_power(floor, cap, budget_w[b])
-        set_power(floor, cap, level, owner[b], power[b])
-        price[b] = top / (1.0 + level * top) if top > 0.0 else 0.0
+        vessel(best, cap_w, max_snr, floor, cap)
+        _, price[b] = fill_power(best, floor, cap, budget_w[b], power[b])
+        disown_idle(power[b], owner[b])
     return owner, power, price

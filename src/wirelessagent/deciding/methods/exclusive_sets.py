@@ -40,7 +40,7 @@ class ExclusiveSets(Method):
         def grown(nats: FloatArray, owner: IntArray) -> tuple[IntArray, FloatArray]:
             power_w = np.empty(owner.size)
             grow_sets(snr, log, ceiling, nats, owner)
-            total = least_power(snr, log, ceiling, nats, owner, power_w, np.empty(nats.size))
+            total = least_power(snr, ceiling, nats, owner, power_w, np.empty(nats.size))
             if not np.isfinite(total):
                 power_w[:] = np.inf
             return np.where(power_w > 0, owner, -1), power_w
