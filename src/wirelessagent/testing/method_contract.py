@@ -195,6 +195,8 @@ class MethodContract(ValueContract):
             assert np.isnan(decision.value), (
                 f"{objective.name} is {decision.status!r} but has the value {decision.value}"
             )
+            radiated = decision.total_power_w
+            assert radiated == 0, f"{objective.name} is {decision.status!r} but carries an allocation of {radiated:g} W"
 
     def test_declared_constraints_are_kept(self) -> None:
         estimate = known(rayleigh_gain(NUM_USERS, NUM_SUBCARRIERS, seed=6)[0])

@@ -45,6 +45,8 @@ class InTurn(Method):
         rate = user_rate_bps(estimate.gain, owner, np.maximum(power, 0), cell)
         alone = subcarrier_rate_bps(estimate.gain.max(axis=0), np.asarray(problem.budget_w(cell)), cell)
         kept = bool(np.all(rate >= problem.min_rates_bps(len(rate))))
+        if not kept:
+            owner, power, rate = np.full(owner.shape, -1), np.zeros(power.shape), np.zeros(rate.shape)
         decision = Decision(
             owner=owner,
             power_w=power,
@@ -347,6 +349,19 @@ class GivesNoReason(InTurn):
 
 
 @dataclass(frozen=True, kw_only=True)
+class LeavesAnAllocation(InTurn):
+    """Undecided, with an allocation that somebody might apply."""
+
+    caught_by = "test_impossible_promises_are_not_made"
+
+    def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
+        decision = InTurn.solve(self, estimate, problem, cell)
+        if decision.is_usable:
+            return decision
+        return dataclasses.replace(decision, power_w=np.full(decision.power_w.shape, 0.1))
+
+
+@dataclass(frozen=True, kw_only=True)
 class ForgetsTheCap(InTurn):
     """Says that it honours a power cap, and does not."""
 
@@ -419,6 +434,7 @@ BROKEN: tuple[InTurn, ...] = (
     NeedsEnoughSubcarriers(),
     PromisesAnything(),
     GivesNoReason(),
+    LeavesAnAllocation(),
     ForgetsTheCap(),
     RefusesWhatItDeclares(),
     DropsConstraints(),
