@@ -1,6 +1,6 @@
 """CSV: one line per user, cells separated by comma, semicolon or tab.
 
-Beside the numbers a file may have a header line (no cell after the first is a number) and a first column of user
+Beside the numbers a file may have a header line (headings only; the first may be empty) and a first column of user
 names (no cell is a number). A header whose first cell is "slot" announces slots: then the first column says which slot
 a line belongs to, each slot's lines stand together, and user names, if any, come second. Everything else must be a
 number or mean missing (empty, NaN, null, NA). Complex cells are written 0.1+0.2i or 0.1+0.2j.

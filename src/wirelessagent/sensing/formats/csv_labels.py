@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wirelessagent.model.errors import FileFormatError
-from wirelessagent.sensing.formats.text import number
+from wirelessagent.sensing.formats.text import is_label
 
 Row: TypeAlias = tuple[int, list[str]]
 """A line's number and its cells."""
@@ -32,17 +32,22 @@ class Labels:
     def of(cls, first: Row, second: Row | None) -> Labels:
         """The labels that the first two lines show.
 
-        A header has no number after its first cell. A column of slots is announced by the header; one of names has no
-        number in the first line of data.
+        A header has headings only (its first cell may be empty). A column of slots is announced by the header; a
+        column of names has a name in the first line of data.
         """
         cells = first[1]
-        is_text = [number(cell) is None for cell in cells]
-        header = all(is_text[1:]) and (len(cells) > 1 or is_text[0])
+        corner = is_label(cells[0]) or (len(cells) > 1 and not cells[0].strip())
+        header = corner and all(map(is_label, cells[1:]))
         column = int(header and len(cells) > 1 and cells[0].strip().lower() == "slot")
         data = second if header else first
         if data is None or len(data[1]) < column + 2:
             return cls(header=header, slots=column == 1, names=False)
-        names = number(data[1][column]) is None
+        names = is_label(data[1][column])
+        if names and not header and cells[0].strip().lower() in _NAME_LABELS:
+            raise FileFormatError(
+                f"line {first[0]} begins with {cells[0]!r} as a header does, and goes on with numbers; "
+                "give the subcarriers headings such as f1, or delete the line"
+            )
         if header and not names and cells[column].strip().lower() in _NAME_LABELS:
             cell = data[1][column]
             raise FileFormatError(
@@ -60,7 +65,7 @@ class Labels:
 def names_in(rows: list[Row], column: int) -> list[str]:
     """The names in a column (counted from 0), each of which is not a number."""
     for line, cells in rows:
-        if number(cells[column]) is not None:
+        if not is_label(cells[column]):
             first_line, first = rows[0]
             raise FileFormatError(
                 f"line {line}, column {column + 1} holds {cells[column]!r} where line {first_line} has the user name "

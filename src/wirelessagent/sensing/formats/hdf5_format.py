@@ -26,6 +26,7 @@ from wirelessagent.sensing.formats.contents import (
     kind_of,
     never_loaded,
 )
+from wirelessagent.sensing.formats.hdf5_heap import check_heaps
 
 if TYPE_CHECKING:
     from wirelessagent.sensing.formats.h5py_adapter import Dataset
@@ -39,6 +40,7 @@ def read_hdf5(data: bytes, *, max_bytes: int, matlab: bool = False) -> Contents:
     """The datasets of an HDF5 file by their path; ``matlab`` says that it is MATLAB's, with its axes reversed."""
     from wirelessagent.sensing.formats import h5py_adapter
 
+    check_heaps(data)
     with decoding("HDF5"):
         listing = h5py_adapter.listing(data)
     netcdf = "_NCProperties" in listing.attributes

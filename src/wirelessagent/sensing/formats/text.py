@@ -9,6 +9,8 @@ from wirelessagent.model.errors import FileFormatError
 MISSING = frozenset({"", "nan", "null", "na", "n/a"})
 """Cells that mean "not measured", in lower case."""
 
+_GROUPING = str.maketrans("", "", ",_' ")
+
 
 def decode(data: bytes) -> str:
     """UTF-8 text, with or without a byte-order mark."""
@@ -21,6 +23,15 @@ def decode(data: bytes) -> str:
         raise FileFormatError(
             f"is not UTF-8 text: byte 0x{data[error.start]:02x} in line {line}; save it as UTF-8"
         ) from error
+
+
+def is_label(cell: str) -> bool:
+    """Whether a cell is a name or a heading: neither a number nor one in another spelling, such as 1,5 or 1_000.
+
+    >>> is_label("Ann"), is_label("10.0.0.1"), is_label("1,5"), is_label("NaN"), is_label("")
+    (True, True, False, False, False)
+    """
+    return number(cell) is None and number(cell.translate(_GROUPING)) is None
 
 
 def number(cell: str) -> float | complex | None:
