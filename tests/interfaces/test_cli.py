@@ -36,8 +36,8 @@ def answer(capsys: pytest.CaptureFixture[str], *arguments: object, code: int = 0
 
 
 def refusal(capsys: pytest.CaptureFixture[str], *arguments: object, code: int = 2) -> str:
-    """The one line on stderr of a command that must fail, with nothing on stdout."""
-    assert run([str(argument) for argument in arguments]) == code
+    """The one line on stderr of a command that must fail; with --json there is nothing on stdout."""
+    assert run([str(argument) for argument in arguments] + ["--json"]) == code
     out, err = capsys.readouterr()
     assert out == ""
     assert "Traceback" not in err

@@ -33,9 +33,7 @@ class FileBaseStation(BaseStation):
 
     def apply(self, decision: Decision) -> Outcome:
         path = Path(self.path)
-        writer = _WRITERS.get(path.suffix.lower())
-        if writer is None:
-            raise InputError(f"an allocation is written as {', '.join(_WRITERS)}; got {path.name!r}")
+        writer = allocation_writer(path)
         check_applicable(decision, decision.cell if self.scene is None else self.scene.cell)
         write_atomically(path, lambda stream: writer(stream, decision))
         return Outcome(
@@ -45,6 +43,14 @@ class FileBaseStation(BaseStation):
             promised_bps=decision.rate_bps,
             written_to=path,
         )
+
+
+def allocation_writer(path: Path) -> Callable[[BinaryIO, Decision], None]:
+    """What writes a decision as the suffix of ``path`` says; an :class:`InputError` for an unknown suffix."""
+    writer = _WRITERS.get(path.suffix.lower())
+    if writer is None:
+        raise InputError(f"an allocation is written as {', '.join(_WRITERS)}; got {path.name!r}: change the suffix")
+    return writer
 
 
 def _write_json(stream: BinaryIO, decision: Decision) -> None:

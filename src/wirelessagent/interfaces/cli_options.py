@@ -101,7 +101,8 @@ def _field_parameter(name: str, info: FieldInfo, panel: str) -> tuple[Any, Any]:
         return Annotated[kind if required else kind | None, typer.Argument(help=text)], ... if required else None
     default = info.default if not info.is_required() and info.default_factory is None else None
     shown = str(default) if default is not None else False
-    option = typer.Option(as_flag(name), help=text, show_default=shown, rich_help_panel=panel)
+    kind, metavar = _as_text(kind)
+    option = typer.Option(as_flag(name), help=text, show_default=shown, rich_help_panel=panel, metavar=metavar)
     return Annotated[kind | None, option], None
 
 
@@ -110,9 +111,17 @@ def _plugin_parameter(name: str, owners: list[tuple[str, Option]], panel: str) -
     kinds = {option.type for _, option in owners}
     kind: Any = kinds.pop() if len(kinds) == 1 else str
     defaults = [f"{plugin} ({'needed' if option.required else option.default})" for plugin, option in owners]
+    kind, metavar = _as_text(kind)
     flags = [f"{as_flag(name)}/--no-{name.replace('_', '-')}"] if kind is bool else [as_flag(name)]
-    option = typer.Option(*flags, help=f"of {', '.join(defaults)}", show_default=False, rich_help_panel=panel)
+    option = typer.Option(
+        *flags, help=f"of {', '.join(defaults)}", show_default=False, rich_help_panel=panel, metavar=metavar
+    )
     return Annotated[kind | None, option]
+
+
+def _as_text(kind: Any) -> tuple[Any, str | None]:
+    """Numbers are taken as text, so that the request's own check names the value; and how the help shows them."""
+    return (str, kind.__name__.upper()) if kind in (int, float) else (kind, None)
 
 
 def _parameter_type(annotation: Any) -> Any:

@@ -25,7 +25,7 @@ def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:
         InputError: the folder does not exist or cannot be written to, or ``path`` is no ordinary file.
         WirelessAgentError: the disk refused, for example because it is full.
     """
-    target = _target(path)
+    target = writable_target(path)
     temporary = target.with_name(f".wirelessagent-{secrets.token_hex(8)}.part")
     try:
         stream = temporary.open("xb")
@@ -46,8 +46,11 @@ def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:
     _flush_folder(target.parent)
 
 
-def _target(path: Path) -> Path:
-    """The file that ``path`` names, behind links, if one can stand there."""
+def writable_target(path: Path) -> Path:
+    """The file that ``path`` names, behind links, if one can stand there; an :class:`InputError` if none can.
+
+    Long work calls this before it starts, so that a mistyped name is not found out at its end.
+    """
     try:
         target = Path(os.path.realpath(path))
         if target.is_dir():

@@ -40,6 +40,7 @@ from wirelessagent.operations.channel_file import file_scene
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions, Positional
 from wirelessagent.operations.intent import IntentRecord
 from wirelessagent.operations.operation import Event, Operation, Progress, silent
+from wirelessagent.operations.outputs import check_allocation, check_picture
 from wirelessagent.operations.record import Block, Matrix, Record, Table
 from wirelessagent.operations.simulate import LOSS_USAGE, describe
 from wirelessagent.operations.solve import figures_of_infeasibility
@@ -249,6 +250,8 @@ class AskRecord(Record):
 
 
 def run(request: AskRequest, progress: Progress) -> AskRecord:
+    check_allocation(request.out)
+    check_picture(request.plot)
     intent = recognise(request.text)
     understood = IntentRecord.of(request.text, intent)
     if intent.kind != "allocate" or intent.objective is None:

@@ -15,6 +15,7 @@ from wirelessagent.operations.answers import EstimateAnswer
 from wirelessagent.operations.channel_file import ChannelFile
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
+from wirelessagent.operations.outputs import check_gains
 from wirelessagent.operations.record import Block, Record, Table
 from wirelessagent.operations.simulate import describe
 from wirelessagent.sensing.npz import write_npz
@@ -68,6 +69,7 @@ class RepairRecord(Record):
 
 
 def run(request: RepairRequest, progress: Progress) -> RepairRecord:
+    check_gains(request.out)
     scene = request.scene(progress)
     seen = scene.sensed
     estimate = chain.repair(seen, request.method, **request.method_options)

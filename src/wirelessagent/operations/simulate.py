@@ -15,6 +15,7 @@ from wirelessagent.model.units import db
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
+from wirelessagent.operations.outputs import check_gains
 from wirelessagent.operations.record import Block, Matrix, Record, Table, Vector
 from wirelessagent.sensing.loss import PATTERNS
 from wirelessagent.sensing.loss import parse as parse_loss
@@ -65,6 +66,7 @@ class SimulateRecord(Record):
 
 
 def run(request: SimulateRequest, progress: Progress) -> SimulateRecord:
+    check_gains(request.out)
     losses = [parse_loss(text) for text in request.loss]
     scene = chain.simulate(request.source, request.cell(), seed=request.seed, **request.source_options)
     seen = scene.observe(*losses, seed=request.seed)

@@ -26,6 +26,7 @@ from wirelessagent.operations.answers import (
 from wirelessagent.operations.channel_file import ChannelFile
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
+from wirelessagent.operations.outputs import check_allocation
 from wirelessagent.operations.problem_options import ProblemOptions
 from wirelessagent.operations.record import Block, Table
 
@@ -81,6 +82,7 @@ class SolveRecord(DecisionAnswer):
 
 
 def run(request: SolveRequest, progress: Progress) -> SolveRecord:
+    check_allocation(request.out)
     scene, estimate, problem = request.posed(progress)
     decision = chain.decide(estimate, problem, scene.cell, request.method, **request.method_options)
     if request.out is not None:
