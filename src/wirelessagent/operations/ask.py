@@ -178,12 +178,9 @@ class AskRequest(CellOptions):
 
     text: Annotated[str, Positional()] = Field(description="what the cell should do, in English or Chinese")
     csi: Path | None = Field(None, description="gain matrix to work on; a simulated cell if not given")
-    file_options: Annotated[PluginOptions, OptionsOf("channel_source", only="file", but=("path",))] = Field(
-        default_factory=dict, description="how to read the file"
-    )
     source: Annotated[str, PluginName("channel_source")] = Field("rayleigh", description="channel source without --csi")
-    source_options: Annotated[PluginOptions, OptionsOf("channel_source", only="rayleigh")] = Field(
-        default_factory=dict, description="options of the channel source"
+    source_options: Annotated[PluginOptions, OptionsOf("channel_source", but=("path",))] = Field(
+        default_factory=dict, description="options of the channel source; with --csi, how to read the file"
     )
     loss: list[str] | None = Field(
         None,
@@ -287,7 +284,7 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
 
 def _scene(request: AskRequest, progress: Progress) -> Scene:
     if request.csi is not None:
-        return file_scene(request, request.csi, request.file_options, progress)
+        return file_scene(request, request.csi, request.source_options, progress)
     return chain.simulate(request.source, request.cell(), seed=request.seed, **request.source_options)
 
 
