@@ -186,7 +186,8 @@ def _blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
     """Whether another object stands between the two, unless "and" or "or" joins it to this one."""
     low, high = min(direction.last, item.last), max(direction.first, item.first)
     between = [other for other in found if low <= other.first < high and other is not item and other is not direction]
-    if direction.first >= item.last and any(other.term.concept == "question" for other in between):
+    stated = direction.term.concept == "up" and direction.first >= item.last
+    if stated and any(other.term.concept == "question" for other in between):
         return True  # "the speed is good" says how it is
     objects = [other for other in between if other.term.concept in _OBJECTS or other.term.concept == "direct"]
     joined = any(other.term.concept == "join" for other in between)

@@ -12,28 +12,34 @@ from __future__ import annotations
 # Terms that mean an objective by themselves; "less_rate" is a wish that no objective serves.
 DIRECT: dict[str, str] = {
     "max_rate": (
-        "faster fastest quicker quickest speedy make_it_fast want_it_fast go_fast be_fast as_fast_as_possible "
+        "stop_buffering stop_the_buffering no_buffering no_more_buffering without_buffering less_buffering no_lag "
+        "less_lag stop_lagging 不要卡 别卡 faster fastest quicker quickest speedy make_it_fast want_it_fast go_fast "
+        "be_fast as_fast_as_possible "
         "as_quick_as_possible speed_up  "
         "speeding_up accelerate full_speed full_throttle top_speed high_speed too_slow so_slow very_slow really_slow "
         "is_slow slow sluggish buffering buffers stutters stuttering lagging laggy lags not_fast_enough "
         "isnt_fast_enough more_data really_fast very_fast super_fast fast_network fast_internet fast_wifi "
-        "spectral_efficiency spectrum_efficiency spectrally_efficient rate_maximisation rate_maximization rmax 快 更快 "
+        "spectral_efficiency spectrum_efficiency spectrally_efficient rate_maximisation rate_maximization rmax 快 "
+        "更快 "
         " "
-        "快一点 快点 快些 快一些 最快 越快越好 要快 加速 提速 高速 高速率 太慢 太卡 很慢 好慢 慢 网速慢 卡顿 很卡 好卡 "
+        "快一点 快点 快些 快一些 最快 越快越好 要快 加速 提速 高速 高速率 太慢 太卡 很慢 好慢 慢 网速慢 卡顿 很卡 "
+        "好卡 "
         " "
         "缓冲 流畅 更流畅 不够快 频谱效率 谱效"
     ),
     "min_power": (
-        "green greener go_green eco eco_mode low_power low_energy power_saving energy_saving battery_saving drain "
-        "drains draining drain_too_fast drains_too_fast draining_too_fast drain_fast drains_fast too_much_power "
+        "green greener go_green eco eco_mode low_power low_energy power_saving energy_saving battery_saving "
+        "drain_too_fast drains_too_fast draining_too_fast drain_fast drains_fast too_much_power "
         "too_much_energy too_much_electricity economical power_minimisation power_minimization pmin 省电 省点电 节能 "
         "节电 低功耗 省能 绿色 环保 费电 太费电 耗电 耗电太快 耗电太多 功耗太高 功率太大 功耗太大 能耗太高"
     ),
     "max_energy_efficiency": (
-        "per_unit_energy per_unit_of_energy energy_efficiency energy_efficient energy_efficiently power_efficiency "
+        "每瓦 速率功耗比 per_unit_energy per_unit_of_energy energy_efficiency energy_efficient energy_efficiently "
+        "power_efficiency "
         "power_efficient ee bits_per_joule  "
         "bit_per_joule bits_joule bit_j per_joule energy_per_bit joules_per_bit joule_per_bit power_per_bit "
-        "every_joule each_joule bits_per_watt rate_per_watt per_watt each_watt every_watt 每比特能耗 每焦耳 每焦 能效  "
+        "every_joule each_joule bits_per_watt rate_per_watt per_watt each_watt every_watt 每比特能耗 每焦耳 每焦 "
+        "能效  "
         "能效比 能量效率 能源效率 高能效 又快又省电 又快又省 又省电又快 既快又省电 既快又省 既省电又快"
     ),
     "less_rate": "slow_down slowing_down slower throttle 放慢 慢一点 慢点 慢一些 降速 限速",
@@ -42,7 +48,8 @@ DIRECT: dict[str, str] = {
 
 # Directions.
 UP = (
-    "more higher high highest increase increases increasing increased raise raising boost boosting maximise maximize "
+    "peak is_maximised is_maximized is_maximum is_too_low too_low 拉满 太低 太少 more higher high highest "
+    "increase increases increasing increased raise raising boost boosting maximise maximize "
     "maximising maximizing maximises maximizes maximised maximized max maximum maximal most improve improving "
     "improved  "
     "enhance fast quick best greatest better good great greater bigger biggest larger largest lots_of as_much up "
@@ -51,7 +58,8 @@ UP = (
     "更高 更大 更多 高 大 高一点 改善 加快 尽量高 越高越好 越大越好 越多越好 尽可能高 尽可能大 不够 延长 更长 更好 多"
 )
 DOWN = (
-    "drop less fewer fewest as_few lower low lowest reduce reduces reducing reduced decrease decreasing cut cutting "
+    "is_minimised is_minimized too_high is_too_high 太高 太大 drop less fewer fewest as_few lower low lowest "
+    "reduce reduces reducing reduced decrease decreasing cut cutting "
     "minimise minimize minimising minimizing minimises minimizes minimised minimized min minimum minimal save saving "
     "saves saved conserve conserving least little as_little smallest smaller economise economize economise_on "
     "economize_on trim lessen spare preserve turn_down down 降低 减少 减小 降 减 最小化 最小 最低 更低 更少 更小 省 "

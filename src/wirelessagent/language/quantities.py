@@ -2,7 +2,7 @@
 
 A figure is a number, a unit and what bounds it, in SI: "at most 200 mW" is 0.2 W, a ceiling. Counts and names
 ("8 users", "user 3", "5G", "20 MHz") are none. A bound that cannot be read ("below 10 ms", "at most a few watts") is
-reported with the kind "other", so that nobody drops half of a request unseen.
+reported with the kind "other", as is a share for each user ("1 MB each"), so that nobody drops it unseen.
 """
 
 from __future__ import annotations
@@ -36,6 +36,9 @@ _CHINESE_COUNTED = re.compile(
 _GENERATION = re.compile(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
 _HUNDREDTHS = re.compile(r"百分之$")
 _FOREIGN_UNIT = re.compile(r"\s?[A-Za-zμ][A-Za-zμ/]*")
+_FOREIGN_APIECE = re.compile(
+    r"(?i)\s?(?!users?\b|ues?\b)[A-Za-zμ][A-Za-zμ/]*\s*(?:each\b|apiece\b|per\s+(?:user|person|head)\b|每)"
+)
 _RANGE = re.compile(r"\s*(?:-|–|—|~|(?i:to\b|and\b|through\b)|到|至)\s*$")
 _TRAILING_HALF = re.compile(r"半(?!小时)")
 _APIECE = re.compile(r"(?i)\s*(?:each|apiece|per\s+(?:user|person|head))\b")
@@ -218,7 +221,8 @@ def _kind_without_unit(plain: str, reading: _Reading, *, bounded: bool) -> Quant
         return None
     if _AFTER_BARE.match(plain, reading.end):
         return "bare"
-    return "other" if bounded else None
+    apiece = _FOREIGN_APIECE.match(plain, reading.end) is not None
+    return "other" if bounded or apiece else None
 
 
 def _counted_in_chinese(plain: str, end: int) -> bool:
