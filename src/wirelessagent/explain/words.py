@@ -25,8 +25,7 @@ _ENGLISH: Mapping[str, str] = {
     "{resting} of the {used} subcarriers in use rest on a repaired gain.",
     "complete": "No gain was missing, so nothing was repaired.",
     "kept": "On the true channel every promised rate was kept.",
-    "missed": "On the true channel {names} fell short of the promised rate, by up to {short:.2g} %: "
-    "{achieved} of the promised {predicted} could be carried.",
+    "missed": "On the true channel {names} fell short of the promised rate, by up to {short:.2g} %.",
     "comma": ", ",
 }
 
@@ -45,7 +44,7 @@ _CHINESE: Mapping[str, str] = {
     "使用的 {used} 个子载波中有 {resting} 个依赖修复值。",
     "complete": "没有缺失的增益，因此无需修复。",
     "kept": "在真实信道上，所有承诺的速率都已兑现。",
-    "missed": "在真实信道上 {names} 未达到承诺速率，最多少 {short:.2g} %：承诺 {predicted}，可承载 {achieved}。",
+    "missed": "在真实信道上 {names} 未达到承诺速率，最多少 {short:.2g} %。",
     "comma": "、",
 }
 
@@ -138,7 +137,5 @@ def _outcome(words: Mapping[str, str], report: Report) -> list[str]:
         words["missed"].format(
             names=words["comma"].join(report.decision.user_names[user] for user in missed),
             short=100 * float(np.max(1 - carried / promised)),
-            achieved=human(report.achieved.sum_rate_bps, "bit/s"),
-            predicted=human(report.predicted.sum_rate_bps, "bit/s"),
         )
     ]

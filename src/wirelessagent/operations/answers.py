@@ -148,7 +148,7 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None) -> Table
     for user, name in enumerate(decision.user_names):
         own = decision.owner == user
         achieved = "–" if report.achieved is None else human(report.achieved.user_rate_bps[user], "bit/s")
-        missed = " (missed)" if user in report.missed_users else ""
+        missed = f" ({_shortfall(report, user):.2g} % short)" if user in report.missed_users else ""
         row = [name, str(int(own.sum()))]
         if estimate is not None:
             row.append(str(int((own & estimate.repaired[user]).sum())))
@@ -160,6 +160,12 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None) -> Table
         columns=("user", "subcarriers", *repaired, "power", "predicted rate", "achieved rate"),
         rows=tuple(rows),
     )
+
+
+def _shortfall(report: Report, user: int) -> float:
+    """By how much a user's true rate falls short of the promised one, in %."""
+    assert report.achieved is not None
+    return 100 * float(1 - report.achieved.user_rate_bps[user] / report.decision.rate_bps[user])
 
 
 def _bracket(bracket: Bracket | None) -> BracketAnswer | None:
