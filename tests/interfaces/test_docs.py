@@ -46,11 +46,12 @@ def commands(page: Path) -> list[str]:
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Where examples run: an empty folder with the examples' data and a matrix of the reader's own."""
+    """Where examples run: an empty folder with the examples' data and matrices of the reader's own."""
     shutil.copytree(ROOT / "examples" / "data", tmp_path / "examples" / "data")
-    gain_db = 10 * np.log10(np.random.default_rng(1).exponential(1e-10, (4, 12)))
-    gain_db[1, 3] = np.nan
-    np.savetxt(tmp_path / "my_gains.csv", gain_db, delimiter=",")
+    gain = np.random.default_rng(1).exponential(1e-10, (4, 12))
+    gain[1, 3] = np.nan
+    np.savetxt(tmp_path / "gains.csv", gain, delimiter=",")
+    np.savetxt(tmp_path / "my_gains.csv", 10 * np.log10(gain), delimiter=",")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
