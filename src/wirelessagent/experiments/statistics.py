@@ -61,7 +61,7 @@ def last_crossing(x: FloatArray, y: FloatArray, level: float) -> float | None:
 
     Between points y is taken as linear in log x. None if it starts below; the last x if it never falls below.
 
-    >>> last_crossing(np.array([1.0, 100.0]), np.array([1.0, 0.0]), 0.5)
+    >>> round(last_crossing(np.array([1.0, 100.0]), np.array([1.0, 0.0]), 0.5), 12)
     10.0
     """
     below = np.flatnonzero(y < level)
