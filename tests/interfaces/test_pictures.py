@@ -130,6 +130,17 @@ def test_bars_are_the_powers_and_the_line_is_the_water_level():
     assert "water level 1.5 W" in texts(canvas)
 
 
+def test_the_strip_shows_the_owner_of_every_subcarrier():
+    run = a_run()
+    panel = chain_canvas(**run).panels[2].axes
+    strip = [bar for bar in panel.patches if bar.get_y() < 0]
+
+    colour_of = dict(zip(run["decision"].owner.tolist(), (bar.get_facecolor() for bar in strip), strict=True))
+    assert len(strip) == 20
+    assert len(set(colour_of.values())) == len(colour_of) > 1
+    assert [bar.get_facecolor() for bar in strip] == [colour_of[owner] for owner in run["decision"].owner.tolist()]
+
+
 def test_powers_without_a_common_level_get_no_line():
     run = a_run()
     uneven = dict(vars(run["decision"]), power_w=run["decision"].power_w * np.linspace(0.5, 1.0, 20))
@@ -162,7 +173,8 @@ def test_without_an_outcome_nothing_is_called_achieved():
 def test_an_infeasible_decision_says_so_and_why():
     shown = texts(chain_canvas(**a_run(status="infeasible", min_rate_bps=3e6)))
 
-    assert "infeasible\nneeds at least 43.2 W" in shown
+    assert "infeasible: needs at least 43.2 W" in shown
+    assert "Decided by water_filling: infeasible" in shown
 
 
 def test_names_that_the_font_cannot_show_become_numbers():
@@ -175,7 +187,11 @@ def test_names_that_the_font_cannot_show_become_numbers():
 def test_every_axis_of_a_quantity_names_its_unit():
     panels = chain_canvas(**a_run()).panels
 
-    assert [panel.axes.get_xlabel() for panel in panels[:3]] == ["Subcarrier"] * 3
+    assert [panel.axes.get_xlabel() for panel in panels[:3]] == [
+        "Subcarrier",
+        "Subcarrier",
+        "Subcarrier (strip: its owner)",
+    ]
     assert panels[2].axes.get_ylabel() == "Power (W)"
 
 

@@ -34,6 +34,8 @@ _DECISIONS = (
     ("max_energy_efficiency", "paper_scan"),
 )
 
+_FEWEST_REPEATS = 3
+
 _SWEEPS = {"subcarriers": "Subcarriers N", "users": "Users K"}
 
 
@@ -49,6 +51,7 @@ class RunTime(Experiment):
         loss_rate: share of the entries to be repaired.
         min_rate_bps: the rate that minimum power must carry for each user.
         most_repeats: calls per point, where as many draws are asked for.
+        most_seconds: time after which a point of slow calls is left with fewer repeats, but three at least.
     """
 
     name = "run_time"
@@ -61,6 +64,7 @@ class RunTime(Experiment):
     loss_rate: float = 0.2
     min_rate_bps: float = 1e5
     most_repeats: int = 20
+    most_seconds: float = 0.4
 
     def run(
         self, *, draws: int, seed: int, progress: Progress | None = None, executor: Executor | None = None
@@ -72,7 +76,7 @@ class RunTime(Experiment):
         rows: list[tuple[Value, ...]] = []
         for done, (sweep, num_users, num_subcarriers) in enumerate(points, start=1):
             for stage, call in self._stages(num_users, num_subcarriers, seed).items():
-                quartiles = np.percentile(_times_us(call, repeats), (50, 25, 75)).tolist()
+                quartiles = np.percentile(_times_us(call, repeats, self.most_seconds), (50, 25, 75)).tolist()
                 rows.append((sweep, num_users, num_subcarriers, stage, *quartiles))
             if progress is not None:
                 progress(done, len(points))
@@ -131,15 +135,15 @@ class RunTime(Experiment):
         return canvas
 
 
-def _times_us(call: Callable[[], object], repeats: int) -> FloatArray:
-    """Times of ``repeats`` calls in µs, after one that is not counted because it may compile."""
+def _times_us(call: Callable[[], object], repeats: int, most_seconds: float) -> FloatArray:
+    """Times of up to ``repeats`` calls in µs, after one that is not counted because it may compile."""
     call()
-    times = np.empty(repeats)
-    for i in range(repeats):
+    times: list[float] = []
+    while len(times) < repeats and (len(times) < _FEWEST_REPEATS or sum(times) < 1e6 * most_seconds):
         start = time.perf_counter()
         call()
-        times[i] = 1e6 * (time.perf_counter() - start)
-    return times
+        times.append(1e6 * (time.perf_counter() - start))
+    return np.array(times)
 
 
 def _exponent(table: Table, sweep: str, stage: Value) -> float:

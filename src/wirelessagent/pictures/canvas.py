@@ -170,6 +170,12 @@ class Panel:
             linewidth=0.4,
         )
 
+    def strip(self, x: ArrayLike, colours: Sequence[str], *, below: float) -> None:
+        """A row of coloured fields from ``below``, a negative value, almost up to zero, and room for it."""
+        positions = np.asarray(x, dtype=float)
+        self.axes.bar(positions, np.full(positions.size, -0.8 * below), bottom=below, width=1.0, color=colours)
+        self.axes.set_ylim(bottom=1.2 * below)
+
     def marks(self, x: ArrayLike, y: ArrayLike, *, size_pt: float, shape: str, colour: str, label: str | None) -> None:
         """Separate marks with a thin edge, so that they show on light and dark ground."""
         self.axes.plot(
@@ -254,6 +260,10 @@ class Panel:
     def plain_ticks(self, axis: Literal["x", "y"], at: Sequence[float]) -> None:
         """Ticks at these values, written out, on a logarithmic axis too."""
         self.ticks(axis, at, [f"{value:g}" for value in at])
+
+    def top(self) -> float:
+        """The upper end of the y axis."""
+        return float(self.axes.get_ylim()[1])
 
     def size_pt(self) -> tuple[float, float]:
         """Width and height of the panel in points, roughly, before the layout is made."""

@@ -19,6 +19,9 @@ from wirelessagent.pictures.canvas import GREY, PALETTE, Canvas, Panel, can_show
 _MOST_NAMED = 16
 """Users up to which every one gets a tick."""
 
+_PREDICTED, _ACHIEVED = "#C4C4C4", "#5A5A5A"
+"""Greys, because the colours beside are the users'."""
+
 _ZERO_DB = -4000.0
 
 _SMALLEST_DOTTED_CELL_PT = 5.0
@@ -108,7 +111,7 @@ def _user_ticks(panel: Panel, axis: str, names: list[str]) -> None:
 def _subcarrier_ticks(panel: Panel, num_subcarriers: int) -> None:
     """Ticks at subcarriers 1, 1 + step, …, counted from 1."""
     steps = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
-    step = next((step for step in steps if num_subcarriers / step <= 12), 5000)
+    step = next((step for step in steps if num_subcarriers / step <= 8), 5000)
     numbers = sorted({1, *range(step, num_subcarriers + 1, step)})
     if step > 1 and len(numbers) > 1 and numbers[1] - 1 <= step / 2:
         del numbers[1]
@@ -129,21 +132,22 @@ def _mark_repaired(panel: Panel, estimate: ChannelEstimate) -> str:
 
 
 def _draw_allocation(panel: Panel, estimate: ChannelEstimate, decision: Decision, names: list[str]) -> None:
-    """Power per subcarrier in its owner's colour, with the water level where there is one."""
-    panel.describe(f"Decided by {decision.method}: {decision.total_power_w:.3g} W", "Subcarrier", "Power (W)")
+    """Power per subcarrier in its owner's colour, with the water level where there is one.
+
+    A strip below shows the owner where the power is too little to be seen.
+    """
+    verdict = f"{decision.total_power_w:.3g} W" if decision.is_usable else decision.status
+    panel.describe(f"Decided by {decision.method}: {verdict}", "Subcarrier (strip: its owner)", "Power (W)")
     _subcarrier_ticks(panel, decision.owner.size)
     panel.limits(x=(-0.7, decision.owner.size - 0.3))
     if not decision.is_usable:
-        panel.note(f"{decision.status}\n{textwrap.fill(decision.reason, 48)}".strip())
+        panel.note(textwrap.fill(f"{decision.status}: {decision.reason}", 48))
     if not np.any(decision.power_w > 0):
         return
     colours = _owner_colours(panel, decision, names)
-    panel.bars(
-        np.arange(decision.owner.size),
-        decision.power_w,
-        width=0.8,
-        colour=[colours.get(owner, GREY) for owner in decision.owner.tolist()],
-    )
+    subcarriers, owners = np.arange(decision.owner.size), decision.owner.tolist()
+    own = [colours.get(owner, GREY) for owner in owners]
+    panel.bars(subcarriers, decision.power_w, width=0.8, colour=own)
     entries = len(colours) if len(colours) <= len(PALETTE) else 0
     for owner, colour in list(colours.items())[:entries]:
         panel.swatch(colour, names[owner])
@@ -151,11 +155,12 @@ def _draw_allocation(panel: Panel, estimate: ChannelEstimate, decision: Decision
     if level is not None:
         panel.level(level, label=f"water level {level:.3g} W")
     _headroom(panel, max(float(decision.power_w.max()), level or 0.0), entries=entries + (level is not None), columns=3)
+    panel.strip(subcarriers, [colours.get(owner, "white") for owner in owners], below=-0.05 * panel.top())
 
 
 def _owner_colours(panel: Panel, decision: Decision, names: list[str]) -> dict[int, str]:
-    """The colour of each user that radiates: the user's own, one by one, or along a scale where they are too many."""
-    owners: list[int] = np.unique(decision.owner[(decision.power_w > 0) & (decision.owner >= 0)]).tolist()
+    """The colour of each user that owns a subcarrier: its own, one by one, or along a scale where they are too many."""
+    owners: list[int] = np.unique(decision.owner[decision.owner >= 0]).tolist()
     if len(names) <= len(PALETTE):
         return {owner: PALETTE[owner] for owner in owners}
     if len(owners) <= len(PALETTE):
@@ -191,9 +196,9 @@ def _draw_rates(panel: Panel, decision: Decision, outcome: Outcome | None, names
     scale, unit = _rate_scale(float(tallest.max()))
     offset = 0.0 if achieved is None else 0.2
     width = 0.8 - 2 * offset
-    panel.bars(users - offset, decision.rate_bps / scale, width=width, colour=PALETTE[4], label="predicted")
+    panel.bars(users - offset, decision.rate_bps / scale, width=width, colour=_PREDICTED, label="predicted")
     if achieved is not None and outcome is not None:
-        panel.bars(users + offset, achieved.user_rate_bps / scale, width=width, colour=PALETTE[5], label="achieved")
+        panel.bars(users + offset, achieved.user_rate_bps / scale, width=width, colour=_ACHIEVED, label="achieved")
         missed = np.flatnonzero(outcome.missed)
         heights = (tallest[missed] + 0.04 * tallest.max()) / scale
         if missed.size:
@@ -201,6 +206,8 @@ def _draw_rates(panel: Panel, decision: Decision, outcome: Outcome | None, names
     if np.any(wanted > 0):
         panel.segments(users - 0.45, users + 0.45, wanted / scale, label="minimum")
     title = "Predicted rates" if achieved is None else "Predicted and achieved rates"
+    if not decision.is_usable:
+        title = "No rates: nothing is allocated"
     panel.describe(title, "", f"Rate ({unit})")
     _user_ticks(panel, "x", names)
     panel.limits(x=(-0.7, len(names) - 0.3))
