@@ -246,9 +246,7 @@ class Panel:
             bbox={"boxstyle": "round,pad=0.5", "facecolor": "white", "edgecolor": "#8A8A8A"},
         )  # fmt: skip
 
-    def legend(
-        self, *, columns: int = 1, place: Literal["best", "upper left", "upper center", "lower right"] = "best"
-    ) -> None:
+    def legend(self, *, columns: int = 1, place: Literal["best", "upper left", "upper center"] = "best") -> None:
         """The legend, where it covers least unless a place is named; nothing where nothing has a label."""
         handles, labels = self.axes.get_legend_handles_labels()
         if labels:
