@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from typing import Any
 
 import pytest
@@ -74,3 +76,10 @@ def test_a_failure_says_what_was_wrong_and_what_was_received() -> None:
     message = str(suite_of("objective", objectives.BadlyNamed()).failures()["test_has_a_name"])
     assert "lower case" in message
     assert "'Sum Rate'" in message
+
+
+def test_the_suites_need_neither_pytest_nor_hypothesis() -> None:
+    blocked = "import sys; sys.modules['pytest'] = sys.modules['hypothesis'] = sys.modules['_pytest'] = None"
+    run = "from wirelessagent.testing.broken.objectives import SumRate; import wirelessagent as wa"
+    suite = "S = type('S', (wa.testing.ObjectiveContract,), {'objective': SumRate()}); assert S().failures() == {}"
+    subprocess.run([sys.executable, "-c", f"{blocked}; {run}; {suite}"], check=True, timeout=60)
