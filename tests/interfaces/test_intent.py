@@ -288,6 +288,7 @@ def test_neither_acts_nor_asks(kind: str, text: str) -> None:
         ("maximum throughput, power 10", ["10", "W", "dBm"]),
         ("highest speed with 500 MW", ["500 MW", "mW"]),
         ("save power, 1 Mbit/s for video and 200 kbit/s for sensors", ["1 Mbit/s", "200 kbit/s"]),
+        ("maximise the rate but share it fairly", ["Fairness"]),
         ("10 W", ["10 W", "rate"]),
         ("everyone gets 1 Mbit/s", ["1 Mbit/s", "least power", "highest"]),
         ("save power and go faster", ["energy efficiency"]),
