@@ -17,17 +17,18 @@ import numpy as np
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray
 
-TEMPERATURES = (0.03, 0.01, 3e-3, 1e-3)
+TEMPERATURES = (0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3)
 """T in units of the mean price of a subcarrier."""
 
 STEPS = 6
-HALVINGS = 8
+TRIALS = 12
+SHRINK = 0.25
 LONGEST_STEP = 1.0
 HIGHEST_LOG_PRICE = 500.0
 FLAT = 1e-4
 LOG_NEGLIGIBLE = np.log(1e-7)
 """Logarithm of the share below which a user counts for nothing on a subcarrier."""
-SMALL = 1e-3
+SMALL = 1e-2
 """A share below which a user counts on the diagonal of the Hessian only: dense pairs would cost most of the time."""
 
 
@@ -78,7 +79,7 @@ def smoothed(
     gradient: FloatArray,
     hessian: FloatArray,
 ) -> float:
-    """The smoothed dual from :func:`priced_terms`; writes its gradient and minus its Hessian with respect to ln λ.
+    """The smoothed dual from :func:`priced_terms`; writes its gradient and the lower half of minus its Hessian in ln λ.
 
     The Hessian leaves out the diagonal that vanishes with the gradient, so it is positive semidefinite.
     """  # fmt: skip
@@ -114,12 +115,12 @@ def smoothed(
                 hessian[k, k] += share[i] * price[k]
         kept = 0
         for i in range(size):
-            if share[i] > SMALL:
+            if share[i] > SMALL and worth[i] > 0.0:
                 share[kept], worth[kept], active[kept] = share[i], worth[i], active[i]
                 kept += 1
         for i in range(kept):
             pull = share[i] * worth[i] / temperature
-            for j in range(kept):
+            for j in range(i + 1):
                 hessian[active[i], active[j]] -= pull * share[j] * worth[j]
     return total
 
@@ -192,11 +193,13 @@ def climb_prices(
             log_price[:] = here
         for _ in range(STEPS):
             newton_step(hessian, gradient, step)
+            if (gradient * step).sum() <= FLAT * relative_temperature * abs(value):  # what the step promises
+                break
             iterations += 1
             scale = 1.0
             moved = False
             trial, trial_value = here, value
-            for _ in range(HALVINGS):
+            for _ in range(TRIALS):
                 trial = here + scale * np.minimum(np.maximum(step, -LONGEST_STEP), LONGEST_STEP)
                 trial = np.minimum(np.maximum(trial, -HIGHEST_LOG_PRICE), HIGHEST_LOG_PRICE)
                 total = priced_terms(log_snr, inverse_snr, ceiling, cap_w, trial, rate, term)
@@ -204,16 +207,13 @@ def climb_prices(
                 if trial_value > value:
                     moved = True
                     break
-                scale *= 0.5
+                scale *= SHRINK
             if not moved:
                 break
-            gain = trial_value - value
             here, value = trial, trial_value
             gradient[:] = trial_gradient
             worth = (np.exp(here) * nats).sum()
             if worth - total > best:
                 best = worth - total
                 log_price[:] = here
-            if gain <= FLAT * relative_temperature * abs(value):
-                break
     return best, iterations

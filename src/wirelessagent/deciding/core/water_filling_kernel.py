@@ -152,14 +152,14 @@ def fill_power(
     roomy = False
     top = -1
     for n in range(floor.size):
-        # Once a subcarrier on the lowest floor can take the whole budget, nothing above the budget gets wet.
+        # Once a subcarrier on the lowest floor can take more than the budget, nothing above the budget gets wet.
         if floor[n] < (budget_w if roomy else np.inf):
             wet_floor[size] = floor[n]
             wet_cap[size] = cap[n]
             size += 1
             if floor[n] == 0.0 and (top < 0 or cap[n] > cap[top]):
                 top = n
-                roomy = cap[n] >= budget_w
+                roomy = cap[n] > budget_w
     level = water_level(wet_floor, wet_cap, size, budget_w)
     set_power(floor, cap, level, power_w)
     if level == np.inf:
