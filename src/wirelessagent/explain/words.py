@@ -20,7 +20,7 @@ _ENGLISH: Mapping[str, str] = {
     "undecided": "No allocation was found that does this, and no proof that there is none: {reason}",
     "power_max": "One more watt would buy about {price} at the margin.",
     "rate_price": "One more {step} for {user} would cost about {price} at the margin, the dearest of all.",
-    "idle": "{names} get nothing: on their best subcarrier the winner's gain is {margin:.1f} dB higher ({closest}).",
+    "idle": "{names} get nothing; the closest, {closest}, is {margin:.1f} dB behind the winner on its best subcarrier.",
     "repaired": "{missing} of {entries} gains were missing and repaired by {method}; "
     "{resting} of the {used} subcarriers in use rest on a repaired gain.",
     "complete": "No gain was missing, so nothing was repaired.",
@@ -39,7 +39,7 @@ _CHINESE: Mapping[str, str] = {
     "undecided": "没有找到满足要求的分配，也没有证明它不存在：{reason}",
     "power_max": "边际上每增加一瓦约可换来 {price}。",
     "rate_price": "边际上给 {user} 再增加 {step} 约需 {price}，是所有用户中最贵的。",
-    "idle": "{names} 没有分到子载波：在其最好的子载波上，胜者的增益高 {margin:.1f} dB（{closest}）。",
+    "idle": "{names} 没有分到子载波；其中最接近的 {closest} 在其最好的子载波上仍比胜者低 {margin:.1f} dB。",
     "repaired": "{entries} 个增益中缺失 {missing} 个，由 {method} 修复；"
     "使用的 {used} 个子载波中有 {resting} 个依赖修复值。",
     "complete": "没有缺失的增益，因此无需修复。",
