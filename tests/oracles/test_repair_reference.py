@@ -7,7 +7,8 @@ import pytest
 
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.repairing.core import users
-from wirelessagent.repairing.core.frequency_kernel import two_sided
+from wirelessagent.repairing.core.frequency_kernel import interpolate, predict, two_sided
+from wirelessagent.repairing.core.users_kernel import surprise_of_others
 from wirelessagent.repairing.linear import Linear
 from wirelessagent.repairing.nncf import Nncf
 from wirelessagent.repairing.nncf_paper import NncfPaper
@@ -55,6 +56,12 @@ def test_nncf_paper_is_the_papers_equation(
     repairer = NncfPaper(frequency_weight=frequency_weight, user_weight=user_weight)
     repaired = repairer.repair(ChannelObservation(gain=raw))
     np.testing.assert_allclose(repaired.gain, the_papers_rule(raw, frequency_weight, user_weight), rtol=1e-13)
+
+
+def test_nncf_paper_weighs_frequency_double_by_default() -> None:
+    raw = with_holes(12, 8, 20, 0.3)
+    repaired = NncfPaper().repair(ChannelObservation(gain=raw))
+    np.testing.assert_allclose(repaired.gain, the_papers_rule(raw, 2.0, 1.0), rtol=1e-13)
 
 
 def test_nncf_paper_by_hand() -> None:
@@ -114,16 +121,56 @@ def test_a_wide_coherence_means_interpolation_and_a_narrow_one_the_mean() -> Non
     np.testing.assert_allclose(two_sided(1.0, 3.0, 1e-3)[:2], [0.0, 0.0], atol=1e-5)
 
 
+def test_the_mean_always_keeps_a_little_weight() -> None:
+    assert sum(two_sided(1.0, 3.0, 20.0)[:2]) <= 1 - 0.9e-6
+
+
+def test_no_entry_takes_part_in_its_own_prediction() -> None:
+    rng = np.random.default_rng(3)
+    relative = rng.exponential(size=(1, 12))
+    known = rng.random(relative.shape) < 0.7
+    known[0, 4] = True
+    relative[~known] = 0.0
+    noise = 0.01 * relative**2
+    position, coherence = np.arange(12.0), np.array([3.0])
+    before = [predict(relative, known, noise, position, coherence)[0], interpolate(relative, known, position)]
+    relative[0, 4] = 77.0
+    after = [predict(relative, known, noise, position, coherence)[0], interpolate(relative, known, position)]
+    for one, other in zip(before, after, strict=True):
+        assert one[0, 4] == other[0, 4]
+        assert one[0, 5] != other[0, 5]
+
+
 @pytest.mark.parametrize("correlation", [0.2, 0.9])
 @pytest.mark.parametrize("num_users", [2, 3, 8])
 def test_equally_correlated_users_get_the_best_weights(num_users: int, correlation: float) -> None:
+    """Where fading is independent over frequency: the multiple regression of one user on all others."""
     matrix = np.full((num_users, num_users), correlation) + (1 - correlation) * np.eye(num_users)
-    surprise = np.random.default_rng(2).normal(size=(num_users, 5))
-    known = np.ones(surprise.shape, dtype=bool)
-    moved, explained = users.averaged(surprise, known, matrix - np.eye(num_users))
+    relative = np.random.default_rng(2).exponential(size=(num_users, 5))
+    known = np.ones(relative.shape, dtype=bool)
+    surprise, explained = surprise_of_others(
+        relative, relative, known, np.arange(5.0), np.full(num_users, 1e-6), matrix - np.eye(num_users)
+    )
     weights = np.linalg.solve(matrix[1:, 1:], matrix[1:, 0])
-    np.testing.assert_allclose(moved[0], weights @ surprise[1:], rtol=1e-12)
-    np.testing.assert_allclose(explained[0], weights @ matrix[1:, 0], rtol=1e-12)
+    np.testing.assert_allclose(surprise[0], weights @ (relative[1:] - 1), rtol=1e-9)
+    np.testing.assert_allclose(explained[0], weights @ matrix[1:, 0], rtol=1e-9)
+
+
+def test_other_users_are_compared_over_the_same_gap() -> None:
+    """Gaussian gains correlated over frequency and users (separably): the full linear prediction, by hand."""
+    position, coherence, correlation = np.array([0.0, 2.0, 5.0]), 2.0, 0.7
+    over_frequency = 1 / (1 + np.subtract.outer(position, position) ** 2 / coherence**2)
+    covariance = np.kron(np.array([[1, correlation], [correlation, 1]]), over_frequency)
+    relative = 1 + 0.3 * np.random.default_rng(1).normal(size=(2, 3))
+    known = np.array([[True, False, True], [True, True, True]])
+    inside = known.ravel()
+    weights = np.linalg.solve(covariance[np.ix_(inside, inside)], covariance[inside, 1])
+    in_frequency = np.linalg.solve(over_frequency[::2, ::2], over_frequency[::2, 1])
+    assert in_frequency.sum() < 1
+    between = correlation * (np.ones((2, 2)) - np.eye(2))
+    surprise, _ = surprise_of_others(relative, relative, known, position, np.full(2, coherence), between)
+    expected = 1 + weights @ (relative.ravel()[inside] - 1)
+    np.testing.assert_allclose(1 + in_frequency @ (relative[0, ::2] - 1) + surprise[0, 1], expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize("groups", [[0, 0, 1, 2, 3, 4], [0, 0, 0, 1, 1, 1], [0, 0, 0, 0, 0, 0]])
@@ -148,13 +195,30 @@ def test_independent_users_get_no_weight() -> None:
     assert np.mean(found) < 0.01
 
 
+def moving_together(seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Eight users of one shape and different levels, independent over frequency, and the same with holes."""
+    rng = np.random.default_rng(seed)
+    truth = rng.exponential(size=60) * 10.0 ** rng.uniform(-13, -10, (8, 1)) * rng.uniform(0.8, 1.2, (8, 60))
+    return truth, np.where(rng.random(truth.shape) < 0.2, NAN, truth)
+
+
+def test_where_the_other_users_are_missing_too_one_is_less_certain() -> None:
+    _, raw = moving_together(10)
+    raw[:, 20:40] = np.where(np.arange(8)[:, np.newaxis] == 0, raw[:, 20:40], NAN)
+    raw[0, 5:55:2] = NAN
+    spread = np.sqrt(Nncf().repair(ChannelObservation(gain=raw)).gain_variance[0])
+    assert spread[[21, 25, 29, 33, 37]].mean() > 2 * spread[[7, 11, 15, 43, 47]].mean()
+
+
+def test_a_user_unseen_gets_no_shape_from_the_others() -> None:
+    _, raw = moving_together(10)
+    raw[3] = NAN
+    gain = Nncf().repair(ChannelObservation(gain=raw)).gain
+    assert np.ptp(gain[3]) == 0
+
+
 def test_spatial_neighbours_are_used_where_users_move_together() -> None:
-    rng = np.random.default_rng(9)
-    shared = rng.exponential(size=60)
-    truth = shared * 10.0 ** rng.uniform(-13, -10, (8, 1)) * rng.uniform(0.95, 1.05, (8, 60))
-    seen = ChannelObservation(gain=np.where(rng.random(truth.shape) < 0.2, NAN, truth))
-    estimate = Nncf().repair(seen)
-    error = (estimate.gain - truth)[estimate.repaired] / np.broadcast_to(
-        truth.mean(axis=1, keepdims=True), truth.shape
-    )[estimate.repaired]
-    assert np.sqrt(np.mean(error**2)) < 0.35  # frequency neighbours alone know nothing here: 1.0
+    truth, raw = moving_together(9)
+    estimate = Nncf().repair(ChannelObservation(gain=raw))
+    error = ((estimate.gain - truth) / truth.mean(axis=1, keepdims=True))[estimate.repaired]
+    assert np.sqrt(np.mean(error**2)) < 0.4  # frequency neighbours alone know nothing here: 1.0

@@ -131,6 +131,16 @@ def test_a_user_unseen_now_gets_the_level_of_its_history(repairer: Repairer) -> 
 
 
 @relative_repairers
+def test_a_user_seen_now_does_not_need_its_history(repairer: Repairer) -> None:
+    gain = np.random.default_rng(1).exponential(size=(3, 4, 12))
+    gain[-1, :, 3:5] = NAN
+    with_history = repairer.repair(ChannelObservation(gain=gain))
+    without = repairer.repair(ChannelObservation(gain=gain[-1]))
+    np.testing.assert_array_equal(with_history.gain, without.gain)
+    np.testing.assert_array_equal(with_history.gain_variance, without.gain_variance)
+
+
+@relative_repairers
 def test_a_user_never_seen_gets_the_median_of_the_others_in_db(repairer: Repairer) -> None:
     gain = np.array([1e-10, 1e-13, 1e-11, 1e-12])[:, np.newaxis] * np.ones((4, 6))
     gain[2] = NAN

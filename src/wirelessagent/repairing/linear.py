@@ -28,9 +28,11 @@ class Linear(Repairer):
     def repair(self, observation: ChannelObservation, *, at_s: float | None = None) -> ChannelEstimate:
         levels = user_levels(observation)
         predicted = frequency.interpolate(levels, observation)
-        best, error_of_best = frequency.predict(levels, observation)
-        expected = error_of_best + (predicted - best) ** 2
-        squared_error = (levels.relative - predicted) ** 2 - levels.noise
-        variance = calibrated(expected, squared_error, levels.compared, ceiling=levels.relative_variance)
+        best = frequency.predict(levels, observation)
+        expected = best.expected + (predicted - best.predicted) ** 2
+        squared_error = (levels.relative - predicted) ** 2
+        variance = calibrated(
+            expected, squared_error, levels.compared, noise=levels.noise, ceiling=levels.relative_variance
+        )
         gain, gain_variance = levels.completing(predicted, variance)
         return ChannelEstimate.completing(observation, gain=gain, gain_variance=gain_variance, method=self.name)

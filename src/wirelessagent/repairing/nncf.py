@@ -15,6 +15,9 @@ from wirelessagent.repairing.core.calibration import calibrated
 from wirelessagent.repairing.core.levels import UserLevels, user_levels
 from wirelessagent.repairing.repairer import Repairer
 
+LARGEST_SURPRISE = 5.0
+"""Deviations from the prediction, in standard deviations, beyond which an entry counts no more for the correlation."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Nncf(Repairer):
@@ -28,32 +31,36 @@ class Nncf(Repairer):
     - The nearest known neighbours are used at whatever distance they are, so one pass fills everything and no
       estimate rests on another.
 
-    With û_kn the average over frequency, v_kn its expected squared error and t_kn the average of the other users'
-    surprises (g_jn/ḡ_j − û_jn)/√v_jn, the estimate is ĝ_kn = ḡ_k · (û_kn + √v_kn t_kn), never below the lesser of û_kn
-    and the smallest relative gain seen of that user. The variance is scaled to the errors on observed entries left
-    out. Users without any observation in this slot: see :mod:`wirelessagent.repairing.core.levels`.
+    The estimate is the user's level times the average over frequency, moved by what correlated users show on the same
+    subcarrier. Variances are scaled to the errors on observed entries left out. Users without any observation in this
+    slot: see :mod:`wirelessagent.repairing.core.levels`.
     """
 
     name: ClassVar[str] = "nncf"
 
     def repair(self, observation: ChannelObservation, *, at_s: float | None = None) -> ChannelEstimate:
         levels = user_levels(observation)
-        over_frequency, expected = frequency.predict(levels, observation)
-        predicted, expected = _with_users(levels, over_frequency, expected)
-        squared_error = (levels.relative - predicted) ** 2 - levels.noise
-        variance = calibrated(expected, squared_error, levels.compared, ceiling=levels.relative_variance)
+        over = frequency.predict(levels, observation)
+        predicted, variance = over.predicted, _learnt(levels, over.predicted, over.expected)
+        correlation = _between_users(levels, predicted, variance)
+        if correlation.any():
+            predicted, explained = users.moved(levels, over, correlation)
+            variance = _learnt(levels, predicted, variance * (1.0 - explained))
         gain, gain_variance = levels.completing(predicted, variance)
         return ChannelEstimate.completing(observation, gain=gain, gain_variance=gain_variance, method=self.name)
 
 
-def _with_users(levels: UserLevels, predicted: FloatArray, expected: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The prediction over frequency moved by what the correlated users show on the same subcarrier."""
-    deviation = np.sqrt(expected)
-    surprise = (levels.relative - predicted) / deviation
-    correlation = users.correlation_beyond_chance(surprise, levels.compared)
-    if not correlation.any():
-        return predicted, expected
-    expected_surprise, explained = users.averaged(surprise, levels.compared, correlation)
-    smallest = np.where(levels.known & (levels.relative > 0), levels.relative, np.inf).min(axis=1, keepdims=True)
-    moved = np.maximum(predicted + deviation * expected_surprise, np.minimum(predicted, smallest))
-    return moved, expected * (1.0 - explained)
+def _learnt(levels: UserLevels, predicted: FloatArray, expected: FloatArray) -> FloatArray:
+    """The expected squared errors, scaled to those of the observed entries left out."""
+    squared_error = (levels.relative - predicted) ** 2
+    return calibrated(expected, squared_error, levels.compared, noise=levels.noise, ceiling=levels.relative_variance)
+
+
+def _between_users(levels: UserLevels, predicted: FloatArray, variance: FloatArray) -> FloatArray:
+    """The correlation between users that their surprises show, shape (user, user).
+
+    No surprise counts for more than ``LARGEST_SURPRISE``, since gains have heavy tails.
+    """
+    deviation = np.where(levels.compared, np.sqrt(variance + levels.noise), 1.0)
+    surprise = np.clip((levels.relative - predicted) / deviation, -LARGEST_SURPRISE, LARGEST_SURPRISE)
+    return users.correlation_beyond_chance(surprise, levels.compared)

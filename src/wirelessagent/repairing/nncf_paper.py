@@ -55,9 +55,8 @@ class NncfPaper(Repairer):
         )
         gain = np.where(reached, value, level)
         error = np.where(seen, current, 0.0) - value
-        noise = observation.current_noise_variance
         expected = (mean - level) ** 2 + spread + level**2
-        variance = _scaled(levels, expected, error**2 - noise, seen & reached)
+        variance = _scaled(levels, expected, error**2, seen & reached)
         guessed = ~reached | ~seen.any(axis=1, keepdims=True)
         around_level = levels.variance[:, np.newaxis] + (gain - level) ** 2
         return ChannelEstimate.completing(

@@ -18,18 +18,29 @@ PRIOR_ENTRIES = 4.0
 
 
 def calibrated(
-    expected: FloatArray, squared_error: FloatArray, known: BoolArray, *, ceiling: FloatArray | float = np.inf
+    expected: FloatArray,
+    squared_error: FloatArray,
+    known: BoolArray,
+    *,
+    noise: FloatArray | float = 0.0,
+    ceiling: FloatArray | float = np.inf,
 ) -> FloatArray:
     """The variances f_k · ``expected``, with f_k from the errors where ``known``; all shapes (user, entry).
 
-    f_k = (Σ ê²/√v + ν w̄ f̄) / (Σ √v + ν w̄) with v the expected squared errors, w̄ the mean √v, f̄ the pool's factor and
-    ν = ``PRIOR_ENTRIES``. The weight 1/√v is a compromise: unweighted sums would know only the edges of the band,
-    weights 1/v only its well-surrounded entries. No variance exceeds the larger of ``ceiling``, shape (user,), and
-    the largest error that the user has shown.
+    f_k = (Σ ê²/√e + ν w̄ f̄) / (Σ √e + ν w̄) with e the squared error to expect of an observed entry, w̄ the mean √e, f̄
+    the pool's factor and ν = ``PRIOR_ENTRIES``. The weight 1/√e is a compromise: unweighted sums would know only the
+    edges of the band, weights 1/e only its well-surrounded entries. No variance exceeds the larger of ``ceiling``,
+    shape (user,), and the largest error that the user has shown.
+
+    ``noise`` is the measurement-error variance of the observed entries, in the same unit. It is part of ê² but not of
+    the error against the true gain, so e = v + (1 − v) · noise with v the expected squared error. (All of it would be
+    right for reports with independent errors, none of it for reports that are conditional means of the gain; where
+    the neighbours say much, v near 0, both agree.)
     """
-    weight = np.where(known, np.sqrt(expected), 0.0)
-    safe = np.where(weight > 0, weight, 1.0)
-    seen = np.where(weight > 0, squared_error / safe, 0.0).sum(axis=1).clip(min=0.0)
+    seen_error = expected + (1.0 - np.minimum(expected, 1.0)) * noise
+    weight = np.where(known, np.sqrt(seen_error), 0.0)
+    inverse = np.divide(1.0, weight, out=np.zeros(weight.shape), where=weight > 0)
+    seen = (inverse * squared_error).sum(axis=1)
     count = known.sum(axis=1)
     total = weight.sum(axis=1)
     mean_weight = total.sum() / count.sum() if total.any() else 1.0

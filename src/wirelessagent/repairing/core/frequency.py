@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from wirelessagent.model.arrays import FloatArray
@@ -15,19 +17,38 @@ OTHERS = 0.2
 """What another user's evidence of the coherence counts beside one's own: delay spreads are alike, not equal."""
 
 
-def predict(levels: UserLevels, observation: ChannelObservation) -> tuple[FloatArray, FloatArray]:
-    """Relative gain of every entry from known neighbours other than itself, and the expected squared error.
+@dataclass(frozen=True, kw_only=True)
+class OverFrequency:
+    """Every entry predicted from known neighbours other than itself.
 
-    Shapes (user, subcarrier). The coherence of each user is the candidate under which its observed entries, each left
-    out and predicted from the others, are most likely; the other users' evidence is added at a reduced weight.
+    Attributes:
+        predicted: relative gain, shape (user, subcarrier).
+        expected: its expected squared error, shape (user, subcarrier).
+        position: subcarrier positions in units of the spacing, shape (subcarrier,).
+        coherence: coherence width of each user in the same unit, shape (user,).
+    """
+
+    predicted: FloatArray
+    expected: FloatArray
+    position: FloatArray
+    coherence: FloatArray
+
+
+def predict(levels: UserLevels, observation: ChannelObservation) -> OverFrequency:
+    """The prediction of every entry with weights from the correlation seen.
+
+    The coherence of each user is the candidate under which its observed entries, each left out and predicted from the
+    others, are most likely; the other users' evidence is added at a reduced weight.
     """
     from wirelessagent.repairing.core import frequency_kernel
 
     position = _positions(observation)
-    misfit = frequency_kernel.misfit(levels.relative, levels.known, position, COHERENCES)
+    entries = (levels.relative, levels.known, levels.noise, position)
+    misfit = frequency_kernel.misfit(*entries, COHERENCES)
     evidence = misfit + OTHERS * (misfit.sum(axis=0) - misfit)
     coherence = COHERENCES[np.argmin(evidence, axis=1)]
-    return frequency_kernel.predict(levels.relative, levels.known, position, coherence)
+    predicted, expected = frequency_kernel.predict(*entries, coherence)
+    return OverFrequency(predicted=predicted, expected=expected, position=position, coherence=coherence)
 
 
 def interpolate(levels: UserLevels, observation: ChannelObservation) -> FloatArray:

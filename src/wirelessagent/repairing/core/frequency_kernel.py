@@ -94,32 +94,59 @@ def mean_of_others(relative: FloatArray, known: BoolArray, count: int, total: fl
 
 
 @kernel
+def neighbour_weights(
+    position: FloatArray, n: int, left: int, right: int, coherence: float
+) -> tuple[float, float, float]:
+    """Weights of the known entries at ``left`` and ``right`` of ``n`` (−1 for none), and the expected squared error."""
+    if left >= 0 and right >= 0:
+        return two_sided(position[n] - position[left], position[right] - position[n], coherence)
+    if left < 0 and right < 0:
+        return 0.0, 0.0, 1.0
+    decorrelated = decorrelation(abs(position[n] - position[max(left, right)]), coherence)
+    error = decorrelated * (2.0 - decorrelated)
+    if left >= 0:
+        return 1.0 - decorrelated, 0.0, error
+    return 0.0, 1.0 - decorrelated, error
+
+
+@kernel
+def average(row: FloatArray, mean: float, left: int, right: int, w_left: float, w_right: float) -> float:
+    """w_l g_l + w_r g_r + (1 − w_l − w_r) ḡ, exact where all are equal."""
+    value = mean
+    if left >= 0:
+        value += w_left * (row[left] - mean)
+    if right >= 0:
+        value += w_right * (row[right] - mean)
+    return value
+
+
+@kernel
 def predict_entry(
-    relative: FloatArray, position: FloatArray, n: int, left: int, right: int, mean: float, coherence: float
+    relative: FloatArray,
+    noise: FloatArray,
+    position: FloatArray,
+    n: int,
+    left: int,
+    right: int,
+    mean: float,
+    coherence: float,
 ) -> tuple[float, float]:
     """The n-th entry of a row from its neighbours at ``left`` and ``right`` (−1 for none) and the mean, and the
-    expected squared error."""
-    value, error = mean, 1.0
-    if left >= 0 and right >= 0:
-        w_left, w_right, error = two_sided(position[n] - position[left], position[right] - position[n], coherence)
-        value = mean + w_left * (relative[left] - mean) + w_right * (relative[right] - mean)
-    elif left >= 0 or right >= 0:
-        near = max(left, right)
-        decorrelated = decorrelation(abs(position[n] - position[near]), coherence)
-        value = relative[near] + decorrelated * (mean - relative[near])
-        error = decorrelated * (2.0 - decorrelated)
-    value = max(value, 0.0)
-    return value, fading_variance(value, error)
+    expected squared error, to which the neighbours' measurement noise adds."""
+    w_left, w_right, error = neighbour_weights(position, n, left, right, coherence)
+    value = max(average(relative, mean, left, right, w_left, w_right), 0.0)
+    from_noise = average(noise, 0.0, left, right, w_left * w_left, w_right * w_right)
+    return value, fading_variance(value, error) + from_noise
 
 
 @kernel
 def predict(
-    relative: FloatArray, known: BoolArray, position: FloatArray, coherence: FloatArray
+    relative: FloatArray, known: BoolArray, noise: FloatArray, position: FloatArray, coherence: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Every entry predicted from the known ones other than itself, and the expected squared error.
 
-    Shapes: ``relative`` and ``known`` (user, subcarrier), ``position`` (subcarrier,), ``coherence`` (user,) in units
-    of ``position``. ``relative`` is 0 where not known.
+    Shapes: ``relative``, ``known`` and ``noise`` (user, subcarrier), ``position`` (subcarrier,), ``coherence`` (user,)
+    in units of ``position``. ``relative`` and its measurement-error variance ``noise`` are 0 where not known.
     """
     below, above = nearest_known(known)
     predicted, expected = np.empty(relative.shape), np.empty(relative.shape)
@@ -128,17 +155,19 @@ def predict(
         for n in range(relative.shape[1]):
             mean = mean_of_others(relative[k], known[k], count, total, n)
             predicted[k, n], expected[k, n] = predict_entry(
-                relative[k], position, n, below[k, n], above[k, n], mean, coherence[k]
+                relative[k], noise[k], position, n, below[k, n], above[k, n], mean, coherence[k]
             )
     return predicted, expected
 
 
 @kernel
-def misfit(relative: FloatArray, known: BoolArray, position: FloatArray, candidates: FloatArray) -> FloatArray:
+def misfit(
+    relative: FloatArray, known: BoolArray, noise: FloatArray, position: FloatArray, candidates: FloatArray
+) -> FloatArray:
     """Σ (ln v + e²/v) over each user's known entries left out one by one; shape (user, candidate).
 
     Twice the negative logarithm of a Gaussian likelihood, for each candidate coherence; 0 for users with fewer than
-    two known entries.
+    two known entries. The left-out entry's own noise is part of v.
     """
     below, above = nearest_known(known)
     found = np.zeros((relative.shape[0], candidates.size))
@@ -153,7 +182,10 @@ def misfit(relative: FloatArray, known: BoolArray, position: FloatArray, candida
                 continue
             mean = mean_of_others(relative[k], known[k], count, total, n)
             for c in range(candidates.size):
-                value, variance = predict_entry(relative[k], position, n, below[k, n], above[k, n], mean, candidates[c])
+                value, variance = predict_entry(
+                    relative[k], noise[k], position, n, below[k, n], above[k, n], mean, candidates[c]
+                )
+                variance += noise[k, n]
                 error = relative[k, n] - value
                 found[k, c] += error * error / variance
                 product[c] *= variance

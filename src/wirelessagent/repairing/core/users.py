@@ -11,10 +11,15 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.model.arrays import BoolArray, FloatArray
+from wirelessagent.repairing.core.frequency import OverFrequency
+from wirelessagent.repairing.core.levels import UserLevels
 
-INDEPENDENT_SHARE = 0.3
+INDEPENDENT_SHARE = 0.2
 """Independent comparisons per subcarrier that two users share: neighbouring surprises are not quite
 independent, the less so the shorter the delay spread (measured: 0.2 at 30 ns, 0.9 at 1000 ns)."""
+
+LEAST_SHARE = 0.1
+"""The other users may lower a prediction to this share of it, so that no gain becomes negative."""
 
 
 def correlation_beyond_chance(surprise: FloatArray, known: BoolArray) -> FloatArray:
@@ -47,16 +52,14 @@ def correlation_beyond_chance(surprise: FloatArray, known: BoolArray) -> FloatAr
     return np.where(count > 0, pairs, common) * (1.0 - np.eye(len(raw)))
 
 
-def averaged(surprise: FloatArray, known: BoolArray, correlation: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The surprise to expect of each entry from the other users', and the share of its variance thus explained.
+def moved(levels: UserLevels, over: OverFrequency, correlation: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The prediction over frequency moved by what correlated users show, and the share of the variance explained.
 
-    t_kn = Σ_j c_kj u_jn / (1 + Σ_j c_kj − c̄_kn) over the users j known at n, with c̄ their own mean correlation
-    (Σ c²/Σ c): the best weights where all users are equally correlated. Shapes (user, subcarrier).
+    Never below ``LEAST_SHARE`` of the prediction over frequency. Shapes (user, subcarrier).
     """
-    seen = np.where(known, surprise, 0.0)
-    mask = known.astype(np.float64)
-    total = correlation @ mask
-    squares = correlation**2 @ mask
-    between = np.divide(squares, total, out=np.zeros_like(total), where=total > 0)
-    scale = 1.0 + total - between
-    return (correlation @ seen) / scale, np.minimum(squares / scale, 0.99)
+    from wirelessagent.repairing.core import users_kernel
+
+    surprise, explained = users_kernel.surprise_of_others(
+        levels.relative, over.predicted, levels.known, over.position, over.coherence, correlation
+    )
+    return np.maximum(over.predicted + surprise, LEAST_SHARE * over.predicted), explained
