@@ -125,13 +125,14 @@ def test_the_literal_rules_stated_variance_is_the_error() -> None:
     assert 0.8 < np.mean(found**2) / np.mean(stated) < 1.25
 
 
-@pytest.mark.parametrize("delay_spread_s", [100e-9, 300e-9])
-def test_the_variance_is_honest_of_fades_and_of_peaks(delay_spread_s: float) -> None:
+@pytest.mark.parametrize("repairer", [Linear(), Nncf()], ids=lambda r: r.name)
+@pytest.mark.parametrize("delay_spread_s", [100e-9, 300e-9, 1000e-9])
+def test_the_variance_is_honest_of_fades_and_of_peaks(repairer: Repairer, delay_spread_s: float) -> None:
     """A single variance for all would be six times too wide in fades and three times too narrow on peaks."""
     gain = np.abs(coefficients(delay_spread_s, 500, seed=3)) ** 2
     lost = np.random.default_rng(4).random(gain.shape) < 0.2
     estimates = [
-        Nncf().repair(ChannelObservation(gain=np.where(mask, np.nan, truth)))
+        repairer.repair(ChannelObservation(gain=np.where(mask, np.nan, truth)))
         for truth, mask in zip(gain, lost, strict=True)
     ]
     estimated = np.array([e.gain for e in estimates])[lost]
@@ -141,3 +142,17 @@ def test_the_variance_is_honest_of_fades_and_of_peaks(delay_spread_s: float) -> 
     for low, high in itertools.pairwise(edges):
         chosen = (estimated >= low) & (estimated <= high)
         assert 0.5 < squared[chosen].mean() / stated[chosen].mean() < 2.0
+
+
+def test_linear_knows_where_interpolation_is_a_bad_idea() -> None:
+    """Without correlation over frequency, interpolating far from the mean costs the squared distance from it."""
+    rng = np.random.default_rng(12)
+    squared, stated = [], []
+    for _ in range(200):
+        truth = rng.exponential(size=(8, 40))
+        lost = rng.random(truth.shape) < 0.2
+        estimate = Linear().repair(ChannelObservation(gain=np.where(lost, np.nan, truth)))
+        far = lost & (estimate.gain > 2.0)
+        squared.append((estimate.gain - truth)[far] ** 2)
+        stated.append(estimate.gain_variance[far])
+    assert 0.8 < np.concatenate(squared).mean() / np.concatenate(stated).mean() < 1.25

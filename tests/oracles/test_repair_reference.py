@@ -121,6 +121,15 @@ def test_a_wide_coherence_means_interpolation_and_a_narrow_one_the_mean() -> Non
     np.testing.assert_allclose(two_sided(1.0, 3.0, 1e-3)[:2], [0.0, 0.0], atol=1e-5)
 
 
+def test_the_neighbours_noise_adds_to_the_expected_error() -> None:
+    relative, known = np.array([[1.5, 0.0, 0.5]]), np.array([[True, False, True]])
+    noise = np.array([[0.04, 0.0, 0.01]])
+    entries, where = (relative, known), (np.arange(3.0), np.array([2.0]))
+    added = predict(*entries, noise, *where)[1] - predict(*entries, 0 * noise, *where)[1]
+    w_below, w_above, _ = two_sided(1.0, 1.0, 2.0)
+    np.testing.assert_allclose(added[0, 1], w_below**2 * 0.04 + w_above**2 * 0.01, rtol=1e-9)
+
+
 def test_the_mean_always_keeps_a_little_weight() -> None:
     assert sum(two_sided(1.0, 3.0, 20.0)[:2]) <= 1 - 0.9e-6
 

@@ -94,48 +94,47 @@ def mean_of_others(relative: FloatArray, known: BoolArray, count: int, total: fl
 
 
 @kernel
-def neighbour_weights(
-    position: FloatArray, n: int, left: int, right: int, coherence: float
-) -> tuple[float, float, float]:
-    """Weights of the known entries at ``left`` and ``right`` of ``n`` (−1 for none), and the expected squared error."""
-    if left >= 0 and right >= 0:
-        return two_sided(position[n] - position[left], position[right] - position[n], coherence)
-    if left < 0 and right < 0:
+def neighbour_weights(below: float, above: float, coherence: float) -> tuple[float, float, float]:
+    """Weights of the neighbours at distances ``below`` and ``above`` (−1 for none), and the expected squared error."""
+    if below >= 0.0 and above >= 0.0:
+        return two_sided(below, above, coherence)
+    if below < 0.0 and above < 0.0:
         return 0.0, 0.0, 1.0
-    decorrelated = decorrelation(abs(position[n] - position[max(left, right)]), coherence)
+    decorrelated = decorrelation(max(below, above), coherence)
     error = decorrelated * (2.0 - decorrelated)
-    if left >= 0:
+    if below >= 0.0:
         return 1.0 - decorrelated, 0.0, error
     return 0.0, 1.0 - decorrelated, error
 
 
 @kernel
-def average(row: FloatArray, mean: float, left: int, right: int, w_left: float, w_right: float) -> float:
-    """w_l g_l + w_r g_r + (1 − w_l − w_r) ḡ, exact where all are equal."""
-    value = mean
-    if left >= 0:
-        value += w_left * (row[left] - mean)
-    if right >= 0:
-        value += w_right * (row[right] - mean)
-    return value
+def distances(position: FloatArray, n: int, left: int, right: int) -> tuple[float, float]:
+    """How far the entries at ``left`` and ``right`` are from ``n``, −1 where there is none."""
+    below = position[n] - position[left] if left >= 0 else -1.0
+    above = position[right] - position[n] if right >= 0 else -1.0
+    return below, above
+
+
+@kernel
+def neighbours(row: FloatArray, left: int, right: int, otherwise: float) -> tuple[float, float]:
+    """The values at ``left`` and ``right``, ``otherwise`` where there is none."""
+    return row[left] if left >= 0 else otherwise, row[right] if right >= 0 else otherwise
 
 
 @kernel
 def predict_entry(
-    relative: FloatArray,
-    noise: FloatArray,
-    position: FloatArray,
-    n: int,
-    left: int,
-    right: int,
+    below: float,
+    above: float,
+    gains: tuple[float, float],
+    noises: tuple[float, float],
     mean: float,
     coherence: float,
 ) -> tuple[float, float]:
-    """The n-th entry of a row from its neighbours at ``left`` and ``right`` (−1 for none) and the mean, and the
-    expected squared error, to which the neighbours' measurement noise adds."""
-    w_left, w_right, error = neighbour_weights(position, n, left, right, coherence)
-    value = max(average(relative, mean, left, right, w_left, w_right), 0.0)
-    from_noise = average(noise, 0.0, left, right, w_left * w_left, w_right * w_right)
+    """An entry from its two neighbours' gains, at distances ``below`` and ``above``, and the mean; and the expected
+    squared error, to which the neighbours' measurement noise adds."""
+    w_below, w_above, error = neighbour_weights(below, above, coherence)
+    value = max(mean + w_below * (gains[0] - mean) + w_above * (gains[1] - mean), 0.0)
+    from_noise = w_below * w_below * noises[0] + w_above * w_above * noises[1]
     return value, fading_variance(value, error) + from_noise
 
 
@@ -148,15 +147,17 @@ def predict(
     Shapes: ``relative``, ``known`` and ``noise`` (user, subcarrier), ``position`` (subcarrier,), ``coherence`` (user,)
     in units of ``position``. ``relative`` and its measurement-error variance ``noise`` are 0 where not known.
     """
-    below, above = nearest_known(known)
+    lefts, rights = nearest_known(known)
     predicted, expected = np.empty(relative.shape), np.empty(relative.shape)
     for k in range(relative.shape[0]):
-        count, total = known[k].sum(), relative[k].sum()
-        for n in range(relative.shape[1]):
-            mean = mean_of_others(relative[k], known[k], count, total, n)
-            predicted[k, n], expected[k, n] = predict_entry(
-                relative[k], noise[k], position, n, below[k, n], above[k, n], mean, coherence[k]
-            )
+        row, row_noise, row_known = relative[k], noise[k], known[k]
+        count, total = row_known.sum(), row.sum()
+        for n in range(row.size):
+            left, right = lefts[k, n], rights[k, n]
+            below, above = distances(position, n, left, right)
+            gains, noises = neighbours(row, left, right, 0.0), neighbours(row_noise, left, right, 0.0)
+            mean = mean_of_others(row, row_known, count, total, n)
+            predicted[k, n], expected[k, n] = predict_entry(below, above, gains, noises, mean, coherence[k])
     return predicted, expected
 
 
@@ -169,24 +170,26 @@ def misfit(
     Twice the negative logarithm of a Gaussian likelihood, for each candidate coherence; 0 for users with fewer than
     two known entries. The left-out entry's own noise is part of v.
     """
-    below, above = nearest_known(known)
+    lefts, rights = nearest_known(known)
     found = np.zeros((relative.shape[0], candidates.size))
     product = np.empty(candidates.size)
     for k in range(relative.shape[0]):
-        count, total = known[k].sum(), relative[k].sum()
+        row, row_noise, row_known = relative[k], noise[k], known[k]
+        count, total = row_known.sum(), row.sum()
         if count < 2:
             continue
         product[:] = 1.0
-        for n in range(relative.shape[1]):
-            if not known[k, n]:
+        for n in range(row.size):
+            if not row_known[n]:
                 continue
-            mean = mean_of_others(relative[k], known[k], count, total, n)
+            left, right = lefts[k, n], rights[k, n]
+            below, above = distances(position, n, left, right)
+            gains, noises = neighbours(row, left, right, 0.0), neighbours(row_noise, left, right, 0.0)
+            mean = mean_of_others(row, row_known, count, total, n)
             for c in range(candidates.size):
-                value, variance = predict_entry(
-                    relative[k], noise[k], position, n, below[k, n], above[k, n], mean, candidates[c]
-                )
-                variance += noise[k, n]
-                error = relative[k, n] - value
+                value, variance = predict_entry(below, above, gains, noises, mean, candidates[c])
+                variance += row_noise[n]
+                error = row[n] - value
                 found[k, c] += error * error / variance
                 product[c] *= variance
                 if not 1e-200 < product[c] < 1e200:  # logarithms are dear: one for many factors

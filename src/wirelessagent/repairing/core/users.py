@@ -30,13 +30,10 @@ def correlation_beyond_chance(surprise: FloatArray, known: BoolArray) -> FloatAr
     where it stands out alone, the share by which its square exceeds the largest to be expected by chance among so many
     pairs, 2 ln(pairs)/count.
     """
-    seen = np.where(known, surprise, 0.0)
-    mask = known.astype(np.float64)
-    power = (seen**2) @ mask.T
-    scale = np.sqrt(power * power.T)
-    raw = np.divide(seen @ seen.T, scale, out=np.zeros_like(scale), where=scale > 0)
-    count = INDEPENDENT_SHARE * (mask @ mask.T) * (scale > 0)
-    np.fill_diagonal(count, 0.0)
+    from wirelessagent.repairing.core import users_kernel
+
+    raw, common_subcarriers = users_kernel.compare_users(surprise, known)
+    count = INDEPENDENT_SHARE * common_subcarriers
     total = count.sum()
     if total == 0:
         return np.zeros_like(raw)

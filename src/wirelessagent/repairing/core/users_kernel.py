@@ -6,7 +6,32 @@ import numpy as np
 
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray
-from wirelessagent.repairing.core.frequency_kernel import average, nearest_known, neighbour_weights
+from wirelessagent.repairing.core.frequency_kernel import distances, nearest_known, neighbour_weights, neighbours
+
+
+@kernel
+def compare_users(surprise: FloatArray, known: BoolArray) -> tuple[FloatArray, FloatArray]:
+    """Correlation coefficient of each two users' surprises where both are known, and on how many subcarriers.
+
+    Shapes (user, user); 0 where nothing can be compared and on the diagonal. A loop: a matrix product this small would
+    wait longer for the threads of a busy machine than it computes.
+    """
+    num_users, num_subcarriers = surprise.shape
+    coefficient, count = np.zeros((num_users, num_users)), np.zeros((num_users, num_users))
+    for j in range(num_users):
+        for k in range(j):
+            product, power_j, power_k, common = 0.0, 0.0, 0.0, 0.0
+            for n in range(num_subcarriers):
+                if known[j, n] and known[k, n]:
+                    product += surprise[j, n] * surprise[k, n]
+                    power_j += surprise[j, n] * surprise[j, n]
+                    power_k += surprise[k, n] * surprise[k, n]
+                    common += 1.0
+            scale = np.sqrt(power_j * power_k)
+            if scale > 0.0:
+                coefficient[j, k] = coefficient[k, j] = product / scale
+                count[j, k] = count[k, j] = common
+    return coefficient, count
 
 
 @kernel
@@ -36,12 +61,14 @@ def surprise_of_others(
     for k in range(num_users):
         for n in range(num_subcarriers):
             left, right = below[k, n], above[k, n]
-            w_left, w_right, _ = neighbour_weights(position, n, left, right, coherence[k])
+            near_below, near_above = distances(position, n, left, right)
+            w_left, w_right, _ = neighbour_weights(near_below, near_above, coherence[k])
             total, squares, surprise = 0.0, 0.0, 0.0
             for j in range(num_users):
                 c = correlation[k, j]
                 if c > 0.0 and known[j, n]:
-                    surprise += c * (relative[j, n] - average(filled[j], 1.0, left, right, w_left, w_right))
+                    at_left, at_right = neighbours(filled[j], left, right, 1.0)
+                    surprise += c * (relative[j, n] - 1.0 - w_left * (at_left - 1.0) - w_right * (at_right - 1.0))
                     total += c
                     squares += c * c
             if total > 0.0:
