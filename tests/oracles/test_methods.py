@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
 from scipy.special import lambertw
 
 import wirelessagent as wa
@@ -254,6 +255,34 @@ def test_price_of_power_predicts_a_little_more(objective: str, budget_w: float) 
     assert slope == pytest.approx(more.price_of_power, rel=1e-3, abs=1e-6 * more.value / budget_w)
 
 
+@pytest.mark.parametrize("rate_bps", [1e3, 3e5])
+@pytest.mark.parametrize("seed", range(4))
+def test_rate_prices_are_the_best(seed: int, rate_bps: float) -> None:
+    """No prices found by a direct search around them prove more than a thousandth above the bound."""
+    gain, cell = rayleigh_gain(4, 10, seed=seed)[0], wa.Cell()
+    decision = wa.decide(known(gain), wa.Problem("min_power", min_rate_bps=rate_bps, max_power_w=20), cell)
+    unit = cell.subcarrier_bandwidth_hz / np.log(2)
+
+    def negative_dual(log_price: FloatArray) -> float:
+        price = np.exp(log_price)[:, np.newaxis]
+        snr = np.maximum(price * snr_of(gain, cell), 1.0)
+        worth = price * np.log(snr) - (snr - 1) / snr_of(gain, cell)
+        return float(worth.max(axis=0).sum() - np.exp(log_price).sum() * rate_bps / unit)
+
+    start = np.log(decision.price_of_rate * unit)
+    assert -negative_dual(start) == pytest.approx(decision.needed_power_w.at_least, rel=1e-9)
+    for spread in (1e-1, 1e-3, 1e-5):
+        simplex = start + spread * np.vstack([np.zeros(4), np.eye(4)])
+        found = minimize(negative_dual, start, method="Nelder-Mead", options={"initial_simplex": simplex, "fatol": 0})
+        assert -found.fun <= decision.needed_power_w.at_least * (1 + 1e-3)
+
+
+@pytest.mark.parametrize("rate_bps", [1e5, 1e6])
+def test_rate_scaling_is_known_closely(rate_bps: float) -> None:
+    decision = wa.decide(known(rayleigh_gain(4, 48, seed=2)[0]), wa.Problem("min_power", min_rate_bps=rate_bps))
+    assert decision.rate_scaling.at_most <= 1.05 * decision.rate_scaling.at_least
+
+
 def test_price_of_rate_predicts_a_little_more() -> None:
     """The bound is concave in the rates' prices, so its change is what the prices say, within their accuracy."""
     estimate, rate = known(rayleigh_gain(4, 24, seed=1)[0]), np.array([3e5, 2e5, 0.0, 5e5])
@@ -270,9 +299,9 @@ def test_without_circuit_power_the_efficiency_is_its_supremum(budget_w: float) -
     gain = rayleigh_gain(4, 12, seed=2)[0]
     cell = wa.Cell(circuit_power_w=0.0)
     decision = wa.decide(known(gain), wa.Problem("max_energy_efficiency", max_power_w=budget_w), cell)
+    assert decision.total_power_w == pytest.approx(min(budget_w, 1e-12 / snr_of(gain, cell).max()), rel=1e-3)
     supremum = snr_of(gain, cell).max() * cell.subcarrier_bandwidth_hz / np.log(2)
     assert decision.status == "optimal"
-    assert 0 < decision.total_power_w <= budget_w
     assert supremum * (1 - 1e-11) <= decision.value <= supremum
 
 

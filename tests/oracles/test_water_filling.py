@@ -47,7 +47,7 @@ def exact_power(snr_per_w: FloatArray, cap_w: FloatArray, budget_w: float) -> tu
 
 
 def draw(seed: int, *, capped: bool) -> tuple[FloatArray, FloatArray, float]:
-    """SNR per watt (user, subcarrier), caps and a budget: gains 1e-40 … 1, zeros, ties, rows of zeros, 1 nW … 1 MW."""
+    """SNR per watt (user, subcarrier), caps and a budget: gains 1e-40 … 1, zeros, near ties, zero rows, 1 nW … 1 MW."""
     rng = np.random.default_rng(seed)
     users, subcarriers = rng.integers(1, 5), rng.integers(1, 25)
     lowest = rng.choice([-40.0, -12.0, -3.0])
@@ -56,6 +56,8 @@ def draw(seed: int, *, capped: bool) -> tuple[FloatArray, FloatArray, float]:
     if rng.uniform() < 0.3:
         gain[:, rng.integers(subcarriers)] = gain[:, 0]
         gain[:, subcarriers // 2 :] = gain[:, -1:]
+    if rng.uniform() < 0.3:
+        gain[:] = gain.max() * (1.0 + 10.0 ** rng.uniform(-15.0, -6.0, gain.shape))
     if rng.uniform() < 0.3:
         gain[rng.integers(users)] = 0.0
     budget_w = 10.0 ** rng.uniform(-9.0, 6.0)
@@ -141,6 +143,13 @@ def test_ties_share_evenly_and_go_to_the_first_user() -> None:
     assert np.array_equal(owner, np.zeros(4))
     assert np.array_equal(power, np.full(4, 1e-9 / 4))
     assert price == pytest.approx(2.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("share", [1, 3, 5, 8])
+def test_a_budget_of_so_many_caps_fills_just_these(share: int) -> None:
+    snr = np.array([[8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0]]) * 1e-3
+    _, power, _ = solve(snr, np.full(8, 0.25), 0.25 * share)
+    assert np.allclose(power, np.where(np.arange(8) < share, 0.25, 0.0), rtol=EXACT, atol=EXACT)
 
 
 @pytest.mark.parametrize("budget_w", [1e-9, 1e6])
