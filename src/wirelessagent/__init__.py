@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from wirelessagent.model.posterior import GammaPosterior, Posterior
     from wirelessagent.model.problem import Problem
     from wirelessagent.model.scene import Scene
-    from wirelessagent.operations.ask import ask
+    from wirelessagent.operations.chain_run import ask
     from wirelessagent.repairing.repairer import Repairer
     from wirelessagent.sensing import loss
     from wirelessagent.sensing.files import read
@@ -66,7 +66,7 @@ _HOMES = {
     "Scene": "model.scene",
     "SimulatedBaseStation": "acting.simulated",
     "WirelessAgentError": "model.errors",
-    "ask": "operations.ask",
+    "ask": "operations.chain_run",
     "compare": "chain",
     "decide": "chain",
     "kernel": "kernels",

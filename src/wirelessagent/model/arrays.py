@@ -5,6 +5,7 @@ Arrays inside the model are read-only: a frozen dataclass whose arrays could be 
 
 from __future__ import annotations
 
+import operator
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -50,4 +51,26 @@ def positive(name: str, value: float, *, zero: bool = False, infinite: bool = Fa
     wanted = "zero or more" if zero else "more than zero"
     if np.isnan(number) or number < 0 or (number == 0 and not zero) or (np.isinf(number) and not infinite):
         raise InputError(f"{name} must be {wanted}{'' if infinite else ' and finite'}; got {value!r}")
+    return number
+
+
+def whole(name: str, value: int, *, smallest: int = 1) -> int:
+    """``value`` as a whole number from ``smallest`` on, or an error that names it."""
+    try:
+        number = operator.index(value)
+    except TypeError as error:
+        raise InputError(f"{name} must be a whole number; got {value!r}") from error
+    if number < smallest:
+        raise InputError(f"{name} must be {smallest} or more; got {value!r}")
+    return number
+
+
+def within(name: str, value: float, smallest: float, largest: float) -> float:
+    """``value`` as a number from ``smallest`` to ``largest``, or an error that names it."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} must be a number; got {value!r}") from error
+    if not smallest <= number <= largest:
+        raise InputError(f"{name} must be from {smallest:g} to {largest:g}; got {value!r}")
     return number

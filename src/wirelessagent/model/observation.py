@@ -18,7 +18,8 @@ class ChannelObservation:
     Attributes:
         gain: linear power gain, float64, shape (user, subcarrier) or (slot, user, subcarrier), NaN = missing. With
             slots the last one is the current one and the others are history.
-        noise_variance: variance of the measurement error of each gain, same shape (or a scalar); None if unknown.
+        noise_variance: variance of the true gain about each measured one, given the measurement; same shape (or a
+            scalar), NaN where nothing was measured; None if unknown.
         user_names: one name per user; "user 1" … by default.
         subcarrier_frequencies_hz: centre frequencies, shape (subcarrier,); None if unknown.
         slot_times_s: time of each slot, shape (slot,), increasing; None if unknown.

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import functools
 import inspect
-import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -21,7 +20,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from wirelessagent.model.arrays import BoolArray, FloatArray, positive
+from wirelessagent.model.arrays import BoolArray, FloatArray, positive, whole
 from wirelessagent.model.errors import InputError, UnknownNameError
 from wirelessagent.model.scene import Loss
 
@@ -114,7 +113,7 @@ class Bursts(LossPattern):
     def __post_init__(self) -> None:
         object.__setattr__(self, "rate", _rate(self.rate))
         for name in ("min_length", "max_length"):
-            object.__setattr__(self, name, _count(name, getattr(self, name)))
+            object.__setattr__(self, name, whole(name, getattr(self, name)))
         if self.max_length < self.min_length:
             raise InputError(f"max_length must be at least min_length ({self.min_length}); got {self.max_length}")
 
@@ -193,7 +192,7 @@ class Stale(LossPattern):
     num_slots: int
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "num_slots", _count("the number of stale slots", self.num_slots, smallest=0))
+        object.__setattr__(self, "num_slots", whole("the number of stale slots", self.num_slots, smallest=0))
 
     def missing(self, gain: FloatArray, rng: np.random.Generator) -> BoolArray:
         if self.num_slots >= len(gain):
@@ -319,13 +318,3 @@ def _rate(value: float) -> float:
     if rate > 1:
         raise InputError(f"a loss rate must be in [0, 1]; got {value!r} (20 % is 0.2)")
     return rate
-
-
-def _count(name: str, value: int, *, smallest: int = 1) -> int:
-    try:
-        number = operator.index(value)
-    except TypeError as error:
-        raise InputError(f"{name} must be a whole number; got {value!r}") from error
-    if number < smallest:
-        raise InputError(f"{name} must be {smallest} or more; got {value!r}")
-    return number

@@ -17,12 +17,11 @@ correlated shadowing, and movement large enough to change the path loss within t
 
 from __future__ import annotations
 
-import operator
 from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.model.arrays import FloatArray, positive
+from wirelessagent.model.arrays import FloatArray, positive, whole, within
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.observation import ChannelObservation
@@ -217,25 +216,3 @@ def streams(seed: int, count: int) -> list[np.random.Generator]:
     """Independent random generators from one seed, so that one drawn quantity does not shift the next."""
     number = whole("seed", seed, smallest=0)
     return [np.random.default_rng(child) for child in np.random.SeedSequence(number).spawn(count)]
-
-
-def whole(name: str, value: int, *, smallest: int = 1) -> int:
-    """``value`` as a whole number from ``smallest`` on, or an error that names it."""
-    try:
-        number = operator.index(value)
-    except TypeError as error:
-        raise InputError(f"{name} must be a whole number; got {value!r}") from error
-    if number < smallest:
-        raise InputError(f"{name} must be {smallest} or more; got {value!r}")
-    return number
-
-
-def within(name: str, value: float, smallest: float, largest: float) -> float:
-    """``value`` as a number from ``smallest`` to ``largest``, or an error that names it."""
-    try:
-        number = float(value)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name} must be a number; got {value!r}") from error
-    if not smallest <= number <= largest:
-        raise InputError(f"{name} must be from {smallest:g} to {largest:g}; got {value!r}")
-    return number

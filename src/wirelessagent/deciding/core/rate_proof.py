@@ -134,7 +134,7 @@ def _climb(form: NormalForm, snr: FloatArray, nats: FloatArray) -> tuple[FloatAr
     least_power(snr, ceiling, nats, owner, np.empty(subcarriers), price)
     share = nats * nats.size / subcarriers - np.max(log, axis=1)  # as if all had equally many subcarriers
     start = np.where(np.isfinite(price), price, np.where(np.isfinite(share), share, 0.0))
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", over="ignore"):
         inverse = np.where(snr > 0, 1.0 / snr, 0.0)
     _, steps = climb_prices(
         np.ascontiguousarray(log.T),

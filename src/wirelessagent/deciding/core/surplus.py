@@ -29,7 +29,7 @@ def surplus(snr_per_w: FloatArray, cap_w: FloatArray, weight: FloatArray, price:
     0.636294
     """
     w = weight[:, np.newaxis]
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         snr = np.maximum((w * snr_per_w - price) / price, 0.0)  # exact near the cut-off, unlike w a/μ − 1
         power = np.where(snr_per_w > 0, np.minimum(snr / snr_per_w, cap_w), 0.0)
     worth = w * np.log1p(power * snr_per_w) - price * power

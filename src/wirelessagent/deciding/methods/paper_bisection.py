@@ -71,6 +71,6 @@ class PaperBisection(Method):
 
 def _power_w(snr_per_w: FloatArray, cap_w: FloatArray, price: float) -> FloatArray:
     """[1/λ − 1/a]⁺ up to the cap; the cap at the price 0."""
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         power = np.where(snr_per_w > price, (snr_per_w - price) / price / snr_per_w, 0.0)
     return np.minimum(power, cap_w)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
+from wirelessagent.deciding.objectives.sum_rate import sum_rate_conjugate
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.metrics import energy_efficiency_bit_per_j
@@ -30,10 +29,7 @@ class MaxEnergyEfficiency(Objective):
         return float(rate.sum())
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[float, FloatArray]:
-        rate = np.where(price < 1.0, max_rate, min_rate)
-        with np.errstate(invalid="ignore"):
-            surplus = np.where(rate > 0, (1.0 - price) * rate, 0.0)
-        return float(surplus.sum()), rate
+        return sum_rate_conjugate(price, min_rate, max_rate)
 
     def value(self, rate: FloatArray, power_w: float, cell: Cell) -> float:
         return energy_efficiency_bit_per_j(float(rate.sum()), power_w, cell)

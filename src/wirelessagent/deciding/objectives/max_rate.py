@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
+from wirelessagent.deciding.objectives.sum_rate import sum_rate_conjugate
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
@@ -28,7 +27,4 @@ class MaxRate(Objective):
         return float(rate.sum())
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[float, FloatArray]:
-        rate = np.where(price < 1.0, max_rate, min_rate)
-        with np.errstate(invalid="ignore"):
-            surplus = np.where(rate > 0, (1.0 - price) * rate, 0.0)
-        return float(surplus.sum()), rate
+        return sum_rate_conjugate(price, min_rate, max_rate)
