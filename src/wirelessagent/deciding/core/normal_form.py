@@ -1,8 +1,8 @@
 """A problem in the terms that the methods share: SNR per watt, rates in nats, powers in W.
 
 With a = g/(Γ N0 B) a subcarrier carries min(ln(1 + p a), c ln 2) nats at the power p, and B (1 − o)/ln 2 bit/s per nat.
-Pairs that may not be used (users not served, forbidden pairs, subcarriers without power) have a = 0, so that no
-algorithm needs to know of them.
+Pairs that cannot be used (users not served, forbidden pairs, subcarriers without power, no gain) have a = 0, so that
+no algorithm needs to know of them.
 """
 
 from __future__ import annotations
@@ -19,6 +19,11 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.rates import normalised_gain
+
+_MOST_SNR = 1e60
+"""In 1/W; a gain of 1 over the thermal noise in 1 Hz has less than 1e21."""
+_LEAST_SNR = 1e-200
+"""In 1/W; a pair with less counts as unusable: no budget reaches it, and its figures leave the range of numbers."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -63,13 +68,13 @@ class NormalForm:
         cap_w = _caps_w(problem, estimate.num_subcarriers)
         with np.errstate(over="ignore"):
             snr_per_w = normalised_gain(estimate.gain, cell)
-        if np.isinf(snr_per_w).any():
+        if np.any(snr_per_w > _MOST_SNR):
             raise InputError(
                 f"gains up to {estimate.gain.max():g} over a noise of {cell.noise_power_w:g} W are out of range: "
-                "a power gain is at most about 1; was it given in dB, or as unit='db' by mistake?"
+                "a power gain is about 1 at most; check its unit"
             )
         served = _served(problem, estimate.num_users)
-        usable = served[:, np.newaxis] & _allowed(problem, estimate.gain.shape) & (cap_w > 0)
+        usable = served[:, np.newaxis] & _allowed(problem, estimate.gain.shape) & (cap_w > 0) & (snr_per_w > _LEAST_SNR)
         bps_per_nat = cell.data_bandwidth_hz / np.log(2.0)
         return cls(
             method=method.name,
