@@ -83,6 +83,26 @@ def best_free(snr_per_w: FloatArray, owner: IntArray) -> int:
 
 
 @kernel
+def merit_of(
+    n: int,
+    snr_per_w: FloatArray,
+    log_snr: FloatArray,
+    ceiling: FloatArray,
+    members: IntArray,
+    size: int,
+    nats: float,
+    cost: float,
+    floor: FloatArray,
+    cap: FloatArray,
+) -> float:
+    """What subcarrier ``n`` is to a user: the power that it saves; for one who cannot reach its rate yet, its need."""
+    if cost == np.inf:
+        return nats - log_snr[n]
+    members[size] = n
+    return cost - fill_rate(snr_per_w, log_snr, ceiling, members, size + 1, nats, floor, cap)[1]
+
+
+@kernel
 def grow_sets(
     snr_per_w: FloatArray, log_snr: FloatArray, ceiling: FloatArray, nats: FloatArray, owner: IntArray
 ) -> None:
@@ -110,9 +130,7 @@ def grow_sets(
             members[owner[n], size[owner[n]]] = n
             size[owner[n]] += 1
     for k in range(users):
-        cost[k] = fill_rate(
-            snr_per_w[k], log_snr[k], ceiling[k], members[k], size[k], nats[k], floor, cap
-        )[1]  # fmt: skip
+        cost[k] = fill_rate(snr_per_w[k], log_snr[k], ceiling[k], members[k], size[k], nats[k], floor, cap)[1]
         candidate[k] = -2
     while True:
         chosen = -1
@@ -125,17 +143,13 @@ def grow_sets(
                 candidate[k] = n
                 if n < 0:
                     continue
-                if cost[k] == np.inf:
-                    merit[k] = nats[k] - log_snr[k, n]
-                else:
-                    members[k, size[k]] = n
-                    merit[k] = cost[k] - fill_rate(
-                        snr_per_w[k], log_snr[k], ceiling[k], members[k], size[k] + 1, nats[k], floor, cap
-                    )[1]  # fmt: skip
-                    if merit[k] <= 0.0:
-                        candidate[k] = -1  # its later candidates are worse still
-                        continue
+                merit[k] = merit_of(
+                    n, snr_per_w[k], log_snr[k], ceiling[k], members[k], size[k], nats[k], cost[k], floor, cap
+                )  # fmt: skip
             unserved = cost[k] == np.inf
+            if merit[k] <= 0.0 and not unserved:
+                candidate[k] = -1  # its later candidates are worse still
+                continue
             if chosen < 0 or (unserved and not urgent) or (unserved == urgent and merit[k] > merit[chosen]):
                 chosen = k
                 urgent = unserved
