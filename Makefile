@@ -44,4 +44,4 @@ clean:
 	rm -rf .venv .tools build demo site reproduced
 
 .tools/uv/bin/uv:
-	$(PYTHON) -m pip install --quiet --disable-pip-version-check --target .tools/uv "uv==$(UV_VERSION)"
+	$(PYTHON) -m pip install --quiet --disable-pip-version-check --root-user-action=ignore --target .tools/uv "uv==$(UV_VERSION)"
