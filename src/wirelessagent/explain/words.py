@@ -20,9 +20,11 @@ _ENGLISH: Mapping[str, str] = {
     "undecided": "No allocation was found that does this, and no proof that there is none: {reason}",
     "power_max": "One more watt would buy about {price} at the margin.",
     "rate_price": "One more {step} for {user} would cost about {price} at the margin, the dearest of all.",
-    "idle": "{names} get nothing; the closest, {closest}, is {margin:.1f} dB behind the winner on its best subcarrier.",
-    "repaired": "{missing} of {entries} gains were missing and repaired by {method}; "
+    "idle": "Nothing for {names}; the closest, {closest}, is {margin:.1f} dB behind the winner on its best subcarrier.",
+    "repaired": "Repaired by {method}: {missing} of {entries} gains; "
     "{resting} of the {used} subcarriers in use rest on a repaired gain.",
+    "guessed": "No gain of {names} was observed: their level is a guess, and so is what is promised on it.",
+    "no_promise": "No rate is promised to anybody, so nothing has to be sent; a minimum rate would change that.",
     "complete": "No gain was missing, so nothing was repaired.",
     "kept": "On the true channel every promised rate was kept.",
     "missed": "On the true channel {names} fell short of the promised rate, by up to {short:.2g} %.",
@@ -42,6 +44,8 @@ _CHINESE: Mapping[str, str] = {
     "idle": "{names} 没有分到子载波；其中最接近的 {closest} 在其最好的子载波上仍比胜者低 {margin:.1f} dB。",
     "repaired": "{entries} 个增益中缺失 {missing} 个，由 {method} 修复；"
     "使用的 {used} 个子载波中有 {resting} 个依赖修复值。",
+    "guessed": "没有观测到 {names} 的任何增益：其水平只是猜测，基于它的承诺也是。",
+    "no_promise": "没有向任何用户承诺速率，因此无需发送；给出最低速率即可改变这一点。",
     "complete": "没有缺失的增益，因此无需修复。",
     "kept": "在真实信道上，所有承诺的速率都已兑现。",
     "missed": "在真实信道上 {names} 未达到承诺速率，最多少 {short:.2g} %。",
@@ -55,10 +59,13 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
     decision = report.decision
     if not decision.is_usable:
         return [words[decision.status].format(reason=decision.reason)]
+    if decision.problem.min_rate_bps is None and decision.status == "optimal" and not decision.power_w.any():
+        return [words["no_promise"]]
     said = [_allocation(words, decision), _certificate(words, decision)]
     said += _prices(words, decision)
     said += _idle_users(words, decision, estimate)
     said.append(_repair(words, decision, estimate))
+    said += _guesses(words, decision, estimate)
     said += _outcome(words, report)
     return said
 
@@ -85,7 +92,8 @@ def _certificate(words: Mapping[str, str], decision: Decision) -> str:
 
 def _prices(words: Mapping[str, str], decision: Decision) -> list[str]:
     said: list[str] = []
-    if decision.price_of_power > 0:
+    worth_saying = 1e-9 * abs(decision.value) / decision.problem.budget_w(decision.cell)
+    if decision.price_of_power > worth_saying:
         said.append(words["power_max"].format(price=human(decision.price_of_power, decision.unit)))
     if decision.price_of_rate.size and np.nanmax(decision.price_of_rate) > 0:
         dearest = int(np.nanargmax(decision.price_of_rate))
@@ -124,6 +132,12 @@ def _repair(words: Mapping[str, str], decision: Decision, estimate: ChannelEstim
         used=in_use.size,
         resting=int(estimate.repaired[decision.owner[in_use], in_use].sum()),
     )
+
+
+def _guesses(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate) -> list[str]:
+    """A warning for users whose level nobody ever observed."""
+    unseen = [decision.user_names[user] for user in np.flatnonzero(estimate.unobserved_users)]
+    return [words["guessed"].format(names=words["comma"].join(unseen))] if unseen else []
 
 
 def _outcome(words: Mapping[str, str], report: Report) -> list[str]:

@@ -92,7 +92,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "help": "I allocate the subcarriers and the power of a cell. {offers}",
         "out_of_scope": "That is outside what I do: I allocate the subcarriers and the power of a cell. {offers}",
         "unsupported": "I can't steer {text}. {offers}",
-        "offers": "You can ask for {choices}, with limits such as 10 W, 40 dBm, 1 Mbit/s each or 5 % outage.",
+        "offers": "You can ask for {choices}, with limits such as 10 W, 40 dBm or 1 Mbit/s each.",
         "restated_alone": "", "restated_limits": ": ", "or": " or ", "either": " or ", "comma": ", ", "and": " and ",
     },
     "zh": {

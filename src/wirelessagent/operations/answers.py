@@ -123,17 +123,33 @@ class ReportAnswer(Record):
 
 def certificate_line(decision: Decision) -> str:
     """Status, value, bound and gap in one line."""
-    value = f"{human(decision.value, decision.unit)}" if np.isfinite(decision.value) else "no value"
+    if not decision.is_usable:
+        return f"{decision.status}: {decision.reason} ({decision.method})"
+    value = human(decision.value, decision.unit)
     if np.isnan(decision.gap):
         return f"{decision.status}: {value} ({decision.method}; no bound)"
     return (
         f"{decision.status}: {value}; no allocation on this estimate does better than "
-        f"{human(decision.bound, decision.unit)} (gap {decision.gap:.2g}; {decision.method})"
+        f"{human(decision.bound, decision.unit)} (gap {percent(decision.gap)}; {decision.method})"
     )
+
+
+def percent(share: float) -> str:
+    """A share in percent, with as many digits as people read.
+
+    >>> percent(0.1234), percent(130.0), percent(2e-12)
+    ('12 %', '13,000 %', '2e-10 %')
+    """
+    if np.isnan(share):
+        return "–"
+    return f"{100 * share:,.0f} %" if share >= 0.1 else f"{100 * share:.2g} %"
 
 
 def report_table(report: Report) -> Table:
     """Figures of merit, predicted beside achieved."""
+    if report.achieved is None:
+        rows = tuple((label, before) for label, before, _ in report.figures() if label != "Goodput")
+        return Table(title="Predicted on the estimate", columns=("figure", "predicted"), rows=rows)
     return Table(
         title="Predicted on the estimate, achieved on the true channel",
         columns=("figure", "predicted", "achieved"),
@@ -147,17 +163,20 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None) -> Table
     rows: list[tuple[str, ...]] = []
     for user, name in enumerate(decision.user_names):
         own = decision.owner == user
-        achieved = "–" if report.achieved is None else human(report.achieved.user_rate_bps[user], "bit/s")
-        missed = f" ({_shortfall(report, user):.2g} % short)" if user in report.missed_users else ""
         row = [name, str(int(own.sum()))]
         if estimate is not None:
             row.append(str(int((own & estimate.repaired[user]).sum())))
         row.append(human(float(decision.power_w[own].sum()), "W"))
-        rows.append((*row, human(decision.rate_bps[user], "bit/s"), achieved + missed))
+        row.append(human(decision.rate_bps[user], "bit/s"))
+        if report.achieved is not None:
+            missed = f" ({_shortfall(report, user):.2g} % short)" if user in report.missed_users else ""
+            row.append(human(report.achieved.user_rate_bps[user], "bit/s") + missed)
+        rows.append(tuple(row))
     repaired = () if estimate is None else ("of them repaired",)
+    achieved = () if report.achieved is None else ("achieved rate",)
     return Table(
         title="Users",
-        columns=("user", "subcarriers", *repaired, "power", "predicted rate", "achieved rate"),
+        columns=("user", "subcarriers", *repaired, "power", "predicted rate", *achieved),
         rows=tuple(rows),
     )
 

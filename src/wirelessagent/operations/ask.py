@@ -26,7 +26,7 @@ from wirelessagent.operations.channel_file import file_scene
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions, Positional
 from wirelessagent.operations.intent import IntentRecord
 from wirelessagent.operations.operation import Event, Operation, Progress
-from wirelessagent.operations.outputs import check_allocation, check_picture
+from wirelessagent.operations.outputs import check_allocation, check_picture, draw_run
 from wirelessagent.operations.record import Block, Matrix, Record, Table
 from wirelessagent.operations.simulate import LOSS_USAGE
 from wirelessagent.operations.solve import figures_of_infeasibility
@@ -123,7 +123,7 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
     if out is not None:
         FileBaseStation(answer.scene, path=out).apply(answer.decision)
     if request.plot is not None:
-        _draw(answer, request.plot)
+        draw_run(request.plot, answer.observation, answer.estimate, answer.decision, answer.outcome)
     return AskRecord(
         intent=understood,
         facts=dict(scene.facts),
@@ -158,18 +158,6 @@ def _tables(answer: Answer) -> list[Table]:
     if answer.decision.is_usable:
         return [user_table(answer.report, answer.estimate), report_table(answer.report)]
     return [figures_of_infeasibility(answer.decision)]
-
-
-def _draw(answer: Answer, path: Path) -> None:
-    from wirelessagent.pictures.chain_picture import draw_chain
-
-    draw_chain(
-        observation=answer.observation,
-        estimate=answer.estimate,
-        decision=answer.decision,
-        outcome=answer.outcome,
-        path=path,
-    )
 
 
 ASK = Operation(

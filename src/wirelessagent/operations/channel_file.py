@@ -34,6 +34,10 @@ class ChannelFile(CellOptions):
         return file_scene(self, self.path, self.file_options, progress, wanted_power_w=wanted_power_w)
 
 
+_DETAILS = frozenset({"array", "separator", "range", "users", "frequencies", "slot times", "truth"})
+"""Facts that the record holds and a terminal can do without."""
+
+
 def file_scene(
     cell_options: CellOptions,
     path: Path,
@@ -46,6 +50,6 @@ def file_scene(
     source = cast(ChannelSource, plugins.create("channel_source", "file", {**options, "path": path}))
     scene = source.observe(cell_options.cell())
     scene = dataclasses.replace(scene, cell=cell_options.cell(scene.cell, wanted_power_w=wanted_power_w))
-    understood = "; ".join(f"{label}: {text}" for label, text in scene.facts.items())
+    understood = "; ".join(f"{label}: {text}" for label, text in scene.facts.items() if label not in _DETAILS)
     progress(Event(stage="sense", message=f"{path}: {understood}"))
     return scene

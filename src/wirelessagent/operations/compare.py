@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
 from pydantic import Field
 
 from wirelessagent import chain
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.units import human
-from wirelessagent.operations.answers import DecisionAnswer
+from wirelessagent.operations.answers import DecisionAnswer, percent
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.record import Block, Record, Table
 from wirelessagent.operations.solve import ProblemOnFile
@@ -49,7 +48,7 @@ def _row(answer: MethodAnswer) -> tuple[str, ...]:
         decision.status,
         human(decision.value, decision.unit),
         human(decision.bound, decision.unit),
-        "–" if np.isnan(decision.gap) else f"{100 * decision.gap:.2g} %",
+        percent(decision.gap),
         human(decision.total_power_w, "W"),
         human(answer.time_s, "s"),
     )

@@ -1,4 +1,4 @@
-"""Checks of output files before the work starts: a mistyped name costs nothing, and no stage is shown in vain."""
+"""Output files: checked before the work starts, so that a mistyped name costs nothing, and the picture of a run."""
 
 from __future__ import annotations
 
@@ -6,6 +6,10 @@ from pathlib import Path
 
 from wirelessagent.acting.file import allocation_writer
 from wirelessagent.model.atomic import writable_target
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.model.outcome import Outcome
 
 
 def check_allocation(path: Path | None) -> None:
@@ -29,3 +33,16 @@ def check_picture(path: Path | None) -> None:
         check_suffix(path)
         writable_target(path)
         require_matplotlib()
+
+
+def draw_run(
+    path: Path,
+    observation: ChannelObservation,
+    estimate: ChannelEstimate,
+    decision: Decision,
+    outcome: Outcome | None = None,
+) -> None:
+    """Draw a run of the chain; the drawing library is loaded only here."""
+    from wirelessagent.pictures.chain_picture import draw_chain
+
+    draw_chain(observation=observation, estimate=estimate, decision=decision, outcome=outcome, path=path)

@@ -26,7 +26,7 @@ from wirelessagent.operations.answers import (
 from wirelessagent.operations.channel_file import ChannelFile
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
-from wirelessagent.operations.outputs import check_allocation
+from wirelessagent.operations.outputs import check_allocation, check_picture, draw_run
 from wirelessagent.operations.problem_options import ProblemOptions
 from wirelessagent.operations.record import Block, Table
 
@@ -63,6 +63,7 @@ class SolveRequest(ProblemOnFile):
         default_factory=dict, description="options of the method"
     )
     out: Path | None = Field(None, description="file to write the allocation to: JSON, CSV or NPZ")
+    plot: Path | None = Field(None, description="picture of the allocation: PNG, SVG or PDF")
 
 
 class SolveRecord(DecisionAnswer):
@@ -73,20 +74,24 @@ class SolveRecord(DecisionAnswer):
     report: ReportAnswer
     explanation: list[str]
     out: Path | None
+    plot: Path | None
     summary: str = Field(exclude=True)
     tables: list[Table] = Field(exclude=True)
 
     def blocks(self) -> list[Block]:
         said: list[Block] = [self.summary, *self.tables, " ".join(self.explanation)]
-        return [*said, f"written to {self.out}"] if self.out else said
+        return [*said, *(f"written to {path}" for path in (self.out, self.plot) if path)]
 
 
 def run(request: SolveRequest, progress: Progress) -> SolveRecord:
     check_allocation(request.out)
+    check_picture(request.plot)
     scene, estimate, problem = request.posed(progress)
     decision = chain.decide(estimate, problem, scene.cell, request.method, **request.method_options)
     if request.out is not None:
         FileBaseStation(scene, path=request.out).apply(decision)
+    if request.plot is not None:
+        draw_run(request.plot, scene.sensed, estimate, decision)
     made = report(decision)
     return SolveRecord(
         **DecisionAnswer.fields_of(decision),
@@ -95,6 +100,7 @@ def run(request: SolveRequest, progress: Progress) -> SolveRecord:
         report=ReportAnswer.of(made),
         explanation=explain(estimate, made),
         out=request.out,
+        plot=request.plot,
         summary=certificate_line(decision),
         tables=_tables(decision, made, estimate),
     )
