@@ -11,20 +11,16 @@ name is asked for; one that fails to load is named with its package, and the oth
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import importlib
-import types
-import typing
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import metadata
-from numbers import Real
-from pathlib import Path
 from typing import Any, Literal, TypeAlias, cast, get_args
 
 from wirelessagent.model.errors import InputError, PluginError, UnknownNameError
 from wirelessagent.model.objective import Objective
+from wirelessagent.plugin_options import Option, converted, options_of
 
 Kind: TypeAlias = Literal["channel_source", "repairer", "objective", "method", "base_station"]
 
@@ -37,18 +33,6 @@ _BASES: dict[Kind, str] = {
     "method": "wirelessagent.deciding.method:Method",
     "base_station": "wirelessagent.acting.base_station:BaseStation",
 }
-
-_SIMPLE_TYPES: tuple[type, ...] = (bool, int, float, str, Path)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Option:
-    """A field of a plug-in that a user may set: on the command line, in a request, from the LLM."""
-
-    name: str
-    type: type
-    default: Any
-    required: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,7 +108,7 @@ def create(kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *
     missing = [option.name for option in known.values() if option.required and option.name not in given]
     if missing:
         raise InputError(f"the {kind.replace('_', ' ')} {name!r} needs {', '.join(missing)}")
-    return found.cls(*args, **{key: _convert(known[key], value) for key, value in given.items()})
+    return found.cls(*args, **{key: converted(known[key], value) for key, value in given.items()})
 
 
 def objective(name: str, options: Mapping[str, Any] | None = None) -> Objective:
@@ -137,23 +121,6 @@ def objective(name: str, options: Mapping[str, Any] | None = None) -> Objective:
         if found:
             return cast(Objective, create("objective", found[0].name, options))
     return cast(Objective, create("objective", name, options))
-
-
-@functools.cache
-def options_of(cls: type[Any]) -> tuple[Option, ...]:
-    """The fields of a plug-in class that hold a simple value (number, text, switch, path, or None)."""
-    hints = typing.get_type_hints(cls)
-    options: list[Option] = []
-    for item in dataclasses.fields(cls):
-        simple = _simple_type(hints[item.name])
-        if item.init and simple is not None:
-            has_default = item.default is not dataclasses.MISSING
-            default = item.default if has_default else None
-            factory = item.default_factory is not dataclasses.MISSING
-            options.append(
-                Option(name=item.name, type=simple, default=default, required=not has_default and not factory)
-            )
-    return tuple(options)
 
 
 def package_of(entry: metadata.EntryPoint) -> str:
@@ -203,32 +170,3 @@ def _check(kind: Kind, name: str, cls: object) -> None:
             f"its entry point is called {name!r} but {cls.__name__}.name is {getattr(cls, 'name', None)!r}"
         )
     options_of(cls)  # annotations that cannot be resolved show here, not on a surface that lists them
-
-
-def _simple_type(hint: Any) -> type[Any] | None:
-    """The simple type of a field's annotation, seen through Literal and Optional; None if it holds anything else."""
-    if typing.get_origin(hint) is Literal:
-        return cast("type[Any]", type(get_args(hint)[0]))
-    if isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union:
-        rest = [part for part in get_args(hint) if part is not type(None)]
-        return _simple_type(rest[0]) if len(rest) == 1 else None
-    return hint if hint in _SIMPLE_TYPES else None
-
-
-def _convert(option: Option, value: Any) -> Any:
-    """An option's value in its field's type; text from a command line is read."""
-    if value is None or (isinstance(value, option.type) and not (option.type is int and isinstance(value, bool))):
-        return value
-    if option.type is bool and isinstance(value, str):
-        switches = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
-        if value.lower() in switches:
-            return switches[value.lower()]
-    elif option.type is not bool and not isinstance(value, bool) and isinstance(value, str | Real):
-        try:
-            converted: Any = option.type(cast("Any", value))
-        except (ValueError, TypeError, OverflowError):
-            pass
-        else:
-            if isinstance(value, str) or option.type is not int or converted == value:
-                return converted
-    raise InputError(f"{option.name} must be of type {option.type.__name__}; got {value!r}")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import json
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -14,6 +16,7 @@ import pytest
 
 import wirelessagent as wa
 from wirelessagent import plugins
+from wirelessagent.interfaces.cli import run
 from wirelessagent.model.errors import InputError, PluginError, UnknownNameError
 
 ALPHA = """
@@ -28,6 +31,15 @@ class Alpha(wa.Objective):
     '''Shares alpha-fairly.
 
     And more about it.
+
+    Attributes:
+        alpha: how fair, e.g. 1 for
+            proportional fairness. Not in [0, 1).
+        rounds (int): how often ``it`` is tried
+        unknown: no field of it.
+
+    Raises:
+        strict: what is said elsewhere is no help.
     '''
     name = "alpha"
     aliases = ("A1",)
@@ -36,6 +48,8 @@ class Alpha(wa.Objective):
     strict: bool = False
     label: str | None = None
     mode: Literal["soft", "hard"] = "soft"
+    pace: Literal[1, 2] = 1
+    shade: Literal["Dark", "dim"] | None = None
     table: Path = Path("table.csv")
     levels: tuple[float, ...] = ()
 
@@ -186,14 +200,66 @@ def test_fields_that_hold_a_simple_value_are_options(alpha: Any) -> None:
         "strict": (bool, False),
         "label": (str, None),
         "mode": (str, "soft"),
+        "pace": (int, 1),
+        "shade": (str, None),
         "table": (Path, Path("table.csv")),
     }
+
+
+def test_options_are_explained_by_the_docstring_and_list_their_choices(alpha: Any) -> None:
+    found = {option.name: option for option in plugins.plugin("objective", "alpha").options}
+    assert {name: option.help for name, option in found.items() if option.help} == {
+        "alpha": "how fair, e.g. 1 for proportional fairness",
+        "rounds": "how often it is tried",
+    }
+    assert {name: option.choices for name, option in found.items() if option.choices} == {
+        "mode": ("soft", "hard"),
+        "pace": (1, 2),
+        "shade": ("Dark", "dim"),
+    }
+
+
+def test_the_docstring_of_a_base_explains_what_is_inherited(site: Site) -> None:
+    source = f"{ALPHA}\n@dataclass(frozen=True, kw_only=True)\nclass Beta(Alpha):\n    name = 'beta'\n"
+    site.install("fair-play", "fair_play", source, {"beta": "fair_play:Beta"})
+    assert plugins.plugin("objective", "beta").options[1].help == "how often it is tried"
+
+
+@pytest.mark.parametrize("kind", plugins.KINDS)
+def test_every_option_of_a_built_in_plugin_is_explained(kind: Any) -> None:
+    found = [(item.name, option) for item in plugins.plugins(kind) for option in item.options]
+    assert [(name, option.name) for name, option in found if not option.help] == []
+
+
+def test_help_shows_what_an_option_is_whose_and_its_choices(site: Site, capsys: pytest.CaptureFixture[str]) -> None:
+    site.install(
+        "paper-play", "paper_play", ALPHA.replace("Objective", "Repairer"), {"alpha": "paper_play:Alpha"}, "repairer"
+    )
+    assert run(["repair", "--help"]) == 0
+    shown = " ".join(capsys.readouterr().out.replace("│", " ").split())
+    assert "how fair, e.g. 1 for proportional fairness [of alpha; default 2.0]" in shown
+    assert "[of nncf_paper; default 2.0]" in shown
+    assert re.search(r"--shade <Dark\|dim> \[of alpha\]", shown)
+    assert re.search(r"--unit <linear\|db\|complex> ", shown)
+
+
+def test_the_listing_has_help_and_choices(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["plugins", "--kind", "channel_source", "--json"]) == 0
+    file = next(item for item in json.loads(capsys.readouterr().out)["plugins"] if item["name"] == "file")
+    unit = next(option for option in file["options"] if option["name"] == "unit")
+    assert unit["choices"] == ["linear", "db", "complex"]
+    assert unit["help"].startswith("what its numbers are")
 
 
 @pytest.mark.parametrize(
     ("name", "given", "taken"),
     [
         ("alpha", "1.5", 1.5),
+        ("mode", " HARD", "hard"),
+        ("shade", "dark", "Dark"),
+        ("shade", None, None),
+        ("pace", "2", 2),
+        ("pace", np.int64(2), 2),
         ("alpha", 1, 1.0),
         ("alpha", np.float32(0.5), 0.5),
         ("rounds", "7", 7),
@@ -230,6 +296,15 @@ def test_options_are_converted(alpha: Any, name: str, given: object, taken: obje
 )
 def test_options_of_another_type_are_refused_with_what_was_received(alpha: Any, name: str, given: object) -> None:
     with pytest.raises(InputError, match=rf"{name} must be of type \w+; got ") as caught:
+        alpha(**{name: given})
+    assert repr(given) in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "given"), [("mode", "loud"), ("mode", 1), ("mode", ["soft"]), ("pace", True), ("pace", 3)]
+)
+def test_a_value_that_is_no_choice_is_refused_with_the_choices(alpha: Any, name: str, given: object) -> None:
+    with pytest.raises(InputError, match=rf"{name} must be one of (soft, hard|1, 2); got ") as caught:
         alpha(**{name: given})
     assert repr(given) in str(caught.value)
 

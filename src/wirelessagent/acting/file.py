@@ -25,6 +25,9 @@ class FileBaseStation(BaseStation):
 
     CSV has a line per subcarrier: ``subcarrier,owner,user_name,power_w`` with subcarriers and owners counted from 0 and
     owner −1 for nobody. JSON and NPZ hold ``owner``, ``power_w``, ``promised_bps`` and ``user_names``.
+
+    Attributes:
+        path: the file to write, .json, .csv or .npz.
     """
 
     name = "file"

@@ -108,15 +108,31 @@ def _field_parameter(name: str, info: FieldInfo, panel: str) -> tuple[Any, Any]:
 
 def _plugin_parameter(name: str, owners: list[tuple[str, Option]], panel: str) -> Any:
     """An option that one or several plug-ins share."""
+    from rich.markup import escape
+
     kinds = {option.type for _, option in owners}
-    kind: Any = kinds.pop() if len(kinds) == 1 else str
-    defaults = [f"{plugin} ({'needed' if option.required else option.default})" for plugin, option in owners]
-    kind, metavar = _as_text(kind)
+    kind, metavar = _as_text(kinds.pop() if len(kinds) == 1 else str)
+    if all(option.choices for _, option in owners):  # the plug-in reads them, whatever their capitals
+        choices = dict.fromkeys(str(choice) for _, option in owners for choice in option.choices)
+        kind, metavar = str, f"<{'|'.join(choices)}>"
     flags = [f"{as_flag(name)}/--no-{name.replace('_', '-')}"] if kind is bool else [as_flag(name)]
     option = typer.Option(
-        *flags, help=f"of {', '.join(defaults)}", show_default=False, rich_help_panel=panel, metavar=metavar
+        *flags, help=escape(_plugin_help(owners)), show_default=False, rich_help_panel=panel, metavar=metavar
     )
     return Annotated[kind | None, option]
+
+
+def _plugin_help(owners: list[tuple[str, Option]]) -> str:
+    """What an option is, whose it is and its default; once for all plug-ins of which the same can be said."""
+    said: dict[str, dict[str, list[str]]] = {}
+    for plugin, option in owners:
+        default = "needed" if option.required else "" if option.default is None else f"default {option.default}"
+        said.setdefault(option.help, {}).setdefault(default, []).append(plugin)
+    parts: list[str] = []
+    for text, defaults in said.items():
+        of = "; ".join(f"of {'; '.join([', '.join(names), *filter(None, [how])])}" for how, names in defaults.items())
+        parts.append(f"{text} [{of}]".lstrip())
+    return "; ".join(parts)
 
 
 def _as_text(kind: Any) -> tuple[Any, str | None]:

@@ -17,12 +17,17 @@ class PluginsRequest(Request):
 
 
 class OptionAnswer(Record):
-    """An option of a plug-in; a default of null means that it has none or that it is off."""
+    """An option of a plug-in; a default of null means that it has none or that it is off.
+
+    ``help`` is empty where its docstring says nothing of it, ``choices`` where any value of the type may be given.
+    """
 
     name: str
     type: str
     default: Any
     required: bool
+    help: str
+    choices: list[Any]
 
 
 class PluginAnswer(Record):
@@ -44,6 +49,8 @@ class PluginAnswer(Record):
                 type=option.type.__name__,
                 default=None if option.default is None else option.type(option.default),
                 required=option.required,
+                help=option.help,
+                choices=list(option.choices),
             )
             for option in found.options
         ]

@@ -47,14 +47,14 @@ class File(ChannelSource):
     """Channel gains from a file: CSV, JSON, NPZ, NPY, MATLAB, HDF5 or netCDF-4.
 
     Attributes:
-        path: the file.
+        path: the file with the gains.
         unit: what its numbers are: "linear" power gain, power gain in "db", or "complex" for coefficients h whose
             squared magnitude is taken. Complex numbers are always coefficients. None takes the unit that the file
             states, and linear if it states none.
         axes: names of the array's axes in order, of drop, slot, user and subcarrier, as in "subcarrier,user". None
             takes what the file states, else (user, subcarrier) or (slot, user, subcarrier).
         missing_value: a number that marks missing entries, beside NaN and what the format itself has for that.
-        key: name of the array; None takes ``gain``, else the only one that can be meant.
+        key: name of the array; if not set ``gain``, else the only one that can be meant.
         drop: which of several independent drops to take, counted from 0.
         max_bytes: limit on the file's size and on what it unpacks to.
     """

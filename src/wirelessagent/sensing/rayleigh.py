@@ -54,7 +54,7 @@ class Rayleigh(ChannelSource):
         num_users: number of users K.
         num_subcarriers: number of subcarriers N; their spacing is the cell's subcarrier bandwidth.
         inner_radius_m: smallest distance of a user from the base station.
-        outer_radius_m: largest distance.
+        outer_radius_m: largest distance of a user from the base station.
         shadowing_std_db: standard deviation of the log-normal shadowing, independent between users.
         user_correlation: correlation coefficient ρ in [0, 1) of any two users' complex fading coefficients on one
             subcarrier in one slot, E[h_j h_k*] = ρ: all users share a common component of power ρ. Their normalised
@@ -65,7 +65,7 @@ class Rayleigh(ChannelSource):
         num_slots: number of slots T; the last one is the current one and the others are history.
         slot_s: time from one slot to the next.
         snr_db: signal-to-noise ratio of the channel measurement, each user's mean gain over the noise in its
-            coefficients; None for exact measurements.
+            coefficients; exact measurements if not set.
     """
 
     name = "rayleigh"

@@ -23,7 +23,7 @@ class EqualPower(Method):
     Promised rates are not aimed at; a problem with them is solved if they happen to be kept, and undecided if not.
 
     Attributes:
-        power_w: the total power to radiate, at most the budget; None radiates the whole budget.
+        power_w: the total power to radiate, at most the budget; the whole budget if not set.
     """
 
     name = "equal_power"

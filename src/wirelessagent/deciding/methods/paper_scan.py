@@ -24,7 +24,7 @@ class PaperScan(Method):
     The levels are P_max l/L. The bound is the exact method's, so the gap shows what the grid costs.
 
     Attributes:
-        num_levels: L.
+        num_levels: number L of power levels tried.
     """
 
     name = "paper_scan"
