@@ -21,7 +21,9 @@ LARGEST_SURPRISE = 5.0
 
 @dataclass(frozen=True, kw_only=True)
 class Nncf(Repairer):
-    """The paper's idea (Sec. III-A) with three departures.
+    """Average of the nearest known neighbours, weighted by the correlation that the observed entries show.
+
+    It is the paper's idea (Sec. III-A) with three departures:
 
     - Gains are compared relative to each user's mean: with a path-loss spread of 30 dB, absolute gains of another
       user say nothing about one's own.
