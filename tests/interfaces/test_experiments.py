@@ -77,8 +77,8 @@ def test_the_same_seed_writes_the_same_files(tmp_path, name):
 @pytest.mark.parametrize("name", EXPERIMENTS)
 def test_what_is_plotted_is_what_the_table_holds(name):
     experiment = catalogue.EXPERIMENTS[name]
-    table = experiment.run(draws=3, seed=1).table
-    canvas = experiment.picture(table)
+    result = experiment.run(draws=3, seed=1)
+    table, canvas = result.table, experiment.picture(result)
 
     columns = [
         table.numbers(column) for column in table.columns if not isinstance(table.rows[0][_at(table, column)], str)
@@ -104,11 +104,39 @@ def _plotted(axes) -> np.ndarray:
 @pytest.mark.parametrize("name", EXPERIMENTS)
 def test_every_axis_is_labelled(name):
     experiment = catalogue.EXPERIMENTS[name]
-    canvas = experiment.picture(experiment.run(draws=2, seed=1).table)
+    canvas = experiment.picture(experiment.run(draws=2, seed=1))
 
     for panel in canvas.panels:
         assert "(" in panel.axes.get_ylabel(), "a quantity names its unit"
         assert panel.axes.get_xlabel() or panel.axes.get_xticklabels()
+
+
+@pytest.mark.parametrize(
+    ("name", "facts"),
+    [
+        ("channel_recovery", ["K × N = 8 × 20", "20 % random loss", "100 ns RMS delay spread", "1 draw"]),
+        ("rate_versus_power", ["K × N = 8 × 20", "30 % random loss", "100 ns RMS delay spread", "2 draws"]),
+        ("error_versus_loss", ["K × N = 8 × 20", "100 ns RMS delay spread", "2 draws"]),
+        ("error_versus_delay_spread", ["K × N = 8 × 20", "20 % random loss", "2 draws"]),
+        ("modes", ["K × N = 8 × 20", "20 % random loss", "100 ns RMS delay spread", "2 draws"]),
+        ("run_time", ["20 % random loss", "100 ns RMS delay spread", "up to 2 calls a point"]),
+    ],
+)
+def test_every_figure_says_what_it_rests_on(name, facts):
+    experiment = catalogue.EXPERIMENTS[name]
+    title = experiment.picture(experiment.run(draws=2, seed=1)).figure.get_suptitle()
+
+    assert [fact for fact in facts if fact not in title] == []
+    assert ("delay spread" in title) == (name != "error_versus_delay_spread"), "what is swept has no one value"
+    assert ("random loss" in title) == (name != "error_versus_loss"), "what is swept has no one value"
+
+
+def test_the_recovered_channel_is_that_of_the_user_in_the_record():
+    experiment = EXPERIMENTS["channel_recovery"]
+    result = experiment.run(draws=1, seed=1)
+    title = experiment.picture(result).panels[0].axes.get_title(loc="left")
+
+    assert title.startswith(f"The channel of user {result.findings['user_number']},")
 
 
 @pytest.mark.parametrize("name", ["rate_versus_power", "error_versus_loss", "modes"])
@@ -146,11 +174,28 @@ def test_more_draws_narrow_the_intervals():
     assert narrower.all()
 
 
+def test_the_error_bars_drawn_are_those_of_the_paired_difference():
+    experiment = EXPERIMENTS["rate_versus_power"]
+    result = experiment.run(draws=16, seed=1)
+    canvas = experiment.picture(result)
+    repaired = result.table.where(csi="nncf")
+
+    assert (repaired.numbers("sum_rate_mbps_paired_ci95") < 0.1 * repaired.numbers("sum_rate_mbps_ci95")).all()
+    assert "paired difference" in canvas.figure.get_suptitle()
+    for panel, quantity in zip(canvas.panels, ("sum_rate", "goodput", "goodput_by_subcarrier"), strict=True):
+        perfect, by_nncf, _ = panel.axes.containers
+        ends = np.array([segment[:, 1] for segment in by_nncf.lines[2][0].get_segments()])
+        drawn = (ends[:, 1] - ends[:, 0]) / 2
+        assert drawn == pytest.approx(repaired.numbers(f"{quantity}_mbps_paired_ci95"), rel=1e-6)
+        assert not perfect.has_yerr
+
+
 def test_a_single_draw_has_no_interval_and_an_empty_cell(tmp_path):
     _, table, _ = reproduce("rate_versus_power", out=tmp_path, draws=1)
 
     rows = list(csv.DictReader(io.StringIO(table.read_text())))
     assert {row["sum_rate_mbps_ci95"] for row in rows} == {""}
+    assert {row["sum_rate_mbps_paired_ci95"] for row in rows} == {""}
     assert all(float(row["sum_rate_mbps"]) > 0 for row in rows)
 
 
@@ -193,6 +238,26 @@ def test_draws_that_minimum_power_cannot_serve_are_counted_and_leave_its_means_a
     assert 0 < served.numbers("served_share")[0] < 1
     assert result.findings["min_power_infeasible_share"] > 0
     assert 0 < served.numbers("power_w")[0] < asking_much.scenario.cell.max_power_w
+
+
+def test_the_title_tells_allocations_found_from_rates_kept():
+    modes = EXPERIMENTS["modes"]
+    result = modes.run(draws=30, seed=1)
+    least = result.table.where(strategy="min power")
+    found, kept = least.numbers("served_share")[0], least.numbers("users_at_min_rate_share")[0]
+    title = modes.picture(result).figure.get_suptitle()
+
+    assert kept < 1, "the rates are promised on the estimate"
+    assert f"found in {100 * found:.0f} % of the draws, {100 * kept:.0f} % of its users got the rate" in title
+    assert result.findings["min_power_users_at_min_rate_share"] == kept
+
+
+def test_a_rate_that_no_draw_can_serve_is_said():
+    hopeless = Modes(min_rate_bps=1e9)
+    result = hopeless.run(draws=2, seed=1)
+
+    assert "no allocation was found in any draw" in hopeless.picture(result).figure.get_suptitle()
+    assert result.findings["min_power_users_at_min_rate_share"] is None
 
 
 def test_repair_by_nncf_cuts_the_error_at_the_nominal_delay_spread_and_the_literal_one_does_not():

@@ -61,7 +61,7 @@ def reproduce(
     experiment = EXPERIMENTS[name]
     result = experiment.run(draws=draws, seed=seed, progress=progress, executor=executor)
     picture, table, record = (out / f"{name}{suffix}" for suffix in (".png", ".csv", ".json"))
-    experiment.picture(result.table).save(picture)
+    experiment.picture(result).save(picture)
     write_atomically(table, lambda stream: stream.write(result.table.to_csv().encode()))
     text = json.dumps(_record(experiment, result, seed), ensure_ascii=False, allow_nan=False, indent=1)
     write_atomically(record, lambda stream: stream.write(f"{text}\n".encode()))

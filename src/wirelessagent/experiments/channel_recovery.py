@@ -64,8 +64,9 @@ class ChannelRecovery(Experiment):
             for name in self.repairers
         }
 
-    def picture(self, table: Table) -> Canvas:
-        canvas = Canvas(width_in=8.4, height_in=4.6)
+    def picture(self, result: Result) -> Canvas:
+        canvas = Canvas(width_in=8.4, height_in=4.8)
+        table = result.table
         panel = canvas.panels[0]
         holes = table.where(missing=1)
         panel.curve(
@@ -82,7 +83,9 @@ class ChannelRecovery(Experiment):
                 label=f"missing, by {column.removesuffix('_gain_db')}", style=style, joined=False,
             )  # fmt: skip
         share = f"{len(holes.rows)} of {len(table.rows)}"
-        panel.describe(f"One user's channel, {share} entries missing", "Subcarrier", "Power gain (dB)")
+        user = result.findings["user_number"]
+        panel.describe(f"The channel of user {user}, {share} entries missing", "Subcarrier", "Power gain (dB)")
+        canvas.title(self.scenario.caption(result.draws))
         panel.grid()
         panel.plain_ticks("x", [1, *range(5, len(table.rows) + 1, 5)])
         panel.legend()

@@ -37,6 +37,7 @@ class ErrorSweep(Experiment):
     axis: ClassVar[str]
     axis_label: ClassVar[str]
     axis_ticks: ClassVar[tuple[float, ...]]
+    varied: ClassVar[Literal["loss", "delay spread"]]
     axis_scale: ClassVar[Literal["linear", "log"]] = "linear"
 
     scenario: Scenario = field(default_factory=Scenario)
@@ -71,8 +72,9 @@ class ErrorSweep(Experiment):
                 found[str(repairer)] = dict(zip(points, rows.numbers(column).tolist(), strict=True))
         return found
 
-    def picture(self, table: Table) -> Canvas:
-        canvas = Canvas(columns=2, width_in=11.0, height_in=4.6)
+    def picture(self, result: Result) -> Canvas:
+        table = result.table
+        canvas = Canvas(columns=2, width_in=11.0, height_in=4.8)
         relative, decibels = canvas.panels
         for style, repairer in enumerate(table.values("repairer")):
             rows = table.where(repairer=repairer)
@@ -92,7 +94,10 @@ class ErrorSweep(Experiment):
             panel.plain_ticks("x", self.axis_ticks)
             panel.grid()
             panel.legend()
-        canvas.title(f"Missing gains, {len(table.values('repairer'))} ways to repair them, 95 % confidence intervals")
+        canvas.title(
+            f"Missing gains, {len(table.values('repairer'))} ways to repair them, 95 % confidence intervals",
+            self.scenario.caption(result.draws, varied=self.varied),
+        )
         return canvas
 
     def configuration(self) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wirelessagent.experiments.error_sweep import BASELINE, ErrorSweep
+from wirelessagent.experiments.experiment import Result
 from wirelessagent.experiments.scenario import Scenario
 from wirelessagent.experiments.statistics import last_crossing
 from wirelessagent.experiments.table import Table
@@ -27,6 +28,7 @@ class ErrorVersusDelaySpread(ErrorSweep):
     summary = "Repair error against the delay spread, for every registered repairer: the paper's 67 % claim"
     axis = "rms_delay_spread_ns"
     axis_label = "RMS delay spread (ns)"
+    varied = "delay spread"
     axis_ticks = (10.0, 30.0, 100.0, 300.0, 1000.0)
     axis_scale = "log"
 
@@ -46,9 +48,9 @@ class ErrorVersusDelaySpread(ErrorSweep):
         }
         return {**super().findings(table), f"cut_of_{CLAIMED_CUT:.0%}_holds_up_to_ns": reached}
 
-    def picture(self, table: Table) -> Canvas:
-        canvas = super().picture(table)
-        baseline = table.where(repairer=BASELINE)
+    def picture(self, result: Result) -> Canvas:
+        canvas = super().picture(result)
+        baseline = result.table.where(repairer=BASELINE)
         relative = canvas.panels[0]
         relative.guide(
             baseline.numbers(self.axis),

@@ -16,6 +16,7 @@ class ErrorVersusLoss(ErrorSweep):
     summary = "Repair error against the loss rate, for every registered repairer"
     axis = "loss_percent"
     axis_label = "Random loss (%)"
+    varied = "loss"
     axis_ticks = (0.0, 20.0, 40.0, 60.0, 80.0)
 
     loss_percents: tuple[float, ...] = (5.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0)

@@ -1,4 +1,4 @@
-"""What an experiment is: it draws channels, fills a table, states findings and draws a picture from the table alone."""
+"""What an experiment is: it draws channels, fills a table, states findings and draws a picture from these alone."""
 
 from __future__ import annotations
 
@@ -50,8 +50,8 @@ class Experiment(ABC):
         """The table of this figure from so many draws; the same for any executor, which only runs it."""
 
     @abstractmethod
-    def picture(self, table: Table) -> Canvas:
-        """The figure of a table."""
+    def picture(self, result: Result) -> Canvas:
+        """The figure of a result; its title says what was simulated and from how many draws."""
 
     def configuration(self) -> dict[str, Any]:
         """All that the table depends on beside seed and draws, as plain values."""

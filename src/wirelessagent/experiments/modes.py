@@ -23,6 +23,7 @@ from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.metrics import link_metrics
 from wirelessagent.model.problem import Problem
+from wirelessagent.model.units import human
 from wirelessagent.pictures.canvas import PALETTE, Canvas
 
 STRATEGIES = ("max rate", "min power", "max energy efficiency", "equal power", "fixed power", "round robin")
@@ -37,6 +38,7 @@ _FIGURES = {
     "jain_index": "Jain's fairness index (ratio)",
 }
 
+_KEPT = "users_at_min_rate_share"
 _SERVED = "served_share"
 
 
@@ -74,11 +76,13 @@ class Modes(Experiment):
         watts, fixed_watts = (table.where(strategy=s).numbers("power_w")[0] for s in ("min power", "fixed power"))
         return {
             "min_power_infeasible_share": float(served.numbers("infeasible_share")[0]),
+            "min_power_users_at_min_rate_share": None if np.isnan(watts) else float(served.numbers(_KEPT)[0]),
             "min_power_over_fixed_power": None if np.isnan(watts) else float(watts / fixed_watts),
         }
 
-    def picture(self, table: Table) -> Canvas:
-        canvas = Canvas(rows=2, columns=2, width_in=11.0, height_in=7.0)
+    def picture(self, result: Result) -> Canvas:
+        canvas = Canvas(rows=2, columns=2, width_in=11.0, height_in=7.5)
+        table = result.table
         for panel, (column, label) in zip(canvas.panels, _FIGURES.items(), strict=True):
             panel.bars(
                 range(len(STRATEGIES)),
@@ -90,12 +94,22 @@ class Modes(Experiment):
             panel.describe(label.partition(" (")[0], "", label)
             panel.ticks("x", range(len(STRATEGIES)), [strategy.replace(" ", "\n") for strategy in STRATEGIES])
             panel.grid()
-        share = float(table.where(strategy="min power").numbers(_SERVED)[0])
         canvas.title(
-            f"On the true channel, 95 % confidence intervals; {self.min_rate_bps / 1e6:g} Mbit/s for each user "
-            f"by min power in {share:.0%} of the draws"
+            f"Measured on the true channel, 95 % confidence intervals; {self.scenario.caption(result.draws)}",
+            *self._served_lines(table),
         )
         return canvas
+
+    def _served_lines(self, table: Table) -> list[str]:
+        """What minimum power's bars count: found is decided on the estimate, what users get on the true channel."""
+        least = table.where(strategy="min power")
+        found, kept = (float(least.numbers(column)[0]) for column in (_SERVED, _KEPT))
+        asked = f"min power ({human(self.min_rate_bps, 'bit/s')} each)"
+        if found == 0:
+            return [f"{asked}: no allocation was found in any draw, so min power and fixed power have no bars"]
+        found_text = f"{asked}: an allocation was found in {100 * found:.0f} % of the draws"
+        kept_text = f"{100 * kept:.0f} % of its users got the rate on the true channel"
+        return [f"{found_text}, {kept_text}", "min power and fixed power: means over those draws only"]
 
 
 @dataclass(frozen=True)
@@ -148,7 +162,7 @@ def _table(figures: FloatArray) -> Table:
     """The table of figures of shape (draw, strategy, figure + 1 + status)."""
     mean, half = mean_interval(figures)
     measured = len(_FIGURES) + 1
-    names = (*_FIGURES, "users_at_min_rate_share")
+    names = (*_FIGURES, _KEPT)
     columns = ["strategy"]
     for name in names:
         columns += [name, f"{name}_ci95"]

@@ -3,7 +3,7 @@
 Sum rate lets the link adapt ideally to the true channel after the allocation was made on the estimate, so it only
 feels wrong owners and powers. Goodput counts a user's rate as it was committed on the estimate, and only if the true
 channel carries it: all or nothing for each user. Where every subcarrier is coded and committed by itself, less is lost
-at a time; that figure is in the table too.
+at a time; that is the third panel.
 """
 
 from __future__ import annotations
@@ -29,7 +29,13 @@ from wirelessagent.model.rates import owned_gain, subcarrier_rate_bps
 from wirelessagent.pictures.canvas import Canvas
 
 PERFECT = "perfect"
-QUANTITIES = ("sum_rate", "goodput", "goodput_by_subcarrier")
+QUANTITIES = {
+    "sum_rate": "Sum rate, ideal link adaptation",
+    "goodput": "Goodput, committed per user",
+    "goodput_by_subcarrier": "Goodput, committed per subcarrier",
+}
+"""What is measured, and how the panels call it."""
+
 _MEGABIT = 1e6
 
 
@@ -37,8 +43,9 @@ _MEGABIT = 1e6
 class RateVersusPower(Experiment):
     """Max-rate decisions made with perfect, repaired and mean-filled channel knowledge, all on the same draws.
 
-    The interval of perfect knowledge is that of its mean; the others' is that of their difference from it, draw by
-    draw, for that is what the curves are compared by. A share is a ratio of means.
+    Every rate has two intervals: ``ci95`` of its own mean, and ``paired_ci95`` of its difference from perfect
+    knowledge, draw by draw, which is much narrower because all share the draws. The picture shows the paired ones,
+    for by these the curves are compared; perfect knowledge then has none. A share is a ratio of means.
 
     Attributes:
         scenario: the cell, channel and loss; the paper's Fig. 3 has 30 % loss.
@@ -64,14 +71,14 @@ class RateVersusPower(Experiment):
     def _table(self, rates: FloatArray) -> Table:
         """The table of rates in Mbit/s of shape (draw, knowledge, power, quantity)."""
         perfect = rates[:, :1]
-        mean, own_half = mean_interval(rates)
-        half = np.concatenate([own_half[:1], mean_interval(rates - perfect)[1][1:]])
+        mean, half = mean_interval(rates)
+        _, paired_half = mean_interval(rates - perfect)
         share, share_half = ratio_interval(rates, np.broadcast_to(perfect, rates.shape))
-        figures = np.stack([mean, half, share, share_half], axis=-1).reshape(*mean.shape[:2], -1)
+        figures = np.stack([mean, half, paired_half, share, share_half], axis=-1).reshape(*mean.shape[:2], -1)
         columns = [
-            name
+            f"{quantity}_{name}"
             for quantity in QUANTITIES
-            for name in (f"{quantity}_mbps", f"{quantity}_mbps_ci95", f"{quantity}_share", f"{quantity}_share_ci95")
+            for name in ("mbps", "mbps_ci95", "mbps_paired_ci95", "share", "share_ci95")
         ]
         return table_of(
             ("max_power_w", "csi", *columns),
@@ -92,30 +99,29 @@ class RateVersusPower(Experiment):
             for quantity in QUANTITIES
         }
 
-    def picture(self, table: Table) -> Canvas:
-        canvas = Canvas(columns=2, width_in=11.0, height_in=4.8)
-        highest = float(np.max([table.numbers("sum_rate_mbps"), table.numbers("goodput_mbps")]))
-        for panel, quantity, title in zip(
-            canvas.panels,
-            ("sum_rate", "goodput"),
-            ("Sum rate, ideal link adaptation", "Goodput, rates committed per user"),
-            strict=True,
-        ):
+    def picture(self, result: Result) -> Canvas:
+        canvas = Canvas(columns=3, width_in=15.0, height_in=5.0)
+        table = result.table
+        highest = float(np.max([table.numbers(f"{quantity}_mbps") for quantity in QUANTITIES]))
+        for panel, (quantity, title) in zip(canvas.panels, QUANTITIES.items(), strict=True):
             for csi in table.values("csi"):
                 rows = table.where(csi=csi)
                 share = float(rows.numbers(f"{quantity}_share")[-1])
                 panel.curve(
                     rows.numbers("max_power_w"),
                     rows.numbers(f"{quantity}_mbps"),
-                    half_width=rows.numbers(f"{quantity}_mbps_ci95"),
-                    label="perfect CSI" if csi == PERFECT else f"repaired by {csi}: {share:.2%} at full power",
+                    half_width=None if csi == PERFECT else rows.numbers(f"{quantity}_mbps_paired_ci95"),
+                    label="perfect CSI" if csi == PERFECT else f"{csi}: {100 * share:.2f} % of perfect at full power",
                     style=_STYLES.get(str(csi), 3),
                 )
             panel.describe(title, "Power budget (W)", "Achieved on the true channel (Mbit/s)")
             panel.grid()
             panel.limits(y=(0.0, 1.4 * highest))
             panel.legend(place="upper left")
-        canvas.title("Max rate on incomplete channel knowledge, 95 % confidence intervals")
+        canvas.title(
+            f"Max rate on incomplete channel knowledge; {self.scenario.caption(result.draws)}",
+            "Error bars: 95 % confidence interval of the paired difference from perfect CSI",
+        )
         return canvas
 
 

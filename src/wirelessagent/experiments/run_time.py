@@ -24,6 +24,7 @@ from wirelessagent.experiments.statistics import log_log_slope
 from wirelessagent.experiments.table import Table, Value, table_of
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.problem import Problem
+from wirelessagent.model.units import human
 from wirelessagent.pictures.canvas import Canvas
 from wirelessagent.sensing.rayleigh import Rayleigh
 
@@ -76,13 +77,13 @@ class RunTime(Experiment):
         rows: list[tuple[Value, ...]] = []
         for done, (sweep, num_users, num_subcarriers) in enumerate(points, start=1):
             for stage, call in self._stages(num_users, num_subcarriers, seed).items():
-                quartiles = np.percentile(_times_us(call, repeats, self.most_seconds), (50, 25, 75)).tolist()
+                quartiles = np.percentile(_times_ms(call, repeats, self.most_seconds), (50, 25, 75)).tolist()
                 rows.append((sweep, num_users, num_subcarriers, stage, *quartiles))
             if progress is not None:
                 progress(done, len(points))
         columns = (
             "sweep", "num_users", "num_subcarriers", "stage",
-            "time_median_us", "time_lower_quartile_us", "time_upper_quartile_us",
+            "time_median_ms", "time_lower_quartile_ms", "time_upper_quartile_ms",
         )  # fmt: skip
         table = table_of(columns, rows)
         return Result(table=table, findings=self._findings(table), draws=repeats)
@@ -108,41 +109,47 @@ class RunTime(Experiment):
             for sweep in _SWEEPS
         }
 
-    def picture(self, table: Table) -> Canvas:
-        canvas = Canvas(columns=2, width_in=11.0, height_in=4.8)
+    def picture(self, result: Result) -> Canvas:
+        canvas = Canvas(columns=2, width_in=11.0, height_in=5.0)
+        table = result.table
         for panel, (sweep, label) in zip(canvas.panels, _SWEEPS.items(), strict=True):
             for style, stage in enumerate(table.values("stage")):
                 rows = table.where(sweep=sweep, stage=stage)
-                median = rows.numbers("time_median_us")
+                median = rows.numbers("time_median_ms")
                 panel.curve(
                     rows.numbers(f"num_{sweep}"),
                     median,
-                    between=(rows.numbers("time_lower_quartile_us"), rows.numbers("time_upper_quartile_us")),
+                    between=(rows.numbers("time_lower_quartile_ms"), rows.numbers("time_upper_quartile_ms")),
                     label=f"{stage}: ∝ size^{_exponent(table, sweep, stage):.2f}",
                     style=style,
                 )
             held = self.users_held if sweep == "subcarriers" else self.subcarriers_held
             other = "K" if sweep == "subcarriers" else "N"
-            panel.describe(f"{other} = {held}", label, "Time of a call (µs), median and quartiles")
+            panel.describe(f"{other} = {held}", label, "Time of a call (ms), median and quartiles")
             panel.scales(x="log", y="log")
             panel.plain_ticks("x", self.num_subcarriers if sweep == "subcarriers" else self.num_users)
             panel.grid()
             panel.legend(place="upper left")
-        lowest, highest = table.numbers("time_lower_quartile_us").min(), table.numbers("time_upper_quartile_us").max()
+        lowest, highest = table.numbers("time_lower_quartile_ms").min(), table.numbers("time_upper_quartile_ms").max()
         for panel in canvas.panels:
             panel.limits(y=(float(lowest) / 1.5, float(highest) * 40.0))
-        canvas.title("Run time; exponents fitted to the larger half of the sizes")
+        spread = human(Rayleigh().rms_delay_spread_s, "s")
+        canvas.title(
+            "Run time; exponents fitted to the larger half of the sizes",
+            f"{100 * self.loss_rate:g} % random loss, {spread} RMS delay spread, 1 draw at each size, "
+            f"up to {result.draws} calls a point",
+        )
         return canvas
 
 
-def _times_us(call: Callable[[], object], repeats: int, most_seconds: float) -> FloatArray:
-    """Times of up to ``repeats`` calls in µs, after one that is not counted because it may compile."""
+def _times_ms(call: Callable[[], object], repeats: int, most_seconds: float) -> FloatArray:
+    """Times of up to ``repeats`` calls in ms, after one that is not counted because it may compile."""
     call()
     times: list[float] = []
-    while len(times) < repeats and (len(times) < _FEWEST_REPEATS or sum(times) < 1e6 * most_seconds):
+    while len(times) < repeats and (len(times) < _FEWEST_REPEATS or sum(times) < 1e3 * most_seconds):
         start = time.perf_counter()
         call()
-        times.append(1e6 * (time.perf_counter() - start))
+        times.append(1e3 * (time.perf_counter() - start))
     return np.array(times)
 
 
@@ -150,4 +157,4 @@ def _exponent(table: Table, sweep: str, stage: Value) -> float:
     """The exponent of time against size over the larger half of a sweep's sizes."""
     rows = table.where(sweep=sweep, stage=stage)
     half = min(len(rows.rows) // 2, len(rows.rows) - 2)
-    return log_log_slope(rows.numbers(f"num_{sweep}")[half:], rows.numbers("time_median_us")[half:])
+    return log_log_slope(rows.numbers(f"num_{sweep}")[half:], rows.numbers("time_median_ms")[half:])

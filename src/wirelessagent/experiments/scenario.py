@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
+from typing import Literal
 
 from wirelessagent.experiments.draws import Seeds
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.scene import Scene
+from wirelessagent.model.units import human
 from wirelessagent.sensing import loss
 from wirelessagent.sensing.rayleigh import Rayleigh
 
@@ -31,6 +33,16 @@ class Scenario:
         """The cell of a draw, with its true channel, and what is observed of it."""
         scene = self.channel.observe(self.cell, seed=seeds.channel)
         return scene, scene.observe(loss.random(self.loss_rate), seed=seeds.loss)
+
+    def caption(self, draws: int, *, varied: Literal["", "loss", "delay spread"] = "") -> str:
+        """What a figure of so many draws rests on, in a line, but for what varies within the figure."""
+        facts = {
+            "size": f"K × N = {self.channel.num_users} × {self.channel.num_subcarriers}",
+            "loss": f"{100 * self.loss_rate:g} % random loss",
+            "delay spread": f"{human(self.channel.rms_delay_spread_s, 's')} RMS delay spread",
+            "draws": "1 draw" if draws == 1 else f"{draws} draws",
+        }
+        return ", ".join(text for fact, text in facts.items() if fact != varied)
 
     def with_loss(self, loss_rate: float) -> Scenario:
         return dataclasses.replace(self, loss_rate=loss_rate)

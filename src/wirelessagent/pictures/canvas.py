@@ -66,8 +66,8 @@ class Canvas:
         grid: Sequence[Axes] = self.figure.subplots(rows, columns, squeeze=False).ravel().tolist()
         self.panels: tuple[Panel, ...] = tuple(Panel(axes) for axes in grid)
 
-    def title(self, text: str) -> None:
-        self.figure.suptitle(text, fontsize=12)
+    def title(self, *lines: str) -> None:
+        self.figure.suptitle("\n".join(lines), fontsize=12 if len(lines) == 1 else 11)
 
     def save(self, path: Path) -> None:
         """Write the picture as PNG, SVG or PDF by its suffix, whole or not at all."""
