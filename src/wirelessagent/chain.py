@@ -38,13 +38,16 @@ def repair(
     at_s: float | None = None,
     **options: Any,
 ) -> ChannelEstimate:
-    """The current slot's gains, complete. Where nothing is missing, the observation itself and method "none"."""
+    """The current slot's gains, complete. Where nothing is missing, the observation itself and method "none".
+
+    The method is "earlier repair" where the observation is complete because gains were repaired before.
+    """
     if not observation.missing.any() and at_s is None:
         return ChannelEstimate.completing(
             observation,
             gain=observation.current,
             gain_variance=observation.current_noise_variance,
-            method="none",
+            method="none" if observation.measured[-1].all() else "earlier repair",
         )
     chosen = plugins.create("repairer", method, options) if isinstance(method, str) else method
     return cast(Repairer, chosen).repair(observation, at_s=at_s)

@@ -13,6 +13,7 @@ import pytest
 from scipy.io import savemat
 
 import wirelessagent as wa
+from wirelessagent.interfaces.cli import run
 from wirelessagent.model.errors import FileFormatError, InputError
 from wirelessagent.sensing.files import File
 from wirelessagent.sensing.npz import write_npz
@@ -253,8 +254,64 @@ def test_a_repaired_file_is_an_estimate_and_no_truth(tmp_path: Path) -> None:
     variance = np.where(repaired, 0.5, 0.0)
     scene = wa.read(npz(tmp_path, gain=GAIN, gain_variance=variance, repaired=repaired))
     assert scene.truth is None
-    assert "1 entries are marked as repaired" in scene.facts["truth"]
+    assert scene.facts["truth"] == "not known: 1 entry is marked as repaired, so not measured"
     np.testing.assert_array_equal(scene.sensed.noise_variance, variance)
+    np.testing.assert_array_equal(scene.sensed.estimated, repaired)
+    estimate = wa.repair(scene.sensed)
+    assert estimate.method == "earlier repair"
+    np.testing.assert_array_equal(estimate.repaired, repaired)
+    np.testing.assert_array_equal(estimate.gain, GAIN)
+    np.testing.assert_array_equal(estimate.gain_variance, variance)
+    assert not estimate.unobserved_users.any()
+
+
+def test_what_was_repaired_turns_with_the_gains_and_outlives_a_second_loss(tmp_path: Path) -> None:
+    repaired = np.array([[1, 1, 1, 1], [0, 0, 1, 0], [0, 0, 0, 0]])  # no gain of the first user was measured
+    gain = np.arange(1.0, 13.0).reshape(3, 4)
+    path = npz(tmp_path, gain=gain.T, gain_variance=gain.T / 10, repaired=repaired.T)
+    scene = wa.read(path, axes="subcarrier,user")
+    seen = scene.observe(wa.loss.random(0.3), seed=3)
+    lost = seen.missing
+    assert lost.any()
+    estimate = wa.repair(seen, "linear")
+    np.testing.assert_array_equal(estimate.repaired, lost | (repaired == 1))
+    np.testing.assert_array_equal(estimate.gain[~lost], gain[~lost])
+    np.testing.assert_array_equal(estimate.gain_variance[~lost], (gain / 10)[~lost])
+    assert estimate.unobserved_users.tolist() == [True, False, False]
+
+
+def test_a_file_without_a_repaired_entry_is_measured(tmp_path: Path) -> None:
+    scene = wa.read(npz(tmp_path, gain=GAIN, repaired=np.zeros(GAIN.shape, dtype=bool)))
+    assert scene.sensed.estimated is None
+    assert wa.repair(scene.sensed).method == "none"
+
+
+def test_repairs_of_the_history_are_no_repairs_of_the_current_slot() -> None:
+    estimated = np.zeros((2, *GAIN.shape), dtype=bool)
+    estimated[0] = True
+    seen = wa.ChannelObservation(gain=np.stack([GAIN, GAIN]), estimated=estimated)
+    estimate = wa.repair(seen)
+    assert estimate.method == "none"
+    assert not estimate.repaired.any()
+
+
+@pytest.mark.parametrize("estimated", [np.zeros((3, 2), dtype=bool), np.zeros(GAIN.shape)])
+def test_estimated_is_a_switch_for_each_gain(estimated: np.ndarray) -> None:
+    with pytest.raises(InputError, match=r"switches \(bool\) of the gain's shape \(2, 3\); got"):
+        wa.ChannelObservation(gain=GAIN, estimated=estimated)
+
+
+def test_the_command_line_keeps_what_was_repaired(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    gains, repaired, copy = csv(tmp_path, "1e-9,2e-9,,4e-9\n3e-9,,2e-9,1e-9\n"), tmp_path / "r.npz", tmp_path / "c.npz"
+    assert run(["repair", str(gains), "--out", str(repaired)]) == 0
+    assert run(["simulate", "--source", "file", "--path", str(repaired), "--out", str(copy)]) == 0
+    for path in (repaired, copy):
+        capsys.readouterr()
+        assert run(["solve", str(path), "--json"]) == 0
+        record = json.loads(capsys.readouterr().out)
+        assert record["repaired"] == 2
+        assert "2 of 8 gains" in " ".join(record["explanation"])
+        assert not any("No gain was missing" in line for line in record["explanation"])
 
 
 def test_complete_gains_are_taken_as_the_truth_and_it_is_said(tmp_path: Path) -> None:

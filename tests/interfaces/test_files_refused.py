@@ -94,6 +94,7 @@ BAD: dict[str, tuple[str, bytes, dict[str, object], str]] = {
     "infinite dB": ("a.csv", b"1,5000\n", {"unit": "db"}, "infinite, 5000 dB"),
     "infinite square": ("a.npy", npy(GAIN * 1e200 * 1j), {}, "infinite"),
     "complex in dB": ("a.npy", npy(GAIN * 1j), {"unit": "db"}, "complex"),
+    "repaired by half": ("a.npz", npz(gain=GAIN, repaired=GAIN / 2), {}, "neither 0 nor 1"),
     "all missing": ("a.csv", b",\n,NaN\n", {}, "all 4 entries are missing"),
     "all sentinel": ("a.npy", npy(GAIN * 0), {"missing_value": 0.0}, "all 6 entries are missing"),
     "ragged csv": ("a.csv", b"1,2,3\n4,5\n", {}, "line 2 has 2 cells, line 1 has 3"),

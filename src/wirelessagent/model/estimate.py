@@ -20,10 +20,10 @@ class ChannelEstimate:
         gain: estimated linear power gain, shape (user, subcarrier); observed entries are bit-identical to the
             observation.
         gain_variance: variance of the true gain around ``gain``; of observed entries, their measurement noise.
-        repaired: True where the entry was missing.
-        unobserved_users: True for users with no observation at all, whose level is a guess, shape (user,).
+        repaired: True where the entry was not measured: it was missing, or the estimate of an earlier repair.
+        unobserved_users: True for users with no measurement at all, whose level is a guess, shape (user,).
         user_names: one name per user.
-        method: name of the repairer; "none" where nothing was missing.
+        method: name of the repairer; "none" where nothing was missing, "earlier repair" where it was filled before.
         joint_posterior: the joint distribution of the true gains where the repairer knows it.
     """
 
@@ -63,14 +63,15 @@ class ChannelEstimate:
     ) -> ChannelEstimate:
         """The observation's current slot with its holes filled from ``gain``, shape (user, subcarrier).
 
-        Observed entries are taken from the observation, whatever ``gain`` says of them.
+        Observed entries are taken from the observation, whatever ``gain`` says of them; so are those that an earlier
+        repair has estimated, which count as repaired.
         """
-        missing = observation.missing
+        missing, measured = observation.missing, observation.measured
         return cls(
             gain=np.where(missing, gain, observation.current),
             gain_variance=np.where(missing, gain_variance, observation.current_noise_variance),
-            repaired=missing,
-            unobserved_users=np.asarray(np.isnan(observation.slots).all(axis=(0, 2)), dtype=bool),
+            repaired=~measured[-1],
+            unobserved_users=np.asarray(~measured.any(axis=(0, 2))),
             user_names=observation.user_names,
             method=method,
             joint_posterior=joint_posterior,

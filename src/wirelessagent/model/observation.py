@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wirelessagent.model.arrays import BoolArray, FloatArray, float_array
+from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen
 from wirelessagent.model.errors import InputError
 
 
@@ -20,6 +20,8 @@ class ChannelObservation:
             slots the last one is the current one and the others are history.
         noise_variance: variance of the true gain about each measured one, given the measurement; same shape (or a
             scalar), NaN where nothing was measured; None if unknown.
+        estimated: True where the gain is no measurement but the estimate of an earlier repair, whose variance is then
+            in ``noise_variance``; bool, same shape as ``gain``; None if all are measured.
         user_names: one name per user; "user 1" … by default.
         subcarrier_frequencies_hz: centre frequencies, shape (subcarrier,); None if unknown.
         slot_times_s: time of each slot, shape (slot,), increasing; None if unknown.
@@ -27,6 +29,7 @@ class ChannelObservation:
 
     gain: FloatArray
     noise_variance: FloatArray | None = None
+    estimated: BoolArray | None = None
     user_names: tuple[str, ...] = field(default=())
     subcarrier_frequencies_hz: FloatArray | None = None
     slot_times_s: FloatArray | None = None
@@ -45,6 +48,14 @@ class ChannelObservation:
             if not np.all(variance[~np.isnan(gain)] >= 0):
                 raise InputError("noise_variance must be zero or more wherever a gain was observed")
             object.__setattr__(self, "noise_variance", variance)
+        if self.estimated is not None:
+            estimated = np.asarray(self.estimated)
+            if estimated.shape != gain.shape or estimated.dtype != np.bool_:
+                raise InputError(
+                    f"estimated must be switches (bool) of the gain's shape {gain.shape}; "
+                    f"got {estimated.dtype} of shape {estimated.shape}"
+                )
+            object.__setattr__(self, "estimated", frozen(estimated))
         names = tuple(self.user_names) or tuple(f"user {k + 1}" for k in range(self.num_users))
         if len(names) != self.num_users or len(set(names)) != len(names):
             raise InputError(f"user_names must be {self.num_users} different names; got {names}")
@@ -94,6 +105,12 @@ class ChannelObservation:
     def missing(self) -> BoolArray:
         """True where the current slot has no observation, shape (user, subcarrier)."""
         return np.isnan(self.current)
+
+    @property
+    def measured(self) -> BoolArray:
+        """True where a gain is there and was measured, shape (slot, user, subcarrier)."""
+        there = ~np.isnan(self.slots)
+        return there if self.estimated is None else there & ~self.estimated.reshape(there.shape)
 
 
 def check_gain(gain: FloatArray) -> None:

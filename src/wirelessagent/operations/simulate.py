@@ -106,6 +106,7 @@ def scene_arrays(scene: Scene, seen: ChannelObservation) -> tuple[dict[str, Any]
     optional = {
         "truth": scene.truth,
         "noise_variance": seen.noise_variance,
+        "repaired": seen.estimated,
         "subcarrier_frequencies_hz": seen.subcarrier_frequencies_hz,
         "slot_times_s": seen.slot_times_s,
     }

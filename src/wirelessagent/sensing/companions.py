@@ -9,13 +9,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.model.errors import FileFormatError
 from wirelessagent.sensing.formats.contents import Contents, Entry, Kind, sizes
 
 
 def truth_of(
-    contents: Contents, source: Entry, gain: FloatArray, as_gain: Callable[[NDArray[Any]], FloatArray]
+    contents: Contents,
+    source: Entry,
+    gain: FloatArray,
+    estimated: BoolArray | None,
+    as_gain: Callable[[NDArray[Any]], FloatArray],
 ) -> tuple[FloatArray | None, str]:
     """The true channel, if the file knows it, and how: an array ``truth``, else complete gains that were measured."""
     stored = _like(contents, "truth", source, ("real", "complex"))
@@ -26,16 +30,25 @@ def truth_of(
                 f"its truth has {int(np.isnan(truth).sum())} missing entries; the truth must be complete"
             )
         return truth, "from the file's array 'truth'"
-    repaired = _like(contents, "repaired", source, ("switches", "real"))
-    if repaired is not None and np.any(repaired):
-        return (
-            None,
-            f"not known: {int(np.count_nonzero(repaired))} entries are marked as repaired, so they are estimates",
-        )
-    missing = int(np.isnan(gain).sum())
-    if missing:
-        return None, f"not known: {missing} entries are missing"
+    if estimated is not None:
+        return None, f"not known: {_entries(estimated)} marked as repaired, so not measured"
+    missing = np.isnan(gain)
+    if missing.any():
+        return None, f"not known: {_entries(missing)} missing"
     return gain, "the gains are complete; as measured, they are taken as the truth"
+
+
+def estimated_of(
+    contents: Contents, source: Entry, arranged: Callable[[NDArray[Any]], NDArray[Any]]
+) -> BoolArray | None:
+    """True where the gain is the estimate of an earlier repair; None if none of them is."""
+    stored = _like(contents, "repaired", source, ("switches", "real"))
+    if stored is None:
+        return None
+    if not np.all((stored == 0) | (stored == 1)):
+        raise FileFormatError("its repaired has entries that are neither 0 nor 1; write 1 where a gain was repaired")
+    estimated = arranged(stored) == 1
+    return estimated if estimated.any() else None
 
 
 def noise_variance_of(
@@ -99,3 +112,9 @@ def _numbers(entry: Entry) -> NDArray[Any]:
     if entry.kind != "real":
         raise FileFormatError(f"{entry} must hold real numbers")
     return entry.read()
+
+
+def _entries(which: BoolArray) -> str:
+    """How many entries these are, and the verb."""
+    count = int(np.count_nonzero(which))
+    return "1 entry is" if count == 1 else f"{count} entries are"

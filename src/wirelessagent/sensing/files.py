@@ -32,7 +32,13 @@ from wirelessagent.model.scene import Scene
 from wirelessagent.model.units import human
 from wirelessagent.sensing.array_choice import COMPANIONS, choose, listed
 from wirelessagent.sensing.axes import Axes
-from wirelessagent.sensing.companions import axis_values_of, noise_variance_of, truth_of, user_names_of
+from wirelessagent.sensing.companions import (
+    axis_values_of,
+    estimated_of,
+    noise_variance_of,
+    truth_of,
+    user_names_of,
+)
 from wirelessagent.sensing.file_metadata import metadata_of, stated_cell, stated_frequencies_hz, stated_slot_times_s
 from wirelessagent.sensing.formats.contents import Contents, Entry, check_size
 from wirelessagent.sensing.formats.signature import Format, recognise
@@ -123,7 +129,9 @@ class File(ChannelSource):
             facts["not used"] = listed(unused)
         cell = stated_cell(cell, metadata, facts)
         sensed = _observation(contents, entry, gain, scale, arranged, cell, metadata, facts)
-        truth, facts["truth"] = truth_of(contents, entry, gain, lambda stored: scale.gain(arranged(stored)))
+        truth, facts["truth"] = truth_of(
+            contents, entry, gain, sensed.estimated, lambda stored: scale.gain(arranged(stored))
+        )
         return Scene(cell=cell, sensed=sensed, truth=truth, facts=facts)
 
 
@@ -193,6 +201,7 @@ def _observation(
     return ChannelObservation(
         gain=gain,
         noise_variance=variance,
+        estimated=estimated_of(contents, entry, arranged),
         user_names=names,
         subcarrier_frequencies_hz=frequencies_hz,
         slot_times_s=times_s,
