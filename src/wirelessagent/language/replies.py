@@ -132,7 +132,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "help": "我为小区分配子载波和功率。{offers}",
         "out_of_scope": "这超出了我的范围：我为小区分配子载波和功率。{offers}",
         "unsupported": "我不能控制{text}。{offers}",
-        "offers": "您可以要求{choices}，并附上限制，如 10 W、40 dBm、每用户 1 Mbit/s 或 5 % 中断概率。",
+        "offers": "您可以要求{choices}，并附上限制，如 10 W、40 dBm 或每用户 1 Mbit/s。",
         "restated_alone": "", "restated_limits": "，", "or": "还是", "either": "或", "comma": "、", "and": "和",
     },
 }  # fmt: skip
