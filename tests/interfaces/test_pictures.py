@@ -27,8 +27,9 @@ WATER_LEVEL_W = 1.5
 
 
 def a_run(
-    num_users=8, num_subcarriers=20, *, loss=0.2, status="optimal", applied=True, min_rate_bps=None, user_names=()
-):
+    num_users=8, num_subcarriers=20, *, loss=0.2, status="optimal", applied=True, min_rate_bps=None, user_names=(),
+    cell=CELL, water_level_w=WATER_LEVEL_W,
+):  # fmt: skip
     """The objects of a run with a true water level on random gains, by hand: pictures need no solver."""
     rng = np.random.default_rng(num_users * 1000 + num_subcarriers)
     truth = 1e-10 * rng.exponential(size=(num_users, num_subcarriers)) * 10.0 ** rng.uniform(-1, 1, (num_users, 1))
@@ -36,18 +37,18 @@ def a_run(
     observation = ChannelObservation(gain=np.where(holes, np.nan, truth), user_names=user_names)
     estimate = ChannelEstimate.completing(observation, gain=1.3 * truth, gain_variance=np.square(truth), method="nncf")
     owner = estimate.gain.argmax(axis=0)
-    power_w = np.maximum(WATER_LEVEL_W - 1.0 / normalised_gain(estimate.gain.max(axis=0), CELL), 0.0)
-    if status == "infeasible":
+    power_w = np.maximum(water_level_w - 1.0 / normalised_gain(estimate.gain.max(axis=0), cell), 0.0)
+    if status not in ("optimal", "feasible"):
         owner, power_w = np.full_like(owner, -1), np.zeros_like(power_w)
-    rate = user_rate_bps(estimate.gain, owner, power_w, CELL)
+    rate = user_rate_bps(estimate.gain, owner, power_w, cell)
     decision = Decision(
         owner=owner, power_w=power_w, rate_bps=rate, status=status, value=1.0, bound=1.0, gap=0.0, unit="bit/s",
-        method="water_filling", problem=Problem(MaxRate(), min_rate_bps=min_rate_bps), cell=CELL,
-        user_names=observation.user_names, reason="needs at least 43.2 W" if status == "infeasible" else "",
+        method="water_filling", problem=Problem(MaxRate(), min_rate_bps=min_rate_bps), cell=cell,
+        user_names=observation.user_names, reason="" if status in ("optimal", "feasible") else "needs at least 43.2 W",
     )  # fmt: skip
     outcome = None
     if applied and decision.is_usable:
-        achieved = link_metrics(truth, owner, power_w, CELL, committed_bps=rate)
+        achieved = link_metrics(truth, owner, power_w, cell, committed_bps=rate)
         outcome = Outcome(base_station="simulated", owner=owner, power_w=power_w, promised_bps=rate, achieved=achieved)
     return {"observation": observation, "estimate": estimate, "decision": decision, "outcome": outcome}
 
@@ -130,6 +131,20 @@ def test_bars_are_the_powers_and_the_line_is_the_water_level():
     assert "water level 1.5 W" in texts(canvas)
 
 
+@pytest.mark.parametrize(("water_level_w", "unit", "scale"), [(1.5e-3, "mW", 1e-3), (4e-5, "µW", 1e-6)])
+def test_small_powers_take_a_prefix(water_level_w, unit, scale):
+    quiet = Cell(noise_psd_w_per_hz=CELL.noise_psd_w_per_hz / 1e6)
+    run = a_run(cell=quiet, water_level_w=water_level_w)
+    canvas = chain_canvas(**run)
+    panel = canvas.panels[2].axes
+
+    assert panel.get_ylabel() == f"Power ({unit})"
+    assert heights(panel, 20) == pytest.approx(run["decision"].power_w / scale, rel=1e-12)
+    assert panel.lines[0].get_ydata()[0] == pytest.approx(water_level_w / scale, rel=1e-9)
+    assert f"water level {water_level_w / scale:.3g} {unit}" in texts(canvas)
+    assert f"Decided by water_filling: {run['decision'].total_power_w / scale:.3g} {unit}" in texts(canvas)
+
+
 def test_the_strip_shows_the_owner_of_every_subcarrier():
     run = a_run()
     panel = chain_canvas(**run).panels[2].axes
@@ -170,11 +185,49 @@ def test_without_an_outcome_nothing_is_called_achieved():
     assert not any("achieved" in text for text in shown)
 
 
-def test_an_infeasible_decision_says_so_and_why():
-    shown = texts(chain_canvas(**a_run(status="infeasible", min_rate_bps=3e6)))
+@pytest.mark.parametrize("status", ["infeasible", "undecided"])
+def test_without_an_allocation_the_reason_stands_where_the_powers_would(status):
+    canvas = chain_canvas(**a_run(status=status, min_rate_bps=3e6))
+    allocation, rates = (panel.axes for panel in canvas.panels[2:])
+    shown = texts(canvas)
 
-    assert "infeasible: needs at least 43.2 W" in shown
-    assert "Decided by water_filling: infeasible" in shown
+    assert f"{status}: needs at least 43.2 W" in shown
+    assert f"Decided by water_filling: {status}" in shown
+    assert not allocation.axison, "an axis without data says nothing"
+    assert "minimum" in shown
+    assert "predicted" not in shown
+    assert not rates.patches
+
+
+def test_without_an_allocation_or_a_wanted_rate_no_axis_is_drawn():
+    canvas = chain_canvas(**a_run(status="undecided"))
+
+    assert not any(panel.axes.axison for panel in canvas.panels[2:])
+    assert "No rate was asked for" in texts(canvas)
+
+
+@pytest.mark.parametrize(("num_users", "step"), [(17, 2), (20, 2), (40, 5), (64, 10)])
+def test_many_users_are_counted_evenly(num_users, step):
+    canvas = chain_canvas(**a_run(num_users, 5, user_names=tuple(f"device {k}" for k in range(num_users))))
+    numbers = list(range(step, num_users + 1, step))
+
+    for axis in (canvas.panels[0].axes.yaxis, canvas.panels[1].axes.yaxis, canvas.panels[3].axes.xaxis):
+        assert [text.get_text() for text in axis.get_ticklabels()] == [str(number) for number in numbers]
+        assert axis.get_ticklocs().tolist() == [number - 1 for number in numbers]
+        assert axis.get_label_text() == "User (number)"
+    assert not any("device" in text for text in texts(canvas)), "a name that no axis shows"
+
+
+def test_up_to_sixteen_users_are_named_without_touching():
+    canvas = chain_canvas(**a_run(16, 5))
+    canvas.figure.draw_without_rendering()
+    axes = canvas.panels[3].axes
+    labels = axes.get_xticklabels()
+    apart = np.diff([label.get_window_extent().x1 for label in labels]).min()
+    line_height = axes.yaxis.get_ticklabels()[0].get_window_extent().height
+
+    assert [label.get_text() for label in labels] == [f"user {k}" for k in range(1, 17)]
+    assert apart * np.sin(np.deg2rad(labels[0].get_rotation())) > line_height
 
 
 def test_names_that_the_font_cannot_show_become_numbers():

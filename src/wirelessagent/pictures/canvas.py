@@ -106,11 +106,12 @@ class Panel:
     def ticks(
         self, axis: Literal["x", "y"], at: Sequence[float], labels: Sequence[str], *, slanted: bool = False
     ) -> None:
-        """Ticks with these labels and no others, in between neither."""
+        """Ticks with these labels and no others, in between neither; slanted ones end at their tick."""
         if axis == "x":
             self.axes.set_xticks(
-                list(at), list(labels), rotation=30 if slanted else 0, ha="right" if slanted else "center"
-            )
+                list(at), list(labels), rotation=45 if slanted else 0, ha="right" if slanted else "center",
+                rotation_mode="anchor" if slanted else "default",
+            )  # fmt: skip
             self.axes.set_xticks([], minor=True)
         else:
             self.axes.set_yticks(list(at), list(labels))
@@ -240,7 +241,8 @@ class Panel:
         self.axes.bar([np.nan], [np.nan], color=colour, edgecolor="#333333", linewidth=0.4, label=label)
 
     def note(self, text: str) -> None:
-        """Text in the middle of the panel."""
+        """Text in the middle of a panel that has nothing to draw, instead of its axes."""
+        self.axes.set_axis_off()
         self.axes.text(
             0.5, 0.5, text, transform=self.axes.transAxes, ha="center", va="center", fontsize=10,
             bbox={"boxstyle": "round,pad=0.5", "facecolor": "white", "edgecolor": "#8A8A8A"},

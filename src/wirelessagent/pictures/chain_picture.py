@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -13,16 +14,18 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.rates import normalised_gain, owned_gain
-from wirelessagent.model.units import db
+from wirelessagent.model.units import db, human
 from wirelessagent.pictures.canvas import GREY, PALETTE, Canvas, Panel, can_show, check_suffix
 
 _MOST_NAMED = 16
-"""Users up to which every one gets a tick."""
+"""Users up to which every one gets a tick with its name; more are counted."""
 
 _PREDICTED, _ACHIEVED = "#C4C4C4", "#5A5A5A"
 """Greys, because the colours beside are the users'."""
 
 _ZERO_DB = -4000.0
+
+_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 _SMALLEST_DOTTED_CELL_PT = 5.0
 
@@ -56,7 +59,8 @@ def chain_canvas(
 
     The sensed gains with their holes, the repaired ones with the repaired entries marked, owner and power of each
     subcarrier, and each user's predicted rate beside the achieved one. Subcarriers are counted from 1, and so are
-    users whose names the font cannot show.
+    users whose names the font cannot show, or who are too many to be named on an axis. Where nothing is allocated, the
+    panel of the powers has the reason instead, and that of the rates only what was asked for.
     """
     canvas = Canvas(rows=2, columns=2, width_in=11.0, height_in=7.4)
     sensed, repaired, allocation, rates = canvas.panels
@@ -65,20 +69,26 @@ def chain_canvas(
     lowest, highest, clipped = _colour_limits(estimate_db)
     for panel, gain_db in ((sensed, sensed_db), (repaired, estimate_db)):
         panel.matrix(gain_db, limits=(lowest, highest), clipped=clipped, colour_label="Power gain (dB)")
-        _user_ticks(panel, "y", names)
         _subcarrier_ticks(panel, estimate.num_subcarriers)
     lost = np.count_nonzero(observation.missing)
     share = lost / observation.missing.size
-    sensed.describe(f"Sensed: {lost} of {observation.missing.size} gains missing ({share:.0%})", "Subcarrier", "")
+    sensed.describe(
+        f"Sensed: {lost} of {observation.missing.size} gains missing ({share:.0%})",
+        "Subcarrier",
+        _user_ticks(sensed, "y", names),
+    )
     mark = _mark_repaired(repaired, estimate)
-    repaired.describe(f"Repaired by {estimate.method} ({mark})" if lost else "Nothing to repair", "Subcarrier", "")
+    title = f"Repaired by {estimate.method} ({mark})" if lost else "Nothing to repair"
+    repaired.describe(title, "Subcarrier", _user_ticks(repaired, "y", names))
     _draw_allocation(allocation, estimate, decision, names)
     _draw_rates(rates, decision, outcome, names)
     return canvas
 
 
 def _labels(user_names: tuple[str, ...]) -> list[str]:
-    """Names short enough for a tick and within the font's characters; else the user's number."""
+    """Names short enough for a tick and within the font's characters; else, or if they are many, the user's number."""
+    if len(user_names) > _MOST_NAMED:
+        return [f"user {k}" for k in range(1, len(user_names) + 1)]
     return [
         textwrap.shorten(name, 14, placeholder="…") if can_show(name) and len(name.split(" ")[0]) < 14 else f"user {k}"
         for k, name in enumerate(user_names, start=1)
@@ -101,21 +111,30 @@ def _colour_limits(gain_db: FloatArray) -> tuple[float, float, bool]:
     return (lowest, highest, clipped) if highest > lowest else (highest - 1.0, highest + 1.0, clipped)
 
 
-def _user_ticks(panel: Panel, axis: str, names: list[str]) -> None:
-    step = max(1, -(-len(names) // _MOST_NAMED))
-    shown = range(0, len(names), step)
-    slanted = axis == "x" and max(len(names[k]) for k in shown) * len(shown) > 56
-    panel.ticks("y" if axis == "y" else "x", list(shown), [names[k] for k in shown], slanted=slanted)
+def _user_ticks(panel: Panel, axis: Literal["x", "y"], names: list[str]) -> str:
+    """A tick with each user's name, or, where they are too many, even ticks with numbers; the label of the axis."""
+    count = len(names)
+    if count > _MOST_NAMED:
+        step = _step(count, most_ticks=10)
+        numbers = range(step, count + 1, step)
+        panel.ticks(axis, [k - 1 for k in numbers], [str(k) for k in numbers])
+        return "User (number)"
+    panel.ticks(axis, range(count), names, slanted=axis == "x" and max(map(len, names)) * count > 56)
+    return ""
 
 
 def _subcarrier_ticks(panel: Panel, num_subcarriers: int) -> None:
-    """Ticks at subcarriers 1, 1 + step, …, counted from 1."""
-    steps = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
-    step = next((step for step in steps if num_subcarriers / step <= 8), 5000)
+    """Ticks at subcarriers 1, step, 2 step, …, counted from 1."""
+    step = _step(num_subcarriers, most_ticks=8)
     numbers = sorted({1, *range(step, num_subcarriers + 1, step)})
     if step > 1 and len(numbers) > 1 and numbers[1] - 1 <= step / 2:
         del numbers[1]
     panel.ticks("x", [n - 1 for n in numbers], [str(n) for n in numbers])
+
+
+def _step(count: int, *, most_ticks: int) -> int:
+    """The smallest of the steps 1, 2, 5, 10, … with which so many ticks are enough."""
+    return next((step for step in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if count / step <= most_ticks), 5000)
 
 
 def _mark_repaired(panel: Panel, estimate: ChannelEstimate) -> str:
@@ -136,25 +155,28 @@ def _draw_allocation(panel: Panel, estimate: ChannelEstimate, decision: Decision
 
     A strip below shows the owner where the power is too little to be seen.
     """
-    verdict = f"{decision.total_power_w:.3g} W" if decision.is_usable else decision.status
-    panel.describe(f"Decided by {decision.method}: {verdict}", "Subcarrier (strip: its owner)", "Power (W)")
+    verdict = human(decision.total_power_w, "W") if decision.is_usable else decision.status
+    title = f"Decided by {decision.method}: {verdict}"
+    level = _water_level_w(estimate, decision)
+    tallest = max(float(decision.power_w.max()), level or 0.0)
+    scale, unit = _scale(tallest, "W")
+    panel.describe(title, "Subcarrier (strip: its owner)", f"Power ({unit})")
+    if not decision.is_usable or tallest == 0:
+        reason = f"{decision.status}: {decision.reason}" if not decision.is_usable else "No power is radiated"
+        panel.note(textwrap.fill(reason, 48))
+        return
     _subcarrier_ticks(panel, decision.owner.size)
     panel.limits(x=(-0.7, decision.owner.size - 0.3))
-    if not decision.is_usable:
-        panel.note(textwrap.fill(f"{decision.status}: {decision.reason}", 48))
-    if not np.any(decision.power_w > 0):
-        return
     colours = _owner_colours(panel, decision, names)
     subcarriers, owners = np.arange(decision.owner.size), decision.owner.tolist()
     own = [colours.get(owner, GREY) for owner in owners]
-    panel.bars(subcarriers, decision.power_w, width=0.8, colour=own)
+    panel.bars(subcarriers, decision.power_w / scale, width=0.8, colour=own)
     entries = len(colours) if len(colours) <= len(PALETTE) else 0
     for owner, colour in list(colours.items())[:entries]:
         panel.swatch(colour, names[owner])
-    level = _water_level_w(estimate, decision)
     if level is not None:
-        panel.level(level, label=f"water level {level:.3g} W")
-    _headroom(panel, max(float(decision.power_w.max()), level or 0.0), entries=entries + (level is not None), columns=3)
+        panel.level(level / scale, label=f"water level {human(level, 'W')}")
+    _headroom(panel, tallest / scale, entries=entries + (level is not None), columns=3)
     panel.strip(subcarriers, [colours.get(owner, "white") for owner in owners], below=-0.05 * panel.top())
 
 
@@ -193,29 +215,37 @@ def _draw_rates(panel: Panel, decision: Decision, outcome: Outcome | None, names
     wanted = decision.problem.min_rates_bps(len(names))
     known = [decision.rate_bps, wanted] + ([] if achieved is None else [achieved.user_rate_bps])
     tallest = np.max(known, axis=0)
-    scale, unit = _rate_scale(float(tallest.max()))
-    offset = 0.0 if achieved is None else 0.2
-    width = 0.8 - 2 * offset
-    panel.bars(users - offset, decision.rate_bps / scale, width=width, colour=_PREDICTED, label="predicted")
-    if achieved is not None and outcome is not None:
-        panel.bars(users + offset, achieved.user_rate_bps / scale, width=width, colour=_ACHIEVED, label="achieved")
+    scale, unit = _scale(float(tallest.max()), "bit/s")
+    if not decision.is_usable:
+        title = "Rates asked for; nothing is allocated"
+    else:
+        title = "Predicted rates" if achieved is None else "Predicted and achieved rates"
+        _draw_rate_bars(panel, decision, outcome, scale)
+    panel.describe(title, _user_ticks(panel, "x", names), f"Rate ({unit})")
+    if tallest.max() == 0:
+        panel.note("No rate was asked for" if not decision.is_usable else "No user gets a rate")
+        return
+    if achieved is not None and outcome is not None and outcome.missed.any():
         missed = np.flatnonzero(outcome.missed)
         heights = (tallest[missed] + 0.04 * tallest.max()) / scale
-        if missed.size:
-            panel.marks(missed, heights, size_pt=6, shape="X", colour=PALETTE[1], label="missed")
+        panel.marks(missed, heights, size_pt=6, shape="X", colour=PALETTE[1], label="missed")
     if np.any(wanted > 0):
         panel.segments(users - 0.45, users + 0.45, wanted / scale, label="minimum")
-    title = "Predicted rates" if achieved is None else "Predicted and achieved rates"
-    if not decision.is_usable:
-        title = "No rates: nothing is allocated"
-    panel.describe(title, "", f"Rate ({unit})")
-    _user_ticks(panel, "x", names)
     panel.limits(x=(-0.7, len(names) - 0.3))
     _headroom(panel, float(tallest.max()) / scale, entries=4, columns=4)
 
 
-def _rate_scale(largest_bps: float) -> tuple[float, str]:
-    for scale, unit in ((1e9, "Gbit/s"), (1e6, "Mbit/s"), (1e3, "kbit/s")):
-        if largest_bps >= scale:
-            return scale, unit
-    return 1.0, "bit/s"
+def _draw_rate_bars(panel: Panel, decision: Decision, outcome: Outcome | None, scale: float) -> None:
+    """A bar for each user's predicted rate and, where known, one for the achieved rate beside it."""
+    achieved = None if outcome is None else outcome.achieved
+    users = np.arange(decision.rate_bps.size)
+    offset = 0.0 if achieved is None else 0.2
+    width = 0.8 - 2 * offset
+    panel.bars(users - offset, decision.rate_bps / scale, width=width, colour=_PREDICTED, label="predicted")
+    if achieved is not None:
+        panel.bars(users + offset, achieved.user_rate_bps / scale, width=width, colour=_ACHIEVED, label="achieved")
+
+
+def _scale(largest: float, unit: str) -> tuple[float, str]:
+    """The power of 1000 to divide an axis of values up to ``largest`` by, and the unit with its SI prefix."""
+    return next(((scale, prefix + unit) for scale, prefix in _PREFIXES if largest >= scale), (1.0, unit))
