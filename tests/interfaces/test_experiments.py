@@ -241,8 +241,8 @@ def test_draws_that_minimum_power_cannot_serve_are_counted_and_leave_its_means_a
 
 
 def test_the_title_tells_allocations_found_from_rates_kept():
-    modes = EXPERIMENTS["modes"]
-    result = modes.run(draws=30, seed=1)
+    modes = Modes(min_rate_bps=2e6)
+    result = modes.run(draws=20, seed=1)
     least = result.table.where(strategy="min power")
     found, kept = least.numbers("served_share")[0], least.numbers("users_at_min_rate_share")[0]
     title = modes.picture(result).figure.get_suptitle()
