@@ -47,8 +47,9 @@ class Method(ABC):
             )
         surplus = problem.constraints().keys() - self.constraints - {"max_power_w"}
         if surplus:
+            them = "it" if len(surplus) == 1 else "them"
             raise UnsupportedProblemError(
                 f"method {self.name!r} does not honour {', '.join(sorted(surplus))}: "
-                "leave them out or name another method"
+                f"leave {them} out or name another method"
             )
         return objective

@@ -43,7 +43,7 @@ class Decision:
         bound: the best value that any allocation can reach on the estimated channel; NaN if the method has none.
         gap: \\|value − bound\\| / \\|bound\\|; 0/0 is 0; NaN without a bound.
         unit: the unit of ``value`` and ``bound``.
-        reason: one sentence on why it is infeasible or undecided; empty otherwise.
+        reason: one sentence on why it is infeasible or undecided, or on what else to know of it; empty otherwise.
         price_of_power: change of the best value per extra watt, in the value's unit per W; NaN if not known.
         price_of_rate: change of the best value per extra bit/s promised to each user, shape (user,);
             empty if not known.
