@@ -15,6 +15,7 @@ from scipy.special import lambertw
 
 import wirelessagent as wa
 from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.decision import Bracket
 from wirelessagent.model.errors import InputError, UnsupportedProblemError
 from wirelessagent.testing.channels import known, rayleigh_gain
 
@@ -223,6 +224,48 @@ def test_impossible_rates_are_proven_so(
     assert np.isnan(decision.value)
 
 
+@pytest.mark.parametrize(
+    ("gain", "limits", "words"),
+    [
+        (np.array([[0.0, 0.0], [1e-8, 1e-8]]), {"min_rate_bps": [1e3, 0.0]}, "user 1 is promised a rate, but no sub"),
+        (np.array([[0.0, 1e-8], [0.0, 1e-8]]), {"min_rate_bps": 1e3}, "with 1 usable subcarrier only 1 of them"),
+        (np.zeros((2, 2)), {"min_rate_bps": 1e3}, "with 0 usable subcarriers none of them"),
+        (np.full((2, 3), 1e-8), {"min_rate_bps": 1e6, "subcarrier_max_power_w": 1e-3}, "add up to 2 Mbit/s, but"),
+    ],
+)
+def test_why_no_power_is_enough(gain: FloatArray, limits: dict[str, FloatArray], words: str) -> None:
+    decision = wa.decide(known(gain), wa.Problem("min_power", **limits), wa.Cell())
+    assert decision.status == "infeasible"
+    assert words in decision.reason
+    assert decision.needed_power_w == Bracket(at_least=np.inf, at_most=np.inf)
+
+
+@pytest.mark.parametrize("method", ["exclusive_sets", "paper_inversion", "equal_power", "round_robin"])
+@pytest.mark.parametrize("rate_bps", [2e7, 1e8, 2e8])
+def test_rates_far_beyond_the_budget_are_proven_impossible(rate_bps: float, method: str) -> None:
+    """At least what one user with the best gains needs for them all: ln v = (R − Σ ln a)/N and P = N v − Σ 1/a."""
+    gain, cell = rayleigh_gain(8, 20, seed=0)[0], wa.Cell()
+    best = snr_of(gain, cell).max(axis=0)
+    nats = 8 * rate_bps / cell.subcarrier_bandwidth_hz * np.log(2)
+    needed_w = 20 * np.exp((nats - np.log(best).sum()) / 20) - (1 / best).sum()
+    decision = wa.decide(known(gain), wa.Problem("min_power", min_rate_bps=rate_bps, max_power_w=1), cell, method)
+    assert decision.status == "infeasible"
+    assert needed_w * (1 - 1e-9) <= decision.needed_power_w.at_least < needed_w * 1e3
+    assert decision.rate_scaling.at_most * 8 * rate_bps <= most_rate(best, 1.0, cell) * (1 + 1e-9)
+    assert "need more than 1e12 W on this channel, more than the budget of 1 W" in decision.reason
+
+
+def test_one_user_with_a_huge_rate_is_bounded_as_if_alone() -> None:
+    """The others need next to nothing, but one price for all would let the strong ones carry the rate."""
+    gain = rayleigh_gain(4, 6, seed=3)[0] * np.array([[1e-4], [1.0], [1.0], [1.0]])
+    rate = np.array([6e6, 1.0, 1.0, 1.0])
+    cell = wa.Cell()
+    alone_w = power_of(snr_of(gain, cell)[0], rate[0], cell)
+    decision = wa.decide(known(gain), wa.Problem("min_power", min_rate_bps=rate, max_power_w=1), cell)
+    assert decision.status == "infeasible"
+    assert decision.needed_power_w.at_least >= alone_w * (1 - 1e-9)
+
+
 def test_paper_inversion_is_the_papers_formula() -> None:
     """Eq. (10) on sets without overlap: two users, four subcarriers, both best on the same two."""
     gain = np.array([[8.0, 6.0, 2.0, 1.0], [8.0, 7.0, 4.0, 3.0]]) * 1e-11
@@ -253,6 +296,17 @@ def test_price_of_power_predicts_a_little_more(objective: str, budget_w: float) 
     less, more = (wa.decide(estimate, wa.Problem(objective, max_power_w=budget_w * (1 + step))) for step in (-1e-4, 0))
     slope = (more.value - less.value) / (1e-4 * budget_w)
     assert slope == pytest.approx(more.price_of_power, rel=1e-3, abs=1e-6 * more.value / budget_w)
+
+
+@pytest.mark.parametrize("link", CELLS)
+@pytest.mark.parametrize("seed", range(4))
+def test_power_costs_nothing_where_the_budget_does_not_bind(seed: int, link: str) -> None:
+    estimate = known(rayleigh_gain(8, 20, seed=seed)[0])
+    free = wa.decide(estimate, wa.Problem("max_energy_efficiency"), CELLS[link])
+    assert free.total_power_w < 20
+    assert free.price_of_power == 0
+    problem = wa.Problem("max_energy_efficiency", max_power_w=0.5 * free.total_power_w)
+    assert wa.decide(estimate, problem, CELLS[link]).price_of_power > 0
 
 
 @pytest.mark.parametrize("rate_bps", [1e3, 3e5])
@@ -303,6 +357,8 @@ def test_without_circuit_power_the_efficiency_is_its_supremum(budget_w: float) -
     supremum = snr_of(gain, cell).max() * cell.subcarrier_bandwidth_hz / np.log(2)
     assert decision.status == "optimal"
     assert supremum * (1 - 1e-11) <= decision.value <= supremum
+    assert "only approached" in decision.reason
+    assert not wa.decide(known(gain), wa.Problem("max_energy_efficiency", max_power_w=budget_w)).reason
 
 
 def test_more_users_do_not_own_what_they_may_not() -> None:
@@ -323,8 +379,10 @@ def test_equal_power_radiates_what_it_is_told() -> None:
 
 def test_what_is_not_exact_is_refused() -> None:
     estimate = known(rayleigh_gain(2, 4, seed=2)[0])
-    with pytest.raises(UnsupportedProblemError, match="does not honour weights"):
+    with pytest.raises(UnsupportedProblemError, match="does not honour weights: leave it out or"):
         wa.decide(estimate, wa.Problem("max_rate", weights=[1.0, 2.0]))
+    with pytest.raises(UnsupportedProblemError, match="min_rate_bps, weights: leave them out or"):
+        wa.decide(estimate, wa.Problem("max_rate", weights=[1.0, 2.0], min_rate_bps=1.0), method="water_filling")
     with pytest.raises(InputError, match="shape"):
         wa.decide(estimate, wa.Problem("max_rate", forbidden=np.zeros((4, 2), dtype=bool)))
     with pytest.raises(InputError, match="counted from 0"):

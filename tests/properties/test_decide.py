@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import wirelessagent as wa
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.rates import user_rate_bps
-from wirelessagent.testing.channels import known
+from wirelessagent.testing.channels import known, rayleigh_gain
 
 METHODS = {
     "max_rate": ("water_filling", "paper_bisection", "equal_power", "round_robin"),
@@ -209,6 +209,28 @@ def test_one_user_round_trip(gain: FloatArray, budget_w: float, link: wa.Cell) -
     assert back.value == pytest.approx(best.total_power_w, rel=1e-9)
     assert back.rate_scaling is not None
     assert back.rate_scaling.at_least == pytest.approx(1.0, rel=1e-5)
+
+
+@pytest.mark.parametrize("method", METHODS["min_power"])
+@pytest.mark.parametrize("link", range(len(CELLS)))
+def test_from_one_bit_to_a_petabit_per_second(method: str, link: int) -> None:
+    """Once infeasible always infeasible, more power and less scaling step by step, and brackets the right way round."""
+    gain = rayleigh_gain(8, 20, seed=link)[0]
+    impossible, needed_w, most_bps = False, 0.0, np.inf
+    for rate_bps in np.concatenate([10.0 ** np.arange(0, 5), 10.0 ** np.arange(5, 10, 0.5), 10.0 ** np.arange(10, 16)]):
+        decision = solve(gain, "min_power", method, CELLS[link], max_power_w=1.0, min_rate_bps=rate_bps)
+        needed, scaling = decision.needed_power_w, decision.rate_scaling
+        assert needed is not None
+        assert scaling is not None
+        assert needed.at_least > 0
+        assert not needed.at_least > needed.at_most * (1 + 1e-9)
+        assert 0 <= scaling.at_least <= scaling.at_most * (1 + 1e-9) < np.inf
+        assert needed.at_least >= needed_w * (1 - 1e-9)
+        assert scaling.at_most * rate_bps <= most_bps * 1.05
+        assert decision.status == "infeasible" or not impossible
+        impossible, needed_w = decision.status == "infeasible", needed.at_least
+        most_bps = min(most_bps, scaling.at_most * rate_bps)
+    assert impossible
 
 
 @given(gain=gains(), rate_bps=st.floats(1e3, 1e6), factor=st.floats(1.01, 3.0), link=st.sampled_from(CELLS))

@@ -20,6 +20,7 @@ Allocate = Callable[[FloatArray], tuple[IntArray, FloatArray]]
 
 _BUDGET_ROUNDING = 1e-10
 _PROOF_ROUNDING = 1e-9
+_MOST_TOLD_W = 1e12
 _SCALING_ACCURACY = 1e-6
 _BISECTIONS = 40
 
@@ -36,15 +37,13 @@ def least_power_decision(form: NormalForm, allocate: Allocate) -> Decision:
     reason, most = ("", np.inf) if np.isfinite(found) else shortage(form)
     fits = found <= form.budget_w * (1.0 + _BUDGET_ROUNDING)
     at_most = min(proof.max_scaling, most)
-    figures["needed_power_w"] = Bracket(
-        at_least=np.inf if reason else proof.needed_w, at_most=found if np.isfinite(found) else np.nan
-    )
+    figures["needed_power_w"] = _needed(proof, reason, found)
     figures["rate_scaling"] = Bracket(
         at_least=_largest_scaling(form, allocate, 1.0 if fits else 0.0, at_most), at_most=at_most
     )
     if fits:
         return certified(form, owner, power_w, proof.needed_w, **figures)
-    tried = f"what was found needs {human(found, 'W')}" if np.isfinite(found) else "no sets that carry them were found"
+    tried = f"what was found needs {_told(found)}" if np.isfinite(found) else "no sets that carry them were found"
     return _not_kept(form, proof, reason, tried, figures)
 
 
@@ -64,7 +63,7 @@ def fixed_power_decision(form: NormalForm, owner: IntArray, power_w: FloatArray,
     proof = prove(form)
     reason, most = ("", np.inf) if met else shortage(form)
     figures = _figures(form, proof)
-    figures["needed_power_w"] = Bracket(at_least=np.inf if reason else proof.needed_w, at_most=found if met else np.nan)
+    figures["needed_power_w"] = _needed(proof, reason, found if met else np.inf)
     share = float(np.min(rate[bearing] / promised[bearing]))
     figures["rate_scaling"] = Bracket(at_least=share, at_most=min(proof.max_scaling, most))
     if form.objective.name == "min_power":
@@ -86,21 +85,31 @@ def _not_kept(
     """Infeasible where that is proven, else undecided; ``tried`` says how far the allocation came."""
     least = np.inf if shortage else proof.needed_w
     bound = least if form.objective.name == "min_power" else bound
-    budget, needed = human(form.budget_w, "W"), human(proof.needed_w, "W")
+    budget = human(form.budget_w, "W")
     figures["price_of_power"] = np.nan
     if shortage:
         figures["reason"] = shortage
         return nothing(form, "infeasible", bound, **figures)
     if least > form.budget_w * (1.0 + _PROOF_ROUNDING):
-        figures["reason"] = (
-            f"the promised rates need at least {needed} on this channel, more than the budget of {budget}"
-        )
+        needed = _told(least) if least > _MOST_TOLD_W else f"at least {_told(least)}"
+        figures["reason"] = f"the promised rates need {needed} on this channel, more than the budget of {budget}"
         return nothing(form, "infeasible", bound, **figures)
     figures["reason"] = (
-        f"the promised rates were not reached within {budget}: {tried}, at least {needed} are needed, "
+        f"the promised rates were not reached within {budget}: {tried}, at least {_told(least)} is needed, "
         "and whether they can be reached is not known; another method may tell"
     )
     return nothing(form, "undecided", bound, **figures)
+
+
+def _needed(proof: RateProof, shortage: str, found: float) -> Bracket:
+    """The power that the promised rates need; ``found`` is infinite where no allocation was found that carries them."""
+    at_least = np.inf if shortage else proof.needed_w
+    return Bracket(at_least=at_least, at_most=found if np.isfinite(found) or np.isinf(at_least) else np.nan)
+
+
+def _told(power_w: float) -> str:
+    """A power for a sentence; beyond what all the world radiates its digits tell nothing."""
+    return human(power_w, "W") if power_w <= _MOST_TOLD_W else "more than 1e12 W"
 
 
 def _largest_scaling(form: NormalForm, allocate: Allocate, low: float, high: float) -> float:

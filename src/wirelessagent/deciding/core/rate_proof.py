@@ -5,6 +5,9 @@ The dual of P2 (:mod:`.rate_prices_kernel`) gives prices λ; the figures here ar
 
     P ≥ λ·R − Φ(λ, 1)                for any allocation that carries the rates R,
     s ≤ (P_max + Φ(λ, 1))/(λ·R)      for any factor s such that s R is carried within the budget.
+
+For rates far beyond the budget the prices of the users lie many orders of magnitude apart and the search is of no use.
+So no figure is worse than that of :mod:`.rate_relaxations`, and every λ found on the way is asked for both figures.
 """
 
 from __future__ import annotations
@@ -14,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.rate_relaxations import Relaxations, largest_scaling, relaxations
 from wirelessagent.deciding.core.surplus import surplus
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.units import human
@@ -21,16 +25,18 @@ from wirelessagent.model.units import human
 _ROUNDS = 4
 _SETTLED = 1e-2
 _ROUNDING = 1e-9
+_HIGHEST_LOG_PRICE = 500.0
+"""That of the search. A lower price than the best proves less, but nothing wrong."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RateProof:
-    """What the dual of P2 proves.
+    """What the dual of P2 and its relaxations prove.
 
     Attributes:
         needed_w: the promised rates need at least this power; 0 where none are promised.
         max_scaling: no larger common factor on the rates fits the budget.
-        price: λ, shape (user,), W per nat; 0 for users without a promise.
+        price: λ that proves ``needed_w``, shape (user,), W per nat; 0 for users without a promise.
         iterations: Newton steps done.
     """
 
@@ -47,21 +53,46 @@ def prove(form: NormalForm) -> RateProof:
     if users.size == 0:
         return RateProof(needed_w=0.0, max_scaling=np.inf, price=price, iterations=0)
     snr, nats = form.snr_per_w[users], form.promised_nats[users]
-    cap = form.caps_w(snr)
-    found, iterations = _climb(form, snr, nats)
-    price[users] = found
-    worth = surplus(snr, cap, found, 1.0)
-    needed = max(float(found @ nats) - worth, 0.0)
-    scaling = (form.budget_w + worth) / float(found @ nats)
-    for _ in range(_ROUNDS):  # the prices at the scaled rates give a tighter factor, until it settles
-        found, steps = _climb(form, snr, scaling * nats)
+    relaxed = relaxations(snr, ceilings(form, snr), nats)
+    strongest = int(relaxed.needed_w.argmax())
+    needed = float(relaxed.needed_w[strongest])
+    best = _prices_of(relaxed)[strongest]
+    scaling = min(largest_scaling(form, snr, nats), 1e300)
+    iterations, factor = 0, 1.0
+    for _ in range(1 + _ROUNDS):  # at the promised rates; then at those scaled to the budget, until that settles
+        found, steps = _climb(form, snr, factor * nats)
         iterations += steps
-        tighter = (form.budget_w + surplus(snr, cap, found, 1.0)) / float(found @ nats)
-        settled = tighter > scaling * (1.0 - _SETTLED)
+        power, tighter = _judge(form, snr, nats, found)
+        if power > needed:
+            needed, best = power, found
+        settled = factor != 1.0 and tighter > scaling * (1.0 - _SETTLED)
         scaling = min(scaling, tighter)
-        if settled:
+        if settled or scaling <= 0.0:
             break
+        factor = scaling
+    price[users] = np.exp(best)
     return RateProof(needed_w=needed, max_scaling=scaling, price=price, iterations=iterations)
+
+
+def _judge(form: NormalForm, snr: FloatArray, nats: FloatArray, log_price: FloatArray) -> tuple[float, float]:
+    """The least power and the largest scaling that prices λ prove for ``nats``; see the module's docstring.
+
+    The prices are taken in units of the highest, so that no product overflows but the power itself.
+    """
+    top = float(log_price.max())
+    share, watt = np.exp(log_price - top), float(np.exp(-top))
+    worth = surplus(snr, form.caps_w(snr), share, watt)
+    paid = float(share @ nats)
+    with np.errstate(over="ignore"):
+        return float(np.exp(top)) * max(paid - worth, 0.0), (form.budget_w * watt + worth) / paid
+
+
+def _prices_of(relaxed: Relaxations) -> FloatArray:
+    """ln λ of each relaxation as prices of all users, shape (1 + user, user)."""
+    own = np.minimum(relaxed.log_price, _HIGHEST_LOG_PRICE)
+    users = own.size - 1
+    alone = np.where(np.eye(users, dtype=bool), own[1:], -np.inf)
+    return np.vstack([np.full(users, own[0]), alone])
 
 
 def ceilings(form: NormalForm, snr_per_w: FloatArray) -> FloatArray:
@@ -97,11 +128,7 @@ def shortage(form: NormalForm) -> tuple[str, float]:
     snr, nats = form.snr_per_w[users], form.promised_nats[users]
     served = int(np.count_nonzero(one_each(snr > 0) >= 0)) if users.size else 0
     if served < users.size:
-        count = int(np.count_nonzero(snr.max(axis=0) > 0))
-        return (
-            f"{users.size} users are promised a rate, but with {count} usable subcarriers "
-            f"only {served} of them can have one of their own"
-        ), 0.0
+        return _too_few(form, users, served), 0.0
     if users.size == 0:
         return "", np.inf
     most = ceilings(form, snr)
@@ -111,9 +138,14 @@ def shortage(form: NormalForm) -> tuple[str, float]:
         name = form.estimate.user_names[int(users[worst])]
         promised = human(float(nats[worst]) * form.bps_per_nat, "bit/s")
         best = human(float(most[worst].sum()) * form.bps_per_nat, "bit/s")
-        return f"{name} is promised {promised}, but its subcarriers carry at most {best} at any power", float(
-            carried[worst]
-        )
+        reason = f"{name} is promised {promised}, but its subcarriers carry at most {best} at any power"
+        return reason, float(carried[worst])
+    together = float(most.max(axis=0).sum() / nats.sum())
+    if together < 1.0 - _ROUNDING:
+        promised = human(float(nats.sum()) * form.bps_per_nat, "bit/s")
+        best = human(float(most.max(axis=0).sum()) * form.bps_per_nat, "bit/s")
+        reason = f"the promised rates add up to {promised}, but the subcarriers carry at most {best} at any power"
+        return reason, together
     needed = int(np.ceil(nats / most.max(axis=1) * (1.0 - _ROUNDING)).sum())
     usable = int(np.count_nonzero(snr.max(axis=0) > 0))
     if needed > usable:
@@ -121,10 +153,43 @@ def shortage(form: NormalForm) -> tuple[str, float]:
     return "", np.inf
 
 
+def _too_few(form: NormalForm, users: IntArray, served: int) -> str:
+    """That of ``users`` no more than ``served`` can have a subcarrier of their own."""
+    if users.size == 1:
+        return f"{form.estimate.user_names[int(users[0])]} is promised a rate, but no subcarrier is of use to it"
+    count = int(np.count_nonzero(form.snr_per_w[users].max(axis=0) > 0))
+    subcarriers = f"{count} usable subcarrier{'' if count == 1 else 's'}"
+    those = f"only {served}" if served else "none"
+    return (
+        f"{users.size} users are promised a rate, but with {subcarriers} {those} of them can have one of their own"
+    )  # fmt: skip
+
+
 def _climb(form: NormalForm, snr: FloatArray, nats: FloatArray) -> tuple[FloatArray, int]:
-    """Prices λ (user,) near the dual's maximum for ``nats``, all positive, and the Newton steps done."""
-    from wirelessagent.deciding.core.exclusive_sets_kernel import grow_sets, least_power
+    """ln λ (user,) near the dual's maximum for ``nats``, and the Newton steps done."""
     from wirelessagent.deciding.core.rate_prices_kernel import climb_prices
+
+    with np.errstate(divide="ignore", over="ignore"):
+        inverse = np.where(snr > 0, 1.0 / snr, 0.0)
+    found = max(_starts(form, snr, nats), key=lambda log_price: _judge(form, snr, nats, log_price)[0])
+    _, steps = climb_prices(
+        np.ascontiguousarray(log_snr(snr).T),
+        np.ascontiguousarray(inverse.T),
+        np.ascontiguousarray(ceilings(form, snr).T),
+        np.ascontiguousarray(form.caps_w(snr).T),
+        nats,
+        found,
+    )
+    return found, steps
+
+
+def _starts(form: NormalForm, snr: FloatArray, nats: FloatArray) -> list[FloatArray]:
+    """Prices to start from, ln λ (user,): those of greedy sets, of all users as one, and of each user alone.
+
+    The first is near the best where rates are ordinary; with huge rates the users' prices differ so little next to
+    what a subcarrier more or less does to greedy sets that one price is better, and with tiny ones users do not meet.
+    """
+    from wirelessagent.deciding.core.exclusive_sets_kernel import grow_sets, least_power
 
     log, ceiling = log_snr(snr), ceilings(form, snr)
     subcarriers = form.estimate.num_subcarriers
@@ -133,15 +198,7 @@ def _climb(form: NormalForm, snr: FloatArray, nats: FloatArray) -> tuple[FloatAr
     grow_sets(snr, log, ceiling, nats, owner)
     least_power(snr, ceiling, nats, owner, np.empty(subcarriers), price)
     share = nats * nats.size / subcarriers - np.max(log, axis=1)  # as if all had equally many subcarriers
-    start = np.where(np.isfinite(price), price, np.where(np.isfinite(share), share, 0.0))
-    with np.errstate(divide="ignore", over="ignore"):
-        inverse = np.where(snr > 0, 1.0 / snr, 0.0)
-    _, steps = climb_prices(
-        np.ascontiguousarray(log.T),
-        np.ascontiguousarray(inverse.T),
-        np.ascontiguousarray(ceiling.T),
-        np.ascontiguousarray(form.caps_w(snr).T),
-        nats,
-        start,
-    )
-    return np.exp(start), steps
+    greedy = np.where(np.isfinite(price), price, np.where(np.isfinite(share), share, 0.0))
+    relaxed = relaxations(snr, ceiling, nats).log_price
+    starts = (greedy, np.full(nats.size, relaxed[0]), relaxed[1:].copy())
+    return [np.clip(log_price, -_HIGHEST_LOG_PRICE, _HIGHEST_LOG_PRICE) for log_price in starts]
