@@ -104,14 +104,70 @@ def test_decibels(tmp_path: Path) -> None:
     scene = wa.read(path, unit="db")
     np.testing.assert_allclose(scene.sensed.gain, [[1e-3, 0.0, np.nan]], rtol=1e-15)
     assert scene.facts["unit"].startswith("dB, converted")
-    assert scene.facts["range"] == "-30.0 to -30.0 dB, and 1 exact zeros"
+    np.testing.assert_array_equal(wa.read(path, unit="dB").sensed.gain, scene.sensed.gain)
+    assert scene.facts["range"] == "-30.0 to -30.0 dB, and 1 exact zero"
 
 
 def test_a_unit_that_the_file_states(tmp_path: Path) -> None:
     path = npz(tmp_path, gain=-10 * GAIN, meta=np.array('{"units": "dB"}'))
-    np.testing.assert_allclose(wa.read(path, unit=None).sensed.gain, 10.0**-GAIN, rtol=1e-14)
-    with pytest.raises(FileFormatError, match="unit=db"):
+    scene = wa.read(path)
+    np.testing.assert_allclose(scene.sensed.gain, 10.0**-GAIN, rtol=1e-14)
+    assert "the file says 'dB'" in scene.facts["unit"]
+    with pytest.raises(FileFormatError, match=r"unit=db \(--unit db\)"):
+        wa.read(path, unit="linear")
+
+
+def test_a_power_in_dbm_is_no_gain(tmp_path: Path) -> None:
+    path = npz(tmp_path, gain=-10 * GAIN, meta=np.array('{"units": "dBm"}'))
+    with pytest.raises(FileFormatError, match=r"'dBm', which is no power gain; .*unit=db"):
         wa.read(path)
+    np.testing.assert_allclose(wa.read(path, unit="db").sensed.gain, 10.0**-GAIN, rtol=1e-14)
+
+
+LOSSES = np.array([[100.0, 90.0, 95.0]])
+
+
+def test_gains_above_one_in_no_stated_unit_are_asked_about(tmp_path: Path) -> None:
+    check = wa.read(npz(tmp_path, gain=LOSSES)).facts["check"]
+    assert "gains above 1 (0 dB), up to 100," in check
+    for way_out in ("unit=db (--unit db)", "State the noise", "unit=linear (--unit linear)"):
+        assert way_out in check
+
+
+def test_losses_given_as_gains_in_db_are_asked_about(tmp_path: Path) -> None:
+    check = wa.read(npz(tmp_path, gain=LOSSES), unit="db").facts["check"]
+    assert check.startswith("gains above 0 dB, up to 100 dB,")
+    assert "Write them negative" in check
+
+
+@pytest.mark.parametrize(
+    ("gain", "meta", "options"),
+    [
+        (LOSSES, {}, {"unit": "linear"}),
+        (-LOSSES, {}, {"unit": "db"}),
+        (LOSSES, {"units": "linear power gain"}, {}),
+        (LOSSES, {"noise_w_per_rb": 1.0}, {}),
+        (LOSSES, {"noise_psd_w_per_hz": 1e-6}, {}),
+        (LOSSES + 0j, {}, {}),
+        (LOSSES / 100, {}, {}),
+    ],
+)
+def test_other_gains_are_not_asked_about(
+    gain: np.ndarray, meta: dict[str, object], options: dict[str, object], tmp_path: Path
+) -> None:
+    scene = wa.read(npz(tmp_path, gain=gain, meta=np.array(json.dumps(meta))), **options)
+    assert "check" not in scene.facts
+    assert scene.facts["shape"] == "1 user × 3 subcarriers"
+
+
+def test_more_users_than_subcarriers_are_asked_about_where_axes_are_assumed(tmp_path: Path) -> None:
+    tall = npz(tmp_path, gain=GAIN.T)
+    assert "is it transposed? Then say axes=subcarrier,user (--axes subcarrier,user)" in wa.read(tall).facts["axes"]
+    for axes in ("user,subcarrier", "subcarrier,user"):
+        assert "transposed" not in wa.read(tall, axes=axes).facts["axes"]
+    assert "transposed" not in wa.read(npz(tmp_path, gain=GAIN)).facts["axes"]
+    slots = npz(tmp_path, gain=np.stack([GAIN.T, GAIN.T]))
+    assert "axes=slot,subcarrier,user (--axes slot,subcarrier,user)" in wa.read(slots).facts["axes"]
 
 
 def test_real_coefficients_are_squared_when_called_complex(tmp_path: Path) -> None:
@@ -330,7 +386,7 @@ def test_the_plug_in_and_the_function_agree(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"unit": "dBm"}, "unit must be one of linear, db, complex; got 'dBm'"),
+        ({"unit": "dBm"}, "unit must be one of linear, db, complex; got 'dbm'"),
         ({"axes": "users,subcarrier"}, "unknown axis 'users'"),
         ({"axes": "user,user"}, "stands twice"),
         ({"axes": "slot,subcarrier"}, "must name both user and subcarrier"),

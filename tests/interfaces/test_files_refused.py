@@ -89,6 +89,8 @@ BAD: dict[str, tuple[str, bytes, dict[str, object], str]] = {
     "no such drop": ("a.npy", npy(GAIN[None]), {"axes": "drop,user,subcarrier", "drop": 1}, "no drop 1"),
     "drop without drops": ("a.npy", npy(GAIN), {"drop": 1}, "there is no drop 1; the file has 1"),
     "negative gain": ("a.csv", b"1,2\n3,-4e-3\n", {}, "negative gain, -0.004 at user 2, subcarrier 2"),
+    "negative gain's mend": ("a.csv", b"1,-9\n", {}, "give missing_value=-9 (--missing-value -9)"),
+    "two negative gains": ("a.csv", b"-1,-9\n", {}, "subcarrier 1 (counted from 1) and 1 more place;"),
     "negative in a slot": ("a.npy", npy(-GAIN[None]), {}, "slot 1, user 1, subcarrier 1 (counted from 1) and 5 more"),
     "infinite gain": ("a.csv", b"1,inf\n", {}, "infinite, inf at user 1, subcarrier 2"),
     "infinite dB": ("a.csv", b"1,5000\n", {"unit": "db"}, "infinite, 5000 dB"),

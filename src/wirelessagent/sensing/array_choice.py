@@ -6,6 +6,7 @@ import math
 
 from wirelessagent.model.errors import FileFormatError
 from wirelessagent.sensing.formats.contents import Contents, Entry
+from wirelessagent.sensing.wording import option
 
 COMPANIONS = (
     "truth", "noise_variance", "gain_variance", "repaired", "user_names", "subcarrier_frequencies_hz", "slot_times_s",
@@ -35,7 +36,7 @@ def choose(contents: Contents, key: str | None) -> tuple[Entry, str]:
     if len(candidates) > 1:
         raise FileFormatError(
             f"holds several arrays and none is called 'gain': {listed(candidates)}; "
-            f"say which one, for example key={first.name}"
+            f"say which one, for example {option('key', first.name)}"
         )
     return _of_numbers(first), "the only one" if len(others) == 1 else "the only numeric matrix"
 

@@ -7,11 +7,15 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.errors import FileFormatError, InputError
 from wirelessagent.sensing.formats.contents import Entry
+from wirelessagent.sensing.wording import option
 
 AXES = ("drop", "slot", "user", "subcarrier")
 """Axes in the library's order. Drops are independent draws of a cell and no history of each other."""
+
+_ASSUMED = f"assumed; others are named with {option('axes', '…')}"
 
 _USUAL = {2: ("user", "subcarrier"), 3: ("slot", "user", "subcarrier")}
 
@@ -59,7 +63,7 @@ class Axes:
         if axes is None and {"user", "subcarrier"} <= set(entry.axes) <= set(AXES):
             axes = cls.parse(",".join(entry.axes), "from the file")
         if axes is None and dimensions in _USUAL:
-            axes = cls(names=_USUAL[dimensions], origin="assumed; if they are others, name them with axes=…")
+            axes = cls(names=_USUAL[dimensions], origin=_ASSUMED)
         if axes is None:
             raise FileFormatError(
                 f"{entry} has {dimensions} dimension{'' if dimensions == 1 else 's'}; it must have two "
@@ -68,7 +72,7 @@ class Axes:
         if len(axes.names) != dimensions:
             raise FileFormatError(
                 f"{entry} has {dimensions} dimensions, but {len(axes.names)} axes are named: "
-                f"{','.join(axes.names)} ({axes.origin}); give the axes of this array with axes=…"
+                f"{','.join(axes.names)} ({axes.origin}); give the axes of this array with {option('axes', '…')}"
             )
         return axes
 
@@ -87,6 +91,13 @@ class Axes:
     @property
     def _order(self) -> tuple[str, ...]:
         return tuple(name for name in AXES if name in self.names)
+
+    def doubt(self, gain: FloatArray) -> str:
+        """A question where axes that nobody stated make more users than subcarriers of ``gain``; else nothing."""
+        if self.origin != _ASSUMED or gain.shape[-2] <= gain.shape[-1]:
+            return ""
+        other = ",".join((*self.names[:-2], "subcarrier", "user"))
+        return f"; more users than subcarriers: is it transposed? Then say {option('axes', other)}"
 
     def __str__(self) -> str:
         turned = "" if self._order == self.names else f", turned to {', '.join(self._order)}"

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.model.errors import FileFormatError
 from wirelessagent.sensing.formats.contents import Contents, Entry, Kind, sizes
+from wirelessagent.sensing.wording import counted
 
 
 def truth_of(
@@ -25,16 +26,18 @@ def truth_of(
     stored = _like(contents, "truth", source, ("real", "complex"))
     if stored is not None:
         truth = as_gain(stored)
-        if np.isnan(truth).any():
+        missing = int(np.isnan(truth).sum())
+        if missing:
             raise FileFormatError(
-                f"its truth has {int(np.isnan(truth).sum())} missing entries; the truth must be complete"
+                f"its truth has {counted(missing, 'missing entry', 'missing entries')}; the truth must be complete"
             )
         return truth, "from the file's array 'truth'"
     if estimated is not None:
-        return None, f"not known: {_entries(estimated)} marked as repaired, so not measured"
-    missing = np.isnan(gain)
-    if missing.any():
-        return None, f"not known: {_entries(missing)} missing"
+        marked = counted(int(estimated.sum()), "entry is", "entries are")
+        return None, f"not known: {marked} marked as repaired, so not measured"
+    missing = int(np.isnan(gain).sum())
+    if missing:
+        return None, f"not known: {counted(missing, 'entry is', 'entries are')} missing"
     return gain, "the gains are complete; as measured, they are taken as the truth"
 
 
@@ -112,9 +115,3 @@ def _numbers(entry: Entry) -> NDArray[Any]:
     if entry.kind != "real":
         raise FileFormatError(f"{entry} must hold real numbers")
     return entry.read()
-
-
-def _entries(which: BoolArray) -> str:
-    """How many entries these are, and the verb."""
-    count = int(np.count_nonzero(which))
-    return "1 entry is" if count == 1 else f"{count} entries are"

@@ -65,6 +65,11 @@ def stated_cell(cell: Cell, metadata: Mapping[str, Any], facts: dict[str, str]) 
     return cell
 
 
+def states_noise(metadata: Mapping[str, Any]) -> bool:
+    """Whether the file states its noise, so that gains in any unit that suits this noise make sense."""
+    return any(metadata.get(name) is not None for name in ("noise_w_per_rb", "noise_psd_w_per_hz"))
+
+
 def stated_frequencies_hz(cell: Cell, metadata: Mapping[str, Any], num_subcarriers: int) -> FloatArray | None:
     """Centre frequencies around the stated carrier, spaced by the subcarrier bandwidth, shape (subcarrier,)."""
     carrier_hz = _number(metadata, "carrier_hz")

@@ -39,10 +39,16 @@ from wirelessagent.sensing.companions import (
     truth_of,
     user_names_of,
 )
-from wirelessagent.sensing.file_metadata import metadata_of, stated_cell, stated_frequencies_hz, stated_slot_times_s
+from wirelessagent.sensing.file_metadata import (
+    metadata_of,
+    stated_cell,
+    stated_frequencies_hz,
+    stated_slot_times_s,
+    states_noise,
+)
 from wirelessagent.sensing.formats.contents import Contents, Entry, check_size
 from wirelessagent.sensing.formats.signature import Format, recognise
-from wirelessagent.sensing.gains import Scale, Unit, missing_fact, range_fact, shape_fact
+from wirelessagent.sensing.gains import Scale, Unit, doubt, missing_fact, range_fact, shape_fact
 from wirelessagent.sensing.source import ChannelSource
 
 _CHUNK_BYTES = 2**20
@@ -55,10 +61,10 @@ class File(ChannelSource):
     Attributes:
         path: the file with the gains.
         unit: what its numbers are: "linear" power gain, power gain in "db", or "complex" for coefficients h whose
-            squared magnitude is taken. Complex numbers are always coefficients. None takes the unit that the file
-            states, and linear if it states none.
-        axes: names of the array's axes in order, of drop, slot, user and subcarrier, as in "subcarrier,user". None
-            takes what the file states, else (user, subcarrier) or (slot, user, subcarrier).
+            squared magnitude is taken; if not set what the file states, else linear. Complex numbers are always
+            coefficients.
+        axes: names of the array's axes in order, of drop, slot, user and subcarrier, as in "subcarrier,user"; if not
+            set what the file states, else user,subcarrier or slot,user,subcarrier.
         missing_value: a number that marks missing entries, beside NaN and what the format itself has for that.
         key: name of the array; if not set ``gain``, else the only one that can be meant.
         drop: which of several independent drops to take, counted from 0.
@@ -68,7 +74,7 @@ class File(ChannelSource):
     name = "file"
 
     path: Path
-    unit: Unit | None = "linear"
+    unit: Unit | None = None
     axes: str | None = None
     missing_value: float | None = None
     key: str | None = None
@@ -77,6 +83,8 @@ class File(ChannelSource):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "path", Path(self.path))
+        if isinstance(self.unit, str):
+            object.__setattr__(self, "unit", self.unit.lower())
         if self.unit is not None and self.unit not in get_args(Unit):
             raise InputError(f"unit must be one of {', '.join(get_args(Unit))}; got {self.unit!r}")
         if self.axes is not None:
@@ -118,7 +126,7 @@ class File(ChannelSource):
             **contents.notes,
             "array": f"{entry} ({reason})",
             **entry.notes,
-            "axes": _axes_fact(axes, entry, self.drop),
+            "axes": _axes_fact(axes, entry, self.drop) + axes.doubt(gain),
             "shape": shape_fact(gain),
             "unit": str(scale),
             "missing": missing_fact(gain, self.missing_value),
@@ -128,6 +136,8 @@ class File(ChannelSource):
         if unused:
             facts["not used"] = listed(unused)
         cell = stated_cell(cell, metadata, facts)
+        if not states_noise(metadata) and (question := doubt(gain, scale)):
+            facts["check"] = question
         sensed = _observation(contents, entry, gain, scale, arranged, cell, metadata, facts)
         truth, facts["truth"] = truth_of(
             contents, entry, gain, sensed.estimated, lambda stored: scale.gain(arranged(stored))

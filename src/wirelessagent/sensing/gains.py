@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.model.errors import FileFormatError
 from wirelessagent.model.units import db, from_db
+from wirelessagent.sensing.wording import counted, option
 
 Unit: TypeAlias = Literal["linear", "db", "complex"]
 
@@ -28,7 +29,7 @@ class Scale:
 
     Attributes:
         unit: what the numbers are.
-        origin: who said so.
+        origin: who said so; "assumed" if nobody did.
         missing_value: a number that means "missing" beside NaN; None if there is none.
     """
 
@@ -41,19 +42,27 @@ class Scale:
         """The unit as given or, if None is given, as stated in the file; complex numbers are always coefficients.
 
         Raises:
-            FileFormatError: given and stated unit contradict each other.
+            FileFormatError: given and stated unit contradict each other, or the stated one is a power such as dBm.
         """
-        says_db = re.search(r"\bdB", stated) is not None and "linear" not in stated.lower()
+        decibels = re.search(r"\bdB(\w*)", stated)
+        says_linear = "linear" in stated.lower()
+        says_db = decibels is not None and not says_linear
         if values.dtype.kind == "c":
             unit, origin = "complex", "the numbers are complex"
         elif given is None:
-            unit, origin = ("db", f"the file says {stated!r}") if says_db else ("linear", "assumed")
+            if decibels is not None and says_db and decibels[1]:
+                raise FileFormatError(
+                    f"says that its unit is {stated!r}, which is no power gain; "
+                    f"convert it to gains, or take the numbers as dB with {option('unit', 'db')}"
+                )
+            origin = f"the file says {stated!r}" if says_db or says_linear else "assumed"
+            unit = "db" if says_db else "linear"
         else:
             unit, origin = given, f"unit={given}"
         if given == "db" and unit == "complex":
-            raise FileFormatError("holds complex numbers, which no values in dB are; leave unit=db out")
+            raise FileFormatError(f"holds complex numbers, which no values in dB are; leave out {option('unit', 'db')}")
         if given == "linear" and says_db:
-            raise FileFormatError(f"says that its unit is {stated!r}; read it with unit=db")
+            raise FileFormatError(f"says that its unit is {stated!r}; read it with {option('unit', 'db')}")
         return cls(unit=unit, origin=origin, missing_value=missing_value)
 
     def missing(self, values: NDArray[Any]) -> BoolArray:
@@ -94,12 +103,13 @@ class Scale:
     def _complaint(self, values: NDArray[Any], index: tuple[int, ...], count: int) -> str:
         names = ("slot", "user", "subcarrier")[-len(index) :]
         place = ", ".join(f"{name} {i + 1}" for name, i in zip(names, index, strict=True))
-        where = f"at {place} (counted from 1)" + (f" and {count - 1} more places" if count > 1 else "")
+        where = f"at {place} (counted from 1)" + (f" and {counted(count - 1, 'more place')}" if count > 1 else "")
         value = values[index]
         if self.unit == "linear" and np.isfinite(value):
             return (
                 f"holds a negative gain, {value:g} {where}; "
-                f"if it is in dB, give unit=db; if it marks a missing entry, give missing_value={value:g}"
+                f"if it is in dB, give {option('unit', 'db')}; "
+                f"if it marks a missing entry, give {option('missing_value', format(value, 'g'))}"
             )
         written = f"{value:g}{' dB' if self.unit == 'db' else ''}"
         return f"holds a gain that is infinite, {written} {where}; leave missing entries empty or write NaN"
@@ -123,12 +133,26 @@ def range_fact(gain: FloatArray) -> str:
     positive = known[known > 0]
     zeros = known.size - positive.size
     if not positive.size:
-        return f"all {zeros} known entries are zero"
+        return "the only known entry is zero" if zeros == 1 else f"all {zeros} known entries are zero"
     text = f"{float(db(positive.min())):.1f} to {float(db(positive.max())):.1f} dB"
-    return f"{text}, and {zeros} exact zeros" if zeros else text
+    return f"{text}, and {counted(zeros, 'exact zero')}" if zeros else text
+
+
+def doubt(gain: FloatArray, scale: Scale) -> str:
+    """A question where gains are above 1, which no radio channel has, and nobody said linear; else nothing."""
+    largest = float(np.nanmax(gain))
+    if largest <= 1 or not (scale.unit == "db" or scale.origin == "assumed"):
+        return ""
+    snr = "Are they SNRs? State the noise power in the file"
+    if scale.unit == "db":
+        above = f"gains above 0 dB, up to {float(db(largest)):.4g} dB, are no power gains of a radio channel"
+        return f"{above}. Are they losses? Write them negative. {snr}"
+    above = f"gains above 1 (0 dB), up to {largest:g}, are no power gains of a radio channel"
+    decibels = f"Are they in dB? Say {option('unit', 'db')}, with losses negative"
+    return f"{above}. {decibels}. {snr}. If they are right, say {option('unit', 'linear')}"
 
 
 def shape_fact(gain: FloatArray) -> str:
     """Slots, users and subcarriers in words."""
-    slots = f"{gain.shape[0]} slots × " if gain.ndim == 3 else ""
-    return f"{slots}{gain.shape[-2]} users × {gain.shape[-1]} subcarriers"
+    axes = ("slot", "user", "subcarrier")[-gain.ndim :]
+    return " × ".join(counted(size, axis) for size, axis in zip(gain.shape, axes, strict=True))

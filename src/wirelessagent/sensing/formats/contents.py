@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wirelessagent.model.errors import FileFormatError, WirelessAgentError
+from wirelessagent.sensing.wording import option
 
 Kind: TypeAlias = Literal["real", "complex", "switches", "text", "refused"]
 """What an array holds. Refused is what is never loaded: pickled objects, cells, references, records."""
@@ -95,7 +96,7 @@ def check_size(what: str, size: int, max_bytes: int) -> None:
     if size > max_bytes:
         raise FileFormatError(
             f"{what} takes {megabytes(size)}, above the limit of {megabytes(max_bytes)}; "
-            f"give a smaller file or max_bytes={size}"
+            f"give a smaller file or {option('max_bytes', size)}"
         )
 
 
