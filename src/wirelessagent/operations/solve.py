@@ -50,7 +50,7 @@ class ProblemOnFile(ProblemOptions, ChannelFile):
         estimate = chain.repair(scene.sensed, self.repairer, **self.repairer_options)
         if estimate.repaired.any():
             progress(
-                Event(stage="repair", message=f"{int(estimate.repaired.sum())} gains repaired by {estimate.method}")
+                Event(stage="repair", message=f"gains filled by {estimate.method}: {int(estimate.repaired.sum())}")
             )
         return scene, estimate, problem
 
