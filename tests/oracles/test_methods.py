@@ -258,12 +258,23 @@ def test_rates_far_beyond_the_budget_are_proven_impossible(rate_bps: float, meth
 def test_one_user_with_a_huge_rate_is_bounded_as_if_alone() -> None:
     """The others need next to nothing, but one price for all would let the strong ones carry the rate."""
     gain = rayleigh_gain(4, 6, seed=3)[0] * np.array([[1e-4], [1.0], [1.0], [1.0]])
-    rate = np.array([6e6, 1.0, 1.0, 1.0])
+    rate = np.array([9e7, 1.0, 1.0, 1.0])
     cell = wa.Cell()
     alone_w = power_of(snr_of(gain, cell)[0], rate[0], cell)
     decision = wa.decide(known(gain), wa.Problem("min_power", min_rate_bps=rate, max_power_w=1), cell)
     assert decision.status == "infeasible"
     assert decision.needed_power_w.at_least >= alone_w * (1 - 1e-9)
+
+
+@pytest.mark.parametrize("rate_bps", [1e-6, 1.0])
+@pytest.mark.parametrize("seed", range(3))
+def test_tiny_rates_need_what_each_user_needs_on_its_best_subcarrier(seed: int, rate_bps: float) -> None:
+    """To first order P = R/a, and where users would meet on a subcarrier they share its time in the bound."""
+    gain, cell = rayleigh_gain(8, 20, seed=seed)[0], wa.Cell()
+    nats = rate_bps / cell.subcarrier_bandwidth_hz * np.log(2)
+    decision = wa.decide(known(gain), wa.Problem("min_power", min_rate_bps=rate_bps), cell)
+    needed_w = float((nats / snr_of(gain, cell).max(axis=1)).sum())
+    assert decision.needed_power_w.at_least == pytest.approx(needed_w, rel=1e-3)
 
 
 def test_paper_inversion_is_the_papers_formula() -> None:

@@ -163,15 +163,16 @@ def climb_prices(
     ceiling: FloatArray,
     cap_w: FloatArray,
     nats: FloatArray,
+    starts: FloatArray,
     log_price: FloatArray,
 ) -> tuple[float, int]:
-    """Maximise D from ``log_price`` (user,), which is overwritten with the best found; returns D and the iterations.
+    """Maximise D from the best of ``starts``; writes the best ln λ found, shape (user,); returns D and the iterations.
 
     Args:
         log_snr, inverse_snr: ln a and 1/a, shape (subcarrier, user); −inf and 0 where a pair may not be used.
         ceiling, cap_w: most nats and the power that they take, same shape; infinite where there is no limit.
         nats: promised rates, shape (user,), all positive.
-        log_price: ln λ to start from; λ in W per nat.
+        starts: choices of ln λ to start from, shape (choice, user); λ in W per nat.
     """  # fmt: skip
     subcarriers, users = log_snr.shape
     rate = np.empty((subcarriers, users))
@@ -180,8 +181,16 @@ def climb_prices(
     trial_gradient = np.empty(users)
     hessian = np.empty((users, users))
     step = np.empty(users)
-    here = np.minimum(np.maximum(log_price, -HIGHEST_LOG_PRICE), HIGHEST_LOG_PRICE)
+    here = np.zeros(users)
     best = -np.inf
+    for start in starts:
+        trial = np.minimum(np.maximum(start, -HIGHEST_LOG_PRICE), HIGHEST_LOG_PRICE)
+        total = priced_terms(log_snr, inverse_snr, ceiling, cap_w, trial, rate, term)
+        worth = (np.exp(trial) * nats).sum()
+        if worth - total > best:
+            best = worth - total
+            here = trial
+    log_price[:] = here
     iterations = 0
     for relative_temperature in TEMPERATURES:
         total = priced_terms(log_snr, inverse_snr, ceiling, cap_w, here, rate, term)

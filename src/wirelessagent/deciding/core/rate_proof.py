@@ -53,7 +53,7 @@ def prove(form: NormalForm) -> RateProof:
     if users.size == 0:
         return RateProof(needed_w=0.0, max_scaling=np.inf, price=price, iterations=0)
     snr, nats = form.snr_per_w[users], form.promised_nats[users]
-    relaxed = relaxations(snr, ceilings(form, snr), nats)
+    relaxed = relaxations(snr, log_snr(snr), ceilings(form, snr), nats)
     strongest = int(relaxed.needed_w.argmax())
     needed = float(relaxed.needed_w[strongest])
     best = _prices_of(relaxed)[strongest]
@@ -169,36 +169,36 @@ def _climb(form: NormalForm, snr: FloatArray, nats: FloatArray) -> tuple[FloatAr
     """ln λ (user,) near the dual's maximum for ``nats``, and the Newton steps done."""
     from wirelessagent.deciding.core.rate_prices_kernel import climb_prices
 
+    log, ceiling = log_snr(snr), ceilings(form, snr)
     with np.errstate(divide="ignore", over="ignore"):
         inverse = np.where(snr > 0, 1.0 / snr, 0.0)
-    found = max(_starts(form, snr, nats), key=lambda log_price: _judge(form, snr, nats, log_price)[0])
+    found = np.empty(nats.size)
     _, steps = climb_prices(
-        np.ascontiguousarray(log_snr(snr).T),
+        np.ascontiguousarray(log.T),
         np.ascontiguousarray(inverse.T),
-        np.ascontiguousarray(ceilings(form, snr).T),
+        np.ascontiguousarray(ceiling.T),
         np.ascontiguousarray(form.caps_w(snr).T),
         nats,
+        _starts(snr, log, ceiling, nats),
         found,
     )
     return found, steps
 
 
-def _starts(form: NormalForm, snr: FloatArray, nats: FloatArray) -> list[FloatArray]:
-    """Prices to start from, ln λ (user,): those of greedy sets, of all users as one, and of each user alone.
+def _starts(snr: FloatArray, log: FloatArray, ceiling: FloatArray, nats: FloatArray) -> FloatArray:
+    """Prices to start from, ln λ, shape (choice, user): of greedy sets, of all users as one, and of each user alone.
 
-    The first is near the best where rates are ordinary; with huge rates the users' prices differ so little next to
-    what a subcarrier more or less does to greedy sets that one price is better, and with tiny ones users do not meet.
+    The first is near the best where rates are ordinary. With huge rates the users' prices differ so little, next to
+    what a subcarrier more or less does to greedy sets, that one price is better; with tiny rates users do not meet.
     """
     from wirelessagent.deciding.core.exclusive_sets_kernel import grow_sets, least_power
 
-    log, ceiling = log_snr(snr), ceilings(form, snr)
-    subcarriers = form.estimate.num_subcarriers
-    owner = np.full(subcarriers, -1, dtype=np.int64)
-    price = np.empty(nats.size)
+    users = nats.size
+    owner = np.full(snr.shape[1], -1, dtype=np.int64)
+    price = np.empty(users)
     grow_sets(snr, log, ceiling, nats, owner)
-    least_power(snr, ceiling, nats, owner, np.empty(subcarriers), price)
-    share = nats * nats.size / subcarriers - np.max(log, axis=1)  # as if all had equally many subcarriers
+    least_power(snr, ceiling, nats, owner, np.empty(owner.size), price)
+    share = nats * users / owner.size - np.max(log, axis=1)  # as if all had equally many subcarriers
     greedy = np.where(np.isfinite(price), price, np.where(np.isfinite(share), share, 0.0))
-    relaxed = relaxations(snr, ceiling, nats).log_price
-    starts = (greedy, np.full(nats.size, relaxed[0]), relaxed[1:].copy())
-    return [np.clip(log_price, -_HIGHEST_LOG_PRICE, _HIGHEST_LOG_PRICE) for log_price in starts]
+    relaxed = relaxations(snr, log, ceiling, nats).log_price
+    return np.stack([greedy, np.full(users, relaxed[0]), relaxed[1:]])

@@ -32,25 +32,16 @@ class Relaxations:
     log_price: FloatArray
 
 
-def relaxations(snr_per_w: FloatArray, ceiling: FloatArray, nats: FloatArray) -> Relaxations:
+def relaxations(snr_per_w: FloatArray, log_snr: FloatArray, ceiling: FloatArray, nats: FloatArray) -> Relaxations:
     """The least power for ``nats`` (user,), all positive, by each relaxation.
 
-    ``snr_per_w`` is a, shape (user, subcarrier), in 1/W, and ``ceiling`` the most nats there, 0 where a is 0.
+    ``snr_per_w`` is a, shape (user, subcarrier), in 1/W; ``log_snr`` is ln a, and ``ceiling`` the most nats there, 0
+    where a is 0.
     """
-    from wirelessagent.deciding.core.exclusive_sets_kernel import fill_rate
+    from wirelessagent.deciding.core.rate_relaxations_kernel import relaxed_power
 
-    rows, total = _as_rows(snr_per_w, nats)
-    ceilings = np.vstack([ceiling.max(axis=0), ceiling])
-    logs = np.log(np.where(rows > 0, rows, 1.0))
-    needed, log_price = np.full(total.size, np.inf), np.full(total.size, np.inf)
-    floor, cap = np.empty((2, snr_per_w.shape[1]))
-    for i in range(total.size):
-        usable = np.flatnonzero(rows[i])
-        level, needed[i] = fill_rate(
-            rows[i], logs[i], ceilings[i], usable, usable.size, float(total[i]), floor, cap
-        )  # fmt: skip
-        if level > 0.0:  # it is 0 where the subcarriers are too few
-            log_price[i] = level - logs[i, usable].max()
+    needed, log_price = np.empty((2, nats.size + 1))
+    relaxed_power(snr_per_w, log_snr, ceiling, nats, needed, log_price)
     return Relaxations(needed_w=needed, log_price=log_price)
 
 
@@ -61,12 +52,8 @@ def largest_scaling(form: NormalForm, snr_per_w: FloatArray, nats: FloatArray) -
     """
     from wirelessagent.deciding.core.water_filling_kernel import max_rate
 
-    rows, total = _as_rows(snr_per_w, nats)
+    rows, total = np.vstack([snr_per_w.max(axis=0), snr_per_w]), np.append(nats.sum(), nats)
     budget = np.full(total.size, form.budget_w)
     power_w = max_rate(rows[:, np.newaxis], form.cap_w, form.max_snr, budget)[1]
     carried = np.minimum(np.log1p(power_w * rows), form.max_nats).sum(axis=1)
     return float(np.min(carried / total))
-
-
-def _as_rows(snr_per_w: FloatArray, nats: FloatArray) -> tuple[FloatArray, FloatArray]:
-    return np.vstack([snr_per_w.max(axis=0), snr_per_w]), np.append(nats.sum(), nats)
