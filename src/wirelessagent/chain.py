@@ -100,6 +100,13 @@ def decide(
     return cast(Method, chosen).solve(estimate, resolved, cell or Cell())
 
 
+def check_solvable(problem: Problem, method: str | None = None) -> None:
+    """Raise an :class:`UnsupportedProblemError` where the method (or the default one) does not solve such problems."""
+    resolved = resolve(problem)
+    name = method or default_method(resolved)
+    cast(Method, plugins.create("method", name)).objective_of(resolved)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Comparison:
     """One method's answer beside the others': its decision, or why it has none, and the time it took."""

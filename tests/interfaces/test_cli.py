@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -211,6 +212,8 @@ def test_an_unclear_sentence_gets_a_question_back(capsys: pytest.CaptureFixture[
         (["reproduce", "--draws", "0"], "draws"),
         (["plugins", "--kind", "solver"], "solver"),
         (["dance"], "dance"),
+        (["ask", "max rate \udcff"], "text: this is not text in UTF-8"),
+        (["ask", "max rate, 1 Mbit/s each"], "min_rate_bps"),
         (["ask", "maximum rate", "--no-such-option"], "--no-such-option"),
     ],
     ids=lambda value: " ".join(map(str, value))[:60] if isinstance(value, list) else None,
@@ -232,3 +235,42 @@ def test_the_program_runs_as_a_module_and_says_its_version() -> None:
         [sys.executable, "-m", "wirelessagent", "--version"], capture_output=True, text=True, check=True, timeout=60
     )
     assert done.stdout.startswith("wirelessagent 0.")
+
+
+def test_without_a_command_the_help_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([]) == 2
+    out, err = capsys.readouterr()
+    assert "solve" in out
+    assert err == ""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no device that is always full")
+def test_a_full_disk_is_one_line(tmp_path: Path) -> None:
+    with open("/dev/full", "w") as full:  # noqa: PTH123
+        done = subprocess.run(
+            [sys.executable, "-m", "wirelessagent", "intent", "save power"],
+            stdout=full, stderr=subprocess.PIPE, text=True, timeout=60, check=False,
+        )  # fmt: skip
+    assert done.returncode == 1
+    assert "No space left on device" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_terminal_without_chinese_does_not_stop_the_work() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "wirelessagent", "intent", "能效最高"],
+        capture_output=True, text=True, timeout=60, check=True, env={**os.environ, "PYTHONIOENCODING": "latin-1"},
+    )  # fmt: skip
+    assert "max_energy_efficiency" in done.stdout
+
+
+def test_a_solved_file_can_be_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    record = answer(capsys, "solve", EXAMPLE, "--plot", tmp_path / "solved.svg")
+    assert record["plot"] == str(tmp_path / "solved.svg")
+    assert b"<svg" in (tmp_path / "solved.svg").read_bytes()
+
+
+def test_a_guess_is_called_a_guess(capsys: pytest.CaptureFixture[str]) -> None:
+    record = answer(capsys, "ask", "max rate", "--loss", "users:1")
+    assert len(record["estimate"]["unobserved_users"]) == 1
+    assert any("is a guess" in sentence for sentence in record["explanation"])

@@ -15,6 +15,7 @@ _ENGLISH: Mapping[str, str] = {
     "allocation": "{used} of {total} subcarriers serve {served} of {users} users with {power} of the {budget} allowed.",
     "optimal": "This is the optimum on the estimated channel: the bound proves that nothing does better.",
     "gap": "Nothing on the estimated channel does better than {bound}; this decision is within {gap:.2g} % of that.",
+    "zero_bound": "A value of zero is not ruled out, so how far this is from the best is not known.",
     "no_bound": "The method {method} gives no bound, so how far this is from the best is not known.",
     "infeasible": "This cannot be done, and that is proven: {reason}",
     "undecided": "No allocation was found that does this, and no proof that there is none: {reason}",
@@ -36,6 +37,7 @@ _CHINESE: Mapping[str, str] = {
     "服务 {users} 个用户中的 {served} 个，功率 {power}（上限 {budget}）。",
     "optimal": "这是估计信道上的最优解：对偶界证明没有更好的分配。",
     "gap": "在估计信道上任何分配都不会优于 {bound}；本方案与该界相差不超过 {gap:.2g} %。",
+    "zero_bound": "尚不能排除零值，因此与最优解的差距未知。",
     "no_bound": "方法 {method} 不提供界，因此与最优解的差距未知。",
     "infeasible": "该要求无法满足，并且已被证明：{reason}",
     "undecided": "没有找到满足要求的分配，也没有证明它不存在：{reason}",
@@ -87,6 +89,8 @@ def _certificate(words: Mapping[str, str], decision: Decision) -> str:
         return words["no_bound"].format(method=decision.method)
     if decision.status == "optimal" and decision.gap <= OPTIMAL_GAP:
         return words["optimal"]
+    if np.isinf(decision.gap):
+        return words["zero_bound"].format(method=decision.method)
     return words["gap"].format(bound=human(decision.bound, decision.unit), gap=100 * decision.gap)
 
 

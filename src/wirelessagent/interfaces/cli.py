@@ -5,6 +5,7 @@ Errors are one line on stderr. Exit codes: 0 done, 1 failed, 2 bad input or a qu
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -13,7 +14,7 @@ from typing import Annotated, Any
 import typer
 from pydantic import ValidationError
 
-from wirelessagent.interfaces.cli_options import Parameters, as_flag
+from wirelessagent.interfaces.cli_options import Parameters, as_flag, is_positional
 from wirelessagent.interfaces.cli_output import Listener, show
 from wirelessagent.operations.catalogue import OPERATIONS
 from wirelessagent.operations.operation import AnyOperation, InputError, WirelessAgentError, installed_version, silent
@@ -28,11 +29,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def run(arguments: list[str]) -> int:
     """Run the command line and return its exit code."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")  # a terminal without Chinese must not stop the work
     command = typer.main.get_command(_app(arguments))
     try:
         code = command.main(args=arguments, prog_name="wirelessagent", standalone_mode=False)
-    except typer.TyperException as error:
-        return _fail(error.format_message(), 2)
+    except typer.TyperException as error:  # without a message the help was shown: no command was named
+        return _fail(error.format_message(), 2) if error.format_message() else 2
     except InputError as error:
         return _fail(str(error), 2)
     except WirelessAgentError as error:
@@ -42,6 +46,8 @@ def run(arguments: list[str]) -> int:
     except BrokenPipeError:
         sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115  # whoever read our output has gone
         return 1
+    except OSError as error:
+        return _fail(f"{error.strerror or error}: {error.filename or 'the output'}", 1)
     except MemoryError:
         return _fail("not enough memory for this input", 1)
     except Exception as error:
@@ -119,5 +125,7 @@ def _request(operation: AnyOperation, values: dict[str, Any]) -> Any:
         return operation.request(**values)
     except ValidationError as error:
         first = error.errors()[0]
-        name = as_flag(str(first["loc"][0])) if first["loc"] else operation.name
-        raise InputError(f"{name}: {first['msg'].lower()}; got {first['input']!r}") from error
+        field = str(first["loc"][0]) if first["loc"] else operation.name
+        name = field if is_positional(operation.request, field) else as_flag(field)
+        said = first["msg"].removeprefix("Value error, ").removeprefix("Input ")
+        raise InputError(f"{name}: {said}; got {first['input']!r}") from error

@@ -27,6 +27,12 @@ def as_flag(name: str) -> str:
     return "--" + name.replace("_", "-")
 
 
+def is_positional(request: type[Request], field: str) -> bool:
+    """Whether a field is given by place."""
+    info = request.model_fields.get(field)
+    return info is not None and _mark(info, Positional) is not None
+
+
 class Parameters:
     """The parameters of the command for a request, and how their values become the request's fields."""
 

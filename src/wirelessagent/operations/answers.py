@@ -140,7 +140,7 @@ def percent(share: float) -> str:
     >>> percent(0.1234), percent(130.0), percent(2e-12)
     ('12 %', '13,000 %', '2e-10 %')
     """
-    if np.isnan(share):
+    if not np.isfinite(share):
         return "–"
     return f"{100 * share:,.0f} %" if share >= 0.1 else f"{100 * share:.2g} %"
 

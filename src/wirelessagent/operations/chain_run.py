@@ -87,6 +87,7 @@ def ask(
 def act_on(intent: Intent, scene: Scene, *losses: Loss, seed: int, tools: Tools, progress: Progress = silent) -> Answer:
     """Run the chain from sensing to explaining for an intent that is clear."""
     problem, cell, notes = _pose(intent, scene.cell)
+    chain.check_solvable(problem, tools.method)
     scene = dataclasses.replace(scene, cell=cell)
     seen = scene.observe(*losses, seed=seed)
     progress(Event(stage="sense", message=describe(seen)))

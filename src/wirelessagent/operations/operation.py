@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeAlias, TypeVar
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, field_validator
 
 from wirelessagent import __version__
 from wirelessagent.model.errors import InputError, WirelessAgentError
@@ -57,6 +57,14 @@ class Request(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
 
     panel: ClassVar[str] = "Options"
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _is_text(cls, value: Any) -> Any:
+        """Refuse text that is not Unicode, such as bytes of another encoding on a command line."""
+        if isinstance(value, str) and not value.isprintable() and any("\ud800" <= sign <= "\udfff" for sign in value):
+            raise ValueError("this is not text in UTF-8")
+        return value
 
 
 Req = TypeVar("Req", bound=Request)
