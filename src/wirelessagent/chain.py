@@ -101,10 +101,24 @@ def decide(
 
 
 def check_solvable(problem: Problem, method: str | None = None) -> None:
-    """Raise an :class:`UnsupportedProblemError` where the method (or the default one) does not solve such problems."""
+    """Raise an :class:`UnsupportedProblemError` where the method (or the default one) does not solve such problems.
+
+    The error names the methods that do.
+    """
     resolved = resolve(problem)
-    name = method or default_method(resolved)
-    cast(Method, plugins.create("method", name)).objective_of(resolved)
+    refusal = _refusal(resolved, method or default_method(resolved))
+    if refusal:
+        able = [one.name for one in plugins.plugins("method") if one.cls and not _refusal(resolved, one.name)]
+        raise UnsupportedProblemError(f"{refusal} ({', '.join(able) or 'none is installed'})")
+
+
+def _refusal(problem: Problem, method: str) -> str:
+    """Why a method does not solve such problems; empty if it does."""
+    try:
+        cast(Method, plugins.create("method", method)).objective_of(problem)
+    except UnsupportedProblemError as refusal:
+        return str(refusal)
+    return ""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -64,6 +64,7 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
     if decision.problem.min_rate_bps is None and decision.status == "optimal" and not decision.power_w.any():
         return [words["no_promise"]]
     said = [_allocation(words, decision), _certificate(words, decision)]
+    said += [decision.reason] if decision.reason else []
     said += _prices(words, decision)
     said += _idle_users(words, decision, estimate)
     said.append(_repair(words, decision, estimate))

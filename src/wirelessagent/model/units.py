@@ -44,14 +44,14 @@ _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, 
 def human(value: float, unit: str) -> str:
     """A figure as people read it: three significant digits and an SI prefix.
 
-    A ratio (no unit, or one per hertz) takes no prefix.
+    A ratio (no unit, or one per hertz) takes no prefix, nor does a figure beyond them all.
 
     >>> human(1.234e7, "bit/s"), human(0.0421, "W"), human(0, "W"), human(0.25, "bit/s/Hz")
     ('12.3 Mbit/s', '42.1 mW', '0 W', '0.25 bit/s/Hz')
     """
     if np.isnan(value):
         return "–"
-    if np.isinf(value) or value == 0 or not unit or unit.endswith("/Hz"):
+    if np.isinf(value) or value == 0 or abs(value) >= 1e15 or not unit or unit.endswith("/Hz"):
         return f"{value:.3g} {unit}".strip()
     for scale, prefix in _PREFIXES:
         if abs(value) >= scale * 0.9995:

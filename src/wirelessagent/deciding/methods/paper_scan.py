@@ -16,6 +16,9 @@ from wirelessagent.model.errors import InputError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.problem import Problem
 
+MAX_LEVELS = 100_000
+"""Most levels taken: the loss of the grid is then far below 1e-9, and the powers of all levels are held at once."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class PaperScan(Method):
@@ -34,8 +37,8 @@ class PaperScan(Method):
     num_levels: int = 100
 
     def __post_init__(self) -> None:
-        if self.num_levels < 1:
-            raise InputError(f"num_levels must be 1 or more; got {self.num_levels!r}")
+        if not 1 <= self.num_levels <= MAX_LEVELS:
+            raise InputError(f"num_levels must be from 1 to {MAX_LEVELS:,}; got {self.num_levels!r}")
 
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
         from wirelessagent.deciding.core.water_filling_kernel import max_rate
