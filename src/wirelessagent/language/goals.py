@@ -7,7 +7,7 @@ is clear; anything else is not, and says why.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
@@ -16,11 +16,12 @@ from wirelessagent.language.vocabulary import Found
 Verdict: TypeAlias = Literal["clear", "none", "weak", "contradiction", "negated", "opposite"]
 
 ENOUGH = 0.7
-_REACH_BEFORE, _REACH_AFTER, _REACH_OF_NOT = 4, 3, 6
+_REACH_BEFORE, _REACH_AFTER, _REACH_OF_NOT, _REACH_TO_TURN = 4, 3, 6, 2
 
-_DIRECTIONS = ("up", "down", "want", "keep", "waste")
+_DIRECTIONS = ("up", "down", "want", "keep", "waste", "bad")
 _OBJECTS = ("rate", "stream", "power", "battery", "efficiency")
-_UNSERVED = ("less_rate", "more_power")
+_OPPOSITES = {"max_rate": "less_rate", "min_power": "more_power", "max_energy_efficiency": "less_efficiency"}
+_UNSERVED = (*_OPPOSITES.values(), "waste_power")
 
 # What a direction and its object mean together, and how much that weighs.
 _PAIRS: dict[tuple[str, str], tuple[str, float]] = {
@@ -31,15 +32,21 @@ _PAIRS: dict[tuple[str, str], tuple[str, float]] = {
     ("up", "stream"): ("max_rate", 0.7),
     ("down", "power"): ("min_power", 1.0),
     ("keep", "power"): ("min_power", 0.8),
-    ("waste", "power"): ("min_power", 1.0),
+    ("waste", "power"): ("waste_power", 1.0),
     ("up", "power"): ("more_power", 1.0),
     ("up", "battery"): ("min_power", 0.8),
     ("down", "battery"): ("min_power", 1.0),
     ("want", "battery"): ("min_power", 0.8),
     ("keep", "battery"): ("min_power", 0.8),
-    ("waste", "battery"): ("min_power", 1.0),
+    ("waste", "battery"): ("waste_power", 1.0),
     ("up", "efficiency"): ("max_energy_efficiency", 0.7),
     ("want", "efficiency"): ("max_energy_efficiency", 0.7),
+    ("down", "efficiency"): ("less_efficiency", 1.0),
+    # Below what is enough: said of a fault as often as of a wish, so that it is asked about.
+    ("bad", "rate"): ("less_rate", 0.5),
+    ("bad", "power"): ("more_power", 0.5),
+    ("bad", "battery"): ("more_power", 0.5),
+    ("bad", "efficiency"): ("less_efficiency", 1.0),
 }
 # Readings that yield to a nearer or plainer one: "save as much power as you can" asks for less of it.
 _VAGUE = {("want", "rate"): 1.5, ("want", "battery"): 1.5, ("want", "efficiency"): 1.5, ("up", "power"): 3.0}
@@ -124,7 +131,7 @@ def _joined_with_another(signals: Sequence[Signal], objective: str, found: Seque
 
 def _unclear(positive: dict[str, float], negated: set[str]) -> Goal:
     served = [name for name in positive if name not in _UNSERVED and name not in negated]
-    if negated - {"less_rate", "more_power"}:
+    if negated - set(_UNSERVED):
         return Goal(verdict="negated", options=tuple(sorted(negated - set(_UNSERVED))))
     if served:
         best = max(served, key=lambda name: positive[name])
@@ -137,10 +144,14 @@ def _signals(found: Sequence[Found]) -> list[Signal]:
     signals: list[Signal] = []
     for item in found:
         if item.term.concept == "direct":
-            signals.append(_signal(item, item, item.term.objective, item.term.weight))
+            turned = _turned_round(item, found, pairs)
+            meant = item.term.objective if turned is None else _OPPOSITES[item.term.objective]
+            signals.append(_signal(turned or item, item, meant, item.term.weight))
         elif item.term.concept in _OBJECTS:
             direction = pairs.get(item.first)
             meaning = None if direction is None else _PAIRS.get((direction.term.concept, item.term.concept))
+            if meaning is not None and meaning[0] == "waste_power" and _lessened(found, item):
+                meaning = _PAIRS["down", "power"]
             if direction is not None and meaning is not None:
                 signals.append(_signal(direction, item, *meaning))
             elif item.term.concept in _ALONE:
@@ -148,11 +159,32 @@ def _signals(found: Sequence[Found]) -> list[Signal]:
     return signals
 
 
+def _lessened(found: Sequence[Found], item: Found) -> bool:
+    """Whether waste is to be reduced, as in "reduce the wasted power"."""
+    return any(other.term.concept == "down" and other.clause == item.clause for other in found)
+
+
+def _turned_round(item: Found, found: Sequence[Found], pairs: Mapping[int, Found]) -> Found | None:
+    """The word that makes a term the opposite of its wish: "lowest energy efficiency", "more buffering"."""
+    if item.term.objective not in _OPPOSITES:
+        return None
+    turning = ("up", "want") if item.term.complaint else ("down", "bad")
+    spoken_for = {direction.first for direction in pairs.values()}
+    for word in found:
+        free = word.term.concept in turning and word.clause == item.clause and word.first not in spoken_for
+        before = word.last <= item.first
+        gap = item.first - word.last if before else word.first - item.last
+        sided = before or (not item.term.complaint and item.term.objective == "max_energy_efficiency")
+        if free and sided and gap <= _REACH_TO_TURN and not _blocked(found, word, item):
+            return word
+    return None
+
+
 def _signal(one: Found, other: Found, objective: str, weight: float) -> Signal:
     a, b = (one, other) if one.first <= other.first else (other, one)
     return Signal(
         objective=objective, weight=weight, start=a.start, end=b.end, first=a.first, last=b.last, clause=a.clause,
-        corrected=a.corrected or b.corrected, immune=one.term.concept in ("waste", "keep"),
+        corrected=a.corrected or b.corrected, immune=one.term.concept == "keep",
     )  # fmt: skip
 
 
@@ -201,21 +233,30 @@ def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     joins = [item.first for item in found if item.term.concept == "join"]
     for item in found:
         same = [other for other in named if other.clause == item.clause]
-        if item.term.concept in ("not", "undo") or (item.term.concept == "over" and _prefers(found, item)):
+        behind = [other for other in same if item.first - _REACH_OF_NOT <= other.first < item.first]
+        if item.term.concept in ("not", "isnt", "undo") or (item.term.concept == "over" and _prefers(found, item)):
             ahead = [other for other in same if item.last <= other.first < item.last + _REACH_OF_NOT]
             turned_off.update(other.first for other in _with_joined(ahead, joins))
+            if not ahead and _is_predicate(item, found):
+                turned_off.update(other.first for other in behind[-1:])
         elif item.term.concept == "not_after":
-            behind = [other for other in same if item.first - _REACH_OF_NOT <= other.first < item.first]
             turned_off.update(other.first for other in behind[-1:])
     result: list[Signal] = []
     for signal in signals:
         hit = not signal.immune and any(signal.first <= place < signal.last for place in turned_off)
         if hit and signal.objective in _UNSERVED:
-            if signal.objective == "less_rate":
-                result.append(replace(signal, objective="max_rate", weight=0.8))
+            if signal.objective in ("less_rate", "waste_power"):
+                wish = "max_rate" if signal.objective == "less_rate" else "min_power"
+                result.append(replace(signal, objective=wish, weight=0.8))
             continue
         result.append(replace(signal, negated=hit))
     return result
+
+
+def _is_predicate(negation: Found, found: Sequence[Found]) -> bool:
+    """Whether a negation says something of what stands before it: "power saving is not the goal"."""
+    is_not = any(item.term.concept == "question" and item.last == negation.first for item in found)
+    return negation.term.concept == "isnt" or (negation.term.concept == "not" and is_not)
 
 
 def _prefers(found: Sequence[Found], over: Found) -> bool:

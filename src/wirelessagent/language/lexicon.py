@@ -42,8 +42,26 @@ DIRECT: dict[str, str] = {
         "能效  "
         "能效比 能量效率 能源效率 高能效 又快又省电 又快又省 又省电又快 既快又省电 既快又省 既省电又快"
     ),
-    "less_rate": "slow_down slowing_down slower throttle 放慢 慢一点 慢点 慢一些 降速 限速",
+    "less_rate": (
+        "slow_down slowing_down slower slowest slowly throttle 放慢 慢一点 慢点 慢一些 降速 限速 最慢 更慢 慢慢 慢下来"
+    ),
+    "less_efficiency": "inefficient inefficiently inefficiency 低效 低能效",
 }
+
+# Those of the terms above that name what is wrong: more of it is the opposite of the wish, less of it is the wish.
+COMPLAINTS = (
+    "slow sluggish buffering buffers stutters stuttering lagging laggy lags 慢 卡顿 缓冲 费电 耗电 "
+    "energy_per_bit joules_per_bit joule_per_bit power_per_bit 每比特能耗"
+)
+
+# Wishes for what is wrong: "as slow as possible".
+_FRAMES = (
+    "as_{0}_as 尽量{0} 尽可能{0} 越{0}越好 go_{0} be_{0} make_it_{0} make_it_really_{0} make_it_very_{0} keep_it_{0}"
+)
+_WRONG = {"less_rate": "slow slowly sluggish laggy 慢 卡", "more_power": "power_hungry wasteful 费电 耗电"}
+for _objective, _words in _WRONG.items():
+    _framed = " ".join(_FRAMES.format(_word) for _word in _words.split())
+    DIRECT[_objective] = f"{DIRECT.get(_objective, '')} {_framed}"
 
 
 # Directions.
@@ -76,7 +94,14 @@ KEEP = (
     "without_losing without_hurting without_sacrificing without_compromising without_reducing without_lowering "
     "without_killing without_harming 不影响 不牺牲 不损失 不降低"
 )
-WASTE = "waste wasting wasted wastes wasteful 浪费"
+WASTE = (
+    "waste wasting wasted wastes wasteful squander squandering burn burning burns drain draining drains drained 浪费 "
+    "耗尽"
+)
+BAD = (
+    "worst worse worsen worsening bad poor poorer poorest terrible awful degrade degrading degraded hurt harm ruin kill "
+    "destroy sabotage neglect sacrifice sacrificing compromise_on 最差 更差 变差 恶化 牺牲 破坏"
+)
 
 # What a direction applies to.
 RATE = (
@@ -93,7 +118,7 @@ STREAM = (
 PERFORMANCE = "performance quality qos 性能 质量 体验"
 POWER = (
     "power energy consumption power_consumption energy_consumption electricity transmit_power transmission_power "
-    "radiated_power tx_power watt watts wattage emissions power_usage energy_usage energy_use power_use power_draw "
+    "radiated_power tx_power battery_drain battery_usage battery_consumption power_drain energy_drain watt watts wattage emissions power_usage energy_usage energy_use power_use power_draw "
     "功率 功耗 能耗 电 电量 电力 耗电量 发射功率 能量 能源 电费 总功率 能源消耗 能量消耗 用电"
 )
 BATTERY = "battery batteries battery_life battery_lifetime 电池 续航 电池寿命 电池续航"
@@ -103,19 +128,24 @@ EFFICIENCY = "efficiency efficient efficiently 效率 高效"
 NOT = (
     "disable disabling turn_off turning_off switch_off deactivate exit leave quit abandon neither "
     "more_important_than matters_more_than more_than 关闭 关掉 退出 停用 禁用 比 not no dont do_not doesnt "
-    "does_not didnt never without isnt arent wont cant cannot shouldnt neednt no_need  "
+    "does_not didnt never without anything_but anything_except anything_other_than everything_but everything_except all_but "
+    "except except_for apart_from other_than 除了 除 wont cant cannot shouldnt neednt no_need  "
     "no_need_to dont_need_to forget forget_about ignore nevermind never_mind dont_care dont_care_about do_not_care "
     "dont_worry_about no_matter stop instead_of rather_than regardless_of avoid skip not_interested_in 不要 别 不用 "
-    "不必 无需 不需要 不在乎 不关心 不在意 不管 不考虑 不 无须 无论 不管多少 无论多少 没必要 不想 停止 先不 不是 "
+    "不必 无需 不需要 不在乎 不关心 不在意 不管 不考虑 不 无须 无论 不管多少 无论多少 没必要 不想 停止 先不 "
     "忽略  "
     "不追求"
 )
+ISNT = "isnt arent wasnt 不是 并非 并不是"  # negates what follows, or else what stands before
 NOT_AFTER = (
+    "is_off are_off off turned_off switched_off is_disabled disabled is_out is_over is_unwanted unwanted undesired "
+    "excluded forbidden not_wanted not_desired not_allowed out_of_the_question 关了 已关闭 已关 除外 免了 "
     "doesnt_matter does_not_matter dont_matter do_not_matter not_important isnt_important unimportant irrelevant "
     "no_object no_concern not_a_concern isnt_a_concern not_a_priority isnt_a_priority not_needed isnt_needed "
     "not_necessary 无所谓 不重要 没关系 不要紧 不是问题 随便"
 )
 POLITE = (
+    "no_matter_what regardless whatever_it_takes off_peak no_doubt 无论如何 不管怎样 不管怎么样 "
     "can could would will shall please lets let_us how_about what_about why_not why_dont is_it_possible_to "
     "i_want_you_to dont_forget do_not_forget not_only no_wait nothing_but make_sure green_light high_speed_train "
     "at_high_speed 能不能 能否 能 哪怕 赶快 尽快 可以 可不可以 请 帮 麻烦 要不要 不但 不仅 别忘了 不错 大家 大约 "
@@ -141,6 +171,16 @@ UNSUPPORTED = (
     "latency delay delays jitter ping response_time handover handovers coverage beamforming antenna antennas tilt "
     "interference roaming 时延 延迟 抖动 覆盖 切换 天线 干扰"
 )
+STRANGE = (
+    " ".join(  # rates that are no data rates
+        f"{kind}_rate {kind}_rates"
+        for kind in (
+            "error bit_error block_error packet_error symbol_error failure fail loss packet_loss drop dropout outage miss "
+            "collision retransmission churn frame refresh sample sampling symbol clock heart interest exchange tax"
+        ).split()
+    )
+    + " packet_loss packet_losses errors ber bler 误码率 误块率 误比特率 错误率 丢包率 掉线率 失败率 帧率 采样率 利率 汇率"
+)
 DOMAIN = (
     "power_cut power_outage power_failure 比特 比例 user users ue subcarrier subcarriers channel channels csi cell "
     "cells network base_station allocation spectrum  "
@@ -164,7 +204,8 @@ QUESTION = (
 GREETING = "hello hi hey thanks thank_you good_morning good_evening 你好 您好 谢谢"
 
 CONCEPTS: dict[str, str] = {
-    "up": UP, "down": DOWN, "want": WANT, "keep": KEEP, "waste": WASTE, "rate": RATE, "stream": STREAM,
+    "up": UP, "down": DOWN, "want": WANT, "keep": KEEP, "waste": WASTE, "bad": BAD,
+    "isnt": ISNT, "strange": STRANGE, "rate": RATE, "stream": STREAM,
     "performance": PERFORMANCE, "power": POWER, "battery": BATTERY, "efficiency": EFFICIENCY, "not": NOT,
     "not_after": NOT_AFTER, "polite": POLITE, "split": SPLIT, "join": JOIN, "balance": BALANCE, "both": BOTH,
     "paired": PAIRED, "over": OVER, "fair": FAIR, "unsupported": UNSUPPORTED, "domain": DOMAIN,
@@ -173,7 +214,7 @@ CONCEPTS: dict[str, str] = {
 
 # Right words that are one letter away from a term: never "corrected".
 RIGHT_WORDS = (
-    "about after apple below boots cheap choose closer covers decay early fairy fasten fester forests foster greed "
+    "about after apple below boots cheap choose closer covers decay drawn early fairy fasten fester forests foster greed "
     "greet hangover large latte lease leash light liver losing lover mower night other paste poker powder price "
     "quiet  "
     "quite relay sleep small spend spent steak steal steam steed taste their there these those tower treat under "

@@ -143,6 +143,8 @@ class _Understanding:
         if self._reading.doubts:
             doubt = self._reading.doubts[0]
             return self._answer.ask(doubt.key, 0.8, **doubt.names)
+        if "strange" in self._concepts:
+            return self._answer.ask("strange", 0.8, text=self._words_for("strange"))
         if "fair" in self._concepts:
             return self._answer.ask("fairness", 0.8)
         if "unsupported" in self._concepts and self._goal.verdict == "clear":

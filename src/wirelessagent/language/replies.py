@@ -11,6 +11,8 @@ GOALS: dict[str, dict[str, str]] = {
         "max_energy_efficiency": "the most bits per joule (energy efficiency)",
         "less_rate": "less rate",
         "more_power": "more power",
+        "less_efficiency": "fewer bits per joule",
+        "waste_power": "wasting power",
     },
     "zh": {
         "max_rate": "总速率最高",
@@ -18,6 +20,8 @@ GOALS: dict[str, dict[str, str]] = {
         "max_energy_efficiency": "能效最高（每焦耳比特数最多）",
         "less_rate": "降低速率",
         "more_power": "增加功率",
+        "less_efficiency": "降低能效",
+        "waste_power": "浪费功率",
     },
 }
 
@@ -66,6 +70,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "opposite": "I can't aim for {goal} as such. What should the cell aim for: {choices}?",
         "fairness": "Fairness between users is not offered yet. Shall I aim for one of these instead: {choices}?",
         "unsupported_with_goal": "I can't steer {text}. Shall I go on without it, for {goal} alone?",
+        "strange": "I can't steer {text}. What should the cell aim for: {choices}?",
         "limits_only": "With {constraints}: what should the cell aim for, {choices}?",
         "rate_only": (
             "With {constraints}: shall I find the least power that carries it, the highest total rate beyond it, or "
@@ -109,6 +114,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "opposite": "不能以{goal}本身为目标。应以什么为目标：{choices}？",
         "fairness": "暂不支持用户间的公平目标。是否改用其中之一：{choices}？",
         "unsupported_with_goal": "我不能控制{text}。是否不考虑它，只求{goal}？",
+        "strange": "我不能控制{text}。小区应以什么为目标：{choices}？",
         "limits_only": "在{constraints}的条件下，应以什么为目标：{choices}？",
         "rate_only": "在{constraints}的条件下，是用最低功率满足它，还是在此之上总速率最高，或其他目标（{choices}）？",
         "too_long": "内容太长。请用一两句话说明应以什么为目标：{choices}？",

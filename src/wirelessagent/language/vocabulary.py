@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from wirelessagent.language import lexicon
 from wirelessagent.language.text import CJK, CLAUSE_END, normalise
@@ -24,11 +24,15 @@ _RIGHT_WORDS = frozenset(lexicon.RIGHT_WORDS.split())
 
 @dataclass(frozen=True, kw_only=True)
 class Term:
-    """What a phrase does in a sentence: its concept, and for "direct" the objective it means."""
+    """What a phrase does in a sentence: its concept, and for "direct" the objective it means.
+
+    A complaint ("buffering") means its objective too, but more of it would be the opposite.
+    """
 
     concept: str
     objective: str = ""
     weight: float = 1.0
+    complaint: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,6 +98,9 @@ class Vocabulary:
             spoken = [*words.names, *(phrase for _, phrases in words.phrases for phrase in phrases)]
             term = Term(concept="direct", objective=words.objective, weight=2.0)
             known |= {tuple(unit.word for unit in units_of(normalise(phrase))): term for phrase in spoken}
+        for item in lexicon.COMPLAINTS.split():
+            phrase = _entry(item)
+            known[phrase] = replace(known[phrase], complaint=True)
         known.pop((), None)
         for phrase, term in known.items():
             self._by_first.setdefault(phrase[0], []).append((phrase, term))
