@@ -218,13 +218,42 @@ OPPOSITE = [
     "as slow as possible", "make it as slow as possible", "go slow", "make it slow", "I want a slow network",
     "the slowest rate", "尽量慢", "越慢越好", "网速越慢越好", "尽可能慢", "more buffering", "increase the lagging",
     "anything but max rate", "everything except power saving", "除了省电", "maximum error rate", "最高误码率",
-    "lowest energy efficiency", "minimum energy efficiency", "最低能效", "能效最低", "降低能效", "worst energy efficiency",
+    "lowest energy efficiency", "minimum energy efficiency", "最低能效", "能效最低", "降低能效",
+    "worst energy efficiency",
     "reduce energy efficiency", "reduce the overall energy efficiency", "sacrifice energy efficiency",
     "energy efficiency as low as possible", "as inefficient as possible", "least efficient", "reduce the efficiency",
     "maximum energy per bit", "最差能效", "reduce power saving", "less high speed",
     "waste energy", "waste as much power as possible", "浪费电", "burn energy", "drain the battery", "尽量费电",
     "越耗电越好", "power saving is off", "turn power saving off", "power saving is not the goal", "节能不是目标",
     "power saving isn't what I want", "increase battery drain", "maximise battery usage", "worst speed",
+]  # fmt: skip
+
+# Figures that are part of a calculation, that nothing reads, or that are no limit of the cell.
+WRONG_FIGURES = [
+    "10^5 bps each", "1*10^5 bps", "2×10^5 bps", "10**5 bps", "2 x 10^6 bit/s", "10⁵ bps", "10² W", "1/2 Mbps",
+    "1 1/2 Mbps",
+    "½ Mbps each", "1½ Mbps", "half of 10 W", "a quarter of 20 W", "a third of 10 W", "twice 5 W", "double 5 W",
+    "3 times 5 W", "three times 5 W", "2*5 W", "5+5 W", "5 W + 5 W", "10 W / 2", "10 W times 2", "√2 W", 
+    "10 W divided by two",
+    "leave 10 W unused", "keep 10 W in reserve", "a 100 W bulb next door", "with a 100 W heater nearby",
+    "the oven uses 900 W", "10 W must be left over", "留10瓦备用", "一百零五千比特每秒", "二十五千比特每秒",
+    "1_000 kbps", "0x10 bps", "43 dB", "10 Wh", "10 V", "10 joules", "ten joules", "十伏", "a couple of watts",
+    "a handful of watts", "some milliwatts", "several Mbit/s", "10瓦的一半", "10瓦的两倍",
+]  # fmt: skip
+
+WRONG_AND_WISH = [
+    "reduce power by 3 dB", "higher speed for 3 users", "higher speed for three users", "save power for only 3 users",
+    "3 users need more speed", "give 3 users more speed", "给3个用户提速", "more speed for 3 sensors",
+    "5 G each, max rate",
+    "save power, 5G each",
+]  # fmt: skip
+
+HARMLESS_NUMBERS = [
+    ("more speed for all 8 users", RATE), ("higher speed, serve all 8 users", RATE), ("8个用户,速率最大", RATE),
+    ("with 8 users, max rate", RATE), ("save power for all eight users", POWER), ("max rate for 5G", RATE),
+    ("higher speed for 4K video", RATE), ("十分省电", POWER), ("save power 24/7", POWER), ("P1 with 10 W", RATE),
+    ("a better speed with one more thing", RATE), ("所有8个用户网速快一点", RATE),
+    ("faster, the cell uses 10 W", RATE), ("with 10 W make it fast", RATE), ("faster downloads with 20 subcarriers", RATE),
 ]  # fmt: skip
 
 SAME_WORDS_BUT_WISHED = [
@@ -291,6 +320,24 @@ def test_the_opposite_of_a_wish_gets_a_question(text: str, form: str) -> None:
 
 @pytest.mark.parametrize(("text", "objective"), SAME_WORDS_BUT_WISHED)
 def test_the_same_words_turned_the_right_way_round_are_a_wish(text: str, objective: str) -> None:
+    assert recognise(text).objective == objective
+
+
+@pytest.mark.parametrize("text", WRONG_FIGURES)
+@pytest.mark.parametrize("form", ["max rate, {}", "save power, {}", "{}, energy efficiency", "max rate with {}"])
+def test_a_figure_that_is_not_understood_is_asked_about(text: str, form: str) -> None:
+    intent = recognise(form.format(text))
+    assert intent.kind == "clarify", intent
+    assert intent.reply.endswith(("?", "\uff1f"))
+
+
+@pytest.mark.parametrize("text", WRONG_AND_WISH)
+def test_a_part_of_the_users_or_a_change_is_asked_about(text: str) -> None:
+    assert recognise(text).kind == "clarify"
+
+
+@pytest.mark.parametrize(("text", "objective"), HARMLESS_NUMBERS)
+def test_a_number_that_describes_is_no_obstacle(text: str, objective: str) -> None:
     assert recognise(text).objective == objective
 
 

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.surroundings import describes_all, is_calculated, is_cells_power
 from wirelessagent.language.text import CLAUSE_END
 
 _HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
@@ -64,7 +65,10 @@ _NAMED_USER = re.compile(
     r"(?P<number>[0-9]+)|#\s*(?P<hash>[0-9]+)|(?:用户|子载波|信道|时隙)\s*(?P<zh>[0-9一二三四五六七八九十]+)|(?P<hao>[0-9]+)\s*号"
     r"|\b(?:first|second|third|last)\s+(?:user|ue|subcarrier)\b|第[0-9一二三四五六七八九十]+个"
 )
-_COUNTED_USERS = re.compile(r"(?i)\b[0-9]+ (?:users|ues|subscribers)\b|[0-9]+\s*个用户")
+_COUNTED_USERS = re.compile(
+    r"(?i)(?<![\w.,/^*-])(?:[0-9]+|two|three|four|five|six|seven|eight|nine|ten|twelve|sixteen|twenty) (?:users|ues|"
+    r"subscribers|devices|sensors|terminals|subcarriers|channels)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|设备|传感器|子载波)"
+)
 _HALVED = re.compile(r"(?i)\bby (?:a )?(?:half|third|quarter)\b|\bhalf (?:the|of the|as much)\b|\bhalve\b|减半|一半")
 _CUT = re.compile(CLAUSE_END)
 
@@ -82,7 +86,7 @@ class Reading:
     """The constraints of a sentence, the words that each came from, and what is in doubt.
 
     ``masked`` are the spans that are used up, so that their words do not count as wishes again; ``not_used`` are
-    figures that describe the channel rather than ask for something.
+    figures that describe the channel rather than ask for something, ``counted`` the spans of those that count.
     """
 
     values: Mapping[str, float]
@@ -90,6 +94,7 @@ class Reading:
     doubts: Sequence[Doubt]
     not_used: Sequence[str]
     masked: Sequence[tuple[int, int]]
+    counted: Sequence[tuple[int, int]]
     exact: frozenset[str]
 
 
@@ -113,6 +118,7 @@ class _Reader:
         self._doubts: list[Doubt] = []
         self._not_used: list[str] = []
         self._masked: list[tuple[int, int]] = []
+        self._counted: list[tuple[int, int]] = []
         self._exact: set[str] = set()
         self._used_to = 0
 
@@ -123,7 +129,7 @@ class _Reader:
             self._doubts.append(Doubt(key="rates_crossed", names=names))
         return Reading(
             values=self._values, evidence=self._evidence, doubts=self._doubts, not_used=self._not_used,
-            masked=self._masked, exact=frozenset(self._exact),
+            masked=self._masked, counted=self._counted, exact=frozenset(self._exact),
         )  # fmt: skip
 
     def take(self, index: int) -> None:
@@ -143,6 +149,8 @@ class _Reader:
             self._doubt("not_understood", figure)
         elif figure.doubtful:
             self._doubt("bits_or_bytes", figure)
+        elif is_calculated(before, after):
+            self._doubt("calculated", figure)
         elif figure.kind == "ratio":
             self._take_ratio(figure, before, after)
         elif not 0 < figure.value < math.inf:
@@ -155,8 +163,14 @@ class _Reader:
     def take_users(self) -> None:
         """How many users there are is the channel's affair; a user or subcarrier that is named can't be served yet."""
         for match in _COUNTED_USERS.finditer(self._plain):
-            if not any(figure.start <= match.start() < figure.end for figure in self._quantities):
-                self._not_used.append(self._text[match.start() : match.end()])
+            if any(figure.start <= match.start() < figure.end for figure in self._quantities):
+                continue
+            words = self._text[match.start() : match.end()]
+            self._counted.append(match.span())
+            if describes_all(*self._clause_around(*match.span())):
+                self._not_used.append(words)
+            else:
+                self._doubts.append(Doubt(key="some_users", names={"text": words}))
         halved = _HALVED.search(self._plain)
         if halved is not None:
             self._doubts.append(Doubt(key="change", names={"text": self._text[halved.start() : halved.end()]}))
@@ -167,6 +181,16 @@ class _Reader:
                 name = self._text[match.start() : match.end()]
                 self._doubts.append(Doubt(key="named_user", names={"text": name}))
                 return
+
+    def _clause_around(self, start: int, end: int) -> tuple[str, str]:
+        """What stands before and after a span within its clause, figures being borders too."""
+        from_ = max([0, *(figure.phrase_end for figure in self._quantities if figure.phrase_end <= start)])
+        to = min(
+            [len(self._plain), *(figure.phrase_start for figure in self._quantities if figure.phrase_start >= end)]
+        )
+        cuts = [cut.end() for cut in _CUT.finditer(self._plain, from_, start)]
+        cut = _CUT.search(self._plain, end, to)
+        return self._plain[max([from_, *cuts]) : start], self._plain[end : cut.start() if cut else to]
 
     def _take_power(self, figure: Quantity, before: str, after: str) -> None:
         circuit = _CIRCUIT.search(before) or _CIRCUIT.search(after)
@@ -184,6 +208,8 @@ class _Reader:
             self._doubt("power_floor", figure)
         elif _is_change(before, after):
             self._doubt("change", figure)
+        elif not is_cells_power(before, after):
+            self._doubt("whose_power", figure)
         else:
             if setting is not None:
                 self._masked.append((figure.start - len(before) + setting.start(), figure.end))

@@ -99,8 +99,8 @@ WASTE = (
     "耗尽"
 )
 BAD = (
-    "worst worse worsen worsening bad poor poorer poorest terrible awful degrade degrading degraded hurt harm ruin kill "
-    "destroy sabotage neglect sacrifice sacrificing compromise_on 最差 更差 变差 恶化 牺牲 破坏"
+    "worst worse worsen worsening bad poor poorer poorest terrible awful degrade degrading degraded hurt harm ruin "
+    "kill destroy sabotage neglect sacrifice sacrificing compromise_on 最差 更差 变差 恶化 牺牲 破坏"
 )
 
 # What a direction applies to.
@@ -118,7 +118,9 @@ STREAM = (
 PERFORMANCE = "performance quality qos 性能 质量 体验"
 POWER = (
     "power energy consumption power_consumption energy_consumption electricity transmit_power transmission_power "
-    "radiated_power tx_power battery_drain battery_usage battery_consumption power_drain energy_drain watt watts wattage emissions power_usage energy_usage energy_use power_use power_draw "
+    "radiated_power tx_power "
+    "battery_drain battery_usage battery_consumption power_drain energy_drain "
+    "watt watts wattage emissions power_usage energy_usage energy_use power_use power_draw "
     "功率 功耗 能耗 电 电量 电力 耗电量 发射功率 能量 能源 电费 总功率 能源消耗 能量消耗 用电"
 )
 BATTERY = "battery batteries battery_life battery_lifetime 电池 续航 电池寿命 电池续航"
@@ -128,7 +130,8 @@ EFFICIENCY = "efficiency efficient efficiently 效率 高效"
 NOT = (
     "disable disabling turn_off turning_off switch_off deactivate exit leave quit abandon neither "
     "more_important_than matters_more_than more_than 关闭 关掉 退出 停用 禁用 比 not no dont do_not doesnt "
-    "does_not didnt never without anything_but anything_except anything_other_than everything_but everything_except all_but "
+    "does_not didnt never without anything_but anything_except anything_other_than everything_but everything_except "
+    "all_but "
     "except except_for apart_from other_than 除了 除 wont cant cannot shouldnt neednt no_need  "
     "no_need_to dont_need_to forget forget_about ignore nevermind never_mind dont_care dont_care_about do_not_care "
     "dont_worry_about no_matter stop instead_of rather_than regardless_of avoid skip not_interested_in 不要 别 不用 "
@@ -171,15 +174,13 @@ UNSUPPORTED = (
     "latency delay delays jitter ping response_time handover handovers coverage beamforming antenna antennas tilt "
     "interference roaming 时延 延迟 抖动 覆盖 切换 天线 干扰"
 )
+_NO_DATA = (
+    "error bit_error block_error packet_error symbol_error failure fail loss packet_loss drop dropout outage miss "
+    "collision retransmission churn frame refresh sample sampling symbol clock heart interest exchange tax"
+)
 STRANGE = (
-    " ".join(  # rates that are no data rates
-        f"{kind}_rate {kind}_rates"
-        for kind in (
-            "error bit_error block_error packet_error symbol_error failure fail loss packet_loss drop dropout outage miss "
-            "collision retransmission churn frame refresh sample sampling symbol clock heart interest exchange tax"
-        ).split()
-    )
-    + " packet_loss packet_losses errors ber bler 误码率 误块率 误比特率 错误率 丢包率 掉线率 失败率 帧率 采样率 利率 汇率"
+    "packet_loss packet_losses errors ber bler 误码率 误块率 误比特率 错误率 丢包率 掉线率 失败率 帧率 采样率 利率 "
+    + " ".join(f"{kind}_rate {kind}_rates" for kind in _NO_DATA.split())
 )
 DOMAIN = (
     "power_cut power_outage power_failure 比特 比例 user users ue subcarrier subcarriers channel channels csi cell "
@@ -214,7 +215,8 @@ CONCEPTS: dict[str, str] = {
 
 # Right words that are one letter away from a term: never "corrected".
 RIGHT_WORDS = (
-    "about after apple below boots cheap choose closer covers decay drawn early fairy fasten fester forests foster greed "
+    "about after apple below boots cheap choose closer covers decay drawn early fairy fasten fester forests foster "
+    "greed "
     "greet hangover large latte lease leash light liver losing lover mower night other paste poker powder price "
     "quiet  "
     "quite relay sleep small spend spent steak steal steam steed taste their there these those tower treat under "

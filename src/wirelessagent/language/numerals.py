@@ -143,7 +143,7 @@ def chinese_value(numeral: str) -> Decimal | None:
     whole, _, fraction = numeral.partition("点")
     if "几" in numeral or "半" in numeral or any(c not in _CHINESE_DIGITS for c in fraction):
         return None
-    total, section, digit, scale = 0, 0, 0, 1
+    total, section, digit, scale, lowest = 0, 0, 0, 1, 10**9
     previous = ""
     for letter in whole:
         if letter in _CHINESE_DIGITS:
@@ -151,13 +151,15 @@ def chinese_value(numeral: str) -> Decimal | None:
                 return None  # "三五" means three to five
             digit, scale = _CHINESE_DIGITS[letter], (1 if previous in ("", "零", "〇", "十") else scale)
         elif letter in _CHINESE_SCALES:
-            scale = _CHINESE_SCALES[letter]
+            if previous in _CHINESE_DIGITS and section and _CHINESE_SCALES[letter] >= lowest:
+                return None  # 一百零五千: 5100, or 105 kilo-?
+            scale = lowest = _CHINESE_SCALES[letter]
             multiplies = previous in _CHINESE_SCALES  # 三百千: three hundred kilo-
             section, digit = section * scale if multiplies else section + (digit or 1) * scale, 0
             scale //= 10
         else:
             scale = _CHINESE_BIG[letter]
-            total, section, digit = total + (section + digit or 1) * scale, 0, 0
+            total, section, digit, lowest = total + (section + digit or 1) * scale, 0, 0, scale
             scale //= 10
         previous = letter
     value = Decimal(total + section + digit * max(scale, 1))

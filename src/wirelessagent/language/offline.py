@@ -17,6 +17,7 @@ from wirelessagent.language import goals
 from wirelessagent.language.constraints import Reading, read_constraints
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.intent import CONSTRAINTS, Intent, IntentKind
+from wirelessagent.language.leftovers import unread
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.text import language_of, normalise
@@ -97,7 +98,13 @@ class _Understanding:
         self._units: list[Unit] = units_of(plain, self._reading.masked)
         self._found: list[Found] = _vocabulary(own).find(self._units)
         self._concepts = {item.term.concept for item in self._found}
+        read = [*self._reading.masked, *self._reading.counted, *self._named_spans()]
+        self._unread = unread(plain, read)
         self._goal: Goal = goals.goal_of(self._found)
+
+    def _named_spans(self) -> list[tuple[int, int]]:
+        """Where the words of wishes stand, such as "P1"; "5G" is left to be told from "5G each"."""
+        return [(item.start, item.end) for item in self._found if item.term.concept != "domain"]
 
     def intent(self) -> Intent:
         if not self._units:
@@ -143,6 +150,8 @@ class _Understanding:
         if self._reading.doubts:
             doubt = self._reading.doubts[0]
             return self._answer.ask(doubt.key, 0.8, **doubt.names)
+        if self._unread is not None:
+            return self._answer.ask("unread", 0.8, text=self._text[slice(*self._unread)].strip())
         if "strange" in self._concepts:
             return self._answer.ask("strange", 0.8, text=self._words_for("strange"))
         if "fair" in self._concepts:

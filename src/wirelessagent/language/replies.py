@@ -70,6 +70,13 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "opposite": "I can't aim for {goal} as such. What should the cell aim for: {choices}?",
         "fairness": "Fairness between users is not offered yet. Shall I aim for one of these instead: {choices}?",
         "unsupported_with_goal": "I can't steer {text}. Shall I go on without it, for {goal} alone?",
+        "unread": (
+            "I can use plain figures with a unit: a power (W, dBm), a rate (bit/s, Mbit/s) or an outage (%). "
+            "What is {text}?"
+        ),
+        "calculated": "I don't calculate with {text}. What does it come to: which single figure should I use?",
+        "whose_power": "Is {text} the most that the cell may radiate, or something else?",
+        "some_users": "Does {text} mean every user of the cell, or only some of them, which I can't treat apart yet?",
         "strange": "I can't steer {text}. What should the cell aim for: {choices}?",
         "limits_only": "With {constraints}: what should the cell aim for, {choices}?",
         "rate_only": (
@@ -114,6 +121,10 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "opposite": "不能以{goal}本身为目标。应以什么为目标：{choices}？",
         "fairness": "暂不支持用户间的公平目标。是否改用其中之一：{choices}？",
         "unsupported_with_goal": "我不能控制{text}。是否不考虑它，只求{goal}？",
+        "unread": "{text} 指什么？可用带单位的数值：功率（W、dBm）、速率（bit/s）或中断概率（%），是哪个？",
+        "calculated": "我不会用 {text} 做运算。结果应是哪个数值？",
+        "whose_power": "{text} 是小区发射功率的上限，还是别的功率？",
+        "some_users": "{text} 是指小区的所有用户，还是只指其中一部分（暂不能单独对待）？",
         "strange": "我不能控制{text}。小区应以什么为目标：{choices}？",
         "limits_only": "在{constraints}的条件下，应以什么为目标：{choices}？",
         "rate_only": "在{constraints}的条件下，是用最低功率满足它，还是在此之上总速率最高，或其他目标（{choices}）？",

@@ -1,0 +1,84 @@
+"""What stands beside a figure and changes its meaning: arithmetic, something else's power, a part of the users."""
+
+from __future__ import annotations
+
+import functools
+import re
+
+from wirelessagent.language import lexicon
+
+_OPERATOR = r"\^*×·⋅∙÷+±√∛"
+_CALCULATED_BEFORE = re.compile(
+    rf"(?i)(?:[{_OPERATOR}/]|(?<![a-z])x|\b(?:twice|thrice|double|triple|quadruple|times|half|thirds?|quarters?|tenths?|"
+    r"fraction|part|(?<!at )most|some|all but|portion|share|multiple|plus|minus|square|root)(?:\s+(?:of|the|an?))*"
+    r"|[倍半分]之?[一二三]?的?)\s*$"
+)
+_CALCULATED_AFTER = re.compile(
+    rf"(?i)\s*(?:[{_OPERATOR}]|/\s*[0-9]|x\s*[0-9]|(?:times|squared|cubed|divided|multiplied|plus|minus|doubled|halved|"
+    r"tripled)\b|的?(?:[一二两三四五十]?倍|一半|[二三四五十]分之))"
+)
+
+# Words beside a power which say that it isn't the cell's to radiate.
+_SPARED = re.compile(
+    r"(?i)\b(?:unused|reserved?|reserves|spare|aside|headroom|leave|leaves|leaving|left|remaining|remains|untouched|lost|"
+    r"lose|losing|behind|free|wasted?|wasting|margin)\b|[留剩余]|备用|闲置"
+)
+_HELD = re.compile(r"(?i)\b(?:keep|keeping|hold|hold back|retain|lose|losing|steal|donate)\s+(?:the\s+|about\s+)?$")
+_DRAWN = re.compile(
+    r"(?i)(?P<by>[a-z]+)\s+(?:uses?|draws?|consumes?|takes?|needs?|burns?|emits?|radiates?|has)\s+(?:about\s+|around\s+)?$"
+)
+_OURS = (
+    "it we they you i that which to can may cell cells network system station transmitter amplifier not dont and or "
+    "then please should must"
+)
+_STOP_WORDS = (
+    "a all allowed altogether and apiece are as at available be because before but by cap ceiling combined each "
+    "either every everyone everybody everything for from go get give if in is it its just less limit make no nobody of "
+    "on only or our output overall per please radio rf shall should since so sum thanks that the their them then there "
+    "these this though to together tops total today tonight totally transmit transmitted transmission transmitter tx until us "
+    "use used using we when where which while who whole will with within without you your allowance apply available "
+    "below above beyond under over not now ok okay again anyway instead keep keeping let lets that's thats subject "
+    "promise promised everywhere"
+)
+_FIRST_WORD = re.compile(r"\s*-?\s*([A-Za-z']+)")
+
+_ALL = re.compile(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
+_DESCRIBED_BEFORE = re.compile(
+    r"(?i)(?:^|\b(?:the|our|these|those|my|with|have|has|of|are|serve|serving|and|among|between|total|per|over|"
+    r"across|into)|[有共])\s*$"
+)
+_DESCRIBED_AFTER = re.compile(
+    r"(?i)\s*(?:$|(?:in|on|and|at|within|under|with|each|per|over|connected|total|online|active|now|max|min|maximum|"
+    r"minimum|or|share|sharing)\b|[每都共同])"
+)
+
+
+def is_calculated(before: str, after: str) -> bool:
+    """Whether a figure is a part of a calculation, which nobody has carried out: "half of 10 W", "2*5 W"."""
+    return _CALCULATED_BEFORE.search(before) is not None or _CALCULATED_AFTER.match(after) is not None
+
+
+def is_cells_power(before: str, after: str) -> bool:
+    """Whether a power may be what the cell radiates, rather than a reserve ("leave 10 W unused") or a bulb's."""
+    if _SPARED.search(before) or _SPARED.search(after) or _HELD.search(before):
+        return False
+    drawn = _DRAWN.search(before)
+    if drawn is not None and drawn["by"].lower() not in _OURS.split():
+        return False
+    word = _FIRST_WORD.match(after)
+    return word is None or word[1].lower().replace("'", "") in _known_words()
+
+
+def describes_all(before: str, after: str) -> bool:
+    """Whether a count of users tells how many there are, rather than picking some: "for 3 users" picks."""
+    if _ALL.search(before):
+        return True
+    return _DESCRIBED_BEFORE.search(before) is not None and _DESCRIBED_AFTER.match(after) is not None
+
+
+@functools.cache
+def _known_words() -> frozenset[str]:
+    listings = [*lexicon.CONCEPTS.values(), *lexicon.DIRECT.values()]
+    words = set(_STOP_WORDS.split())
+    words |= {word for listing in listings for phrase in listing.split() for word in phrase.split("_")}
+    return frozenset(words)
