@@ -216,7 +216,8 @@ ASK_BACK = [
 # Wishes for the opposite of what an objective serves, in the words of one that it does.
 OPPOSITE = [
     "as slow as possible", "make it as slow as possible", "go slow", "make it slow", "I want a slow network",
-    "the slowest rate", "尽量慢", "越慢越好", "网速越慢越好", "尽可能慢", "more buffering", "increase the lagging",
+    "make the network slow", "the slowest rate",
+    "尽量慢", "越慢越好", "网速越慢越好", "尽可能慢", "more buffering", "increase the lagging",
     "anything but max rate", "everything except power saving", "除了省电", "maximum error rate", "最高误码率",
     "lowest energy efficiency", "minimum energy efficiency", "最低能效", "能效最低", "降低能效",
     "worst energy efficiency",
@@ -233,17 +234,20 @@ WRONG_FIGURES = [
     "10^5 bps each", "1*10^5 bps", "2×10^5 bps", "10**5 bps", "2 x 10^6 bit/s", "10⁵ bps", "10² W", "1/2 Mbps",
     "1 1/2 Mbps",
     "½ Mbps each", "1½ Mbps", "half of 10 W", "a quarter of 20 W", "a third of 10 W", "twice 5 W", "double 5 W",
-    "3 times 5 W", "three times 5 W", "2*5 W", "5+5 W", "5 W + 5 W", "10 W / 2", "10 W times 2", "√2 W", 
+    "3 times 5 W", "three times 5 W", "2*5 W", "5+5 W", "5 W + 5 W", "10 W / 2", "10 W times 2", "√2 W",
     "10 W divided by two",
     "leave 10 W unused", "keep 10 W in reserve", "a 100 W bulb next door", "with a 100 W heater nearby",
     "the oven uses 900 W", "10 W must be left over", "留10瓦备用", "一百零五千比特每秒", "二十五千比特每秒",
     "1_000 kbps", "0x10 bps", "43 dB", "10 Wh", "10 V", "10 joules", "ten joules", "十伏", "a couple of watts",
-    "a handful of watts", "some milliwatts", "several Mbit/s", "10瓦的一半", "10瓦的两倍",
+    "a handful of watts", "some milliwatts", "several Mbit/s", "10瓦的一半", "10瓦的两倍", "sqrt 10 W",
+    "5瓦加5瓦", "五倍5瓦",
 ]  # fmt: skip
 
 WRONG_AND_WISH = [
     "reduce power by 3 dB", "higher speed for 3 users", "higher speed for three users", "save power for only 3 users",
-    "3 users need more speed", "give 3 users more speed", "给3个用户提速", "more speed for 3 sensors",
+    "3 users need more speed", "max rate for one user", "save power for most users",
+    "energy efficiency must not be maximised", "max rate? no",
+    "give 3 users more speed", "给3个用户提速", "more speed for 3 sensors",
     "5 G each, max rate",
     "save power, 5G each",
 ]  # fmt: skip
@@ -253,7 +257,8 @@ HARMLESS_NUMBERS = [
     ("with 8 users, max rate", RATE), ("save power for all eight users", POWER), ("max rate for 5G", RATE),
     ("higher speed for 4K video", RATE), ("十分省电", POWER), ("save power 24/7", POWER), ("P1 with 10 W", RATE),
     ("a better speed with one more thing", RATE), ("所有8个用户网速快一点", RATE),
-    ("faster, the cell uses 10 W", RATE), ("with 10 W make it fast", RATE), ("faster downloads with 20 subcarriers", RATE),
+    ("faster, the cell uses 10 W", RATE), ("with 10 W make it fast", RATE),
+    ("faster downloads with 20 subcarriers", RATE),
 ]  # fmt: skip
 
 SAME_WORDS_BUT_WISHED = [

@@ -69,6 +69,10 @@ _COUNTED_USERS = re.compile(
     r"(?i)(?<![\w.,/^*-])(?:[0-9]+|two|three|four|five|six|seven|eight|nine|ten|twelve|sixteen|twenty) (?:users|ues|"
     r"subscribers|devices|sensors|terminals|subcarriers|channels)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|设备|传感器|子载波)"
 )
+_SOME_USERS = re.compile(
+    r"(?i)\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
+    r"(?:部分|一些|某些|某个)用户"
+)
 _HALVED = re.compile(r"(?i)\bby (?:a )?(?:half|third|quarter)\b|\bhalf (?:the|of the|as much)\b|\bhalve\b|减半|一半")
 _CUT = re.compile(CLAUSE_END)
 
@@ -171,6 +175,9 @@ class _Reader:
                 self._not_used.append(words)
             else:
                 self._doubts.append(Doubt(key="some_users", names={"text": words}))
+        some = _SOME_USERS.search(self._plain)
+        if some is not None:
+            self._doubts.append(Doubt(key="some_users", names={"text": self._text[some.start() : some.end()]}))
         halved = _HALVED.search(self._plain)
         if halved is not None:
             self._doubts.append(Doubt(key="change", names={"text": self._text[halved.start() : halved.end()]}))

@@ -256,7 +256,11 @@ def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
 def _is_predicate(negation: Found, found: Sequence[Found]) -> bool:
     """Whether a negation says something of what stands before it: "power saving is not the goal"."""
     is_not = any(item.term.concept == "question" and item.last == negation.first for item in found)
-    return negation.term.concept == "isnt" or (negation.term.concept == "not" and is_not)
+    directed = any(
+        item.term.concept in _DIRECTIONS and item.clause == negation.clause and 0 <= item.first - negation.last <= 1
+        for item in found
+    )
+    return negation.term.concept == "isnt" or (negation.term.concept == "not" and (is_not or directed))
 
 
 def _prefers(found: Sequence[Found], over: Found) -> bool:

@@ -56,7 +56,8 @@ COMPLAINTS = (
 
 # Wishes for what is wrong: "as slow as possible".
 _FRAMES = (
-    "as_{0}_as 尽量{0} 尽可能{0} 越{0}越好 go_{0} be_{0} make_it_{0} make_it_really_{0} make_it_very_{0} keep_it_{0}"
+    "as_{0}_as 尽量{0} 尽可能{0} 越{0}越好 go_{0} be_{0} make_it_{0} make_it_really_{0} make_it_very_{0} keep_it_{0} "
+    "make_the_network_{0} make_the_internet_{0} make_everything_{0} make_them_{0} make_the_cell_{0}"
 )
 _WRONG = {"less_rate": "slow slowly sluggish laggy 慢 卡", "more_power": "power_hungry wasteful 费电 耗电"}
 for _objective, _words in _WRONG.items():

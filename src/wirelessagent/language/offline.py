@@ -9,6 +9,7 @@ its own phrases.
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Mapping, Sequence
 from typing import cast
 
@@ -29,6 +30,9 @@ _MAX_CHARACTERS = 2000
 _DEFAULT_CONFIDENCE = 0.75
 _BUILT_IN_ORDER = ("max_rate", "min_power", "max_energy_efficiency")
 _COMPARE = ("compare", "比较", "对比")
+_REFUSED = re.compile(
+    r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$"
+)  # "max rate? no"
 _ABOUT_THE_NETWORK = ("rate", "stream", "power", "battery", "efficiency", "performance", "domain", "direct", "fair")
 
 
@@ -167,6 +171,8 @@ class _Understanding:
     def _request(self) -> Intent:
         goal, ask = self._goal, self._answer.ask
         offered = [name for name in goal.options if name in self._voice.labels or goal.verdict == "opposite"]
+        if _REFUSED.search(normalise(self._text)):
+            return ask("negated")
         if goal.verdict == "clear" and goal.objective in self._voice.labels:
             words = " … ".join(self._text[start:end] for start, end in _merged(goal.spans))
             return self._answer.allocate(goal.objective, self._reading, words, goal.confidence)
