@@ -98,7 +98,10 @@ def test_no_entry_is_stated_far_too_certain(repairer: Repairer, delay_spread_s: 
 @pytest.mark.parametrize(("delay_spread_s", "snr"), [(30e-9, 10.0), (30e-9, 100.0), (100e-9, 100.0)])
 @pytest.mark.parametrize("repairer", [Linear(), Nncf()], ids=lambda r: r.name)
 def test_measurement_noise_is_not_taken_for_fading(repairer: Repairer, delay_spread_s: float, snr: float) -> None:
-    """Reports are conditional means of the gain, given the coefficient and complex Gaussian noise."""
+    """Reports are conditional means of the gain, given the coefficient and complex Gaussian noise.
+
+    They leave it open whether a channel is as flat as at 30 ns: the variance may be somewhat too wide there.
+    """
     rng = np.random.default_rng(7)
     fading = coefficients(delay_spread_s, 300, seed=6)
     noise = (rng.normal(size=fading.shape) + 1j * rng.normal(size=fading.shape)) / np.sqrt(2 * snr)
@@ -111,7 +114,7 @@ def test_measurement_noise_is_not_taken_for_fading(repairer: Repairer, delay_spr
         estimate = repairer.repair(ChannelObservation(gain=gain, noise_variance=variance))
         found.append((estimate.gain - truth)[missing])
         stated.append(estimate.gain_variance[missing])
-    assert 0.8 < np.mean(np.concatenate(found) ** 2) / np.mean(np.concatenate(stated)) < 1.3
+    assert 0.68 < np.mean(np.concatenate(found) ** 2) / np.mean(np.concatenate(stated)) < 1.3
 
 
 @pytest.mark.parametrize("delay_spread_s", [30e-9, 100e-9, 1000e-9])
@@ -156,3 +159,41 @@ def test_linear_knows_where_interpolation_is_a_bad_idea() -> None:
         squared.append((estimate.gain - truth)[far] ** 2)
         stated.append(estimate.gain_variance[far])
     assert 0.8 < np.concatenate(squared).mean() / np.concatenate(stated).mean() < 1.25
+
+
+def surprises(repairer: Repairer, delay_spread_s: float, *, loss: float, step_db: float, spread_db: float) -> float:
+    """Mean of (true − estimate)²/variance over the missing entries of 200 draws, reports rounded to ``step_db``."""
+    rng = np.random.default_rng(2)
+    fading = np.abs(coefficients(delay_spread_s, 200, seed=1)) ** 2
+    gain = fading * 10 ** (-10 + spread_db / 10 * rng.random((200, SHAPE[0], 1)))
+    reported = 10 ** (np.round(10 * np.log10(gain) / step_db) * step_db / 10) if step_db else gain
+    missing = rng.random(gain.shape) < loss
+    found = []
+    for truth, report, lost in zip(gain, reported, missing, strict=True):
+        estimate = repairer.repair(ChannelObservation(gain=np.where(lost, np.nan, report)))
+        found.append((truth - estimate.gain)[lost] ** 2 / estimate.gain_variance[lost])
+    return float(np.mean(np.concatenate(found)))
+
+
+@pytest.mark.parametrize("repairer", [UserMean(), Linear(), Nncf(), NncfPaper()], ids=lambda r: r.name)
+@pytest.mark.parametrize("step_db", [0.0, 3.0])
+@pytest.mark.parametrize(("delay_spread_s", "spread_db"), [(100e-9, 0.0), (300e-9, 0.0), (1e-6, 0.0), (1e-6, 30.0)])
+def test_few_reports_are_known_to_say_little(
+    repairer: Repairer, delay_spread_s: float, step_db: float, spread_db: float
+) -> None:
+    """Four reports a user, most often: a level measured in a fade, or agreement by chance, must not pass for proof."""
+    assert 0.3 < surprises(repairer, delay_spread_s, loss=0.8, step_db=step_db, spread_db=spread_db) < 3.0
+
+
+@pytest.mark.parametrize("repairer", [Linear(), Nncf()], ids=lambda r: r.name)
+def test_rounded_reports_at_low_loss_keep_their_variance_honest(repairer: Repairer) -> None:
+    assert 0.5 < surprises(repairer, 100e-9, loss=0.2, step_db=3.0, spread_db=30.0) < 1.5
+
+
+@pytest.mark.parametrize("repairer", [UserMean(), Linear(), Nncf(), NncfPaper()], ids=lambda r: r.name)
+def test_two_equal_neighbours_prove_no_flat_channel(repairer: Repairer) -> None:
+    nan = np.nan
+    gain = np.array([[nan, 1e-9, nan, nan], [nan, 1e-9, 1e-9, nan]])
+    estimate = repairer.repair(ChannelObservation(gain=gain))
+    spread = np.sqrt(estimate.gain_variance[estimate.repaired])
+    assert np.all(spread > 0.1 * 1e-9)

@@ -12,7 +12,7 @@ from wirelessagent.model.errors import InputError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.repairing.core.calibration import calibrated
-from wirelessagent.repairing.core.levels import UserLevels, user_levels
+from wirelessagent.repairing.core.levels import SMALLEST_VARIANCE, UserLevels, user_levels
 from wirelessagent.repairing.repairer import Repairer
 
 
@@ -57,6 +57,8 @@ class NncfPaper(Repairer):
         error = np.where(seen, current, 0.0) - value
         expected = (mean - level) ** 2 + spread + level**2
         variance = _scaled(levels, expected, error**2, seen & reached)
+        from_level = level * (level * (levels.doubt[:, np.newaxis] - 1.0))
+        variance = np.maximum(np.maximum(variance, from_level), SMALLEST_VARIANCE)
         guessed = ~reached | ~seen.any(axis=1, keepdims=True)
         around_level = levels.variance[:, np.newaxis] + (gain - level) ** 2
         return ChannelEstimate.completing(
@@ -66,5 +68,5 @@ class NncfPaper(Repairer):
 
 def _scaled(levels: UserLevels, expected: FloatArray, squared_error: FloatArray, known: BoolArray) -> FloatArray:
     """The expected squared errors, calibrated in units of each user's level."""
-    scale = np.where(levels.level > 0, levels.level, 1.0)[:, np.newaxis]
+    scale = levels.level[:, np.newaxis]
     return scale * (scale * calibrated(expected / scale / scale, squared_error / scale / scale, known))

@@ -14,8 +14,24 @@ from wirelessagent.testing.channels import observations
 from wirelessagent.testing.contract import ValueContract, as_returned, skip
 
 
+def _patterns() -> dict[str, ChannelObservation]:
+    """The patterns of holes, and reports that are all below what a report can express."""
+    dark = np.zeros((3, 6))
+    dark[:, 1::3] = np.nan
+    one = np.array([1e-9, 3e-9, 2e-9])[:, np.newaxis] * np.ones((3, 6))
+    one[0] = 0.0
+    one[:, 2::3] = np.nan
+    return observations() | {
+        "all observed are zero": ChannelObservation(gain=dark),
+        "a user whose observed are all zero": ChannelObservation(gain=one),
+    }
+
+
 class RepairerContract(ValueContract):
-    """Inherit this and set ``repairer``. It is tried on every pattern of holes in ``testing.channels``."""
+    """Inherit this and set ``repairer``.
+
+    It is tried on every pattern of holes in ``testing.channels``, and on reports of nothing but zeros.
+    """
 
     repairer: Repairer
 
@@ -23,7 +39,7 @@ class RepairerContract(ValueContract):
         return self.repairer
 
     def test_completes_every_pattern(self) -> None:
-        for pattern, observation in observations().items():
+        for pattern, observation in _patterns().items():
             try:
                 estimate: object = as_returned(self.repairer.repair(observation))
             except Exception as error:  # whatever it raises, the pattern must be named
@@ -57,7 +73,7 @@ class RepairerContract(ValueContract):
 
     def test_repaired_entries_are_uncertain(self) -> None:
         for pattern, observation, estimate in self._estimates():
-            guessed = observation.missing & (estimate.gain > 0)
+            guessed = observation.missing
             certain = int(np.count_nonzero(estimate.gain_variance[guessed] == 0))
             assert not certain, (
                 f"with {pattern} {certain} repaired gains have a variance of zero: a guess is not a fact"
@@ -99,7 +115,7 @@ class RepairerContract(ValueContract):
         assert estimate.unobserved_users.all(), "nothing was observed, yet users are not flagged"
 
     def test_leaves_the_observation_alone(self) -> None:
-        for pattern, observation in observations().items():
+        for pattern, observation in _patterns().items():
             array = observation.gain
             before = array.tobytes()
             self._repair(observation)
@@ -107,8 +123,8 @@ class RepairerContract(ValueContract):
             assert array.tobytes() == before, f"with {pattern} the observation was written to"
 
     def test_has_no_memory_and_does_not_draw(self) -> None:
-        first = {pattern: self._repair(case) for pattern, case in observations().items()}
-        for pattern, case in reversed(observations().items()):
+        first = {pattern: self._repair(case) for pattern, case in _patterns().items()}
+        for pattern, case in reversed(_patterns().items()):
             again, before = self._repair(case), first[pattern]
             if again is not None and before is not None:
                 assert again.gain.tobytes() == before.gain.tobytes(), (
@@ -127,7 +143,7 @@ class RepairerContract(ValueContract):
 
     def _estimates(self) -> Iterator[tuple[str, ChannelObservation, ChannelEstimate]]:
         found = 0
-        for pattern, observation in observations().items():
+        for pattern, observation in _patterns().items():
             estimate = self._repair(observation)
             if estimate is not None:
                 found += 1

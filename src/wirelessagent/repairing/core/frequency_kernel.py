@@ -22,6 +22,10 @@ from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 SMALLEST_ERROR = 1e-12
 """Floor of the expected squared relative error, so that its logarithm and its inverse exist."""
 
+PROVABLE_ERROR = 1e-4
+"""Squared relative error, (1 %)², below which agreement is no evidence: reports are rounded, and two equal ones
+would otherwise prove a channel without any fading."""
+
 LEAST_SHARE_OF_MEAN = 1e-6
 """Weight that the mean always keeps, so that nothing is estimated as 0 between two readings of 0."""
 
@@ -162,13 +166,53 @@ def predict(
 
 
 @kernel
+def predict_mixed(
+    relative: FloatArray,
+    known: BoolArray,
+    noise: FloatArray,
+    position: FloatArray,
+    candidates: FloatArray,
+    share: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """As :func:`predict`, but where the coherence c is uncertain: a mixture of the candidates with the shares p_c.
+
+    The mean is Σ p_c m_c and the expected squared error Σ p_c (v_c + (m_c − mean)²), with m_c and v_c those of
+    :func:`predict`; p_c is ``share``, shape (user, candidate), each user's adding up to 1 and 0 where not worth a look.
+    """
+    lefts, rights = nearest_known(known)
+    predicted, expected = np.empty(relative.shape), np.empty(relative.shape)
+    for k in range(relative.shape[0]):
+        row, row_noise, row_known = relative[k], noise[k], known[k]
+        count, total = row_known.sum(), row.sum()
+        for n in range(row.size):
+            left, right = lefts[k, n], rights[k, n]
+            below, above = distances(position, n, left, right)
+            gains, noises = neighbours(row, left, right, 0.0), neighbours(row_noise, left, right, 0.0)
+            mean = mean_of_others(row, row_known, count, total, n)
+            value, spread, variance, weight = 0.0, 0.0, 0.0, 0.0
+            for c in range(candidates.size):
+                p = share[k, c]
+                if p > 0.0:
+                    one, error = predict_entry(below, above, gains, noises, mean, candidates[c])
+                    # Weighted mean and spread, updated one by one: no digits are lost where all agree.
+                    weight += p
+                    step = one - value
+                    value += step * p / weight
+                    spread += p * step * (one - value)
+                    variance += p * error
+            predicted[k, n], expected[k, n] = value, variance + spread
+    return predicted, expected
+
+
+@kernel
 def misfit(
     relative: FloatArray, known: BoolArray, noise: FloatArray, position: FloatArray, candidates: FloatArray
 ) -> FloatArray:
     """Σ (ln v + e²/v) over each user's known entries left out one by one; shape (user, candidate).
 
     Twice the negative logarithm of a Gaussian likelihood, for each candidate coherence; 0 for users with fewer than
-    two known entries. The left-out entry's own noise is part of v.
+    two known entries. The left-out entry's own noise and ``PROVABLE_ERROR`` are
+    part of v.
     """
     lefts, rights = nearest_known(known)
     found = np.zeros((relative.shape[0], candidates.size))
@@ -188,7 +232,7 @@ def misfit(
             mean = mean_of_others(row, row_known, count, total, n)
             for c in range(candidates.size):
                 value, variance = predict_entry(below, above, gains, noises, mean, candidates[c])
-                variance += row_noise[n]
+                variance += row_noise[n] + PROVABLE_ERROR
                 error = row[n] - value
                 found[k, c] += error * error / variance
                 product[c] *= variance

@@ -38,7 +38,7 @@ class MeanFill(Repairer):
 
 def _mean(gain: FloatArray) -> float:
     seen = gain[~np.isnan(gain)]
-    return float(seen.mean()) if seen.size else 1e-12
+    return float(seen.mean()) if np.any(seen > 0) else 1e-12
 
 
 class NotDecorated(MeanFill):
@@ -183,6 +183,20 @@ class IsCertain(MeanFill):
 
 
 @dataclass(frozen=True, kw_only=True)
+class TakesZeroForCertain(MeanFill):
+    """A spread in proportion to the user's mean: none where all that was reported lies below the detection floor."""
+
+    caught_by = "test_repaired_entries_are_uncertain"
+
+    def repair(self, observation: ChannelObservation, *, at_s: float | None = None) -> ChannelEstimate:
+        estimate = MeanFill.repair(self, observation)
+        seen = ~observation.missing
+        dark = seen.any(axis=1) & (np.where(seen, observation.current, 0.0) == 0).all(axis=1)
+        certain = estimate.repaired & dark[:, np.newaxis]
+        return dataclasses.replace(estimate, gain_variance=np.where(certain, 0.0, estimate.gain_variance))
+
+
+@dataclass(frozen=True, kw_only=True)
 class FlagsByTheCurrentSlot(MeanFill):
     """Calls a user unobserved whose history is known."""
 
@@ -280,6 +294,7 @@ BROKEN: tuple[MeanFill, ...] = (
     ForgetsMeasurementNoise(),
     MarksNothing(),
     IsCertain(),
+    TakesZeroForCertain(),
     FlagsByTheCurrentSlot(),
     RenamesUsers(),
     PosteriorUpsideDown(),
