@@ -9,9 +9,8 @@ from wirelessagent.language import lexicon
 
 _OPERATOR = r"\^*×·⋅∙÷+±√∛"
 _CALCULATED_BEFORE = re.compile(
-    "
-    "rf"(?i)(?:[{_OPERATOR}/]|(?<![a-z])x|\b(?:twice|thrice|double|triple|quadruple|times|half|thirds?|quarters?|tenths?|"
-    r"fraction|part|(?<!at )most|some|all but|portion|share|multiple|plus|minus|square|root|sqrt|sum)"
+    rf"(?i)(?:[{_OPERATOR}/]|(?<![a-z])x|\b(?:twice|thrice|double|triple|quadruple|times|half|thirds?|quarters?|"
+    r"tenths?|fraction|part|(?<!at )most|some|all but|portion|share|multiple|plus|minus|square|root|sqrt|sum)"
     r"(?:\s+(?:of|the|an?))*"
     r"|[倍半加减乘除]之?[一二三]?[的以上去]?|分之[一二三]的?)\s*$"
 )
@@ -22,14 +21,12 @@ _CALCULATED_AFTER = re.compile(
 
 # Words beside a power which say that it isn't the cell's to radiate.
 _SPARED = re.compile(
-    "
-    "r"(?i)\b(?:unused|reserved?|reserves|spare|aside|headroom|leave|leaves|leaving|left|remaining|remains|untouched|lost|"
+    r"(?i)\b(?:unused|reserved?|reserves|spare|aside|headroom|leave|leaves|leaving|left|remaining|remains|untouched|lost|"
     r"lose|losing|behind|free|wasted?|wasting|margin)\b|[留剩余]|备用|闲置"
 )
 _HELD = re.compile(r"(?i)\b(?:keep|keeping|hold|hold back|retain|lose|losing|steal|donate)\s+(?:the\s+|about\s+)?$")
 _DRAWN = re.compile(
-    "
-    "r"(?i)(?P<by>[a-z]+)\s+(?:uses?|draws?|consumes?|takes?|needs?|burns?|emits?|radiates?|has)\s+(?:about\s+|around\s+)?$"
+    r"(?i)(?P<by>[a-z]+)\s+(?:uses?|draws?|consumes?|takes?|needs?|burns?|emits?|radiates?|has)\s+(?:about\s+|around\s+)?$"
 )
 _OURS = (
     "it we they you i that which to can may cell cells network system station transmitter amplifier not dont and or "
@@ -40,8 +37,7 @@ _STOP_WORDS = (
     "either every everyone everybody everything for from go get give if in is it its just less limit make no nobody of "
     "on only or our output overall per please radio rf shall should since so sum thanks that the their them then there "
     "these this though to together tops total today tonight totally transmit transmitted transmission transmitter tx "
-    "until us use used using we when where which while who whole will with within without you your "
-    "allowance apply available "
+    "until us use used using we when where which while who whole will with within without you your allowance apply available "
     "below above beyond under over not now ok okay again anyway instead keep keeping let lets that's thats subject "
     "promise promised everywhere"
 )
