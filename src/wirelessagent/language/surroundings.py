@@ -37,9 +37,9 @@ _STOP_WORDS = (
     "either every everyone everybody everything for from go get give if in is it its just less limit make no nobody of "
     "on only or our output overall per please radio rf shall should since so sum thanks that the their them then there "
     "these this though to together tops total today tonight totally transmit transmitted transmission transmitter tx "
-    "until us use used using we when where which while who whole will with within without you your allowance apply available "
-    "below above beyond under over not now ok okay again anyway instead keep keeping let lets that's thats subject "
-    "promise promised everywhere"
+    "until us use used using we when where which while who whole will with within without you your allowance "
+    "apply available below above beyond under over not now ok okay again anyway instead keep keeping let lets thats "
+    "subject promise promised everywhere"
 )
 _FIRST_WORD = re.compile(r"\s*-?\s*([A-Za-z']+)")
 
