@@ -124,7 +124,7 @@ def test_a_wide_coherence_means_interpolation_and_a_narrow_one_the_mean() -> Non
 def test_the_neighbours_noise_adds_to_the_expected_error() -> None:
     relative, known = np.array([[1.5, 0.0, 0.5]]), np.array([[True, False, True]])
     noise = np.array([[0.04, 0.0, 0.01]])
-    entries, where = (relative, known), (np.arange(3.0), np.array([2.0]))
+    entries, where = (relative, known), (np.arange(3.0), np.array([2.0]), np.ones((1, 1)))
     added = predict(*entries, noise, *where)[1] - predict(*entries, 0 * noise, *where)[1]
     w_below, w_above, _ = two_sided(1.0, 1.0, 2.0)
     np.testing.assert_allclose(added[0, 1], w_below**2 * 0.04 + w_above**2 * 0.01, rtol=1e-9)
@@ -141,12 +141,12 @@ def test_no_entry_takes_part_in_its_own_prediction() -> None:
     known[0, 4] = True
     relative[~known] = 0.0
     noise = 0.01 * relative**2
-    position, coherence = np.arange(12.0), np.array([3.0])
-    before = [predict(relative, known, noise, position, coherence)[0], interpolate(relative, known, position)]
+    position, coherence, share = np.arange(12.0), np.array([3.0, 9.0]), np.array([[0.7, 0.3]])
+    before = [predict(relative, known, noise, position, coherence, share)[0], interpolate(relative, known, position)]
     relative[0, 4] = 77.0
-    after = [predict(relative, known, noise, position, coherence)[0], interpolate(relative, known, position)]
+    after = [predict(relative, known, noise, position, coherence, share)[0], interpolate(relative, known, position)]
     for one, other in zip(before, after, strict=True):
-        assert one[0, 4] == other[0, 4]
+        np.testing.assert_allclose(other[0, 4], one[0, 4], rtol=1e-12)
         assert one[0, 5] != other[0, 5]
 
 

@@ -69,7 +69,7 @@ def predict(levels: UserLevels, observation: ChannelObservation) -> OverFrequenc
     share = np.exp(-0.5 * (evidence - evidence.min(axis=1, keepdims=True)))
     share[share < LEAST_SHARE] = 0.0
     share /= share.sum(axis=1, keepdims=True)
-    predicted, expected = frequency_kernel.predict_mixed(*entries, COHERENCES, share)
+    predicted, expected = frequency_kernel.predict(*entries, COHERENCES, share)
     coherence = COHERENCES[np.argmin(evidence, axis=1)]
     return OverFrequency(predicted=predicted, expected=expected, position=position, coherence=coherence)
 

@@ -144,29 +144,6 @@ def predict_entry(
 
 @kernel
 def predict(
-    relative: FloatArray, known: BoolArray, noise: FloatArray, position: FloatArray, coherence: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Every entry predicted from the known ones other than itself, and the expected squared error.
-
-    Shapes: ``relative``, ``known`` and ``noise`` (user, subcarrier), ``position`` (subcarrier,), ``coherence`` (user,)
-    in units of ``position``. ``relative`` and its measurement-error variance ``noise`` are 0 where not known.
-    """
-    lefts, rights = nearest_known(known)
-    predicted, expected = np.empty(relative.shape), np.empty(relative.shape)
-    for k in range(relative.shape[0]):
-        row, row_noise, row_known = relative[k], noise[k], known[k]
-        count, total = row_known.sum(), row.sum()
-        for n in range(row.size):
-            left, right = lefts[k, n], rights[k, n]
-            below, above = distances(position, n, left, right)
-            gains, noises = neighbours(row, left, right, 0.0), neighbours(row_noise, left, right, 0.0)
-            mean = mean_of_others(row, row_known, count, total, n)
-            predicted[k, n], expected[k, n] = predict_entry(below, above, gains, noises, mean, coherence[k])
-    return predicted, expected
-
-
-@kernel
-def predict_mixed(
     relative: FloatArray,
     known: BoolArray,
     noise: FloatArray,
@@ -174,10 +151,12 @@ def predict_mixed(
     candidates: FloatArray,
     share: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """As :func:`predict`, but where the coherence c is uncertain: a mixture of the candidates with the shares p_c.
+    """Every entry predicted from the known ones other than itself, and the expected squared error.
 
-    The mean is Σ p_c m_c and the expected squared error Σ p_c (v_c + (m_c − mean)²), with m_c and v_c those of
-    :func:`predict`; p_c is ``share``, shape (user, candidate), each user's adding up to 1 and 0 where not worth a look.
+    The coherence c is uncertain, so both are those of a mixture of the ``candidates``, in units of ``position``: the
+    mean Σ p_c m_c and the error Σ p_c (v_c + (m_c − mean)²), with m_c and v_c those of :func:`predict_entry` and p_c
+    the ``share``, shape (user, candidate), each user's adding up to 1. Other shapes: (user, subcarrier), ``position``
+    (subcarrier,). ``relative`` and its measurement-error variance ``noise`` are 0 where not known.
     """
     lefts, rights = nearest_known(known)
     predicted, expected = np.empty(relative.shape), np.empty(relative.shape)
