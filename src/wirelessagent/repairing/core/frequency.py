@@ -21,7 +21,7 @@ EVIDENCE = 0.5
 """What a left-out entry counts as evidence: each pair of neighbours is compared twice, once from either side."""
 
 NOMINAL_DELAY_SPREAD_S = 100e-9
-"""Rms delay spread expected before anything is seen: an urban micro cell (3GPP TR 38.901, table 7.7.3-2)."""
+"""Rms delay spread expected before anything is seen: the nominal one of 3GPP TR 38.901, table 7.7.3-1."""
 
 NOMINAL_FACTOR = 3.3
 """Standard deviation of what is expected, as a factor: 95 % lie between 10 ns and 1 µs."""
