@@ -35,6 +35,7 @@ def run(arguments: list[str]) -> int:
     command = typer.main.get_command(_app(arguments))
     try:
         code = command.main(args=arguments, prog_name="wirelessagent", standalone_mode=False)
+        sys.stdout.flush()
     except typer.TyperException as error:  # without a message the help was shown: no command was named
         return _fail(error.format_message(), 2) if error.format_message() else 2
     except InputError as error:
@@ -43,10 +44,11 @@ def run(arguments: list[str]) -> int:
         return _fail(str(error), 1)
     except (KeyboardInterrupt, typer.Abort):
         return _fail("interrupted", 130)
-    except BrokenPipeError:
-        sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115  # whoever read our output has gone
+    except BrokenPipeError:  # whoever read our output has gone
+        _give_up_output()
         return 1
     except OSError as error:
+        _give_up_output()
         return _fail(f"{error.strerror or error}: {error.filename or 'the output'}", 1)
     except MemoryError:
         return _fail("not enough memory for this input", 1)
@@ -57,6 +59,11 @@ def run(arguments: list[str]) -> int:
             f"internal error, please report it: {type(error).__name__}: {error} (WIRELESSAGENT_DEBUG=1 shows where)", 1
         )
     return code if isinstance(code, int) else 0
+
+
+def _give_up_output() -> None:
+    """Let what is still buffered go nowhere, so that the interpreter does not fail over it at its end."""
+    sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115
 
 
 def _fail(message: str, code: int) -> int:
