@@ -23,7 +23,7 @@ test: lint  ## lint, types, import contract, all tests, the third-party example
 	PYTHONPATH=build/third_party $(RUN) pytest examples/third_party_objective/tests
 
 lint: $(UV)
-	$(UV) sync --frozen --quiet --extra plot
+	$(UV) sync --locked --quiet --extra plot
 	$(RUN) ruff format --check .
 	$(RUN) ruff check .
 	$(RUN) pyright

@@ -157,6 +157,30 @@ def newton_step(hessian: FloatArray, gradient: FloatArray, step: FloatArray) -> 
 
 
 @kernel
+def best_start(
+    log_snr: FloatArray,
+    inverse_snr: FloatArray,
+    ceiling: FloatArray,
+    cap_w: FloatArray,
+    nats: FloatArray,
+    starts: FloatArray,
+    rate: FloatArray,
+    term: FloatArray,
+) -> tuple[FloatArray, float]:
+    """The start with the largest D, kept within the range of prices, and that D; ``rate`` and ``term`` are scratch."""
+    here = np.zeros(nats.size)
+    best = -np.inf
+    for start in starts:
+        trial = np.minimum(np.maximum(start, -HIGHEST_LOG_PRICE), HIGHEST_LOG_PRICE)
+        total = priced_terms(log_snr, inverse_snr, ceiling, cap_w, trial, rate, term)
+        worth = (np.exp(trial) * nats).sum()
+        if worth - total > best:
+            best = worth - total
+            here = trial
+    return here, best
+
+
+@kernel
 def climb_prices(
     log_snr: FloatArray,
     inverse_snr: FloatArray,
@@ -181,15 +205,7 @@ def climb_prices(
     trial_gradient = np.empty(users)
     hessian = np.empty((users, users))
     step = np.empty(users)
-    here = np.zeros(users)
-    best = -np.inf
-    for start in starts:
-        trial = np.minimum(np.maximum(start, -HIGHEST_LOG_PRICE), HIGHEST_LOG_PRICE)
-        total = priced_terms(log_snr, inverse_snr, ceiling, cap_w, trial, rate, term)
-        worth = (np.exp(trial) * nats).sum()
-        if worth - total > best:
-            best = worth - total
-            here = trial
+    here, best = best_start(log_snr, inverse_snr, ceiling, cap_w, nats, starts, rate, term)
     log_price[:] = here
     iterations = 0
     for relative_temperature in TEMPERATURES:
