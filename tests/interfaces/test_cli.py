@@ -275,3 +275,18 @@ def test_a_guess_is_called_a_guess(capsys: pytest.CaptureFixture[str]) -> None:
     record = answer(capsys, "ask", "max rate", "--loss", "users:1")
     assert len(record["estimate"]["unobserved_users"]) == 1
     assert any("is a guess" in sentence for sentence in record["explanation"])
+
+
+def test_an_interruption_while_loading_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from wirelessagent.__main__ import main
+
+    def interrupted(arguments: list[str]) -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("wirelessagent.interfaces.cli.run", interrupted)
+    with pytest.raises(SystemExit) as stopped:
+        main()
+    assert stopped.value.code == 130
+    assert capsys.readouterr().err == "wirelessagent: interrupted\n"

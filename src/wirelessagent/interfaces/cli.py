@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Annotated, Any
 
 import typer
@@ -20,11 +20,6 @@ from wirelessagent.operations.catalogue import OPERATIONS
 from wirelessagent.operations.operation import AnyOperation, InputError, WirelessAgentError, installed_version, silent
 
 _EPILOG = "Errors go to stderr; exit code 2 means bad input, 1 a failure."
-
-
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line and exit."""
-    sys.exit(run(sys.argv[1:] if arguments is None else list(arguments)))
 
 
 def run(arguments: list[str]) -> int:
