@@ -106,16 +106,16 @@ def check_solvable(problem: Problem, method: str | None = None) -> None:
     The error names the methods that do.
     """
     resolved = resolve(problem)
-    refusal = _refusal(resolved, method or default_method(resolved))
+    refusal = _refusal(resolved, plugins.load("method", method or default_method(resolved)))
     if refusal:
-        able = [one.name for one in plugins.plugins("method") if one.cls and not _refusal(resolved, one.name)]
+        able = [one.name for one in plugins.plugins("method") if one.cls and not _refusal(resolved, one.cls)]
         raise UnsupportedProblemError(f"{refusal} ({', '.join(able) or 'none is installed'})")
 
 
-def _refusal(problem: Problem, method: str) -> str:
+def _refusal(problem: Problem, method: type[Method]) -> str:
     """Why a method does not solve such problems; empty if it does."""
     try:
-        cast(Method, plugins.create("method", method)).objective_of(problem)
+        method.objective_of(problem)
     except UnsupportedProblemError as refusal:
         return str(refusal)
     return ""

@@ -91,24 +91,30 @@ def plugins(kind: Kind) -> list[Plugin]:
     return found
 
 
+def load(kind: Kind, name: str) -> type[Any]:
+    """The class of the plug-in ``name``; a :class:`PluginError` where it cannot be loaded."""
+    found = plugin(kind, name)
+    if found.cls is None:
+        raise PluginError(found.error)
+    return found.cls
+
+
 def create(kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *args: Any) -> Any:
     """An instance of the plug-in ``name`` with its options; positional ``args`` go before them.
 
     Raises:
         InputError: an option that it does not have, or a value that it refuses.
     """
-    found = plugin(kind, name)
-    if found.cls is None:
-        raise PluginError(found.error)
+    cls = load(kind, name)
     given = dict(options or {})
-    known = {option.name: option for option in found.options}
+    known = {option.name: option for option in options_of(cls)}
     for key in given:
         if key not in known:
             raise UnknownNameError(f"option of the {kind.replace('_', ' ')} {name!r}", key, known)
     missing = [option.name for option in known.values() if option.required and option.name not in given]
     if missing:
         raise InputError(f"the {kind.replace('_', ' ')} {name!r} needs {', '.join(missing)}")
-    return found.cls(*args, **{key: converted(known[key], value) for key, value in given.items()})
+    return cls(*args, **{key: converted(known[key], value) for key, value in given.items()})
 
 
 def objective(name: str, options: Mapping[str, Any] | None = None) -> Objective:

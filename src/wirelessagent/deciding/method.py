@@ -33,7 +33,8 @@ class Method(ABC):
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
         """The decision for ``problem`` on the estimated channel, with what certificate the method has."""
 
-    def objective_of(self, problem: Problem) -> Objective:
+    @classmethod
+    def objective_of(cls, problem: Problem) -> Objective:
         """The problem's objective, after a check that this method solves such problems."""
         objective = problem.objective
         if isinstance(objective, str):
@@ -41,15 +42,15 @@ class Method(ABC):
                 f"the objective {objective!r} is only a name: call wirelessagent.decide(), which looks it up, "
                 "or give an Objective"
             )
-        if self.objectives is not None and objective.name not in self.objectives:
+        if cls.objectives is not None and objective.name not in cls.objectives:
             raise UnsupportedProblemError(
-                f"method {self.name!r} does not solve {objective.name!r}; it solves {', '.join(self.objectives)}"
+                f"method {cls.name!r} does not solve {objective.name!r}; it solves {', '.join(cls.objectives)}"
             )
-        surplus = problem.constraints().keys() - self.constraints - {"max_power_w"}
+        surplus = problem.constraints().keys() - cls.constraints - {"max_power_w"}
         if surplus:
             them = "it" if len(surplus) == 1 else "them"
             raise UnsupportedProblemError(
-                f"method {self.name!r} does not honour {', '.join(sorted(surplus))}: "
+                f"method {cls.name!r} does not honour {', '.join(sorted(surplus))}: "
                 f"leave {them} out or name another method"
             )
         return objective

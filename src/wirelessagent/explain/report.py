@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.model.decision import Decision
-from wirelessagent.model.metrics import LinkMetrics, energy_efficiency_bit_per_j, jain_index
+from wirelessagent.model.metrics import LinkMetrics, metrics_of_rates
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
 
@@ -69,14 +69,10 @@ def report(decision: Decision, outcome: Outcome | None = None) -> Report:
 
 def predicted_metrics(decision: Decision) -> LinkMetrics:
     """The decision's metrics on the channel that it was made for."""
-    total = float(decision.rate_bps.sum())
-    cell = decision.cell
-    return LinkMetrics(
-        user_rate_bps=decision.rate_bps,
-        sum_rate_bps=total,
-        goodput_bps=total,
+    return metrics_of_rates(
+        decision.rate_bps,
+        goodput_bps=float(decision.rate_bps.sum()),
         power_w=decision.total_power_w,
-        energy_efficiency_bit_per_j=energy_efficiency_bit_per_j(total, decision.total_power_w, cell),
-        spectral_efficiency_bps_per_hz=total / (decision.owner.size * cell.subcarrier_bandwidth_hz),
-        jain_index=jain_index(decision.rate_bps),
+        num_subcarriers=decision.owner.size,
+        cell=decision.cell,
     )

@@ -76,14 +76,26 @@ def link_metrics(
     """
     rate = user_rate_bps(gain, owner, power_w, cell)
     committed = rate if committed_bps is None else committed_bps
-    total = float(rate.sum())
-    radiated = float(power_w.sum())
-    return LinkMetrics(
-        user_rate_bps=rate,
-        sum_rate_bps=total,
+    return metrics_of_rates(
+        rate,
         goodput_bps=float(np.where(kept(rate, committed), committed, 0.0).sum()),
-        power_w=radiated,
-        energy_efficiency_bit_per_j=energy_efficiency_bit_per_j(total, radiated, cell),
-        spectral_efficiency_bps_per_hz=total / (gain.shape[-1] * cell.subcarrier_bandwidth_hz),
-        jain_index=jain_index(rate),
+        power_w=float(power_w.sum()),
+        num_subcarriers=gain.shape[-1],
+        cell=cell,
+    )
+
+
+def metrics_of_rates(
+    user_rate_bps: FloatArray, *, goodput_bps: float, power_w: float, num_subcarriers: int, cell: Cell
+) -> LinkMetrics:
+    """Metrics that follow from rates (user,), a goodput and a radiated power that are known already."""
+    total = float(user_rate_bps.sum())
+    return LinkMetrics(
+        user_rate_bps=user_rate_bps,
+        sum_rate_bps=total,
+        goodput_bps=goodput_bps,
+        power_w=power_w,
+        energy_efficiency_bit_per_j=energy_efficiency_bit_per_j(total, power_w, cell),
+        spectral_efficiency_bps_per_hz=total / (num_subcarriers * cell.subcarrier_bandwidth_hz),
+        jain_index=jain_index(user_rate_bps),
     )

@@ -145,6 +145,25 @@ def percent(share: float) -> str:
     return f"{100 * share:,.0f} %" if share >= 0.1 else f"{100 * share:.2g} %"
 
 
+def decision_tables(report: Report, estimate: ChannelEstimate) -> list[Table]:
+    """What people want to see of a decision: users and figures, or what it would take where it cannot be done."""
+    if report.decision.is_usable:
+        return [user_table(report, estimate), report_table(report)]
+    return [figures_of_infeasibility(report.decision)]
+
+
+def figures_of_infeasibility(decision: Decision) -> Table:
+    """What the request would need and what could be had, each from both sides."""
+    rows: list[tuple[str, str, str]] = []
+    if decision.needed_power_w is not None:
+        need = decision.needed_power_w
+        rows.append(("power that the promised rates need", human(need.at_least, "W"), human(need.at_most, "W")))
+    if decision.rate_scaling is not None:
+        scale = decision.rate_scaling
+        rows.append(("largest common scaling of the promised rates", f"{scale.at_least:.3g}", f"{scale.at_most:.3g}"))
+    return Table(title="What it would take", columns=("figure", "at least", "at most"), rows=tuple(rows))
+
+
 def report_table(report: Report) -> Table:
     """Figures of merit, predicted beside achieved."""
     if report.achieved is None:

@@ -13,27 +13,21 @@ from wirelessagent.acting.file import FileBaseStation
 from wirelessagent.language.offline import recognise
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
-from wirelessagent.operations.answers import (
-    DecisionAnswer,
-    EstimateAnswer,
-    ReportAnswer,
-    report_table,
-    user_table,
-)
+from wirelessagent.operations.answers import DecisionAnswer, EstimateAnswer, ReportAnswer, decision_tables
 from wirelessagent.operations.cell_options import CellOptions
-from wirelessagent.operations.chain_run import Answer, Tools, act_on
+from wirelessagent.operations.chain_run import Tools, act_on, understood_event
 from wirelessagent.operations.channel_file import file_scene
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions, Positional
 from wirelessagent.operations.intent import IntentRecord
-from wirelessagent.operations.operation import Event, Operation, Progress
+from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.outputs import check_allocation, check_picture, draw_run
 from wirelessagent.operations.record import Block, Matrix, Record, Table
 from wirelessagent.operations.simulate import LOSS_USAGE
-from wirelessagent.operations.solve import figures_of_infeasibility
+from wirelessagent.operations.tool_options import MethodOptions, RepairerOptions
 from wirelessagent.sensing.loss import parse as parse_loss
 
 
-class AskRequest(CellOptions):
+class AskRequest(MethodOptions, RepairerOptions, CellOptions):
     panel = "Options"
 
     text: Annotated[str, Positional()] = Field(description="what the cell should do, in English or Chinese")
@@ -46,16 +40,6 @@ class AskRequest(CellOptions):
         None,
         description=f"what gets lost, several joined by +: {LOSS_USAGE}; "
         "random:0.2 for a simulated cell and nothing for a file if not given",
-    )
-    repairer: Annotated[str, PluginName("repairer")] = Field(chain.DEFAULT_REPAIRER, description="repairer")
-    repairer_options: Annotated[PluginOptions, OptionsOf("repairer")] = Field(
-        default_factory=dict, description="options of the repairer"
-    )
-    method: Annotated[str | None, PluginName("method")] = Field(
-        None, description="method; the objective's own if not given"
-    )
-    method_options: Annotated[PluginOptions, OptionsOf("method")] = Field(
-        default_factory=dict, description="options of the method"
     )
     base_station: Annotated[str | None, PluginName("base_station")] = Field(
         None, description="base station; simulated where the true channel is known"
@@ -113,7 +97,7 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
     understood = IntentRecord.of(request.text, intent)
     if intent.kind != "allocate" or intent.objective is None:
         return AskRecord(intent=understood, seed=request.seed, version=__version__)
-    progress(Event(stage="understand", message=f"{intent.reply} ({intent.recogniser}, {intent.confidence:.0%} sure)"))
+    progress(understood_event(intent))
     scene = _scene(request, progress)
     default_loss = [] if request.csi else ["random:0.2"]
     losses = [parse_loss(text) for text in (default_loss if request.loss is None else request.loss)]
@@ -138,7 +122,7 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
         version=__version__,
         out=out,
         plot=request.plot,
-        tables=_tables(answer),
+        tables=decision_tables(answer.report, answer.estimate),
     )
 
 
@@ -152,12 +136,6 @@ def _outcome(outcome: Outcome | None) -> OutcomeAnswer | None:
     if outcome is None:
         return None
     return OutcomeAnswer(base_station=outcome.base_station, written_to=outcome.written_to)
-
-
-def _tables(answer: Answer) -> list[Table]:
-    if answer.decision.is_usable:
-        return [user_table(answer.report, answer.estimate), report_table(answer.report)]
-    return [figures_of_infeasibility(answer.decision)]
 
 
 ASK = Operation(

@@ -24,9 +24,7 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.model.units import human
-from wirelessagent.operations.answers import (
-    certificate_line,
-)
+from wirelessagent.operations.answers import certificate_line
 from wirelessagent.operations.operation import Event, Progress, silent
 from wirelessagent.operations.simulate import describe
 
@@ -80,8 +78,13 @@ def ask(
     intent = recognise(text)
     if intent.kind != "allocate" or intent.objective is None:
         raise UnclearRequestError(intent.reply)
-    progress(Event(stage="understand", message=f"{intent.reply} ({intent.recogniser}, {intent.confidence:.0%} sure)"))
+    progress(understood_event(intent))
     return act_on(intent, scene, *losses, seed=seed, tools=tools or Tools(), progress=progress)
+
+
+def understood_event(intent: Intent) -> Event:
+    """What to tell the listener of an intent that is clear."""
+    return Event(stage="understand", message=f"{intent.reply} ({intent.recogniser}, {intent.confidence:.0%} sure)")
 
 
 def act_on(intent: Intent, scene: Scene, *losses: Loss, seed: int, tools: Tools, progress: Progress = silent) -> Answer:

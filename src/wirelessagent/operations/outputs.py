@@ -1,11 +1,17 @@
-"""Output files: checked before the work starts, so that a mistyped name costs nothing, and the picture of a run."""
+"""Output files: checked before the work starts, so that a mistyped name costs nothing.
+
+Also the metadata beside gains in a file of ours, and the picture of a run.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
+from wirelessagent import __version__
 from wirelessagent.acting.file import allocation_writer
 from wirelessagent.model.atomic import writable_target
+from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
@@ -46,3 +52,14 @@ def draw_run(
     from wirelessagent.pictures.chain_picture import draw_chain
 
     draw_chain(observation=observation, estimate=estimate, decision=decision, outcome=outcome, path=path)
+
+
+def channel_meta(cell: Cell, *, axes: str, maker: str = "") -> dict[str, Any]:
+    """The metadata beside gains in a file of ours, read back by the file source."""
+    return {
+        "generator": f"wirelessagent {__version__}{maker}",
+        "axes": axes,
+        "units": "linear power gain",
+        "rb_bandwidth_hz": cell.subcarrier_bandwidth_hz,
+        "noise_w_per_rb": cell.noise_power_w,
+    }

@@ -8,14 +8,14 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field
 
-from wirelessagent import __version__, chain
+from wirelessagent import chain
 from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.model.units import db
 from wirelessagent.operations.answers import EstimateAnswer
 from wirelessagent.operations.channel_file import ChannelFile
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
-from wirelessagent.operations.outputs import check_gains
+from wirelessagent.operations.outputs import channel_meta, check_gains
 from wirelessagent.operations.record import Block, Record, Table
 from wirelessagent.operations.simulate import describe
 from wirelessagent.sensing.npz import write_npz
@@ -81,13 +81,7 @@ def run(request: RepairRequest, progress: Progress) -> RepairRecord:
             "repaired": estimate.repaired,
             "user_names": np.array(estimate.user_names),
         }
-        meta = {
-            "generator": f"wirelessagent {__version__}, repairer {estimate.method}",
-            "axes": "user,subcarrier",
-            "units": "linear power gain",
-            "rb_bandwidth_hz": scene.cell.subcarrier_bandwidth_hz,
-            "noise_w_per_rb": scene.cell.noise_power_w,
-        }
+        meta = channel_meta(scene.cell, axes="user,subcarrier", maker=f", repairer {estimate.method}")
         write_npz(request.out, arrays, meta)
     return RepairRecord(
         facts=dict(scene.facts),

@@ -8,14 +8,14 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field
 
-from wirelessagent import __version__, chain
+from wirelessagent import chain
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.units import db
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
-from wirelessagent.operations.outputs import check_gains
+from wirelessagent.operations.outputs import channel_meta, check_gains
 from wirelessagent.operations.record import Block, Matrix, Record, Table, Vector
 from wirelessagent.sensing.loss import PATTERNS
 from wirelessagent.sensing.loss import parse as parse_loss
@@ -111,13 +111,7 @@ def scene_arrays(scene: Scene, seen: ChannelObservation) -> tuple[dict[str, Any]
         "slot_times_s": seen.slot_times_s,
     }
     arrays.update({name: value for name, value in optional.items() if value is not None})
-    meta = {
-        "generator": f"wirelessagent {__version__}",
-        "axes": "slot,user,subcarrier" if seen.gain.ndim == 3 else "user,subcarrier",
-        "units": "linear power gain",
-        "rb_bandwidth_hz": scene.cell.subcarrier_bandwidth_hz,
-        "noise_w_per_rb": scene.cell.noise_power_w,
-    }
+    meta = channel_meta(scene.cell, axes="slot,user,subcarrier" if seen.gain.ndim == 3 else "user,subcarrier")
     return arrays, meta
 
 

@@ -3,45 +3,29 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 from pydantic import Field
 
 from wirelessagent import chain
 from wirelessagent.acting.file import FileBaseStation
-from wirelessagent.explain.report import Report, report
+from wirelessagent.explain.report import report
 from wirelessagent.explain.words import explain
-from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.scene import Scene
-from wirelessagent.model.units import human
-from wirelessagent.operations.answers import (
-    DecisionAnswer,
-    ReportAnswer,
-    certificate_line,
-    report_table,
-    user_table,
-)
+from wirelessagent.operations.answers import DecisionAnswer, ReportAnswer, certificate_line, decision_tables
 from wirelessagent.operations.channel_file import ChannelFile
-from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
 from wirelessagent.operations.outputs import check_allocation, check_picture, draw_run
 from wirelessagent.operations.problem_options import ProblemOptions
 from wirelessagent.operations.record import Block, Table
+from wirelessagent.operations.tool_options import MethodOptions, RepairerOptions
 
 
-class ProblemOnFile(ProblemOptions, ChannelFile):
+class ProblemOnFile(ProblemOptions, RepairerOptions, ChannelFile):
     """A problem on a channel in a file, repaired where it has holes."""
 
     panel = "Options"
-
-    repairer: Annotated[str, PluginName("repairer")] = Field(
-        chain.DEFAULT_REPAIRER, description="repairer, where something is missing"
-    )
-    repairer_options: Annotated[PluginOptions, OptionsOf("repairer")] = Field(
-        default_factory=dict, description="options of the repairer"
-    )
 
     def posed(self, progress: Progress) -> tuple[Scene, ChannelEstimate, Problem]:
         """The scene, its estimate and the problem on it."""
@@ -55,13 +39,7 @@ class ProblemOnFile(ProblemOptions, ChannelFile):
         return scene, estimate, problem
 
 
-class SolveRequest(ProblemOnFile):
-    method: Annotated[str | None, PluginName("method")] = Field(
-        None, description="method; the objective's own if not given"
-    )
-    method_options: Annotated[PluginOptions, OptionsOf("method")] = Field(
-        default_factory=dict, description="options of the method"
-    )
+class SolveRequest(MethodOptions, ProblemOnFile):
     out: Path | None = Field(None, description="file to write the allocation to: JSON, CSV or NPZ")
     plot: Path | None = Field(None, description="picture of the allocation: PNG, SVG or PDF")
 
@@ -102,26 +80,8 @@ def run(request: SolveRequest, progress: Progress) -> SolveRecord:
         out=request.out,
         plot=request.plot,
         summary=certificate_line(decision),
-        tables=_tables(decision, made, estimate),
+        tables=decision_tables(made, estimate),
     )
-
-
-def _tables(decision: Decision, made: Report, estimate: ChannelEstimate) -> list[Table]:
-    if decision.is_usable:
-        return [user_table(made, estimate), report_table(made)]
-    return [figures_of_infeasibility(decision)]
-
-
-def figures_of_infeasibility(decision: Decision) -> Table:
-    """What the request would need and what could be had, each from both sides."""
-    rows: list[tuple[str, str, str]] = []
-    if decision.needed_power_w is not None:
-        need = decision.needed_power_w
-        rows.append(("power that the promised rates need", human(need.at_least, "W"), human(need.at_most, "W")))
-    if decision.rate_scaling is not None:
-        scale = decision.rate_scaling
-        rows.append(("largest common scaling of the promised rates", f"{scale.at_least:.3g}", f"{scale.at_most:.3g}"))
-    return Table(title="What it would take", columns=("figure", "at least", "at most"), rows=tuple(rows))
 
 
 SOLVE = Operation(

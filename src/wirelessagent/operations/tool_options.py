@@ -1,0 +1,37 @@
+"""Which plug-ins an operation uses, and their options."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar
+
+from pydantic import Field
+
+from wirelessagent import chain
+from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
+from wirelessagent.operations.operation import Request
+
+
+class RepairerOptions(Request):
+    """The repairer of what is missing."""
+
+    panel: ClassVar[str] = "Options"
+
+    repairer: Annotated[str, PluginName("repairer")] = Field(
+        chain.DEFAULT_REPAIRER, description="repairer, where something is missing"
+    )
+    repairer_options: Annotated[PluginOptions, OptionsOf("repairer")] = Field(
+        default_factory=dict, description="options of the repairer"
+    )
+
+
+class MethodOptions(Request):
+    """The method that decides."""
+
+    panel: ClassVar[str] = "Options"
+
+    method: Annotated[str | None, PluginName("method")] = Field(
+        None, description="method; the objective's own if not given"
+    )
+    method_options: Annotated[PluginOptions, OptionsOf("method")] = Field(
+        default_factory=dict, description="options of the method"
+    )
