@@ -59,11 +59,27 @@ def water_level(floor: FloatArray, cap: FloatArray, size: int, total: float) -> 
 
 @kernel
 def best_users(snr_per_w: FloatArray, best: FloatArray, owner: IntArray) -> None:
-    """The largest entry of each column of ``snr_per_w`` (user, subcarrier) and the first user that has it."""
+    """The largest entry of each column of ``snr_per_w`` (user, subcarrier) and the first user that has it.
+
+    Four rows meet each other before the best so far, which is then read and written a quarter as often.
+    """
     users, subcarriers = snr_per_w.shape
     best[:] = snr_per_w[0]
     owner[:] = 0
-    for k in range(1, users):
+    fours = 1 + (users - 1) // 4 * 4
+    for k in range(1, fours, 4):
+        first, second, third, fourth = snr_per_w[k], snr_per_w[k + 1], snr_per_w[k + 2], snr_per_w[k + 3]
+        for n in range(subcarriers):
+            left = second[n] if second[n] > first[n] else first[n]
+            right = fourth[n] if fourth[n] > third[n] else third[n]
+            left_user = k + 1 if second[n] > first[n] else k
+            right_user = k + 3 if fourth[n] > third[n] else k + 2
+            winner = right if right > left else left
+            winner_user = right_user if right > left else left_user
+            better = winner > best[n]
+            best[n] = winner if better else best[n]
+            owner[n] = winner_user if better else owner[n]
+    for k in range(fours, users):
         row = snr_per_w[k]
         for n in range(subcarriers):
             better = row[n] > best[n]
