@@ -3,7 +3,7 @@
 J. Mo and J. Walrand, "Fair end-to-end window-based congestion control", IEEE/ACM Transactions on Networking 8(5),
 2000, eq. (4):
 
-    U(r) = Σ r^(1−α)/(1−α),   and Σ ln r for α = 1.
+    Σ u(r),   u(r) = r^(1−α)/(1−α),   and ln r for α = 1.
 
 α → 0 is the largest sum rate, 1 proportional fairness, 2 the smallest total time for files of one size, and α → ∞ the
 largest minimum rate.
@@ -33,25 +33,23 @@ class AlphaFairness(wa.Objective):
             raise wa.InputError(f"alpha must be more than zero and finite; got {self.alpha!r}: for 0 use max_rate")
 
     def utility(self, rate):
-        return float(self._worth(rate).sum())
-
-    def conjugate(self, price, min_rate, max_rate):
-        """U′(r) = r^(−α) is the price, at r = price^(−1/α) or at the limit that is nearer."""
-        with np.errstate(divide="ignore", over="ignore"):
-            rate = np.clip(np.power(price, -1.0 / self.alpha), min_rate, max_rate)
-        payment = np.multiply(price, rate, where=price > 0, out=np.zeros_like(rate))  # what is free costs nothing
-        return float((self._worth(rate) - payment).sum()), rate
-
-    def value(self, rate, power_w, cell):
-        """The rate that is worth as much when everybody gets it, in bit/s: the power mean of exponent 1 − α."""
-        worth = self._worth(rate).mean()
-        if self.alpha == 1:
-            return float(np.exp(worth))
-        return float(np.power((1 - self.alpha) * worth, 1 / (1 - self.alpha)))
-
-    def _worth(self, rate):
-        """Each user's utility; −∞ for a rate of zero where α is 1 or more."""
+        """Each user's; −∞ for a rate of zero where α is 1 or more."""
         with np.errstate(divide="ignore"):
             if self.alpha == 1:
                 return np.log(rate)
             return np.power(rate, 1 - self.alpha) / (1 - self.alpha)
+
+    def conjugate(self, price, min_rate, max_rate):
+        """u′(r) = r^(−α) is the price, at r = price^(−1/α) or at the limit that is nearer."""
+        with np.errstate(divide="ignore", over="ignore"):
+            rate = np.clip(np.power(price, -1.0 / self.alpha), min_rate, max_rate)
+        payment = np.multiply(price, rate, where=price > 0, out=np.zeros_like(rate))  # what is free costs nothing
+        return self.utility(rate) - payment, rate
+
+    def figure(self, utility, weight):
+        """The rate that is worth as much if all get it, in bit/s: the weighted power mean of exponent 1 − α."""
+        worth = np.float64(utility / weight)
+        if self.alpha == 1:
+            return float(np.exp(worth))
+        with np.errstate(divide="ignore"):
+            return float(np.power((1 - self.alpha) * worth, 1 / (1 - self.alpha)))

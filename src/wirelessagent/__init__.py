@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from wirelessagent.kernels import kernel
     from wirelessagent.model import units
     from wirelessagent.model.cell import Cell
-    from wirelessagent.model.decision import Bracket, Decision
+    from wirelessagent.model.decision import Bracket, Decision, Prices
     from wirelessagent.model.errors import InputError, WirelessAgentError
     from wirelessagent.model.estimate import ChannelEstimate
     from wirelessagent.model.metrics import LinkMetrics, link_metrics
@@ -61,6 +61,7 @@ _HOMES = {
     "Objective": "model.objective",
     "Outcome": "model.outcome",
     "Posterior": "model.posterior",
+    "Prices": "model.decision",
     "Problem": "model.problem",
     "Repairer": "repairing.repairer",
     "Scene": "model.scene",
@@ -86,7 +87,7 @@ _HOMES = {
 __all__ = [  # kept in the order of _HOMES; a test compares the two
     "BaseStation", "Bracket", "Cell", "ChannelEstimate", "ChannelObservation", "ChannelSource", "Decision",
     "FileBaseStation", "GammaPosterior", "InputError", "LinkMetrics", "Method", "Objective", "Outcome", "Posterior",
-    "Problem", "Repairer", "Scene", "SimulatedBaseStation", "WirelessAgentError", "ask", "compare", "decide",
+    "Prices", "Problem", "Repairer", "Scene", "SimulatedBaseStation", "WirelessAgentError", "ask", "compare", "decide",
     "kernel", "link_metrics", "loss", "perfect", "phrases", "plugins", "read", "repair", "report", "simulate",
     "testing", "units",
 ]  # fmt: skip

@@ -37,9 +37,14 @@ def test_value_is_the_mean_rate_of_its_kind(alpha: float, mean: float) -> None:
     assert AlphaFairness(alpha=alpha).value(RATES, 1.0, wa.Cell()) == pytest.approx(mean, rel=1e-12)
 
 
+def test_weights_count_a_user_as_often() -> None:
+    value = AlphaFairness(alpha=3).value(RATES, 1.0, wa.Cell(), np.array([1.0, 2.0]))
+    assert value == pytest.approx(AlphaFairness(alpha=3).value(np.array([1e6, 4e6, 4e6]), 1.0, wa.Cell()), rel=1e-12)
+
+
 def test_a_user_without_a_rate_makes_it_worthless() -> None:
     assert AlphaFairness().value(np.array([0.0, 4e6]), 1.0, wa.Cell()) == 0.0
-    assert AlphaFairness().utility(np.array([0.0, 4e6])) == -np.inf
+    assert AlphaFairness().utility(np.array([0.0, 4e6])).tolist() == [-np.inf, -0.25e-6]
 
 
 @pytest.mark.parametrize("alpha", [0, -1, float("nan"), float("inf")])

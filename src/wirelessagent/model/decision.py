@@ -29,6 +29,22 @@ class Bracket:
     at_most: float
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Prices:
+    """Where the search for a decision ended: hand the decision to ``wa.decide(…, after=decision)`` to start there.
+
+    Attributes:
+        log_rate: ln of the price of each user's rate in W per nat, shape (user,).
+        log_power: ln of the price of power in the objective's utility per W; 0 where power itself is the objective.
+    """
+
+    log_rate: FloatArray
+    log_power: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "log_rate", frozen(self.log_rate))
+
+
 @dataclass(frozen=True, kw_only=True)
 class Decision:
     """An allocation for the current slot.
@@ -50,6 +66,7 @@ class Decision:
         needed_power_w: the power that the promised rates need, whatever the budget; None where none are promised.
         rate_scaling: the largest common factor on the promised rates that the budget carries; None likewise.
         iterations: outer iterations done by the method.
+        prices: where the search ended, for the next slot's to start from; None if the method does not search prices.
         method: registered name of the method.
         problem: the problem solved, with its objective resolved.
         cell: the cell it was solved for.
@@ -74,6 +91,7 @@ class Decision:
     needed_power_w: Bracket | None = None
     rate_scaling: Bracket | None = None
     iterations: int = 0
+    prices: Prices | None = None
 
     def __post_init__(self) -> None:
         for name in ("owner", "power_w", "rate_bps", "price_of_rate"):

@@ -1,17 +1,22 @@
 """What to optimise. An objective says *what*; a method says *how*.
 
-For given prices of the users' rates the subcarriers decouple, so a rate objective enters a solver through its concave
-conjugate alone: the most that utility minus payment can be, and the rates that reach it.
+Each user's rate has a utility, and the users' utilities are joined: summed, or the smallest of them. For given prices
+of the rates the users decouple, so an objective enters a solver through its concave conjugate alone: the most that
+utility minus payment can be, and the rate that reaches it (Boyd and Vandenberghe, Convex Optimization, 3.3 and 5.1.6).
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, final
+
+import numpy as np
 
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
+from wirelessagent.model.errors import InputError
+from wirelessagent.model.metrics import energy_efficiency_bit_per_j
 from wirelessagent.model.phrases import Phrases, phrases
 
 
@@ -25,7 +30,11 @@ class Objective(ABC):
         unit: the unit of :meth:`value`, as in "bit/s".
         direction: whether a larger or a smaller value is better.
         phrases: what an operator may say to mean it, by language.
-        default_method: the method used when none is named; None leaves it to the first that solves it.
+        default_method: the method used when none is named.
+        measure: what the value is made of: the users' joint utility, the radiated power, or the joint utility per
+            joule drawn.
+        joined: how the users' utilities join. A user's weight multiplies its utility in a sum; where the smallest
+            counts it is the user's share, so that weight 2 stands for twice the rate.
     """
 
     name: ClassVar[str]
@@ -33,21 +42,62 @@ class Objective(ABC):
     unit: ClassVar[str] = ""
     direction: ClassVar[Literal["max", "min"]] = "max"
     phrases: ClassVar[Phrases] = phrases()
-    default_method: ClassVar[str | None] = None
+    default_method: ClassVar[str] = "dual"
+    measure: ClassVar[Literal["utility", "power", "efficiency"]] = "utility"
+    joined: ClassVar[Literal["sum", "min"]] = "sum"
 
     @abstractmethod
-    def utility(self, rate: FloatArray) -> float:
-        """U(r): what the users' rates (user,) in bit/s are worth; concave and non-decreasing, −inf allowed at 0."""
+    def utility(self, rate: FloatArray) -> FloatArray:
+        """u(r): what each rate (…, user) in bit/s is worth to its user, elementwise, same shape.
 
-    @abstractmethod
-    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[float, FloatArray]:
-        """max over r in [min_rate, max_rate] of U(r) − price · r, and a rate vector that reaches it.
-
-        All arrays have shape (user,); rates in bit/s, max_rate may be infinite, prices are zero or more. Where the
-        maximum is not bounded the value is inf.
+        Concave and non-decreasing; −inf is allowed at 0.
         """
 
-    def value(self, rate: FloatArray, power_w: float, cell: Cell) -> float:
-        """The objective's value for rates (user,) in bit/s and a radiated power in W: U(r) unless it says otherwise."""
-        del power_w, cell
-        return self.utility(rate)
+    @abstractmethod
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """max over r in [min_rate, max_rate] of u(r) − price · r, and a rate that reaches it, elementwise.
+
+        All arrays are (…, user), broadcast together; rates in bit/s, max_rate may be infinite, prices are zero or
+        more. Where the maximum is not bounded the value is inf.
+        """
+
+    def figure(self, utility: float, weight: float) -> float:
+        """The figure shown for a joint utility of users of total ``weight``, in ``unit``: increasing in the utility.
+
+        The utility itself unless it says otherwise; where utilities are logarithms, the mean rate that they stand for.
+        """
+        del weight
+        return utility
+
+    @final
+    def value(self, rate: FloatArray, power_w: float, cell: Cell, weight: FloatArray | None = None) -> float:
+        """What the allocation is worth, in ``unit``.
+
+        By ``measure``, with U = Σ ω_k u(r_k), or min over ω_k > 0 of u(r_k/ω_k) where the smallest counts:
+
+            power        P
+            utility      figure(U, Σ ω)
+            efficiency   figure(U, Σ ω) / (P/ξ + P_c)
+
+        Args:
+            rate: each user's rate (user,) in bit/s.
+            power_w: radiated power P.
+            cell: for its amplifier efficiency ξ and circuit power P_c.
+            weight: ω (user,), 0 for users who count for nothing, whatever they get; None weighs all alike.
+
+        Raises:
+            InputError: nobody has a weight above 0.
+        """
+        if self.measure == "power":
+            return float(power_w)
+        weight = np.ones(rate.shape) if weight is None else weight
+        counts = weight > 0
+        if not counts.any():
+            raise InputError(f"nobody's rate counts with the weights {weight}: give a user one above 0")
+        omega = weight[counts]
+        if self.joined == "min":
+            joint = float(self.utility(rate / np.where(counts, weight, 1.0))[counts].min())
+        else:
+            joint = float((omega * self.utility(rate)[counts]).sum())
+        figure = float(self.figure(joint, float(omega.sum())))
+        return energy_efficiency_bit_per_j(figure, power_w, cell) if self.measure == "efficiency" else figure

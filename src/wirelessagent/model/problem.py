@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen, per_user, positive
+from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen, per_user, positive, whole
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.objective import Objective
@@ -19,7 +20,8 @@ class Problem:
 
     Attributes:
         objective: a registered name or alias ("max_rate", "P1"), or an objective with its options.
-        weights: relative worth of each user's rate, one value or (user,).
+        weights: relative worth of each user's rate, one value or (user,); 0 for a user whose rate counts for nothing.
+            Where the smallest rate counts they are shares: a user of weight 2 gets twice the rate.
         min_rate_bps: rate each user must get, one value or (user,), in bit/s.
         max_rate_bps: rate beyond which a user has nothing to send, one value or (user,), in bit/s; inf = full buffer.
         max_power_w: radiated power budget in W; at most the cell's.
@@ -57,14 +59,13 @@ class Problem:
         if self.forbidden is not None:
             object.__setattr__(self, "forbidden", frozen(np.asarray(self.forbidden, dtype=bool)))
         if self.users is not None:
-            users = tuple(int(user) for user in self.users)
-            if not users or len(set(users)) != len(users) or min(users) < 0:
-                raise InputError(f"users must be different user numbers from 0; got {self.users!r}")
-            object.__setattr__(self, "users", users)
-        if self.resource_block_group_size < 1:
-            raise InputError(f"resource_block_group_size must be 1 or more; got {self.resource_block_group_size!r}")
-        if self.outage_probability is not None and not 0 < self.outage_probability < 1:
+            object.__setattr__(self, "users", _user_numbers(self.users))
+        group = whole("resource_block_group_size", self.resource_block_group_size)
+        object.__setattr__(self, "resource_block_group_size", group)
+        if self.outage_probability is not None and positive("outage_probability", self.outage_probability) >= 1:
             raise InputError(f"outage_probability must be between 0 and 1; got {self.outage_probability!r}")
+        if self.weights is not None:
+            self._check_weights(np.asarray(self.weights))
 
     def budget_w(self, cell: Cell) -> float:
         """The power budget in W; an error where the problem asks for more than the cell may radiate."""
@@ -77,9 +78,47 @@ class Problem:
             )
         return self.max_power_w
 
+    def serves(self, num_users: int) -> BoolArray:
+        """True for the users to serve, shape (user,)."""
+        if self.users is None:
+            return np.ones(num_users, dtype=bool)
+        if max(self.users) >= num_users:
+            raise InputError(f"users {self.users} go beyond the {num_users} of the channel, counted from 0")
+        return np.isin(np.arange(num_users), self.users)
+
+    def weights_of(self, num_users: int) -> FloatArray:
+        """Each user's weight, shape (user,): 1 where none is set, 0 for users who are not served.
+
+        Raises:
+            InputError: nobody who is served has a weight above 0.
+        """
+        weight = per_user("weights", 1.0 if self.weights is None else self.weights, num_users)
+        weight = frozen(np.where(self.serves(num_users), weight, 0.0))
+        if not weight.any():
+            raise InputError(f"weights are 0 for every user to serve; got {self.weights!r:.80}: give one more than 0")
+        return weight
+
     def min_rates_bps(self, num_users: int) -> FloatArray:
         """The rate each user must get, shape (user,), 0 where there is no promise."""
         return per_user("min_rate_bps", 0.0 if self.min_rate_bps is None else self.min_rate_bps, num_users)
+
+    def max_rates_bps(self, num_users: int) -> FloatArray:
+        """The rate beyond which each user has nothing to send, shape (user,), inf where there is none.
+
+        Raises:
+            InputError: a user must get more than it can use.
+        """
+        most = per_user("max_rate_bps", np.inf if self.max_rate_bps is None else self.max_rate_bps, num_users)
+        least = self.min_rates_bps(num_users)
+        crossed = np.flatnonzero((least > most) & self.serves(num_users))
+        if crossed.size:
+            pairs = ", ".join(f"user {user}: {least[user]:g} above {most[user]:g}" for user in crossed[:5])
+            more = f" and {crossed.size - 5} more" if crossed.size > 5 else ""
+            raise InputError(
+                f"min_rate_bps is above max_rate_bps for {crossed.size} of {num_users} users, counted from 0 "
+                f"({pairs}{more}): lower the one or raise the other"
+            )
+        return most
 
     def constraints(self) -> dict[str, object]:
         """The constraints that are set, by field name, for messages and records."""
@@ -91,3 +130,19 @@ class Problem:
         if self.resource_block_group_size > 1:
             found["resource_block_group_size"] = self.resource_block_group_size
         return found
+
+    def _check_weights(self, weights: FloatArray) -> None:
+        if not weights.any():
+            raise InputError(f"weights are all 0; got {self.weights!r:.80}: give a user one above 0")
+        if isinstance(self.objective, Objective) and self.objective.measure == "power":
+            raise InputError(
+                f"weights mean nothing to {self.objective.name!r}, which counts power alone; got {self.weights!r:.80}: "
+                "leave them out"
+            )
+
+
+def _user_numbers(users: Iterable[int]) -> tuple[int, ...]:
+    numbers = tuple(whole("a number in users", user, smallest=0) for user in users)
+    if not numbers or len(set(numbers)) != len(numbers):
+        raise InputError(f"users must be different user numbers from 0; got {users!r}")
+    return numbers

@@ -18,26 +18,29 @@ _RANDOM_OWNERS = 15
 _BUDGET_SHARES = (1.0, 0.5, 0.2, 0.05, 0.01)
 
 
-def allocations(
-    gain: FloatArray, cell: Cell, budget_w: float, min_rate_bps: FloatArray
-) -> Iterator[tuple[FloatArray, float]]:
-    """Rates (user,) in bit/s and power in W of allocations that keep the budget and the promised rates.
+def allocations(gain: FloatArray, problem: Problem, cell: Cell) -> Iterator[tuple[FloatArray, float]]:
+    """Rates (user,) in bit/s and power in W of allocations that keep the budget, the promised and the highest rates.
 
-    Best and random owners, water-filled with parts of the budget; and for each user just the power for its rate.
+    Best and random owners, water-filled with parts of the budget and cut to the highest rates; and for each user just
+    the power for its rate. Other constraints of the problem are not looked at.
     """
     rng = np.random.default_rng(0)
     num_users, num_subcarriers = gain.shape
+    budget_w, least, most = problem.budget_w(cell), problem.min_rates_bps(num_users), problem.max_rates_bps(num_users)
     in_turn = np.mod(np.arange(num_subcarriers, dtype=np.int64), num_users)
     owners: list[IntArray] = [gain.argmax(axis=0), in_turn]
     owners += [rng.integers(0, num_users, num_subcarriers) for _ in range(_RANDOM_OWNERS)]
     for owner in owners:
         a = normalised_gain(owned_gain(gain, owner), cell)
         powers = [_water_filling(a, share * budget_w) for share in _BUDGET_SHARES]
-        powers.append(_just_enough(a, owner, min_rate_bps / cell.data_bandwidth_hz))
+        powers.append(_just_enough(a, owner, least / cell.data_bandwidth_hz))
         for power in powers:
-            rate = user_rate_bps(gain, owner, power, cell)
-            if power.sum() <= budget_w and np.all(rate >= min_rate_bps):
-                yield rate, float(power.sum())
+            above = user_rate_bps(gain, owner, power, cell) > most
+            enough = _just_enough(a, owner, np.where(above, most, 0.0) / cell.data_bandwidth_hz)
+            cut = np.where(above[owner], np.minimum(power, enough), power)
+            rate = user_rate_bps(gain, owner, cut, cell)
+            if cut.sum() <= budget_w and np.all(rate >= least):
+                yield rate, float(cut.sum())
 
 
 def equal_power_decision(scene: Scene, objective: Objective, *, status: Status = "feasible") -> Decision:

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from wirelessagent.model.decision import Decision
+from wirelessagent.model.objective import Objective
+from wirelessagent.model.problem import Problem
 from wirelessagent.testing.contract import TOLERANCE
 
 NUM_USERS = 4
@@ -28,6 +30,11 @@ class Constraint:
 
     value: Any
     is_kept: Callable[[Decision], bool]
+    suits: Callable[[Objective], bool] = lambda _: True
+
+    def problem(self, field: str, objective: Objective) -> Problem | None:
+        """A problem with this constraint alone; None for objectives to which it means nothing."""
+        return Problem(objective, **{field: self.value}) if self.suits(objective) else None
 
 
 def _only_allowed_pairs(decision: Decision) -> bool:
@@ -36,7 +43,11 @@ def _only_allowed_pairs(decision: Decision) -> bool:
 
 
 CONSTRAINTS = {
-    "weights": Constraint(value=np.array([1.0, 2.0, 1.0, 3.0]), is_kept=lambda _: True),  # no allocation breaks these
+    "weights": Constraint(
+        value=np.array([1.0, 2.0, 0.0, 3.0]),
+        is_kept=lambda _: True,  # no allocation breaks these; the value must weigh the rates
+        suits=lambda objective: objective.measure != "power",
+    ),
     "min_rate_bps": Constraint(
         value=_MIN_RATE_BPS,
         is_kept=lambda decision: bool(np.all(decision.rate_bps >= _MIN_RATE_BPS * (1 - TOLERANCE))),

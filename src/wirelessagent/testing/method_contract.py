@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from wirelessagent import plugins
 from wirelessagent.deciding.method import Method
+from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.errors import UnsupportedProblemError
@@ -21,8 +22,11 @@ from wirelessagent.testing.channels import known, rayleigh_gain
 from wirelessagent.testing.constraints import CONSTRAINTS, NUM_SUBCARRIERS, NUM_USERS
 from wirelessagent.testing.contract import TOLERANCE, ValueContract, as_returned, skip
 
+_OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
 _EASY_RATE_BPS = 50e3
 _IMPOSSIBLE_RATE_BPS = 1e9
+_MAX_RATE_BPS = (2e5, np.inf, 1e6, 5e6)
+_WEIGHTS = (1.0, 3.0, 0.0, 2.0)
 
 
 class _Case(NamedTuple):
@@ -110,7 +114,7 @@ class MethodContract(ValueContract):
 
     def test_value_is_the_objectives(self) -> None:
         for case, decision in self._usable():
-            value = _objective(case).value(decision.rate_bps, decision.total_power_w, case.cell)
+            value = _value(case, decision.rate_bps, decision.total_power_w)
             assert abs(decision.value - value) <= TOLERANCE * abs(value), (
                 f"with {case.what} the value is {decision.value!r}, but the objective says {value!r}"
             )
@@ -125,10 +129,8 @@ class MethodContract(ValueContract):
         for case, decision in self._certified():
             if _beaten(case, decision, decision.value):
                 skip("the bound is on the wrong side of its own value")
-            gain, cell = case.estimate.gain, case.cell
-            least = case.problem.min_rates_bps(len(gain))
-            for rate, power_w in allocations(gain, cell, case.problem.budget_w(cell), least):
-                value = _objective(case).value(rate, power_w, cell)
+            for rate, power_w in allocations(case.estimate.gain, case.problem, case.cell):
+                value = _value(case, rate, power_w)
                 assert not _beaten(case, decision, value), (
                     f"with {case.what} the bound is {decision.bound!r}, but an allocation reaches {value!r}"
                 )
@@ -203,8 +205,8 @@ class MethodContract(ValueContract):
         for field in self.method.constraints & CONSTRAINTS.keys():
             constraint, answers = CONSTRAINTS[field], 0
             for objective in self._objectives():
-                problem = Problem(objective, **{field: constraint.value})
-                if self._refuses(problem):  # some objectives and constraints may not go together
+                problem = constraint.problem(field, objective)
+                if problem is None or self._refuses(problem):  # some objectives and constraints may not go together
                     continue
                 answers += 1
                 decision = self.method.solve(estimate, problem, Cell())
@@ -216,8 +218,10 @@ class MethodContract(ValueContract):
     def test_other_constraints_are_refused(self) -> None:
         for field in CONSTRAINTS.keys() - self.method.constraints:
             for objective in self._objectives():
-                problem = Problem(objective, **{field: CONSTRAINTS[field].value})
-                assert self._refuses(problem), f"{field} is not among its constraints, but was not refused"
+                problem = CONSTRAINTS[field].problem(field, objective)
+                assert problem is None or self._refuses(problem), (
+                    f"{field} is not among its constraints, but was not refused"
+                )
 
     def test_other_objectives_are_refused(self) -> None:
         if self.method.objectives is None:
@@ -238,21 +242,24 @@ class MethodContract(ValueContract):
     def _objectives(self) -> tuple[Objective, ...]:
         if self.objectives is not None:
             return self.objectives
-        names = self.method.objectives or ("max_rate", "min_power", "max_energy_efficiency")
+        names = self.method.objectives or _OBJECTIVES
         return tuple(plugins.objective(name) for name in names)
 
     def _cases(self) -> Iterator[_Case]:
-        """Every objective on two channels in a cell like the paper's, a small budget, and a practical link."""
-        ask: dict[str, Callable[[Objective], Problem]] = {
-            "20 W": Problem,
-            "0.1 W": lambda objective: Problem(objective, max_power_w=0.1),
-        }
+        """Every objective on a few channels: a cell like the paper's, a small budget, each limit, a practical link."""
+        ask: dict[str, dict[str, Any]] = {"20 W": {}, "0.1 W": {"max_power_w": 0.1}}
         if "min_rate_bps" in self.method.constraints:
-            ask["50 kbit/s each"] = lambda objective: Problem(objective, min_rate_bps=_EASY_RATE_BPS)
+            ask["50 kbit/s each"] = {"min_rate_bps": _EASY_RATE_BPS}
+        if "max_rate_bps" in self.method.constraints:
+            ask["a highest rate for some"] = {"max_rate_bps": _MAX_RATE_BPS}
+        if "weights" in self.method.constraints:
+            ask["weights"] = {"weights": _WEIGHTS}
         for objective in self._objectives():
-            for seed, (what, make) in enumerate(ask.items()):
-                problem = make(objective)
-                if problem.min_rate_bps is not None and self._refuses(problem):
+            for seed, (what, fields) in enumerate(ask.items()):
+                if "weights" in fields and objective.measure == "power":
+                    continue
+                problem = Problem(objective, **fields)
+                if fields and self._refuses(problem):
                     continue
                 estimate = known(rayleigh_gain(4, 12, seed=20 + seed)[0])
                 for link, cell in {"Shannon's link": Cell(), "a practical link": Cell.nr()}.items():
@@ -281,6 +288,10 @@ class MethodContract(ValueContract):
 def _objective(case: _Case) -> Objective:
     assert isinstance(case.problem.objective, Objective)
     return case.problem.objective
+
+
+def _value(case: _Case, rate_bps: FloatArray, power_w: float) -> float:
+    return _objective(case).value(rate_bps, power_w, case.cell, case.problem.weights_of(len(rate_bps)))
 
 
 def _beaten(case: _Case, decision: Decision, value: float) -> bool:

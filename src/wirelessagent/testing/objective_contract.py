@@ -1,4 +1,7 @@
-"""The contract of objectives: a concave utility of rates, its exact conjugate, and a value that people can read."""
+"""The contract of objectives: a concave utility of a rate, its exact conjugate, and a value that people can read.
+
+Utility and conjugate are elementwise, so that each check speaks of one user at a time.
+"""
 
 from __future__ import annotations
 
@@ -14,10 +17,11 @@ from wirelessagent.testing.contract import TOLERANCE, ValueContract, as_returned
 
 _DRAWS = 60
 _USERS = 3
+_ROWS = 2
 
 
 class _Case(NamedTuple):
-    """A question to the conjugate: prices and limits per user."""
+    """A question to the conjugate: prices and limits, one per user, or (row, user)."""
 
     price: FloatArray
     min_rate: FloatArray
@@ -50,9 +54,27 @@ class ObjectiveContract(ValueContract):
                 assert isinstance(word, str), f"a phrase is text; got {word!r}"
                 assert word.strip() == word != "", f"a phrase has no blanks around it and is not empty; got {word!r}"
 
-    def test_direction_is_known(self) -> None:
-        direction: str = self.objective.direction
-        assert direction in ("max", "min"), f"direction must be 'max' or 'min'; got {direction!r}"
+    def test_direction_measure_and_joining_are_known(self) -> None:
+        known = {"direction": ("max", "min"), "measure": ("utility", "power", "efficiency"), "joined": ("sum", "min")}
+        for name, values in known.items():
+            value: object = getattr(self.objective, name)
+            assert value in values, f"{name} must be one of {', '.join(values)}; got {value!r}"
+
+    def test_utility_is_elementwise(self) -> None:
+        rates = self._rates(np.random.default_rng(12), (_ROWS, _USERS))
+        together = _array(self.objective.utility(rates.copy()))
+        assert together.shape == rates.shape, (
+            f"utility must return a value for each rate: for rates {rates.shape} it returned {together.shape}"
+        )
+        for row, utility in zip(rates, together, strict=True):
+            alone = _array(self.objective.utility(row.copy()))
+            assert _equal(utility, alone), f"the utility of {row} is {alone} alone, but {utility} in a batch"
+        for user in range(_USERS):
+            other = rates.copy()
+            other[:, user] *= 2
+            others = np.arange(_USERS) != user
+            changed = _array(self.objective.utility(other))
+            assert _equal(changed[:, others], together[:, others]), "a user's utility depends on another's rate"
 
     def test_utility_is_concave(self) -> None:
         rng = np.random.default_rng(1)
@@ -61,7 +83,7 @@ class ObjectiveContract(ValueContract):
             ends = share * self._utility(one), (1 - share) * self._utility(other)
             between = self._utility(share * one + (1 - share) * other)
             slack = TOLERANCE * (abs(ends[0]) + abs(ends[1]) + abs(between))
-            assert between >= sum(ends) - slack, (
+            assert np.all(between >= sum(ends) - slack), (
                 f"utility is not concave: between {one} and {other} it is {between}, below the chord's {sum(ends)}"
             )
 
@@ -71,14 +93,36 @@ class ObjectiveContract(ValueContract):
             rate = self._rates(rng)
             more = rate * rng.uniform(1, 3, _USERS)
             before, after = self._utility(rate), self._utility(more)
-            assert after >= before - TOLERANCE * abs(before), (
+            assert np.all(after >= before - TOLERANCE * abs(before)), (
                 f"utility falls from {before} to {after} when the rates rise from {rate} to {more}"
             )
 
+    def test_conjugate_is_elementwise(self) -> None:
+        """Prices, limits or all of them may have leading axes, as for many cells or many prices at once."""
+        first, other = list(self._cases(seed=13))[:_ROWS]
+        stacked = _Case(*(np.stack(arrays) for arrays in zip(first, other, strict=True)))
+        one_limit, one_price = other._replace(price=first.price), first._replace(price=other.price)
+        batches = {
+            "prices and limits": (stacked, (first, other)),
+            "prices": (first._replace(price=stacked.price), (first, one_price)),
+            "limits": (stacked._replace(price=first.price), (first, one_limit)),
+        }
+        for what, (batch, rows) in batches.items():
+            found = self.objective.conjugate(*(array.copy() for array in batch))
+            alone = [self.objective.conjugate(*(array.copy() for array in row)) for row in rows]
+            for place, name in enumerate(("values", "rates")):
+                array = _array(found[place])
+                assert array.shape == (_ROWS, _USERS), (
+                    f"for a batch {(_ROWS, _USERS)} of {what} conjugate returned {name} of shape {array.shape}"
+                )
+                one_by_one = np.stack([_array(answer[place]) for answer in alone])
+                assert _equal(array, one_by_one), (
+                    f"for a batch of {what} the {name} are {array}, but row by row {one_by_one}"
+                )
+
     def test_conjugate_rates_are_within_the_limits(self) -> None:
         for case in self._cases(seed=3):
-            _, rate = self._conjugate(case)
-            assert np.shape(rate) == (_USERS,), f"conjugate must return a rate per user; got shape {np.shape(rate)}"
+            rate = self._conjugate(case)[1]
             low, high = case.min_rate * (1 - TOLERANCE), case.max_rate * (1 + TOLERANCE)
             assert np.all((rate >= low) & (rate <= high)), (
                 f"conjugate returned the rates {rate}, outside [{case.min_rate}, {case.max_rate}]"
@@ -89,7 +133,7 @@ class ObjectiveContract(ValueContract):
             value, rate = self._conjugate(case)
             utility, payment = self._utility(rate), _payment(case.price, rate)
             slack = TOLERANCE * (abs(utility) + payment)
-            assert abs(value - (utility - payment)) <= slack, (
+            assert np.all(abs(value - (utility - payment)) <= slack), (
                 f"conjugate says {value} but at its rates {rate} utility − payment is {utility - payment}"
             )
 
@@ -104,7 +148,7 @@ class ObjectiveContract(ValueContract):
         for case in self._cases(seed=6):
             endless = case._replace(max_rate=np.full(_USERS, np.inf))
             value, rate = self._conjugate(endless)
-            assert not np.isnan(value), f"conjugate is NaN at the prices {case.price} without a highest rate"
+            assert not np.isnan(value).any(), f"conjugate is NaN at the prices {case.price} without a highest rate"
             assert not np.isnan(rate).any(), f"conjugate returned the rates {rate} without a highest rate"
             self._try_to_beat(value, endless._replace(max_rate=np.maximum(case.max_rate, 1e3 * case.min_rate)), rng)
 
@@ -114,7 +158,7 @@ class ObjectiveContract(ValueContract):
             cheap = case._replace(price=case.price * rng.integers(0, 2, _USERS))  # nothing to pay for some users
             more, less = self._conjugate(cheap)[0], self._conjugate(case)[0]
             slack = TOLERANCE * (abs(more) + abs(less))
-            assert less <= more + slack, (
+            assert np.all(less <= more + slack), (
                 f"conjugate rises from {more} to {less} when the prices rise from {cheap.price} to {case.price}"
             )
 
@@ -125,7 +169,7 @@ class ObjectiveContract(ValueContract):
             between = case._replace(price=share * case.price + (1 - share) * dear.price)
             ends = share * self._conjugate(case)[0], (1 - share) * self._conjugate(dear)[0]
             value = self._conjugate(between)[0]
-            assert value <= sum(ends) + TOLERANCE * (abs(ends[0]) + abs(ends[1]) + abs(value)), (
+            assert np.all(value <= sum(ends) + TOLERANCE * (abs(ends[0]) + abs(ends[1]) + abs(value))), (
                 f"conjugate is not convex: between the prices {case.price} and {dear.price} it is {value}, "
                 f"above the chord's {sum(ends)}"
             )
@@ -138,13 +182,40 @@ class ObjectiveContract(ValueContract):
             for name, before, after in zip(case._fields, case, given, strict=True):
                 assert np.array_equal(before, after), f"{name} was changed from {before} to {after}"
 
-    def test_value_is_a_number(self) -> None:
-        rng, cell = np.random.default_rng(10), Cell()
+    def test_figure_rises_with_utility(self) -> None:
+        rng = np.random.default_rng(14)
         for _ in range(_DRAWS):
-            rate, power_w = self._rates(rng), rng.uniform(0, cell.max_power_w)
-            value: object = as_returned(self.objective.value(rate, power_w, cell))
-            assert isinstance(value, float), f"value must be a float; got {type(value).__name__}"
-            assert np.isfinite(value), f"value is {value} for the rates {rate}"
+            utilities = np.unique(self._utility(self._rates(rng)))
+            weight = rng.uniform(0.5, 3)
+            figures: list[object] = [as_returned(self.objective.figure(float(u), weight)) for u in utilities]
+            for figure in figures:
+                assert isinstance(figure, float), f"figure must be a float; got {type(figure).__name__}"
+            assert np.all(np.diff(np.array(figures)) > 0), (
+                f"figure must rise with the utility: of {utilities}, for users of weight {weight}, it is {figures}"
+            )
+
+    def test_value_follows_from_utilities_and_weights(self) -> None:
+        """As :meth:`Objective.value` says, whoever counts: someone of weight 0 changes nothing, even with no rate."""
+        rng, cell, goal = np.random.default_rng(10), Cell.nr(), self.objective
+        for weight in (np.ones(_USERS), np.array([0.5, 0.0, 2.0])):
+            for _ in range(_DRAWS):
+                rate, power_w = self._rates(rng), rng.uniform(0.1, cell.max_power_w)
+                counts = weight > 0
+                share = rate / np.where(counts, weight, 1.0)
+                joint = np.min(self._utility(share)[counts])
+                if goal.joined != "min":
+                    joint = np.sum(weight * self._utility(rate))
+                drawn = power_w / cell.amplifier_efficiency + cell.circuit_power_w
+                figure = goal.figure(float(joint), float(weight.sum()))
+                wanted = {"power": power_w, "efficiency": figure / drawn}.get(goal.measure, figure)
+                assert np.isfinite(wanted), f"the value is {wanted} for the rates {rate}"
+                for others in (rate, np.where(counts, rate, 0.0)):
+                    value: object = as_returned(goal.value(others, power_w, cell, weight))
+                    assert isinstance(value, float), f"value must be a float; got {type(value).__name__}"
+                    assert abs(value - wanted) <= TOLERANCE * abs(wanted), (
+                        f"for the rates {others}, weighed by {weight}, value is {value}; "
+                        f"its utilities and figure make it {wanted}"
+                    )
 
     def test_value_favours_rate_and_not_power(self) -> None:
         rng = np.random.default_rng(11)
@@ -161,43 +232,58 @@ class ObjectiveContract(ValueContract):
 
     def _signed_value(self, rate: FloatArray, power_w: float) -> float:
         """The value, negated where less is better."""
-        value: object = as_returned(self.objective.value(rate, power_w, Cell()))
-        if not isinstance(value, float):
-            skip("the value is not a number")
+        self._utility(rate)  # the value rests on it
+        value = self.objective.value(rate, power_w, Cell())
         return -value if self.objective.direction == "min" else value
 
-    def _try_to_beat(self, value: float, case: _Case, rng: np.random.Generator) -> None:
-        """Random rates, and every corner that rates within the limits have."""
+    def _try_to_beat(self, value: FloatArray, case: _Case, rng: np.random.Generator) -> None:
+        """Random rates, and both ends."""
         position = rng.uniform(0, 1, (_DRAWS, _USERS)) ** rng.choice([0.2, 1.0, 5.0], (_DRAWS, 1))
-        corners = np.array(np.meshgrid(*[[0.0, 1.0]] * _USERS)).reshape(_USERS, -1).T
-        for rate in case.min_rate + np.vstack([position, corners]) * (case.max_rate - case.min_rate):
+        ends = np.repeat([[0.0], [1.0]], _USERS, axis=1)
+        for rate in case.min_rate + np.vstack([position, ends]) * (case.max_rate - case.min_rate):
             utility, payment = self._utility(rate), _payment(case.price, rate)
-            slack = TOLERANCE * (abs(utility) + payment + abs(value)) if np.isfinite(value) else 0.0
-            assert utility - payment <= value + slack, (
+            slack = TOLERANCE * (abs(utility) + payment + np.where(np.isfinite(value), abs(value), 0.0))
+            assert np.all(utility - payment <= value + slack), (
                 f"conjugate says {value} at the prices {case.price}, but the rates {rate} give {utility - payment}"
             )
 
-    def _utility(self, rate: FloatArray) -> float:
-        return float(self.objective.utility(rate.copy()))
+    def _utility(self, rate: FloatArray) -> FloatArray:
+        """Of rates (user,); another check reports it where that is not what utility returns."""
+        utility = _array(self.objective.utility(rate.copy()))
+        if utility.shape != rate.shape:
+            skip("utility is not elementwise")
+        return utility
 
-    def _conjugate(self, case: _Case) -> tuple[float, FloatArray]:
+    def _conjugate(self, case: _Case) -> tuple[FloatArray, FloatArray]:
+        """Value and rate for prices and limits (user,); likewise."""
         value, rate = self.objective.conjugate(*(array.copy() for array in case))
-        return float(value), np.asarray(rate, dtype=np.float64)
+        if np.shape(value) != (_USERS,) or np.shape(rate) != (_USERS,):
+            skip("conjugate is not elementwise")
+        return _array(value), _array(rate)
 
-    def _rates(self, rng: np.random.Generator) -> FloatArray:
-        return self.typical_rate_bps * 10.0 ** rng.uniform(-2, 2, _USERS)
+    def _rates(self, rng: np.random.Generator, shape: tuple[int, ...] = (_USERS,)) -> FloatArray:
+        return self.typical_rate_bps * 10.0 ** rng.uniform(-2, 2, shape)
 
     def _cases(self, seed: int) -> Iterator[_Case]:
         """Prices around the marginal utility of the typical rate, limits around that rate, some of them equal."""
         rng = np.random.default_rng(seed)
         typical = np.full(_USERS, self.typical_rate_bps)
-        marginal = (self._utility(typical * 1.001) - self._utility(typical)) / (1e-3 * self.typical_rate_bps * _USERS)
+        marginal = (self._utility(typical * 1.001) - self._utility(typical)) / (1e-3 * typical)
         for _ in range(_DRAWS):
             low, high = self._rates(rng) / 10, self._rates(rng)
             low = np.where(rng.uniform(size=_USERS) < 0.2, high, np.minimum(low, high))
-            price = (marginal if marginal > 0 else 1 / self.typical_rate_bps) * 10.0 ** rng.uniform(-2, 2, _USERS)
+            price = np.where(marginal > 0, marginal, 1 / typical) * 10.0 ** rng.uniform(-2, 2, _USERS)
             yield _Case(price=price, min_rate=low, max_rate=high)
 
 
-def _payment(price: FloatArray, rate: FloatArray) -> float:
-    return float(np.where(price > 0, price * rate, 0.0).sum())
+def _array(answer: object) -> FloatArray:
+    return np.asarray(answer, dtype=np.float64)
+
+
+def _equal(one: FloatArray, other: FloatArray) -> bool:
+    """Whether two arrays are the same but for rounding."""
+    return one.shape == other.shape and np.allclose(one, other, rtol=TOLERANCE, atol=0)
+
+
+def _payment(price: FloatArray, rate: FloatArray) -> FloatArray:
+    return np.where(price > 0, price * rate, 0.0)

@@ -8,7 +8,7 @@ import numpy as np
 
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.model.arrays import FloatArray, IntArray
-from wirelessagent.model.decision import OPTIMAL_GAP, Bracket, Decision, Status
+from wirelessagent.model.decision import OPTIMAL_GAP, Bracket, Decision, Prices, Status
 from wirelessagent.model.rates import user_rate_bps
 
 _ROUNDING = 1e-12
@@ -24,6 +24,7 @@ class Figures(TypedDict, total=False):
     needed_power_w: Bracket | None
     rate_scaling: Bracket | None
     iterations: int
+    prices: Prices | None
 
 
 def relative_gap(value: float, bound: float) -> float:
@@ -43,7 +44,8 @@ def certified(
 ) -> Decision:
     """The decision for an allocation that keeps every constraint; ``bound`` in the objective's unit, NaN for none."""
     rate_bps = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
-    value = form.objective.value(rate_bps, float(power_w.sum()), form.cell)
+    weight = form.problem.weights_of(form.estimate.num_users)
+    value = form.objective.value(rate_bps, float(power_w.sum()), form.cell, weight)
     beyond = value - bound if form.objective.direction == "max" else bound - value
     if 0.0 < beyond <= _ROUNDING * abs(bound):
         bound = value

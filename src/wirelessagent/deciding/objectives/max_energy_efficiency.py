@@ -4,32 +4,28 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from wirelessagent.deciding.objectives.sum_rate import sum_rate_conjugate
+from wirelessagent.deciding.objectives.rate_utility import rate_conjugate
 from wirelessagent.model.arrays import FloatArray
-from wirelessagent.model.cell import Cell
-from wirelessagent.model.metrics import energy_efficiency_bit_per_j
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
 
 
 @dataclass(frozen=True, kw_only=True)
 class MaxEnergyEfficiency(Objective):
-    """The most bits per joule drawn, Σ r / (Σ p/ξ + P_c); problem P3 of the paper."""
+    """The most bits per joule drawn, Σ r / (Σ p/ξ + P_c); problem P3 of the paper. With weights, Σ ω r above it."""
 
     name = "max_energy_efficiency"
     aliases = ("P3",)
     unit = "bit/J"
     default_method = "fractional"
+    measure = "efficiency"
     phrases = phrases(
         en=["energy efficiency", "most bits per joule", "best trade-off between rate and power"],
         zh=["能效", "能量效率", "每焦耳比特数", "兼顾速率和功耗"],
     )
 
-    def utility(self, rate: FloatArray) -> float:
-        return float(rate.sum())
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return rate
 
-    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[float, FloatArray]:
-        return sum_rate_conjugate(price, min_rate, max_rate)
-
-    def value(self, rate: FloatArray, power_w: float, cell: Cell) -> float:
-        return energy_efficiency_bit_per_j(float(rate.sum()), power_w, cell)
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return rate_conjugate(price, min_rate, max_rate)

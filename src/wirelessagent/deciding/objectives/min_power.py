@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from wirelessagent.model.arrays import FloatArray
-from wirelessagent.model.cell import Cell
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
 
@@ -19,19 +20,15 @@ class MinPower(Objective):
     unit = "W"
     direction = "min"
     default_method = "exclusive_sets"
+    measure = "power"
     phrases = phrases(
         en=["minimum power", "save power", "as little power as possible", "lowest transmit power"],
         zh=["最小功率", "省电", "降低功耗", "节省功率"],
     )
 
-    def utility(self, rate: FloatArray) -> float:
-        del rate  # rates beyond the promised ones are worth nothing
-        return 0.0
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return np.zeros(rate.shape)  # rates beyond the promised ones are worth nothing
 
-    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[float, FloatArray]:
-        del max_rate
-        return float(-(price * min_rate).sum()), min_rate
-
-    def value(self, rate: FloatArray, power_w: float, cell: Cell) -> float:
-        del rate, cell
-        return power_w
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[FloatArray, FloatArray]:
+        rate = np.broadcast_to(min_rate, np.broadcast_shapes(price.shape, min_rate.shape, max_rate.shape))
+        return -price * rate, rate

@@ -52,7 +52,7 @@ class InTurn(Method):
             power_w=power,
             rate_bps=rate,
             status="feasible" if kept else "undecided",
-            value=objective.value(rate, float(power.sum()), cell) if kept else np.nan,
+            value=objective.value(rate, float(power.sum()), cell, problem.weights_of(len(rate))) if kept else np.nan,
             bound=float(alone.sum()),  # as if every subcarrier had all the power
             gap=np.nan,
             unit=objective.unit,
@@ -134,7 +134,7 @@ class SignsAsAnother(InTurn):
     caught_by = "test_says_what_it_solved"
 
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
-        return dataclasses.replace(InTurn.solve(self, estimate, problem, cell), method="water_filling")
+        return dataclasses.replace(InTurn.solve(self, estimate, problem, cell), method="equal_power")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -238,6 +238,20 @@ class ValueFromElsewhere(InTurn):
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
         decision = InTurn.solve(self, estimate, problem, cell)
         return _with_gap(dataclasses.replace(decision, value=decision.value * (1 - 1e-6)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class ForgetsTheWeights(InTurn):
+    """Takes weights, and reports the value without them."""
+
+    constraints = InTurn.constraints | {"weights"}
+    caught_by = "test_value_is_the_objectives"
+
+    def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
+        alike = dataclasses.replace(problem, weights=None)
+        decision = InTurn.solve(self, estimate, alike, cell)
+        heaviest = float(problem.weights_of(estimate.num_users).max())
+        return _with_gap(dataclasses.replace(decision, problem=problem, bound=heaviest * decision.bound))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -373,15 +387,30 @@ class ForgetsTheCap(InTurn):
 
 
 @dataclass(frozen=True, kw_only=True)
-class RefusesWhatItDeclares(InTurn):
-    """Lists a constraint that it refuses every time."""
+class TakesTheHighestRateForAll(InTurn):
+    """Reads rates beyond which users have nothing to send, and holds everybody to the largest."""
 
-    constraints = InTurn.constraints | {"weights"}
+    constraints = InTurn.constraints | {"max_rate_bps"}
     caught_by = "test_declared_constraints_are_kept"
 
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
-        if problem.weights is not None:
-            raise UnsupportedProblemError("weights are not taken yet")
+        decision = InTurn.solve(self, estimate, problem, cell)
+        largest = float(problem.max_rates_bps(estimate.num_users).max())
+        if np.all(decision.rate_bps <= largest):
+            return decision
+        return self._decision(decision.owner, np.zeros(decision.owner.size), estimate, problem, cell)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RefusesWhatItDeclares(InTurn):
+    """Lists a constraint that it refuses every time."""
+
+    constraints = InTurn.constraints | {"users"}
+    caught_by = "test_declared_constraints_are_kept"
+
+    def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
+        if problem.users is not None:
+            raise UnsupportedProblemError("users cannot be left out yet")
         return InTurn.solve(self, estimate, problem, cell)
 
 
@@ -425,6 +454,7 @@ BROKEN: tuple[InTurn, ...] = (
     PowersNobody(),
     RatesFromElsewhere(),
     ValueFromElsewhere(),
+    ForgetsTheWeights(),
     BoundBelowItsValue(),
     CertifiesItself(),
     GapOfTheValue(),
@@ -436,6 +466,7 @@ BROKEN: tuple[InTurn, ...] = (
     GivesNoReason(),
     LeavesAnAllocation(),
     ForgetsTheCap(),
+    TakesTheHighestRateForAll(),
     RefusesWhatItDeclares(),
     DropsConstraints(),
     SolvesSomethingElse(),

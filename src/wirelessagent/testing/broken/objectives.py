@@ -13,7 +13,7 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
 
-Conjugate = tuple[float, FloatArray]
+Conjugate = tuple[FloatArray, FloatArray]
 
 _DEAR = 1e3
 """A price per utility, far above what a rate is worth."""
@@ -28,12 +28,12 @@ class SumRate(Objective):
     phrases = phrases(en=["as much as possible"])
     caught_by = ""
 
-    def utility(self, rate: FloatArray) -> float:
-        return float(rate.sum())
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return rate
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
         rate = np.where(price < 1, max_rate, min_rate)
-        return float(((1 - price) * rate).sum()), rate
+        return (1 - price) * rate, rate
 
 
 class NotDecorated(SumRate):
@@ -93,38 +93,104 @@ class UnknownDirection(SumRate):
     """Neither max nor min."""
 
     direction = cast("Any", "up")
-    caught_by = "test_direction_is_known"
+    caught_by = "test_direction_measure_and_joining_are_known"
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnknownMeasure(SumRate):
+    """Made of something that no solver knows."""
+
+    measure = cast("Any", "delay")
+    caught_by = "test_direction_measure_and_joining_are_known"
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnknownJoining(SumRate):
+    """Joins the users in a way that no solver knows."""
+
+    joined = cast("Any", "median")
+    caught_by = "test_direction_measure_and_joining_are_known"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SumsTheUsers(SumRate):
+    """One utility for all, where each user's is asked for."""
+
+    caught_by = "test_utility_is_elementwise"
+
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return rate.sum()
+
+
+@dataclass(frozen=True, kw_only=True)
+class KnowsOneRowOfRates(SumRate):
+    """A batch gets the utilities of its first row."""
+
+    caught_by = "test_utility_is_elementwise"
+
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return np.broadcast_to(rate[(0,) * (rate.ndim - 1)], rate.shape)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CountsOnTheOthers(SumRate):
+    """A user is better off when the next one is; nobody would see it in one user's rates."""
+
+    caught_by = "test_utility_is_elementwise"
+
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return rate if rate.ndim == 1 else rate + 0.1 * np.roll(rate, 1, axis=-1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SumsTheSurplus(SumRate):
+    """One figure for all, where each user's is asked for."""
+
+    caught_by = "test_conjugate_is_elementwise"
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        surplus, rate = SumRate.conjugate(self, price, min_rate, max_rate)
+        return surplus.sum(), rate
+
+
+@dataclass(frozen=True, kw_only=True)
+class KnowsOneRowOfPrices(SumRate):
+    """A batch is answered at its first row's prices."""
+
+    caught_by = "test_conjugate_is_elementwise"
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        return SumRate.conjugate(self, price[(0,) * (price.ndim - 1)], min_rate, max_rate)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Convex(SumRate):
-    """Σ r²: the more, the more it wants, and no price balances it."""
+    """r²: the more, the more it wants, and no price balances it."""
 
     caught_by = "test_utility_is_concave"
 
-    def utility(self, rate: FloatArray) -> float:
-        return float(np.square(rate).sum())
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return np.square(rate)
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
-        with np.errstate(invalid="ignore"):
-            ends = np.square(min_rate) - price * min_rate, max_rate * (max_rate - price)
-        return float(np.maximum(*ends).sum()), np.where(ends[1] > ends[0], max_rate, min_rate)
+        ends = min_rate * (min_rate - price), max_rate * (max_rate - price)
+        return np.maximum(*ends), np.where(ends[1] > ends[0], max_rate, min_rate)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Falling(SumRate):
-    """−Σ r: less is better."""
+    """−r: less is better, to the users of an objective that saves power."""
 
+    measure = "power"
+    direction = "min"
     caught_by = "test_utility_does_not_fall_with_rate"
 
-    def utility(self, rate: FloatArray) -> float:
-        return -float(rate.sum())
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return -rate
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
-        return float(-((1 + price) * min_rate).sum()), min_rate
-
-    def value(self, rate: FloatArray, power_w: float, cell: Cell) -> float:
-        return float(rate.sum())
+        rate = np.broadcast_to(min_rate, np.broadcast_shapes(price.shape, min_rate.shape, max_rate.shape))
+        return -(1 + price) * rate, rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,7 +211,7 @@ class OverstatesConjugate(SumRate):
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
         rate = np.where(price < 1, max_rate, min_rate)
-        return float((np.where(price < 1, 1.001, 0.999) * (1 - price) * rate).sum()), rate
+        return (np.where(price < 1, 1.001, 0.999) * (1 - price) * rate), rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -157,7 +223,8 @@ class StopsAtTheLowestRate(SumRate):
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
         if np.isinf(max_rate).any():
             return SumRate.conjugate(self, price, min_rate, max_rate)
-        return float(((1 - price) * min_rate).sum()), min_rate
+        rate = np.where(price < 0, max_rate, min_rate)
+        return (1 - price) * rate, rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -169,7 +236,7 @@ class LostWithoutAHighestRate(SumRate):
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
         rate = np.where(price < 1, max_rate, min_rate)
         with np.errstate(invalid="ignore"):
-            return float(rate.sum() - (price * rate).sum()), rate
+            return rate - price * rate, rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,7 +247,7 @@ class ForgetsWhatIsFree(SumRate):
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
         rate = np.where(price < 1, max_rate, min_rate)
-        return float(np.where(price > 0, (1 - price) * rate, -1e12).sum()), rate
+        return np.where(price > 0, (1 - price) * rate, -1e12), rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -192,7 +259,7 @@ class MispricesTheDear(SumRate):
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
         rate = np.where(price < 1, max_rate, min_rate)
         charge = np.minimum(price, _DEAR) + 1.5 * np.maximum(price - _DEAR, 0)
-        return float(((1 - charge) * rate).sum()), rate
+        return ((1 - charge) * rate), rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -202,18 +269,44 @@ class WritesToItsArguments(SumRate):
     caught_by = "test_leaves_its_arguments_alone"
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
-        max_rate[price >= 1] = min_rate[price >= 1]
-        return float(((1 - price) * max_rate).sum()), max_rate
+        surplus, rate = SumRate.conjugate(self, price, min_rate, max_rate)
+        if rate.shape == max_rate.shape:
+            max_rate[:] = rate
+        return surplus, rate
 
 
 @dataclass(frozen=True, kw_only=True)
-class ValuePerUser(SumRate):
-    """An array where one figure is wanted."""
+class FlatFigure(SumRate):
+    """Shows the same whatever was reached."""
 
-    caught_by = "test_value_is_a_number"
+    caught_by = "test_figure_rises_with_utility"
 
-    def value(self, rate: FloatArray, power_w: float, cell: Cell) -> float:
-        return rate.sum(keepdims=True)
+    def figure(self, utility: float, weight: float) -> float:
+        del utility, weight
+        return 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class FigureInAnArray(SumRate):
+    """An array where one number is wanted."""
+
+    caught_by = "test_figure_rises_with_utility"
+
+    def figure(self, utility: float, weight: float) -> float:
+        del weight
+        return cast("Any", np.asarray(utility))
+
+
+@dataclass(frozen=True, kw_only=True)
+class WeighsAllAlike(SumRate):
+    """A value of its own making, which forgets the weights."""
+
+    caught_by = "test_value_follows_from_utilities_and_weights"
+
+    def value(  # pyright: ignore[reportIncompatibleMethodOverride]  # final: that is what is wrong with it
+        self, rate: FloatArray, power_w: float, cell: Cell, weight: FloatArray | None = None
+    ) -> float:
+        return float(rate.sum())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -233,6 +326,13 @@ BROKEN: tuple[SumRate, ...] = (
     HoldsAList(),
     PhrasesAsText(),
     UnknownDirection(),
+    UnknownMeasure(),
+    UnknownJoining(),
+    SumsTheUsers(),
+    KnowsOneRowOfRates(),
+    CountsOnTheOthers(),
+    SumsTheSurplus(),
+    KnowsOneRowOfPrices(),
     Convex(),
     Falling(),
     IgnoresLimits(),
@@ -242,6 +342,8 @@ BROKEN: tuple[SumRate, ...] = (
     ForgetsWhatIsFree(),
     MispricesTheDear(),
     WritesToItsArguments(),
-    ValuePerUser(),
+    FlatFigure(),
+    FigureInAnArray(),
+    WeighsAllAlike(),
     WrongDirection(),
 )
