@@ -79,10 +79,6 @@ def default_method(problem: Problem) -> str:
     """The method used for a problem when none is named: its objective's own choice."""
     objective = resolve(problem).objective
     assert not isinstance(objective, str)
-    if objective.default_method is None:
-        raise UnsupportedProblemError(
-            f"no method is known to solve the objective {objective.name!r}: name one with method=…"
-        )
     return objective.default_method
 
 
@@ -91,24 +87,44 @@ def decide(
     problem: Problem,
     cell: Cell | None = None,
     method: str | Method | None = None,
+    *,
+    after: Decision | None = None,
     **options: Any,
 ) -> Decision:
-    """The allocation for ``problem`` on the estimated channel, with its certificate."""
+    """The allocation for ``problem`` on the estimated channel, with its certificate.
+
+    ``after`` is an earlier decision, such as the previous slot's, whose prices the search starts from.
+
+    Raises:
+        UnsupportedProblemError: the method does not solve such problems; the message names those that do.
+        InputError: the method does not start from earlier decisions, or a constraint does not fit the channel.
+    """
     resolved = resolve(problem)
     name = default_method(resolved) if method is None else method
-    chosen = plugins.create("method", name, options) if isinstance(name, str) else name
-    return cast(Method, chosen).solve(estimate, resolved, cell or Cell())
+    chosen = cast(Method, plugins.create("method", name, options) if isinstance(name, str) else name)
+    _check(resolved, type(chosen))
+    if after is None:
+        return chosen.solve(estimate, resolved, cell or Cell())
+    if not chosen.warm_starts:
+        raise InputError(f"method {chosen.name!r} does not start from an earlier decision: leave out after=…")
+    return cast(Decision, cast(Any, chosen).solve(estimate, resolved, cell or Cell(), after=after))
 
 
 def check_solvable(problem: Problem, method: str | None = None) -> None:
-    """Raise an :class:`UnsupportedProblemError` where the method (or the default one) does not solve such problems.
+    """What :func:`decide` refuses, before there is a channel to decide on.
 
-    The error names the methods that do.
+    Raises:
+        UnsupportedProblemError: the method (or the default one) does not solve such problems; the message names those
+            that do.
     """
     resolved = resolve(problem)
-    refusal = _refusal(resolved, plugins.load("method", method or default_method(resolved)))
+    _check(resolved, plugins.load("method", method or default_method(resolved)))
+
+
+def _check(problem: Problem, method: type[Method]) -> None:
+    refusal = _refusal(problem, method)
     if refusal:
-        able = [one.name for one in plugins.plugins("method") if one.cls and not _refusal(resolved, one.cls)]
+        able = [one.name for one in plugins.plugins("method") if one.cls and not _refusal(problem, one.cls)]
         raise UnsupportedProblemError(f"{refusal} ({', '.join(able) or 'none is installed'})")
 
 

@@ -8,10 +8,13 @@ import inspect
 import re
 import types
 import typing
+from collections.abc import Iterable
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
 from typing import Any, Literal, cast, get_args
+
+import numpy as np
 
 from wirelessagent.model.errors import InputError
 
@@ -29,6 +32,7 @@ class Option:
         required: whether it must be given.
         help: what it is, the first sentence on it under "Attributes:" in the docstring; empty if that says nothing.
         choices: the values of its Literal; empty if any value of the type may be given.
+        several: whether it may also be a tuple of such values, as in "1e6,2e6" on a command line.
     """
 
     name: str
@@ -37,6 +41,7 @@ class Option:
     required: bool
     help: str = ""
     choices: tuple[Any, ...] = ()
+    several: bool = False
 
 
 @functools.cache
@@ -46,7 +51,7 @@ def options_of(cls: type[Any]) -> tuple[Option, ...]:
     described = _attribute_docs(cls)
     options: list[Option] = []
     for item in dataclasses.fields(cls):
-        hint = _without_none(hints[item.name])
+        hint, several = _one_or_several(hints[item.name])
         simple = _simple_type(hint)
         if item.init and simple is not None:
             has_default = item.default is not dataclasses.MISSING
@@ -59,6 +64,7 @@ def options_of(cls: type[Any]) -> tuple[Option, ...]:
                     required=not has_default and not factory,
                     help=described.get(item.name, ""),
                     choices=_choices(hint),
+                    several=several,
                 )
             )
     return tuple(options)
@@ -66,6 +72,15 @@ def options_of(cls: type[Any]) -> tuple[Option, ...]:
 
 def converted(option: Option, value: Any) -> Any:
     """An option's value in its field's type; text from a command line is read."""
+    if option.several and isinstance(value, str) and "," in value:
+        value = [part.strip() for part in value.split(",")]
+    if option.several and isinstance(value, list | tuple | np.ndarray):
+        return tuple(_converted(option, part) for part in cast("Iterable[Any]", value))
+    return _converted(option, value)
+
+
+def _converted(option: Option, value: Any) -> Any:
+    """One value in the field's type."""
     if value is None:
         return value
     if option.choices:
@@ -101,12 +116,15 @@ def _attribute_docs(cls: type[Any]) -> dict[str, str]:
     return found
 
 
-def _without_none(hint: Any) -> Any:
-    """What a field of this annotation holds besides None; the annotation itself if that is several types."""
-    if isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union:
-        rest = [part for part in get_args(hint) if part is not type(None)]
-        return rest[0] if len(rest) == 1 else hint
-    return hint
+def _one_or_several(hint: Any) -> tuple[Any, bool]:
+    """What a field of this annotation holds besides None; whether that may be several, as in float | tuple[float, …].
+
+    The annotation itself if it is any other mix of types.
+    """
+    union = isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union
+    parts = [part for part in get_args(hint) if part is not type(None)] if union else [hint]
+    several = len(parts) == 2 and parts[0] in _SIMPLE_TYPES and parts[1] == tuple[parts[0], ...]
+    return (parts[0], several) if several or len(parts) == 1 else (hint, False)
 
 
 def _choices(hint: Any) -> tuple[Any, ...]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import numpy as np
 import pytest
 
 import wirelessagent as wa
@@ -31,6 +32,43 @@ def test_a_refusal_names_a_method_that_needs_options(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(plugins, "plugins", lambda kind: installed)
     with pytest.raises(UnsupportedProblemError, match=r"does not honour min_rate_bps.*\(.*needy\)"):
         chain.check_solvable(wa.Problem("max_rate", min_rate_bps=1e6))
+
+
+def test_decide_names_the_methods_that_solve_what_one_refuses() -> None:
+    estimate = wa.perfect(wa.simulate("rayleigh", num_users=3, seed=1))
+    problem = wa.Problem("proportional_fairness", min_rate_bps=1e3)
+    with pytest.raises(UnsupportedProblemError, match=r"'paper_scan' does not solve.*\(.*equal_power.*\)"):
+        wa.decide(estimate, problem, method="paper_scan")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Warm(wa.Method):
+    """Equal shares that remember what they were given to start from."""
+
+    name = "warm"
+    warm_starts = True
+
+    def solve(
+        self, estimate: wa.ChannelEstimate, problem: wa.Problem, cell: wa.Cell, *, after: wa.Decision | None = None
+    ) -> wa.Decision:
+        decision = wa.decide(estimate, problem, cell, method="equal_power")
+        reason = "cold" if after is None or after.prices is None else f"warm from {after.prices.log_power:g}"
+        return replace(decision, prices=wa.Prices(log_rate=np.zeros(3), log_power=-2.0), reason=reason)
+
+
+def test_only_methods_that_can_are_given_an_earlier_decision() -> None:
+    estimate = wa.perfect(wa.simulate("rayleigh", num_users=3, seed=1))
+    first = wa.decide(estimate, wa.Problem("max_rate"), method=Warm())
+    assert first.reason == "cold"
+    assert wa.decide(estimate, wa.Problem("max_rate"), method=Warm(), after=first).reason == "warm from -2"
+    with pytest.raises(wa.InputError, match="'equal_power' does not start from an earlier decision"):
+        wa.decide(estimate, wa.Problem("max_rate"), method="equal_power", after=first)
+
+
+def test_prices_are_read_only() -> None:
+    prices = wa.Prices(log_rate=np.zeros(2), log_power=0.0)
+    with pytest.raises(ValueError, match="read-only"):
+        prices.log_rate[0] = 1.0
 
 
 def test_a_problem_that_its_method_solves_passes() -> None:

@@ -52,12 +52,14 @@ class Alpha(wa.Objective):
     shade: Literal["Dark", "dim"] | None = None
     table: Path = Path("table.csv")
     levels: tuple[float, ...] = ()
+    share: float | tuple[float, ...] = 1.0
+    stage: int | tuple[int, ...] | None = None
 
     def utility(self, rate):
-        return 0.0
+        return 0.0 * rate
 
     def conjugate(self, price, min_rate, max_rate):
-        return 0.0, min_rate
+        return 0.0 * price, min_rate
 """
 
 
@@ -203,7 +205,11 @@ def test_fields_that_hold_a_simple_value_are_options(alpha: Any) -> None:
         "pace": (int, 1),
         "shade": (str, None),
         "table": (Path, Path("table.csv")),
+        "share": (float, 1.0),
+        "stage": (int, None),
     }
+    several = [option.name for option in plugins.plugin("objective", "alpha").options if option.several]
+    assert several == ["share", "stage"]
 
 
 def test_options_are_explained_by_the_docstring_and_list_their_choices(alpha: Any) -> None:
@@ -270,6 +276,12 @@ def test_the_listing_has_help_and_choices(capsys: pytest.CaptureFixture[str]) ->
         ("label", "night", "night"),
         ("label", None, None),
         ("table", "a/b.csv", Path("a/b.csv")),
+        ("share", "2", 2.0),
+        ("share", "2, 3e6", (2.0, 3e6)),
+        ("share", [1, 2], (1.0, 2.0)),
+        ("share", np.array([1.0]), (1.0,)),
+        ("stage", (1, 2), (1, 2)),
+        ("stage", None, None),
     ],
 )
 def test_options_are_converted(alpha: Any, name: str, given: object, taken: object) -> None:
@@ -292,12 +304,19 @@ def test_options_are_converted(alpha: Any, name: str, given: object, taken: obje
         ("strict", "perhaps"),
         ("strict", 1),
         ("table", 3),
+        ("share", "a lot"),
+        ("stage", 2.5),
     ],
 )
 def test_options_of_another_type_are_refused_with_what_was_received(alpha: Any, name: str, given: object) -> None:
     with pytest.raises(InputError, match=rf"{name} must be of type \w+; got ") as caught:
         alpha(**{name: given})
     assert repr(given) in str(caught.value)
+
+
+def test_one_of_several_values_of_another_type_is_named(alpha: Any) -> None:
+    with pytest.raises(InputError, match="share must be of type float; got 'b'"):
+        alpha(share="1, b")
 
 
 @pytest.mark.parametrize(

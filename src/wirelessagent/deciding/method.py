@@ -23,11 +23,14 @@ class Method(ABC):
         objectives: names of the objectives it solves; None for all.
         constraints: fields of :class:`Problem` that it honours beside the objective and ``max_power_w``; a problem
             that sets others is refused, never solved as if they were not there.
+        warm_starts: whether :meth:`solve` also takes ``after``, an earlier decision to start from, or None: a keyword
+            that changes how fast a good decision is found, not what a good one is.
     """
 
     name: ClassVar[str]
     objectives: ClassVar[tuple[str, ...] | None] = None
     constraints: ClassVar[frozenset[str]] = frozenset()
+    warm_starts: ClassVar[bool] = False
 
     @abstractmethod
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
@@ -44,7 +47,8 @@ class Method(ABC):
             )
         if cls.objectives is not None and objective.name not in cls.objectives:
             raise UnsupportedProblemError(
-                f"method {cls.name!r} does not solve {objective.name!r}; it solves {', '.join(cls.objectives)}"
+                f"method {cls.name!r} does not solve {objective.name!r} but only {', '.join(cls.objectives)}: "
+                "name another method"
             )
         surplus = problem.constraints().keys() - cls.constraints - {"max_power_w"}
         if surplus:

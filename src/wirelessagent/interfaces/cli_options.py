@@ -121,6 +121,8 @@ def _plugin_parameter(name: str, owners: list[tuple[str, Option]], panel: str) -
     if all(option.choices for _, option in owners):  # the plug-in reads them, whatever their capitals
         choices = dict.fromkeys(str(choice) for _, option in owners for choice in option.choices)
         kind, metavar = str, f"<{'|'.join(choices)}>"
+    if any(option.several for _, option in owners):
+        kind, metavar = str, f"{metavar}[,{metavar}…]"
     flags = [f"{as_flag(name)}/--no-{name.replace('_', '-')}"] if kind is bool else [as_flag(name)]
     option = typer.Option(
         *flags, help=escape(_plugin_help(owners)), show_default=False, rich_help_panel=panel, metavar=metavar

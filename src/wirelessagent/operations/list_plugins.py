@@ -19,7 +19,8 @@ class PluginsRequest(Request):
 class OptionAnswer(Record):
     """An option of a plug-in; a default of null means that it has none or that it is off.
 
-    ``help`` is empty where its docstring says nothing of it, ``choices`` where any value of the type may be given.
+    ``help`` is empty where its docstring says nothing of it, ``choices`` where any value of the type may be given;
+    ``several`` says that a list of such values may be given as well.
     """
 
     name: str
@@ -28,6 +29,7 @@ class OptionAnswer(Record):
     required: bool
     help: str
     choices: list[Any]
+    several: bool
 
 
 class PluginAnswer(Record):
@@ -47,10 +49,11 @@ class PluginAnswer(Record):
             OptionAnswer(
                 name=option.name,
                 type=option.type.__name__,
-                default=None if option.default is None else option.type(option.default),
+                default=option.default if option.default is None or option.several else option.type(option.default),
                 required=option.required,
                 help=option.help,
                 choices=list(option.choices),
+                several=option.several,
             )
             for option in found.options
         ]
