@@ -42,6 +42,10 @@ class Race:
         budget_w: the power budget.
         cell: for its circuit power and amplifier efficiency.
         is_ratio: whether the ratio is wanted.
+        best: the best assignment met.
+        nats: the rates (user,) on it.
+        reached: the sum or ratio that they reach.
+        ceiling: what no assignment exceeds, once the race is run.
     """
 
     priced: PricedSets
@@ -54,6 +58,7 @@ class Race:
     best: int = field(default=0, init=False)
     nats: FloatArray = field(default_factory=lambda: np.zeros(0), init=False)
     reached: float = field(default=-np.inf, init=False)
+    ceiling: float = field(default=-np.inf, init=False)
 
     def run(self) -> tuple[int, FloatArray]:
         """The best assignment and the rates (user,) in nats on it.
@@ -67,6 +72,7 @@ class Race:
             return self.best, self.nats
         first = alive[[int(self._guess()[alive].argmax())]]
         price = self._solve(first, np.full(1, _PRICES[0]), np.full(1, _PRICES[1]))
+        self.ceiling = self.reached  # of the first alone; it runs again with all others
         left, lowest, highest = self._bounded(alive, price * _NEIGHBOURHOOD)
         self._solve(left, lowest, highest)
         return self.best, self.nats
@@ -99,6 +105,7 @@ class Race:
         short = self._short(prices, surplus, power).sum(axis=0)
         prices = np.concatenate([_PRICES[:1], grid, _PRICES[1:]])
         hopes = self._hopes(most)
+        self._give_up(most[~hopes])
         return alive[hopes], prices[short][hopes], prices[short + 1][hopes]
 
     def _solve(self, left: IntArray, lowest: FloatArray, highest: FloatArray) -> float:
@@ -122,8 +129,13 @@ class Race:
             lowest, highest = prices[before, column], prices[after, column]
             price = float(np.sqrt(lowest[0] * highest[0]))
             going = self._hopes(most) & (highest > lowest * (1 + 1e-15))
+            self._give_up(most[~going])
             left, lowest, highest, most = left[going], lowest[going], highest[going], most[going]
+        self._give_up(most)
         return price
+
+    def _give_up(self, most: FloatArray) -> None:
+        self.ceiling = max(self.ceiling, self.reached, float(most.max(initial=-np.inf)))
 
     def _offer_between(self, left: IntArray, nats: FloatArray, power_w: FloatArray, rank: IntArray) -> None:
         """Offer the rates at the prices before and after the best, and their mixture that spends the budget."""

@@ -41,9 +41,17 @@ _STEPS = np.arange(11, dtype=np.float64) / 10
 
 
 class BestAllocation(NamedTuple):
-    """The value, the owner of each subcarrier (−1 for nobody) and the power on it in W, both (subcarrier,)."""
+    """The best of all allocations.
+
+    Attributes:
+        value: the objective's value of the allocation given here.
+        at_best: the proven limit of what any allocation can reach, rounding included; next to ``value``.
+        owner: the owner of each subcarrier, −1 for nobody, (subcarrier,).
+        power_w: the power on it in W, (subcarrier,).
+    """
 
     value: float
+    at_best: float
     owner: IntArray
     power_w: FloatArray
 
@@ -63,18 +71,20 @@ def best_allocation(estimate: ChannelEstimate, problem: Problem, cell: Cell) -> 
     possible = np.flatnonzero(needed <= search.budget_w * (1 + 1e-12))
     if not possible.size:
         return None
-    objective = search.objective
+    objective, weight = search.objective, search.weight
     if objective.measure == "power":
-        best = int(possible[needed[possible].argmin()])
-        nats = search.low
+        found = _Found(int(possible[needed[possible].argmin()]), search.low, float(needed.min()))
     elif objective.joined == "min":
-        best, nats = search.largest_share()
+        found = search.largest_share()
     else:
-        best, nats = search.best_sum(possible)
-    owner, power_w = search.allocation(best, nats)
+        found = search.best_sum(possible)
+    owner, power_w = search.allocation(found.assignment, found.nats)
     rate = user_rate_bps(estimate.gain, owner, power_w, cell)
-    value = objective.value(rate, float(power_w.sum()), cell, search.weight)
-    return BestAllocation(value, owner, power_w)
+    value = objective.value(rate, float(power_w.sum()), cell, weight)
+    at_best = found.at_best
+    if objective.measure == "utility":
+        at_best = objective.figure(at_best, float(weight.sum()))
+    return BestAllocation(value, at_best, owner, power_w)
 
 
 def least_power_w(estimate: ChannelEstimate, problem: Problem, cell: Cell) -> float:
@@ -82,6 +92,14 @@ def least_power_w(estimate: ChannelEstimate, problem: Problem, cell: Cell) -> fl
     search = _Search.of(estimate, problem, cell)
     needed = float(search.needed_w.min())
     return needed if needed <= search.budget_w * _BOX else np.inf
+
+
+class _Found(NamedTuple):
+    """An assignment, the rates (user,) in nats on it and the joint utility, ratio or power that none surpasses."""
+
+    assignment: int
+    nats: FloatArray
+    at_best: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -168,7 +186,7 @@ class _Search:
         idle = np.bincount(group, weights=power_w) == 0
         return np.where(idle, -1, self.owner[assignment])[group], power_w
 
-    def largest_share(self) -> tuple[int, FloatArray]:
+    def largest_share(self) -> _Found:
         """The assignment and the rates of the largest s with rates max(low, ω s) within the budget."""
         shared = self.weight > 0
         most = np.minimum(self.priced.sets.rate_nats(self.priced.sets.top).max(axis=0), self.high)
@@ -192,16 +210,19 @@ class _Search:
             last = int(np.flatnonzero(fits | (points <= below)).max())
             below, above = float(points[last]), float(points[min(last + 1, _STEPS.size - 1)])
         share = np.array([below])
-        return int(least(share)[1][0]), asked(share)[0]
+        nats = asked(share)[0]
+        above = max(above, float((nats[shared] / self.weight[shared]).min()))  # the low rates may be worth more
+        at_best = self.objective.utility(np.full(self.weight.shape, above * self.priced.bps_per_nat))[shared].min()
+        return _Found(int(least(share)[1][0]), nats, float(at_best))
 
-    def best_sum(self, possible: IntArray) -> tuple[int, FloatArray]:
+    def best_sum(self, possible: IntArray) -> _Found:
         """The assignment and the rates of the best sum of utilities, or of the best ratio to the power drawn."""
         race = Race(
             priced=self.priced, held=self.held[possible], needed_w=self.needed_w[possible], low=self.low,
             budget_w=self.budget_w, cell=self.cell, is_ratio=self.objective.measure == "efficiency",
         )  # fmt: skip
         best, nats = race.run()
-        return int(possible[best]), nats
+        return _Found(int(possible[best]), nats, race.ceiling)
 
 
 def _needed(sets: OwnedSets, nats: FloatArray) -> FloatArray:

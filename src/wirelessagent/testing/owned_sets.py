@@ -55,9 +55,9 @@ class OwnedSets:
         best = a.max(axis=-1)
         best = np.where(best > 0, best, 1.0)
         safe = np.where(used, a, best[..., np.newaxis])
-        start = -np.log1p((safe - best[..., np.newaxis]) / best[..., np.newaxis])
-        with np.errstate(divide="ignore"):
-            start = np.where(start < 1.0, start, np.log(best)[..., np.newaxis] - np.log(safe))
+        first = best[..., np.newaxis]
+        behind = (first - safe) / first
+        start = np.where(behind < 0.5, -np.log1p(-np.minimum(behind, 0.5)), np.log(first) - np.log(safe))
         most = np.minimum(np.log1p(np.minimum(cap_w, budget_w) * safe), max_nats)
         start, most, inverse = np.where(used, start, 0.0), np.where(used, most, 0.0), np.where(used, 1.0 / safe, 0.0)
         knots = np.concatenate([start, start + most], axis=-1)

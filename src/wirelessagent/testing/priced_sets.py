@@ -110,7 +110,8 @@ class PricedSets:
             spent = price * self.sets.power_w(self.sets.level_of_rate(nats))
             reached = weight * self.objective.utility(nats * self.bps_per_nat)
             scale = np.abs(reached) + spent + np.abs(most)
-            return (bound - (reached - spent) <= _SHARP * scale) | (self.weight <= 0)
+            next_to = np.isfinite(reached) & (bound - (reached - spent) <= _SHARP * scale)
+            return next_to | (self.weight <= 0)
 
         most = weight * self.objective.utility(high_bps)
         below, above = np.zeros(cost.shape), np.broadcast_to(self.sets.top, cost.shape)
