@@ -37,18 +37,14 @@ def verdict_on(estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Verdi
     return Verdict(best_allocation(estimate, problem, cell), least_power_w(estimate, problem, cell))
 
 
-def faults(decision: Decision, estimate: ChannelEstimate, verdict: Verdict) -> list[str]:
-    """Every fault as one sentence: limits broken, bounds beaten, wrong statuses, values out of reach."""
-    if decision.is_usable:
-        return [
-            *_broken_limits(decision, estimate),
-            *_wrong_values(decision, verdict),
-            *_wrong_brackets(decision, verdict),
-        ]
-    found = [*_wrong_refusals(decision, verdict), *_wrong_brackets(decision, verdict)]
-    if verdict.best is not None and _better(decision, verdict.best.value, decision.bound):
-        found.append(f"the bound {decision.bound!r} is beaten by {verdict.best.value!r}")
-    return found
+def faults(decision: Decision, estimate: ChannelEstimate, verdict: Verdict | None = None) -> list[str]:
+    """Every fault as one sentence: limits broken, bounds beaten, wrong statuses, values out of reach.
+
+    Without a verdict, what the decision itself shows.
+    """
+    found = list(_broken_limits(decision, estimate) if decision.is_usable else _wrong_refusals(decision))
+    found += _wrong_certificate(decision)
+    return found if verdict is None else [*found, *_refuted(decision, verdict), *_wrong_brackets(decision, verdict)]
 
 
 def shortfall(decision: Decision, verdict: Verdict) -> float:
@@ -110,33 +106,41 @@ def _broken_rates(decision: Decision, estimate: ChannelEstimate) -> Iterator[str
         yield f"the value is {decision.value!r}, but the objective says {value!r}"
 
 
-def _wrong_values(decision: Decision, verdict: Verdict) -> Iterator[str]:
-    bound, value = decision.bound, decision.value
+def _wrong_refusals(decision: Decision) -> Iterator[str]:
+    if decision.power_w.any() or decision.rate_bps.any() or not np.isnan(decision.value):
+        yield f"it is {decision.status}, but has the value {decision.value!r} and the powers {decision.power_w}"
+    if not decision.reason:
+        yield f"it is {decision.status} without a reason"
+
+
+def _wrong_certificate(decision: Decision) -> Iterator[str]:
+    value, bound, gap = decision.value, decision.bound, decision.gap
     if _better(decision, value, bound):
         yield f"the value {value!r} is beyond its bound {bound!r}"
-    if decision.status == "optimal" and not decision.gap <= OPTIMAL_GAP:
-        yield f"it is optimal with a gap of {decision.gap!r}"
+    if decision.is_usable and np.isnan(gap) and not np.isnan(bound):
+        yield f"the gap from {value!r} to {bound!r} is NaN"
+    if decision.status == "optimal" and not gap <= OPTIMAL_GAP:
+        yield f"it is optimal with a gap of {gap!r}"
+    needed = decision.needed_power_w
+    if needed is not None and needed.at_least > needed.at_most * (1 + TOLERANCE):
+        yield f"at least {needed.at_least!r} W and at most {needed.at_most!r} W are said to be needed"
+
+
+def _refuted(decision: Decision, verdict: Verdict) -> Iterator[str]:
+    bound, value, budget = decision.bound, decision.value, decision.problem.budget_w(decision.cell)
+    if decision.status == "infeasible" and verdict.needed_w <= budget * (1 - TOLERANCE):
+        yield f"it is infeasible, but {verdict.needed_w!r} W carry the promised rates within {budget!r} W"
+    if decision.is_usable and verdict.needed_w > budget * (1 + TOLERANCE):
+        yield f"it is {decision.status}, but no allocation keeps the limits"
     if verdict.best is None:
-        if verdict.needed_w > decision.problem.budget_w(decision.cell) * (1 + TOLERANCE):
-            yield f"it is {decision.status}, but no allocation keeps the limits"
         return
     best = verdict.best.value
     if _better(decision, best, bound):
         yield f"the bound {bound!r} is beaten by {best!r}, owners {verdict.best.owner}"
     if decision.status == "optimal" and _better(decision, best, value):
         yield f"the optimal {value!r} is beaten by {best!r}, owners {verdict.best.owner}"
-    if _better(decision, value, best, _LIMITS_SLACK):
+    if decision.is_usable and _better(decision, value, verdict.best.at_best, _LIMITS_SLACK):
         yield f"the value {value!r} is better than that of every allocation, {best!r}"
-
-
-def _wrong_refusals(decision: Decision, verdict: Verdict) -> Iterator[str]:
-    if decision.power_w.any() or not np.isnan(decision.value):
-        yield f"it is {decision.status}, but has the value {decision.value!r} and the powers {decision.power_w}"
-    if not decision.reason:
-        yield f"it is {decision.status} without a reason"
-    budget = decision.problem.budget_w(decision.cell)
-    if decision.status == "infeasible" and verdict.needed_w <= budget * (1 - TOLERANCE):
-        yield f"it is infeasible, but {verdict.needed_w!r} W carry the promised rates within {budget!r} W"
 
 
 def _wrong_brackets(decision: Decision, verdict: Verdict) -> Iterator[str]:
