@@ -126,7 +126,7 @@ class Solver:
 @pytest.mark.parametrize("objective", [*OBJECTIVES.values(), SquareRoots(), FirstBits()], ids=lambda o: o.name)
 def test_a_general_solver_on_every_assignment_finds_the_same(objective: wa.Objective) -> None:
     compared = 0
-    for seed in range(4):
+    for seed in range(3):
         case = random_problem(seed, objective, num_users=2, num_subcarriers=3)
         groups = -(-3 // case.problem.resource_block_group_size)
         values = [Solver(case, owner).best() for owner in itertools.product(range(2), repeat=groups)]
@@ -141,7 +141,7 @@ def test_a_general_solver_on_every_assignment_finds_the_same(objective: wa.Objec
         if objective.direction == "max":  # the solver may leave the limits by 1e-7, and not find the best
             assert found.value >= best * (1 - 1e-6), seed
         compared += 1
-    assert compared >= 3
+    assert compared >= 2
 
 
 @pytest.mark.parametrize(
@@ -178,12 +178,12 @@ def test_the_best_user_of_each_subcarrier_is_found(objective: wa.Objective, seed
 def test_the_search_proves_its_own_answers(objective: wa.Objective) -> None:
     """By weak duality alone: what it says to be the limit of all assignments is next to the allocation it gives."""
     away: list[float] = []
-    for seed in range(1000, 1040):
+    for seed in range(1000, 1025):
         case = random_problem(seed, objective)
         found = best_allocation(case.estimate, case.problem, case.cell)
         if found is not None and found.value != 0:
             away.append(abs(found.at_best - found.value) / abs(found.value))
             sign = 1 if objective.direction == "max" else -1
             assert sign * (found.at_best - found.value) >= -1e-13 * abs(found.value), seed
-    assert len(away) > 10
+    assert len(away) > 5
     assert max(away) <= 1e-11

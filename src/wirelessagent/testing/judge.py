@@ -51,8 +51,10 @@ def shortfall(decision: Decision, verdict: Verdict) -> float:
     """How far the value is from the best one, relative to it; 0/0 is 0, NaN without a value."""
     if verdict.best is None or not decision.is_usable:
         return np.nan
+    if decision.value == verdict.best.value:
+        return 0.0
     away = abs(decision.value - verdict.best.value)
-    return 0.0 if away == 0.0 else away / abs(verdict.best.value) if verdict.best.value else np.inf
+    return away / abs(verdict.best.value) if verdict.best.value else np.inf
 
 
 def _better(decision: Decision, value: float, than: float, tolerance: float = TOLERANCE) -> bool:
@@ -102,7 +104,7 @@ def _broken_rates(decision: Decision, estimate: ChannelEstimate) -> Iterator[str
     objective = problem.objective
     assert isinstance(objective, Objective)
     value = objective.value(rate, decision.total_power_w, cell, problem.weights_of(users))
-    if not abs(decision.value - value) <= TOLERANCE * abs(value):
+    if decision.value != value and not abs(decision.value - value) <= TOLERANCE * abs(value):
         yield f"the value is {decision.value!r}, but the objective says {value!r}"
 
 
