@@ -58,6 +58,9 @@ def random_problem(seed: int, objective: Objective, *, num_users: int = 3, num_s
     if rng.uniform() < 0.3:
         limits["resource_block_group_size"] = int(rng.integers(2, 4))
     weights = np.round(rng.exponential(size=num_users) + 0.1, 3)
+    served = limits.get("users", tuple(range(num_users)))
+    if len(served) > 1 and rng.uniform() < 0.2:
+        weights[served[0]] = 0.0
     if rng.uniform() < 0.3 and objective.measure != "power":
         limits["weights"] = weights
     rate = _carried(rng, known(gain), cell, Problem(objective, **limits))
