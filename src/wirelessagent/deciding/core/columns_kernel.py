@@ -501,3 +501,19 @@ def worths(
             users[k], set_floor, set_inverse, set_ceiling, size, log_mu, scratch, scratch_cap
         )  # fmt: skip
     return value, power
+
+
+@kernel
+def dearest(
+    floor: FloatArray, inverse: FloatArray, ceiling: FloatArray, start: IntArray, log_rate_price: FloatArray
+) -> FloatArray:
+    """The largest t_j/μ of any user for each column, (column,), where a nat of user k costs e^``log_rate_price`` W."""
+    price = np.zeros(start.size - 1)
+    for k in range(floor.shape[0]):
+        top = np.exp(log_rate_price[k])
+        for j in range(price.size):
+            term, _ = column_term(
+                floor[k], inverse[k], ceiling[k], start[j], start[j + 1], log_rate_price[k], top
+            )  # fmt: skip
+            price[j] = max(price[j], term)
+    return price
