@@ -13,8 +13,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from bench_decide import BUDGET_W, CIRCUIT_W, CONTENDERS, CVXPY_SHAPES, SHAPES
 from channels import SHANNON, draws, snr_per_w
+from closed_forms import BUDGET_W, CIRCUIT_W, CONTENDERS, CVXPY_SHAPES, SHAPES
 from measuring import duration, fastest, table
 
 import wirelessagent as wa
@@ -54,7 +54,7 @@ def closed(count: int) -> None:
             kernel = fastest(contestants["kernel"](gains[0]))
             decide = fastest(lambda one=some[0], asked=problem: wa.decide(one, asked))
             plain = fastest(contestants["numpy"](gains[0]))
-            peers = _peers(contestants["cvxpy"], gains[0]) if shape in CVXPY_SHAPES else [np.nan] * 3
+            peers = _peers(name, contestants["cvxpy"], gains[0]) if shape in CVXPY_SHAPES else [np.nan] * 3
             times = [f"{duration(one)} ({one / kernel:,.0f}×)" if one == one else "–" for one in (plain, *peers)]
             size = f"{shape[0]}×{shape[1]}"
             rows.append([name, size, f"{error:.1e}", duration(kernel), duration(decide), *times])
@@ -71,14 +71,15 @@ def _error(name: str, gain: FloatArray, power: FloatArray) -> float:
     return float(abs(value / best_value(name, best) - 1))
 
 
-def _peers(write: Callable[[FloatArray], Callable[[], Any]], gain: FloatArray) -> list[float]:
+def _peers(name: str, write: Callable[[FloatArray], Callable[[], Any]], gain: FloatArray) -> list[float]:
     """Least times of Clarabel alone, of a compiled program and of one written anew."""
     try:
         import cvxpy as cp
     except ModuleNotFoundError:
         return [np.nan] * 3
-    solve = write(gain)
-    solve()
+    solve, optimum = write(gain), float(best_value(name, gain[0].max(axis=0)))
+    if not abs(solve() / optimum - 1.0) <= 1e-4:
+        raise SystemExit(f"{name}: the optimum is {optimum!r}, but cvxpy finds {solve()!r}")
     alone: list[float] = []
     original = cp.Problem.unpack_results
 

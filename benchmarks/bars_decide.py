@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import bar_batches
 import bar_bounds
@@ -36,11 +36,11 @@ SECTIONS: dict[str, Callable[[int], None]] = {
 NEED_CVXPY = ("bounds", "milp")
 
 
-def main() -> None:
+def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--draws", type=int, default=30, help="channels per case (30)")
     parser.add_argument("--only", default=",".join(SECTIONS), help="sections, separated by commas: %(default)s")
-    chosen = parser.parse_args()
+    chosen = parser.parse_args(arguments)
     names = chosen.only.split(",")
     if unknown := set(names) - SECTIONS.keys():
         parser.error(f"no such section: {', '.join(sorted(unknown))}; there are {', '.join(SECTIONS)}")
