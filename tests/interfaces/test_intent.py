@@ -22,6 +22,7 @@ from wirelessagent.model.errors import InputError
 from wirelessagent.model.phrases import phrases
 
 RATE, POWER, EE = "max_rate", "min_power", "max_energy_efficiency"
+FAIR, LEAST = "proportional_fairness", "max_min_rate"
 
 ALLOCATE: list[tuple[str, str, dict[str, float]]] = [
     # the paper's own sentences and the design's
@@ -133,7 +134,44 @@ ALLOCATE: list[tuple[str, str, dict[str, float]]] = [
     ("neither speed nor power saving: energy efficiency", EE, {}),
     ("squeeze the most out of each watt", EE, {}),
     ("5 W of circuit power and max energy efficiency", EE, {"circuit_power_w": 5.0}),
+    # a fair share
+    ("share fairly", FAIR, {}),
+    ("share it fairly", FAIR, {}),
+    ("Proportional fairness", FAIR, {}),
+    ("PF, 10 W", FAIR, {"max_power_w": 10.0}),
+    ("be fair to all users, at most 10 W", FAIR, {"max_power_w": 10.0}),
+    ("Share the spectrum fairly between the users, 5 W", FAIR, {"max_power_w": 5.0}),
+    ("A fair share for everyone with at least 500 kbit/s each", FAIR, {"min_rate_bps": 5e5}),
+    ("as fair as possible", FAIR, {}),
+    ("prefer fairness over speed", FAIR, {}),
+    ("a fair share, not the highest rate", FAIR, {}),
+    ("按比例公平分配", FAIR, {}),
+    ("公平分配,最多10瓦", FAIR, {"max_power_w": 10.0}),
+    ("公平一点", FAIR, {}),
+    # the largest smallest rate
+    ("the same rate for everyone", LEAST, {}),
+    ("give everyone the same speed, 10 W", LEAST, {"max_power_w": 10.0}),
+    ("each user gets the same rate", LEAST, {}),
+    ("make the slowest user as fast as possible", LEAST, {}),
+    ("Speed up the slowest user", LEAST, {}),
+    ("The slowest user is too slow", LEAST, {}),
+    ("Help the weakest users, at least 100 kbit/s each", LEAST, {"min_rate_bps": 1e5}),
+    ("prioritise the weakest user", LEAST, {}),
+    ("worst user rate as high as possible", LEAST, {}),
+    ("maximise the minimum rate", LEAST, {}),
+    ("highest possible minimum throughput", LEAST, {}),
+    ("max-min fairness", LEAST, {}),
+    ("让最慢的用户更快", LEAST, {}),
+    ("提高最慢用户的速率,不超过8瓦", LEAST, {"max_power_w": 8.0}),
+    ("所有用户速率一样", LEAST, {}),
+    ("最大最小公平", LEAST, {}),
     # negation
+    ("I don't care about fairness, max rate", RATE, {}),
+    ("prioritise speed over fairness", RATE, {}),
+    ("equal rates are not needed, save power", POWER, {}),
+    ("fair enough, max rate", RATE, {}),
+    ("to be fair, save power", POWER, {}),
+    ("公平不重要,速率最大", RATE, {}),
     ("I don't care about speed, save power", POWER, {}),
     ("Don't worry about battery, I want throughput", RATE, {}),
     ("No need to save power, go faster", RATE, {}),
@@ -197,14 +235,22 @@ ASK_BACK = [
     "max rate, at most 1 W per user", "max rate, at least 20 Mbit/s in total", "最大速率,总速率至少20兆",
     "save power, 1 Mbit/s for video and 200 kbit/s for sensors", "highest speed with 500 MW",
     "max rate, latency below 10 ms",
-    "max rate, 2 MB/S each", "proportional fairness", "share it fairly", "按比例公平分配",
+    "max rate, 2 MB/S each",
+    "treat everyone equally", "share equally", "the same rate", "平均分配", "equal power for all",
+    "make it fairly fast", "give everyone a fairly good speed", "share the power fairly", "fair power allocation",
+    "maximise the rate but share it fairly", "fairness and speed", "balance speed and fairness", "save power fairly",
+    "energy efficiency and fairness", "公平和省电", "maximise the total rate without hurting the slowest user",
+    "max rate, but don't forget the slowest user", "save power for the slowest user", "the slowest user",
+    "higher speed for all and for the slowest user", "alpha fairness", "weighted fairness", "按α公平分配",
+    "prioritise the fastest user", "fair share for user 3", "fair share for 3 users", "max min power",
+    "save power at the same rate", "keep the same rate", "the same rate as before for everyone",
     "max rate between 5 and 10 W", "max rate, at least 5 Mbit/s and at most 1 Mbit/s each",
     "save power, 100 % reliability",
     "max rate at most a few watts", "slow down", "lower the speed", "increase the power", "not faster",
     "we only get 2 Mbit/s right now, make it faster", "reduce the power by half", "功率减半",
     "battery saving and speed",
     "速率要高,功率要低", "save power without losing speed", "Do it fast", "quick question", "give it the green light",
-    "users moving at high speed", "maximise the minimum rate", "max throughput with half the power", "提高功率",
+    "users moving at high speed", "max throughput with half the power", "提高功率",
     "1MB each, save power", "1 Mo/s each save power", "power matters more than speed", "速度比省电重要",
     "turn off power saving", "取消省电模式", "关闭省电",
     "stop max rate",
@@ -275,6 +321,9 @@ OUT_OF_SCOPE = [
 ]  # fmt: skip
 
 QUESTIONS = [
+    "is it fair?",
+    "who is the slowest user?",
+    "为什么最慢的用户没有速率",
     "why did user 3 get nothing?",
     "what is energy efficiency?",
     "how much power do we use?",
@@ -374,7 +423,9 @@ def test_neither_acts_nor_asks(kind: str, text: str) -> None:
         ("maximum throughput, power 10", ["10", "W", "dBm"]),
         ("highest speed with 500 MW", ["500 MW", "mW"]),
         ("save power, 1 Mbit/s for video and 200 kbit/s for sensors", ["1 Mbit/s", "200 kbit/s"]),
-        ("maximise the rate but share it fairly", ["Fairness"]),
+        ("maximise the rate but share it fairly", ["total rate", "proportional fairness"]),
+        ("treat everyone equally", ["proportional fairness", "max-min"]),
+        ("平均分配", ["比例公平", "最大最小公平"]),
         ("10 W", ["10 W", "rate"]),
         ("everyone gets 1 Mbit/s", ["1 Mbit/s", "least power", "highest"]),
         ("save power and go faster", ["energy efficiency"]),
@@ -451,9 +502,17 @@ def test_an_objective_that_is_not_registered_is_never_chosen(monkeypatch: pytest
     assert recognise("Save power for sensors").objective == POWER
 
 
+def test_without_fair_objectives_fairness_is_asked_about(monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = [found for found in plugins.plugins("objective") if found.name not in (FAIR, LEAST)]
+    monkeypatch.setattr(plugins, "plugins", lambda kind: kept)
+    for text in ("share it fairly", "max rate, equally", "the same rate for everyone", "speed up the slowest user"):
+        assert recognise(text).kind == "clarify"
+
+
 SPLINTERS = (
     "save power faster not don't 10 W -5 0 mW 1 Mbit/s at least most % each , . ? and 省电 快 至少 兆 瓦 "
-    "user 3 maximise rate minimum between EE balance 95 reliability no outage circuit exactly"
+    "user 3 maximise rate minimum between EE balance 95 reliability no outage circuit exactly fair fairly share same "
+    "slowest everyone equal 公平"
 )
 
 

@@ -1,8 +1,9 @@
 """Which objective a sentence means: directions paired with what they apply to, negations, and the wish for a balance.
 
 "Higher" beside "speed" is a signal for max_rate, "save" beside "power" for min_power; a term may also be a signal by
-itself. A negation turns off the first thing named after it in its clause. One objective with enough weight and no rival
-is clear; anything else is not, and says why.
+itself. A wish for rate that is said of the slowest user is one for the largest smallest rate. A negation turns off the
+first thing named after it in its clause. One objective with enough weight and no rival is clear; anything else is not,
+and says why.
 """
 
 from __future__ import annotations
@@ -19,9 +20,14 @@ ENOUGH = 0.7
 _REACH_BEFORE, _REACH_AFTER, _REACH_OF_NOT, _REACH_TO_TURN = 4, 3, 6, 2
 
 _DIRECTIONS = ("up", "down", "want", "keep", "waste", "bad")
-_OBJECTS = ("rate", "stream", "power", "battery", "efficiency")
-_OPPOSITES = {"max_rate": "less_rate", "min_power": "more_power", "max_energy_efficiency": "less_efficiency"}
-_UNSERVED = (*_OPPOSITES.values(), "waste_power")
+_OBJECTS = ("rate", "stream", "power", "battery", "efficiency", "worst")
+_OPPOSITES = {
+    "max_rate": "less_rate", "min_power": "more_power", "max_energy_efficiency": "less_efficiency",
+    "proportional_fairness": "less_fairness", "max_min_rate": "less_fairness",
+}  # fmt: skip
+_UNSERVED = (*dict.fromkeys(_OPPOSITES.values()), "waste_power")
+_TURNED_FROM_BEHIND = ("max_energy_efficiency", "proportional_fairness", "max_min_rate")
+_SPOILERS = ("not", "isnt", "undo", "not_after", "keep", "bad", "down", "waste", "over", "join")
 
 # What a direction and its object mean together, and how much that weighs.
 _PAIRS: dict[tuple[str, str], tuple[str, float]] = {
@@ -42,6 +48,10 @@ _PAIRS: dict[tuple[str, str], tuple[str, float]] = {
     ("up", "efficiency"): ("max_energy_efficiency", 0.7),
     ("want", "efficiency"): ("max_energy_efficiency", 0.7),
     ("down", "efficiency"): ("less_efficiency", 1.0),
+    ("up", "worst"): ("max_min_rate", 1.0),
+    ("want", "worst"): ("max_min_rate", 0.8),
+    ("down", "worst"): ("less_rate", 1.0),
+    ("bad", "worst"): ("less_rate", 1.0),
     # Below what is enough: said of a fault as often as of a wish, so that it is asked about.
     ("bad", "rate"): ("less_rate", 0.5),
     ("bad", "power"): ("more_power", 0.5),
@@ -54,6 +64,7 @@ _ALONE: dict[str, tuple[str, float]] = {
     "rate": ("max_rate", 0.4),
     "battery": ("min_power", 0.4),
     "efficiency": ("max_energy_efficiency", 0.4),
+    "worst": ("max_min_rate", 0.4),
 }
 
 
@@ -93,7 +104,7 @@ class Goal:
 
 def goal_of(found: Sequence[Found]) -> Goal:
     """The goal that the terms of a sentence make together."""
-    signals = _negate(_signals(found), found)
+    signals = _negate(_for_the_worst(_signals(found), found), found)
     signals = _balanced(signals, found)
     positive: dict[str, float] = {}
     for signal in signals:
@@ -108,6 +119,8 @@ def goal_of(found: Sequence[Found]) -> Goal:
         return Goal(verdict="contradiction", options=tuple(strong), spans=spans)
     if not strong:
         return _unclear(positive, negated)
+    if strong[0] != "max_min_rate" and ("max_min_rate" in positive or _speaks_of_the_worst(signals, strong[0], found)):
+        return Goal(verdict="contradiction", options=(strong[0], "max_min_rate"), spans=spans)
     if _joined_with_another(signals, strong[0], found):
         return Goal(verdict="contradiction", options=tuple(positive), spans=spans)
     slips = any(s.corrected for s in signals if s.objective == strong[0])
@@ -115,6 +128,12 @@ def goal_of(found: Sequence[Found]) -> Goal:
     best = max(s.weight for s in signals if s.objective == strong[0] and not s.negated)
     confidence = 0.8 + 0.075 * min(best, 2.0) - 0.1 * slips - 0.1 * min(others, 1.0)
     return Goal(verdict="clear", objective=strong[0], options=tuple(strong), spans=spans, confidence=confidence)
+
+
+def _speaks_of_the_worst(signals: Sequence[Signal], objective: str, found: Sequence[Found]) -> bool:
+    """Whether a wish has the slowest user in its clause and still is not for that user: "stop making … faster"."""
+    clauses = {item.clause for item in found if item.term.concept == "worst"}
+    return any(s.objective == objective and not s.negated and s.clause in clauses for s in signals)
 
 
 def _joined_with_another(signals: Sequence[Signal], objective: str, found: Sequence[Found]) -> bool:
@@ -156,7 +175,43 @@ def _signals(found: Sequence[Found]) -> list[Signal]:
                 signals.append(_signal(direction, item, *meaning))
             elif item.term.concept in _ALONE:
                 signals.append(_signal(item, item, *_ALONE[item.term.concept]))
+        elif item.term.concept == "fairly" and _of_sharing(item, found):
+            signals.append(_signal(item, item, "proportional_fairness", 1.0))
+        elif item.term.concept == "same":
+            everyone = _beside(item, found, "everyone")
+            signals += [_signal(item, everyone, "max_min_rate", 1.0)] if everyone is not None else []
     return signals
+
+
+def _of_sharing(item: Found, found: Sequence[Found]) -> bool:
+    """Whether "fairly" says how to share rates: "share it fairly", not "fairly fast" nor "share the power fairly"."""
+    share = _beside(item, found, "share")
+    if share is None:
+        return False
+    degree = any(other.first == item.last and other.term.concept in ("up", "down", "bad", "direct") for other in found)
+    power = any(
+        other.term.concept in ("power", "battery") and 0 <= other.first - share.last <= _REACH_TO_TURN
+        for other in found
+    )
+    return not degree and not power
+
+
+def _beside(item: Found, found: Sequence[Found], concept: str) -> Found | None:
+    """The first term of a concept in the clause of ``item``."""
+    return next((other for other in found if other.term.concept == concept and other.clause == item.clause), None)
+
+
+def _for_the_worst(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
+    """Wishes for rate that stand beside the slowest user, and nothing that may turn them round, are for that user."""
+    result: list[Signal] = []
+    for signal in signals:
+        user = next((item for item in found if item.term.concept == "worst" and item.clause == signal.clause), None)
+        if signal.objective == "max_rate" and user is not None:
+            gap = max(user.first - signal.last, signal.first - user.last, 0)
+            spoilt = any(other.term.concept in _SPOILERS and other.clause == signal.clause for other in found)
+            signal = replace(signal, objective="max_min_rate") if gap <= _REACH_AFTER and not spoilt else signal
+        result.append(signal)
+    return result
 
 
 def _lessened(found: Sequence[Found], item: Found) -> bool:
@@ -174,7 +229,7 @@ def _turned_round(item: Found, found: Sequence[Found], pairs: Mapping[int, Found
         free = word.term.concept in turning and word.clause == item.clause and word.first not in spoken_for
         before = word.last <= item.first
         gap = item.first - word.last if before else word.first - item.last
-        sided = before or (not item.term.complaint and item.term.objective == "max_energy_efficiency")
+        sided = before or (not item.term.complaint and item.term.objective in _TURNED_FROM_BEHIND)
         if free and sided and gap <= _REACH_TO_TURN and not _blocked(found, word, item):
             return word
     return None
@@ -229,7 +284,7 @@ def _blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
 def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     """Signals with those turned off that a negation refers to; a negated wish for less rate is one for rate."""
     turned_off: set[int] = set()
-    named = [item for item in found if item.term.concept in (*_OBJECTS, "direct")]
+    named = [item for item in found if item.term.concept in (*_OBJECTS, "direct", "same", "fairly")]
     joins = [item.first for item in found if item.term.concept == "join"]
     for item in found:
         same = [other for other in named if other.clause == item.clause]

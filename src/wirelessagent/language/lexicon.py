@@ -45,6 +45,15 @@ DIRECT: dict[str, str] = {
     "less_rate": (
         "slow_down slowing_down slower slowest slowly throttle 放慢 慢一点 慢点 慢一些 降速 限速 最慢 更慢 慢慢 慢下来"
     ),
+    "proportional_fairness": (
+        "fair fairer fairest fairness equitable equitably proportionally_fair proportional_fair pf 公平 公平性 更公平 "
+        "公平一点 公平一些 公平对待 按比例公平"
+    ),
+    "max_min_rate": (
+        "max_min maxmin max_min_fair equal_rates equal_speeds equally_fast maximise_the_minimum maximize_the_minimum "
+        "everyone_at_the_same_speed everyone_at_the_same_rate all_users_at_the_same_speed all_users_at_the_same_rate "
+        "最大最小 最大化最小速率 最大化最低速率 最小速率最大 最低速率最大 一样快 同样快"
+    ),
     "less_efficiency": "inefficient inefficiently inefficiency 低效 低能效",
 }
 
@@ -63,6 +72,17 @@ _WRONG = {"less_rate": "slow slowly sluggish laggy 慢 卡", "more_power": "powe
 for _objective, _words in _WRONG.items():
     _framed = " ".join(_FRAMES.format(_word) for _word in _words.split())
     DIRECT[_objective] = f"{DIRECT.get(_objective, '')} {_framed}"
+
+
+# The largest smallest rate, said of the rate: "maximise the lowest throughput".
+DIRECT["max_min_rate"] += "".join(
+    f" {most}_{the}{least}_{rate}"
+    for most in ("maximise", "maximize", "maximising", "maximizing", "max", "highest", "largest", "best")
+    for the in ("", "the_", "possible_")
+    for least in ("minimum", "min", "lowest", "smallest", "worst")
+    for rate in ("rate", "throughput", "speed", "user_rate", "data_rate")
+    if (most, the) != ("max", "possible_")
+)
 
 
 # Directions.
@@ -86,7 +106,8 @@ DOWN = (
     "尽可能少 压低"
 )
 WANT = (
-    "want need needs give prioritise prioritize priority favour favor prefer focus_on its_about it_is_about just "
+    "help_the help_our helping_the protect protecting want need needs give prioritise prioritize priority "
+    "favour favor prefer focus_on its_about it_is_about just "
     "only  "
     "optimise optimize care_about above_all is_everything comes_first all_about matters first important 第一 要 想要 "
     "需要 优先 只要 只管 关注 优化 重要 保障"
@@ -125,6 +146,12 @@ POWER = (
     "功率 功耗 能耗 电 电量 电力 耗电量 发射功率 能量 能源 电费 总功率 能源消耗 能量消耗 用电"
 )
 BATTERY = "battery batteries battery_life battery_lifetime 电池 续航 电池寿命 电池续航"
+WORST = "最慢用户 最慢的用户 最慢的人 最差用户 最差的用户 最弱用户 最弱的用户 " + " ".join(
+    f"{worst}_{user}{plural}"
+    for worst in ("slowest", "weakest", "worst", "poorest", "worst_off", "worst_served", "most_disadvantaged")
+    for user in ("user", "ue", "subscriber", "device", "terminal", "customer")
+    for plural in ("", "s")
+)
 EFFICIENCY = "efficiency efficient efficiently 效率 高效"
 
 # How a sentence is built.
@@ -149,7 +176,8 @@ NOT_AFTER = (
     "not_necessary 无所谓 不重要 没关系 不要紧 不是问题 随便"
 )
 POLITE = (
-    "no_matter_what regardless whatever_it_takes off_peak no_doubt 无论如何 不管怎样 不管怎么样 "
+    "fair_enough fair_point fair_amount fair_bit fair_chance fair_warning to_be_fair no_matter_what regardless "
+    "whatever_it_takes off_peak no_doubt 无论如何 不管怎样 不管怎么样 "
     "can could would will shall please lets let_us how_about what_about why_not why_dont is_it_possible_to "
     "i_want_you_to dont_forget do_not_forget not_only no_wait nothing_but make_sure green_light high_speed_train "
     "at_high_speed 能不能 能否 能 哪怕 赶快 尽快 可以 可不可以 请 帮 麻烦 要不要 不但 不仅 别忘了 不错 大家 大约 "
@@ -167,9 +195,24 @@ PAIRED = "又 又要 既 既要"  # two of them say "both"
 OVER = "over"  # after a word of preference it sets one wish below another
 
 # Topics.
-FAIR = (
-    "fair fairly fairness equal equally equitable evenly proportional_fairness proportionally_fair pf max_min "
-    "maximise_the_minimum maximize_the_minimum worst_user weakest_user 最差用户 公平 均等 平均分配 比例公平"
+FAIR = (  # in what?
+    "equal equally equality evenly even_share even_shares equal_share equal_shares fair_power power_fairness "
+    "均等 平均分配 平均 一视同仁"
+)
+FAIRLY = "fairly"  # of sharing; but "fairly fast" is only rather fast
+SHARE = (
+    "share shares shared sharing divide divided dividing distribute distributed distributing allocate allocated "
+    "allocating assign assigned split splits splitting treat treated treating 分配 分享 共享"
+)
+SAME = (
+    "same_rate same_rates same_speed same_speeds same_throughput same_data_rate equal_rate equal_speed "
+    "equal_throughput equal_data_rate identical_rate identical_rates "
+    "速率相同 速率相等 速率一样 速度相同 速度一样 网速一样 "
+    "相同速率 相同的速率 同样的速率 同样速率 一样的速率 相等的速率 相同的速度 同样的速度 一样的速度"
+)
+EVERYONE = (
+    "everyone everybody all each every each_user every_user all_users all_the_users all_of_them 所有 所有用户 所有人 "
+    "每个 每人 每个用户 全部用户 各用户 人人 大家"
 )
 UNSUPPORTED = (
     "latency delay delays jitter ping response_time handover handovers coverage beamforming antenna antennas tilt "
@@ -180,7 +223,12 @@ _NO_DATA = (
     "collision retransmission churn frame refresh sample sampling symbol clock heart interest exchange tax"
 )
 STRANGE = (
-    "packet_loss packet_losses errors ber bler 误码率 误块率 误比特率 错误率 丢包率 掉线率 失败率 帧率 采样率 利率 "
+    "fastest_user fastest_users strongest_user strongest_users best_user best_users 最快的用户 最快用户 最好的用户 "
+    "max_min_power unfair unfairly unfairness 不公平 alpha_fair alpha_fairness alpha_fairly α_fair α_fairness α公平 "
+    "jain jains jain_index "
+    "weighted_fair weighted_fairness min_max round_robin same_rate_as same_speed_as keep_the_same_rate "
+    "keep_the_same_speed at_the_same_rate at_the_same_speed with_the_same_rate with_the_same_speed packet_loss "
+    "packet_losses errors ber bler 误码率 误块率 误比特率 错误率 丢包率 掉线率 失败率 帧率 采样率 利率 "
     + " ".join(f"{kind}_rate {kind}_rates" for kind in _NO_DATA.split())
 )
 DOMAIN = (
@@ -188,7 +236,7 @@ DOMAIN = (
     "cells network base_station allocation spectrum  "
     "signal snr sensor sensors iot device devices wireless internet wifi 5g 6g gain repair waterfilling 用户 小区 "
     "电路  "
-    "子载波 信道 网络 基站 频谱 传感器 物联网 设备 信号 分配 资源"
+    "子载波 信道 网络 基站 频谱 传感器 物联网 设备 信号 资源"
 )
 OFF_TOPIC = (
     "weather joke football soccer pizza poem song music movie recipe stock stocks news president translate dinner "
@@ -210,7 +258,8 @@ CONCEPTS: dict[str, str] = {
     "isnt": ISNT, "strange": STRANGE, "rate": RATE, "stream": STREAM,
     "performance": PERFORMANCE, "power": POWER, "battery": BATTERY, "efficiency": EFFICIENCY, "not": NOT,
     "not_after": NOT_AFTER, "polite": POLITE, "split": SPLIT, "join": JOIN, "balance": BALANCE, "both": BOTH,
-    "paired": PAIRED, "over": OVER, "fair": FAIR, "unsupported": UNSUPPORTED, "domain": DOMAIN,
+    "paired": PAIRED, "over": OVER, "fair": FAIR, "fairly": FAIRLY, "share": SHARE, "same": SAME, "everyone": EVERYONE,
+    "worst": WORST, "unsupported": UNSUPPORTED, "domain": DOMAIN,
     "off_topic": OFF_TOPIC, "command": COMMAND, "undo": UNDO, "help": HELP, "question": QUESTION, "greeting": GREETING,
 }  # fmt: skip
 

@@ -28,12 +28,16 @@ from wirelessagent.model.objective import Objective
 NAME = "offline"
 _MAX_CHARACTERS = 2000
 _DEFAULT_CONFIDENCE = 0.75
-_BUILT_IN_ORDER = ("max_rate", "min_power", "max_energy_efficiency")
+_BUILT_IN_ORDER = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
+_FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
 _COMPARE = ("compare", "比较", "对比")
 _REFUSED = re.compile(
     r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$"
 )  # "max rate? no"
-_ABOUT_THE_NETWORK = ("rate", "stream", "power", "battery", "efficiency", "performance", "domain", "direct", "fair")
+_ABOUT_THE_NETWORK = (
+    "rate", "stream", "power", "battery", "efficiency", "performance", "domain", "direct", "fair", "fairly", "same",
+    "worst",
+)  # fmt: skip
 
 
 class OfflineRecogniser:
@@ -158,8 +162,11 @@ class _Understanding:
             return self._answer.ask("unread", 0.8, text=self._text[slice(*self._unread)].strip())
         if "strange" in self._concepts:
             return self._answer.ask("strange", 0.8, text=self._words_for("strange"))
-        if "fair" in self._concepts:
-            return self._answer.ask("fairness", 0.8)
+        if self._is_vaguely_fair():
+            offered = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
+            if not offered:
+                return self._answer.ask("unclear", 0.8)
+            return self._answer.ask("fairness", 0.8, both=self._voice.both(offered, "or"))
         if "unsupported" in self._concepts and self._goal.verdict == "clear":
             goal = self._voice.label(self._goal.objective)
             return self._answer.ask("unsupported_with_goal", 0.8, text=self._words_for("unsupported"), goal=goal)
@@ -167,6 +174,11 @@ class _Understanding:
         if exact_power:
             return self._answer.ask("exact_power", 0.8, text=self._reading.evidence["max_power_w"])
         return None
+
+    def _is_vaguely_fair(self) -> bool:
+        """Whether something is to be equal or fair, and it is not said what or how."""
+        settled = any(name in _FAIR_OBJECTIVES for name in self._goal.options)
+        return "fair" in self._concepts or (bool(self._concepts & {"fairly", "same"}) and not settled)
 
     def _request(self) -> Intent:
         goal, ask = self._goal, self._answer.ask

@@ -9,6 +9,9 @@ GOALS: dict[str, dict[str, str]] = {
         "max_rate": "the highest total rate",
         "min_power": "the least power",
         "max_energy_efficiency": "the most bits per joule (energy efficiency)",
+        "proportional_fairness": "a fair share for everyone (proportional fairness)",
+        "max_min_rate": "the highest rate for the slowest user (max-min)",
+        "less_fairness": "less fairness",
         "less_rate": "less rate",
         "more_power": "more power",
         "less_efficiency": "fewer bits per joule",
@@ -18,6 +21,9 @@ GOALS: dict[str, dict[str, str]] = {
         "max_rate": "总速率最高",
         "min_power": "功率最低",
         "max_energy_efficiency": "能效最高（每焦耳比特数最多）",
+        "proportional_fairness": "公平分配（比例公平）",
+        "max_min_rate": "最慢用户的速率最高（最大最小公平）",
+        "less_fairness": "降低公平性",
         "less_rate": "降低速率",
         "more_power": "增加功率",
         "less_efficiency": "降低能效",
@@ -68,7 +74,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         ),
         "rivals": "You asked for {both} at once. Which one should it be: {choices}?",
         "opposite": "I can't aim for {goal} as such. What should the cell aim for: {choices}?",
-        "fairness": "Fairness between users is not offered yet. Shall I aim for one of these instead: {choices}?",
+        "fairness": "Fair in which way: {both}?",
         "unsupported_with_goal": "I can't steer {text}. Shall I go on without it, for {goal} alone?",
         "unread": (
             "I can use plain figures with a unit: a power (W, dBm), a rate (bit/s, Mbit/s) or an outage (%). "
@@ -119,7 +125,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "contradiction": "您要求{both}，两者相互矛盾。以哪个为先，还是取两者的折中即能效：{choices}？",
         "rivals": "您同时要求{both}。应以哪一个为目标：{choices}？",
         "opposite": "不能以{goal}本身为目标。应以什么为目标：{choices}？",
-        "fairness": "暂不支持用户间的公平目标。是否改用其中之一：{choices}？",
+        "fairness": "怎样才算公平：{both}？",
         "unsupported_with_goal": "我不能控制{text}。是否不考虑它，只求{goal}？",
         "unread": "{text} 指什么？可用带单位的数值：功率（W、dBm）、速率（bit/s）或中断概率（%），是哪个？",
         "calculated": "我不会用 {text} 做运算。结果应是哪个数值？",
@@ -180,8 +186,8 @@ class Voice:
     def label(self, objective: str) -> str:
         return GOALS[self.language].get(objective) or self.labels.get(objective, objective)
 
-    def both(self, objectives: Sequence[str]) -> str:
-        return self._listed([self.label(name) for name in objectives], "and")
+    def both(self, objectives: Sequence[str], last: str = "and") -> str:
+        return self._listed([self.label(name) for name in objectives], last)
 
     def constraints(self, values: Mapping[str, float]) -> str:
         """The constraints with figures and units, "at least 1 Mbit/s for each user, at most 10 W …"."""
