@@ -65,7 +65,7 @@ def test_batch_of_1000(benchmark: Any, problem: str) -> None:
     benchmark(CONTENDERS[problem]["kernel"](one_gain(8, 20, batch=1000)))
 
 
-@pytest.mark.parametrize(("problem", "method", "shape"), decided())
+@pytest.mark.parametrize(("problem", "method", "shape"), list(decided()))
 def test_decide(benchmark: Any, problem: Problem, method: str, shape: tuple[int, int]) -> None:
     """``wa.decide`` as a Python caller sees it."""
     estimate = known(gains(*shape, FIRST_SEED)[0])
