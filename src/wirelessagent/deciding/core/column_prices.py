@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.deciding.core.market import Market, Sets
+from wirelessagent.deciding.core.market import NOTHING, Market, Sets
 from wirelessagent.model.arrays import FloatArray
 
 _NODES = 200_000
@@ -149,7 +149,7 @@ def priced_bounds(market: Market, price: FloatArray, log_mu: float, nodes: int =
         market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu, 0.0, nodes, bound
     )  # fmt: skip
     sets = Sets(user=np.arange(worth.size), first=first, member=member)
-    return bound, sets.chosen(np.flatnonzero(worth > -1e199))
+    return bound, sets.chosen(np.flatnonzero(worth > NOTHING))
 
 
 def total_bound(market: Market, price: FloatArray, log_mu: float, bound: FloatArray) -> float:
@@ -196,7 +196,7 @@ def _solve(
     mus = np.exp(np.repeat(watched, count))
     value = np.concatenate([worth for worth, _ in worths])
     power = np.concatenate([watts for _, watts in worths])
-    usable = np.flatnonzero(value > -1e199)
+    usable = np.flatnonzero(value > NOTHING)
     value, power = value[usable], power[usable]
     gain = value + (mus[usable] - market.cost_per_w) * power
     scale = max(float(np.abs(gain).mean()), 1e-300)

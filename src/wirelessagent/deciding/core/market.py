@@ -17,6 +17,8 @@ import numpy as np
 
 from wirelessagent.model.arrays import FloatArray, IntArray
 
+NOTHING = -0.5e200
+"""Values below are those of sets without a rate that their user must have; see :mod:`.bundle_kernel`."""
 _STEPS = 200
 _FARTHEST = 80.0
 _HASH_SEED = 20260
@@ -169,8 +171,7 @@ class Market:
         """
         low = self.least_log_mu
         if np.isinf(self.budget_w):
-            value, _ = self.worths(sets, low)
-            return _total(value), low
+            return self._at(sets, low), low
 
         def above(log_mu: float) -> float:
             return float(self.worths(sets, log_mu)[1].sum()) / self.budget_w - 1.0
@@ -202,13 +203,12 @@ class Market:
                 high = middle
         return self._at(sets, high), high
 
-    def _at(self, sets: Sets, log_mu: float) -> float:
-        """U − q P at the price μ; what the budget leaves is not paid for."""
+    def totals(self, sets: Sets, log_mu: float) -> tuple[float, float]:
+        """Σ U and Σ P of some sets at the price μ; U is −∞ where a user lacks a rate that it must have."""
         value, power = self.worths(sets, log_mu)
-        if value.min() <= -1e199:
-            return -np.inf
-        return float(value.sum() + (np.exp(log_mu) - self.cost_per_w) * power.sum())
+        total = float(power.sum())
+        return (float(value.sum()) + float(np.exp(log_mu)) * total if value.min() > NOTHING else -np.inf), total
 
-
-def _total(value: FloatArray) -> float:
-    return float(value.sum()) if value.min() > -1e199 else -np.inf
+    def _at(self, sets: Sets, log_mu: float) -> float:
+        utility, power = self.totals(sets, log_mu)
+        return utility - self.cost_per_w * power
