@@ -23,6 +23,8 @@ def bounds(count: int) -> None:
     "beyond" is how far the bound lies outside (looser than) the peer's optimum, the largest over all draws, and
     "inside" how far within; both should be the peer's accuracy, unless a method's bound uses more than rate prices.
     """
+    import cvxpy  # noqa: F401  # an import of half a second that is no part of the first peer's time
+
     rows: list[list[str]] = []
     for users, subcarriers in ((8, 20), (64, 273)):
         for case, problem in ALL.items():

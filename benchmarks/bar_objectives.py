@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from channels import LINKS, draws
-from measuring import Tally, contenders, duration, proven, spread, table, worse_by
+from measuring import Tally, contenders, proven, table, worse_by
 
 from wirelessagent import chain
 from wirelessagent.model.problem import Problem
@@ -63,9 +63,7 @@ def tiny(count: int) -> None:
                 best = best_allocation(estimate, chain.resolve(problem), cell)
                 for label, (method, options) in chosen.items():
                     optimum = np.nan if best is None else best.value
-                    decision = tallies[label].ask(
-                        estimate, problem, cell, method, optimum=optimum, timed=False, **options
-                    )
+                    decision = tallies[label].ask(estimate, problem, cell, method, optimum=optimum, **options)
                     if decision is None:
                         continue
                     lying = decision.is_usable if best is None else decision.status == "infeasible"
@@ -77,5 +75,5 @@ def tiny(count: int) -> None:
 
 def _row(case: str, link: str, label: str, tally: Tally) -> list[str]:
     shares = [tally.share("optimal", "feasible"), tally.share("infeasible")]
-    figures = [*spread(tally.distance), *spread(tally.gap), *spread(tally.time_s, duration)]
+    figures = tally.figures(is_exact=label == "exact" and not tally.distance_known)
     return [case, label, link, *shares, *figures] if tally.statuses else [case, label, link, "refused"] + [""] * 7

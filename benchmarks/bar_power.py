@@ -8,7 +8,6 @@ import numpy as np
 from channels import SHANNON, draws, slots
 from measuring import Tally, contenders, duration, percent, proven, spread, table, worse_by
 
-import wirelessagent as wa
 from wirelessagent import plugins
 from wirelessagent.model.problem import Problem
 
@@ -105,7 +104,7 @@ def huge(count: int) -> None:
     over: list[float] = []
     for estimate in draws(256, 273, count):
         found = {
-            label: tallies[label].ask(estimate, problem, AMPLE, method, timed=False, **options)
+            label: tallies[label].ask(estimate, problem, AMPLE, method, **options)
             for label, (method, options) in contenders(*tallies).items()
         }
         fast, thorough = found.get("dual fast"), found.get("dual thorough")
@@ -119,12 +118,4 @@ def huge(count: int) -> None:
 
 def _row(case: str, label: str, tally: Tally) -> list[str]:
     usable = tally.share("optimal", "feasible")
-    return [case, label, usable, *spread(tally.distance), *spread(tally.gap), *spread(tally.time_s, duration)]
-
-
-def warm_up() -> None:
-    """Compile every kernel before anything is timed."""
-    for estimate in draws(8, 20, 1):
-        for method, options in contenders().values():
-            Tally().ask(estimate, Problem("min_power", min_rate_bps=0.5e6), SHANNON, method, timed=False, **options)
-    assert wa.decide is not None
+    return [case, label, usable, *tally.figures(is_exact=label == "exact")]

@@ -18,6 +18,10 @@ import bar_bounds
 import bar_closed
 import bar_objectives
 import bar_power
+from channels import LINKS, draws
+from measuring import Tally, contenders
+
+from wirelessagent.model.problem import Problem
 
 SECTIONS: dict[str, Callable[[int], None]] = {
     "p2-small": bar_power.small,
@@ -36,6 +40,15 @@ SECTIONS: dict[str, Callable[[int], None]] = {
 NEED_CVXPY = ("bounds", "milp")
 
 
+def warm_up() -> None:
+    """Compile every kernel, on both links, before anything is timed."""
+    for estimate in draws(8, 20, 1):
+        for problem in (Problem("min_power", min_rate_bps=0.5e6), *bar_objectives.PROBLEMS.values()):
+            for method, options in contenders().values():
+                for cell in LINKS.values():
+                    Tally().ask(estimate, problem, cell, method, timed=False, **options)
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--draws", type=int, default=30, help="channels per case (30)")
@@ -44,7 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     names = chosen.only.split(",")
     if unknown := set(names) - SECTIONS.keys():
         parser.error(f"no such section: {', '.join(sorted(unknown))}; there are {', '.join(SECTIONS)}")
-    bar_power.warm_up()
+    warm_up()
     for name in names:
         start = time.perf_counter()
         try:

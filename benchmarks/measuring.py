@@ -71,6 +71,7 @@ class Tally:
         time_s: median time of a call of ``wa.decide``, one per draw.
         statuses: the statuses met, one per draw.
         refusal: why the method does not solve such problems.
+        beaten: decisions better than what was held to be the optimum, which must not be.
     """
 
     gap: list[float] = field(default_factory=list)
@@ -78,6 +79,7 @@ class Tally:
     time_s: list[float] = field(default_factory=list)
     statuses: list[str] = field(default_factory=list)
     refusal: str = ""
+    beaten: int = 0
 
     def ask(
         self,
@@ -109,7 +111,19 @@ class Tally:
         if decision.is_usable:
             self.gap.append(decision.gap)
             self.distance.append(worse_by(decision.value, optimum, decision))
+            self.beaten += self.distance[-1] < -1e-9
         return decision
+
+    @property
+    def distance_known(self) -> bool:
+        return bool(np.isfinite(self.distance).any())
+
+    def figures(self, *, is_exact: bool = False) -> list[str]:
+        """Distance to the optimum, certified gap and time: medians and maxima; of the exact method, what is proven."""
+        distance = [f"proven: {self.share('optimal')}", ""] if is_exact else list(spread(self.distance))
+        if self.beaten:
+            distance[1] += f", BEATEN {self.beaten} times"
+        return [*distance, *spread(self.gap), *spread(self.time_s, duration)]
 
     def share(self, *statuses: str) -> str:
         """The share of draws that ended with one of ``statuses``."""
@@ -130,7 +144,7 @@ def proven(decision: Decision | None) -> float:
 
 
 def percent(share: float) -> str:
-    return "–" if np.isnan(share) else f"{100 * share:.3g} %"
+    return "–" if np.isnan(share) else f"{100 * share + 0.0:.3g} %"
 
 
 def duration(time_s: float) -> str:
