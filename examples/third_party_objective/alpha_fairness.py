@@ -25,6 +25,7 @@ class AlphaFairness(wa.Objective):
     name = "alpha_fairness"
     unit = "bit/s"
     phrases = wa.phrases(en=["share alpha-fairly"], zh=["α公平"])
+    figure_name = wa.phrases(en=["α-fair mean rate"], zh=["α公平平均速率"])
 
     alpha: float = 2.0
 

@@ -8,7 +8,9 @@ import numpy as np
 
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.metrics import LinkMetrics, metrics_of_rates
+from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human
 
 _FIGURES = (
@@ -38,8 +40,8 @@ class Report:
     missed_users: tuple[int, ...]
 
     def figures(self) -> list[tuple[str, str, str]]:
-        """(figure, predicted, achieved) as text, "–" where the truth is not known."""
-        return [
+        """(figure, predicted, achieved) as text, "–" where the truth is not known; the objective's own figure first."""
+        rows = [
             (
                 label,
                 human(getattr(self.predicted, name), unit),
@@ -47,10 +49,23 @@ class Report:
             )
             for label, name, unit in _FIGURES
         ]
+        name = name_of_figure(self.decision)
+        if not name:
+            return rows
+        achieved = "–" if self.achieved is None else self._worth(self.achieved)
+        return [(name.capitalize(), self._worth(self.predicted), achieved), *rows]
+
+    def _worth(self, metrics: LinkMetrics) -> str:
+        """The objective's value for these rates and power."""
+        decision = self.decision
+        assert isinstance(decision.problem.objective, Objective)
+        weight = decision.problem.weights_of(decision.rate_bps.size)
+        value = decision.problem.objective.value(metrics.user_rate_bps, metrics.power_w, decision.cell, weight)
+        return human(value, decision.unit)
 
     def __str__(self) -> str:
-        lines = [f"{'':22} {'predicted':>16} {'achieved':>16}"]
-        lines += [f"{label:22} {before:>16} {after:>16}" for label, before, after in self.figures()]
+        rows = [("", "predicted", "achieved"), *self.figures()]
+        lines = [f"{label:22} {before:>16} {after:>16}" for label, before, after in rows]
         if self.achieved is not None:
             served = int(np.count_nonzero(self.decision.rate_bps > 0))
             lines.append(f"{len(self.missed_users)} of {served} served users missed their promised rate")
@@ -65,6 +80,13 @@ def report(decision: Decision, outcome: Outcome | None = None) -> Report:
         achieved=None if outcome is None else outcome.achieved,
         missed_users=() if outcome is None else tuple(int(user) for user in np.flatnonzero(outcome.missed)),
     )
+
+
+def name_of_figure(decision: Decision, language: str = "en") -> str:
+    """What the decision's value is called, as in "lowest rate"; empty where its unit says it all."""
+    objective = decision.problem.objective
+    names = objective.figure_name if isinstance(objective, Objective) else phrases()
+    return (names.get(language) or names.get("en") or next(iter(names.values()), ("",)))[0]
 
 
 def predicted_metrics(decision: Decision) -> LinkMetrics:

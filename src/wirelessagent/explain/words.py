@@ -6,9 +6,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from wirelessagent.explain.report import Report
+from wirelessagent.explain.report import Report, name_of_figure
+from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import db, human
 
 _ENGLISH: Mapping[str, str] = {
@@ -19,8 +21,16 @@ _ENGLISH: Mapping[str, str] = {
     "no_bound": "The method {method} gives no bound, so how far this is from the best is not known.",
     "infeasible": "This cannot be done, and that is proven: {reason}",
     "undecided": "No allocation was found that does this, and no proof that there is none: {reason}",
+    "figure": "The users' {figure} is to be as large as can be; it is {value}.",
+    "weights": "Users' rates count by their weights, from {least:g} to {most:g}.",
+    "shares": "Users are to get rates in proportion to their weights, from {least:g} to {most:g}; the {figure} is "
+    "per unit of weight.",
+    "starved": "{names} cannot be given any rate here, and that makes the {figure} zero.",
     "power_max": "One more watt would buy about {price} at the margin.",
+    "power_figure": "One more watt would raise the {figure} by about {price} at the margin.",
     "rate_price": "One more {step} for {user} would cost about {price} at the margin, the dearest of all.",
+    "rate_figure": "One more {step} promised to {user} would lower the {figure} by about {price} at the margin, "
+    "the dearest of all.",
     "idle": "Nothing for {names}; the closest, {closest}, is {margin:.1f} dB behind the winner on its best subcarrier.",
     "repaired": "Repaired by {method}: {missing} of {entries} gains; "
     "{resting} of the {used} subcarriers in use rest on a repaired gain.",
@@ -41,8 +51,14 @@ _CHINESE: Mapping[str, str] = {
     "no_bound": "方法 {method} 不提供界，因此与最优解的差距未知。",
     "infeasible": "该要求无法满足，并且已被证明：{reason}",
     "undecided": "没有找到满足要求的分配，也没有证明它不存在：{reason}",
+    "figure": "目标是各用户的{figure}尽可能大，现为 {value}。",
+    "weights": "各用户的速率按权重计，权重从 {least:g} 到 {most:g}。",
+    "shares": "各用户的速率应与其权重成正比，权重从 {least:g} 到 {most:g}；{figure}按单位权重计。",
+    "starved": "这里无法给 {names} 任何速率，因此{figure}为零。",
     "power_max": "边际上每增加一瓦约可换来 {price}。",
+    "power_figure": "边际上每增加一瓦，{figure}约提高 {price}。",
     "rate_price": "边际上给 {user} 再增加 {step} 约需 {price}，是所有用户中最贵的。",
+    "rate_figure": "边际上向 {user} 多承诺 {step}，{figure}约降低 {price}，是所有用户中最贵的。",
     "idle": "{names} 没有分到子载波；其中最接近的 {closest} 在其最好的子载波上仍比胜者低 {margin:.1f} dB。",
     "repaired": "{entries} 个增益中缺失 {missing} 个，由 {method} 修复；"
     "使用的 {used} 个子载波中有 {resting} 个依赖修复值。",
@@ -59,13 +75,16 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
     """Why the decision is what it is, in English or Chinese ("zh"), one sentence per item."""
     words = _CHINESE if language == "zh" else _ENGLISH
     decision = report.decision
+    objective = decision.problem.objective
+    assert isinstance(objective, Objective)
     if not decision.is_usable:
         return [words[decision.status].format(reason=decision.reason)]
-    if decision.problem.min_rate_bps is None and decision.status == "optimal" and not decision.power_w.any():
+    if objective.measure == "power" and decision.problem.min_rate_bps is None and not decision.power_w.any():
         return [words["no_promise"]]
-    said = [_allocation(words, decision), _certificate(words, decision)]
+    figure = name_of_figure(decision, language)
+    said = [_allocation(words, decision), *_goal(words, decision, objective, figure), _certificate(words, decision)]
     said += [decision.reason] if decision.reason else []
-    said += _prices(words, decision)
+    said += _prices(words, decision, objective, figure)
     said += _idle_users(words, decision, estimate)
     said.append(_repair(words, decision, estimate))
     said += _guesses(words, decision, estimate)
@@ -95,21 +114,48 @@ def _certificate(words: Mapping[str, str], decision: Decision) -> str:
     return words["gap"].format(bound=human(decision.bound, decision.unit), gap=100 * decision.gap)
 
 
-def _prices(words: Mapping[str, str], decision: Decision) -> list[str]:
+def _goal(words: Mapping[str, str], decision: Decision, objective: Objective, figure: str) -> list[str]:
+    """What the value is, where its unit does not say it, and how the users count in it."""
+    said: list[str] = []
+    if figure:
+        said.append(words["figure"].format(figure=figure, value=human(decision.value, decision.unit)))
+        starved = (decision.rate_bps <= 0) & _counts(decision) & (decision.value == 0)
+        names = words["comma"].join(decision.user_names[user] for user in np.flatnonzero(starved))
+        said += [words["starved"].format(names=names, figure=figure)] if names else []
+    weight = decision.problem.weights_of(decision.rate_bps.size)
+    weight = weight[decision.problem.serves(weight.size)]
+    if np.ptp(weight) > 0:
+        sentence = words["shares" if objective.joined == "min" else "weights"]
+        said.append(sentence.format(least=weight.min(), most=weight.max(), figure=figure))
+    return said
+
+
+def _counts(decision: Decision) -> BoolArray:
+    """True for users whose rate counts: those who are served and have a weight."""
+    return decision.problem.weights_of(decision.rate_bps.size) > 0
+
+
+def _prices(words: Mapping[str, str], decision: Decision, objective: Objective, figure: str) -> list[str]:
+    """What a watt more and a promise more would change, in the value's unit."""
     said: list[str] = []
     worth_saying = 1e-9 * abs(decision.value) / decision.problem.budget_w(decision.cell)
     if decision.price_of_power > worth_saying:
-        said.append(words["power_max"].format(price=human(decision.price_of_power, decision.unit)))
-    if decision.price_of_rate.size and np.nanmax(decision.price_of_rate) > 0:
-        dearest = int(np.nanargmax(decision.price_of_rate))
-        price = human(float(decision.price_of_rate[dearest]) * 100e3, decision.unit)
-        said.append(words["rate_price"].format(step="100 kbit/s", user=decision.user_names[dearest], price=price))
+        sentence = words["power_figure" if figure else "power_max"]
+        said.append(sentence.format(price=human(decision.price_of_power, decision.unit), figure=figure))
+    # A promise costs: it raises what is to be small, and lowers what is to be large.
+    cost = decision.price_of_rate if objective.direction == "min" else -decision.price_of_rate
+    if np.any(cost > 0):
+        dearest = int(np.nanargmax(cost))
+        price = human(float(cost[dearest]) * 100e3, decision.unit)
+        user = decision.user_names[dearest]
+        sentence = words["rate_figure" if figure else "rate_price"]
+        said.append(sentence.format(step="100 kbit/s", user=user, price=price, figure=figure))
     return said
 
 
 def _idle_users(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate) -> list[str]:
-    """Who gets nothing, and by what margin the closest of them was beaten."""
-    idle = np.flatnonzero(decision.rate_bps <= 0)
+    """Who of those who count gets nothing, and by what margin the closest of them was beaten."""
+    idle = np.flatnonzero((decision.rate_bps <= 0) & _counts(decision))
     wanted = decision.problem.min_rate_bps
     if not idle.size or wanted is not None:
         return []

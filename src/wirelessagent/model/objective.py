@@ -30,6 +30,7 @@ class Objective(ABC):
         unit: the unit of :meth:`value`, as in "bit/s".
         direction: whether a larger or a smaller value is better.
         phrases: what an operator may say to mean it, by language.
+        figure_name: what its value is called, as in "the users' lowest rate", by language; none where the unit tells.
         default_method: the method used when none is named.
         measure: what the value is made of: the users' joint utility, the radiated power, or the joint utility per
             joule drawn.
@@ -41,6 +42,7 @@ class Objective(ABC):
     aliases: ClassVar[tuple[str, ...]] = ()
     unit: ClassVar[str] = ""
     direction: ClassVar[Literal["max", "min"]] = "max"
+    figure_name: ClassVar[Phrases] = phrases()
     phrases: ClassVar[Phrases] = phrases()
     default_method: ClassVar[str] = "dual"
     measure: ClassVar[Literal["utility", "power", "efficiency"]] = "utility"

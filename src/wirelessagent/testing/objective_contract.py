@@ -45,14 +45,15 @@ class ObjectiveContract(ValueContract):
         return self.objective
 
     def test_phrases_are_words_by_language(self) -> None:
-        phrases: object = as_returned(self.objective.phrases)
-        assert isinstance(phrases, Mapping), f"phrases must come from wirelessagent.phrases(); got {phrases!r}"
-        for language, words in cast("Mapping[object, object]", phrases).items():
-            assert isinstance(language, str), f"a language is a code such as 'en'; got {language!r}"
-            assert isinstance(words, tuple), f"the phrases in {language!r} must be a list; got {words!r}"
-            for word in cast("tuple[object, ...]", words):
-                assert isinstance(word, str), f"a phrase is text; got {word!r}"
-                assert word.strip() == word != "", f"a phrase has no blanks around it and is not empty; got {word!r}"
+        for name in ("phrases", "figure_name"):
+            phrases: object = as_returned(getattr(self.objective, name))
+            assert isinstance(phrases, Mapping), f"{name} must come from wirelessagent.phrases(); got {phrases!r}"
+            for language, words in cast("Mapping[object, object]", phrases).items():
+                assert isinstance(language, str), f"a language is a code such as 'en'; got {language!r}"
+                assert isinstance(words, tuple), f"the {name} in {language!r} must be a list; got {words!r}"
+                for word in cast("tuple[object, ...]", words):
+                    assert isinstance(word, str), f"{name} must be text; got {word!r}"
+                    assert word.strip() == word != "", f"{name} has no blanks around it and is not empty; got {word!r}"
 
     def test_direction_measure_and_joining_are_known(self) -> None:
         known = {"direction": ("max", "min"), "measure": ("utility", "power", "efficiency"), "joined": ("sum", "min")}

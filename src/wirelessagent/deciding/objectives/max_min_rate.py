@@ -23,6 +23,7 @@ class MaxMinRate(Objective):
     unit = "bit/s"
     default_method = "round_robin"
     joined = "min"
+    figure_name = phrases(en=["lowest rate"], zh=["最低速率"])
     phrases = phrases(
         en=["the same rate for everyone", "max-min fairness", "make the slowest user as fast as possible"],
         zh=["所有用户速率相同", "最大最小公平", "让最慢的用户尽可能快"],

@@ -38,6 +38,7 @@ class ProportionalFairness(Objective):
     aliases = ("PF",)
     unit = "bit/s"
     default_method = "round_robin"
+    figure_name = phrases(en=["geometric mean rate"], zh=["几何平均速率"])
     phrases = phrases(
         en=["proportional fairness", "share fairly", "a fair share for everyone"],
         zh=["比例公平", "公平分配", "公平地共享"],

@@ -1,0 +1,111 @@
+"""What people are told of a decision: its figure, the users' weights, and what prices mean for each objective."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import wirelessagent as wa
+from wirelessagent.deciding.objectives.max_rate import MaxRate
+from wirelessagent.deciding.objectives.proportional_fairness import ProportionalFairness
+from wirelessagent.explain.words import explain
+from wirelessagent.model.phrases import phrases
+from wirelessagent.model.units import human
+
+SCENE = wa.simulate("rayleigh", num_users=4, seed=1)
+ESTIMATE = wa.perfect(SCENE)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mean(MaxRate):
+    """Somebody else's objective, which names its figure in English alone."""
+
+    name = "mean"
+    figure_name = phrases(en=["mean rate"])
+
+    def figure(self, utility: float, weight: float) -> float:
+        return utility / weight
+
+
+def decided(objective: str | wa.Objective, prices: dict[str, Any] | None = None, **problem: Any) -> wa.Decision:
+    """A decision by equal shares, as if it had been found at the given prices."""
+    plain = wa.decide(ESTIMATE, wa.Problem(objective), SCENE.cell, method="round_robin")
+    return replace(plain, problem=replace(plain.problem, **problem), **(prices or {}))
+
+
+def told(decision: wa.Decision, language: str = "en") -> str:
+    outcome = wa.SimulatedBaseStation(SCENE).apply(decision)
+    return " ".join(explain(ESTIMATE, wa.report(decision, outcome), language=language))
+
+
+@pytest.mark.parametrize(
+    ("objective", "language", "name"),
+    [
+        ("proportional_fairness", "en", "users' geometric mean rate"),
+        ("proportional_fairness", "zh", "几何平均速率"),
+        ("max_min_rate", "en", "users' lowest rate"),
+        ("max_min_rate", "zh", "最低速率"),
+        (Mean(), "en", "users' mean rate"),
+        (Mean(), "zh", "mean rate"),
+    ],
+)
+def test_a_figure_that_its_unit_does_not_explain_is_named(objective: Any, language: str, name: str) -> None:
+    decision = decided(objective)
+    assert name in told(decision, language)
+    assert human(decision.value, "bit/s") in told(decision, language)
+
+
+def test_the_report_shows_the_objectives_own_figure_predicted_and_achieved() -> None:
+    decision = decided("max_min_rate")
+    report = wa.report(decision, wa.SimulatedBaseStation(SCENE).apply(decision))
+    lowest = human(float(decision.rate_bps.min()), "bit/s")
+    assert report.figures()[0] == ("Lowest rate", lowest, lowest)
+    assert "Lowest rate" in str(report)
+    assert wa.report(decided("max_rate")).figures()[0][0] == "Sum rate"
+
+
+def test_the_prices_of_a_maximum_say_what_is_gained_and_what_is_lost() -> None:
+    prices = {"price_of_power": 1e5, "price_of_rate": np.array([-0.1, -0.3, 0.0, np.nan])}
+    said = told(decided("proportional_fairness", prices))
+    assert "One more watt would raise the geometric mean rate by about 100 kbit/s" in said
+    assert "One more 100 kbit/s promised to user 2 would lower the geometric mean rate by about 30 kbit/s" in said
+    assert "几何平均速率约降低 30 kbit/s" in told(decided("proportional_fairness", prices), "zh")
+    assert "One more watt would buy about 100 kbit/s" in told(decided("max_rate", prices))
+
+
+def test_the_price_of_a_promise_in_watts() -> None:
+    prices = {"price_of_rate": np.array([1e-6, 3e-6, 0.0, np.nan])}
+    assert "One more 100 kbit/s for user 2 would cost about 300 mW" in told(
+        decided("min_power", prices, min_rate_bps=1.0)
+    )
+    no_price = {"price_of_rate": np.full(4, np.nan)}
+    assert "100 kbit/s" not in told(decided("min_power", no_price, min_rate_bps=1.0))
+
+
+def test_weights_are_told() -> None:
+    weights = (1.0, 3.0, 0.5, 1.0)
+    assert "by their weights, from 0.5 to 3" in told(decided("max_rate", weights=weights))
+    assert "in proportion to their weights, from 0.5 to 3" in told(decided("max_min_rate", weights=weights))
+    assert "weight" not in told(decided("max_rate", weights=2.0))
+
+
+def test_whoever_cannot_be_served_is_named() -> None:
+    gain = np.array([[1e-10, 1e-10], [0.0, 0.0]])
+    estimate = replace(
+        ESTIMATE, gain=gain, gain_variance=0 * gain, repaired=gain < 0, unobserved_users=np.zeros(2, dtype=bool),
+        user_names=("near", "far"),
+    )  # fmt: skip
+    decision = wa.decide(estimate, wa.Problem(ProportionalFairness()), method="round_robin")
+    said = " ".join(explain(estimate, wa.report(decision)))
+    assert "far cannot be given any rate here, and that makes the geometric mean rate zero" in said
+
+
+def test_a_dead_channel_is_not_told_as_a_lack_of_promises() -> None:
+    estimate = replace(ESTIMATE, gain=0 * ESTIMATE.gain, gain_variance=0 * ESTIMATE.gain)
+    said = " ".join(explain(estimate, wa.report(wa.decide(estimate, wa.Problem("max_rate"), method="round_robin"))))
+    assert "No rate is promised" not in said
+    nothing_asked = wa.decide(ESTIMATE, wa.Problem("min_power"), method="paper_inversion")
+    assert "No rate is promised" in " ".join(explain(ESTIMATE, wa.report(nothing_asked)))
