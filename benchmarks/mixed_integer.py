@@ -8,15 +8,54 @@ itself. The value is that of the assignment it returns, with the best power for 
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
 
 import numpy as np
 import relaxation
 from relaxation import Peer
 
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.cell import Cell
 
 TANGENTS = 24
+
+Triple: TypeAlias = tuple[IntArray, IntArray, FloatArray]
+"""Rows, columns and coefficients."""
+
+
+@dataclass(kw_only=True, eq=False)
+class Program:
+    """The columns are x, r and p of each pair (p in ``unit_w``) and the smallest rate t; here the rows gather."""
+
+    snr: FloatArray
+    most: FloatArray
+    user: IntArray
+    subcarrier: IntArray
+    unit_w: float
+    rows: list[Any] = field(default_factory=list)
+
+    def limit(self, parts: list[Triple], low: float, high: float, count: int) -> None:
+        """Rows low ≤ Σ coefficient · column ≤ high."""
+        from scipy.optimize import LinearConstraint
+        from scipy.sparse import coo_array
+
+        row, column, value = (np.concatenate(piece) for piece in zip(*parts, strict=True))
+        matrix = coo_array((value, (row, column)), shape=(count, 3 * self.snr.size + 1)).tocsc()
+        self.rows.append(LinearConstraint(matrix, low, high))
+
+    def link(self) -> None:
+        """One user per subcarrier, no rate without the pair, and p ≥ slope (r − at x) + (e^at − 1)/a x."""
+        pairs = self.snr.size
+        x, one = np.arange(pairs), np.ones(pairs)
+        r, p = pairs + x, 2 * pairs + x
+        self.limit([(self.subcarrier, x, one)], -np.inf, 1.0, int(self.subcarrier.max()) + 1)
+        self.limit([(x, r, one), (x, x, -self.most)], -np.inf, 0.0, pairs)
+        for share in np.linspace(0.0, 1.0, TANGENTS):
+            at = share * self.most
+            slope = np.exp(at) / self.snr / self.unit_w
+            offset = np.expm1(at) / self.snr / self.unit_w - slope * at
+            self.limit([(x, p, -one), (x, r, slope), (x, x, offset)], -np.inf, 0.0, pairs)
 
 
 def solve(
@@ -29,49 +68,32 @@ def solve(
     limit_s: float = 10.0,
 ) -> tuple[Peer, float]:
     """What HiGHS finds within ``limit_s``, and its bound; min_power, max_rate or max_min_rate."""
-    from scipy.optimize import Bounds, LinearConstraint, milp
-    from scipy.sparse import coo_array
+    from scipy.optimize import Bounds, milp
 
     start = time.perf_counter()
-    users, subcarriers = snr_per_w.shape
-    pairs = snr_per_w.size
+    (users, subcarriers), pairs = snr_per_w.shape, snr_per_w.size
     per_nat = cell.data_bandwidth_hz / np.log(2.0)
     user, subcarrier = np.divmod(np.arange(pairs), subcarriers)
-    snr = snr_per_w.ravel()
-    most = np.minimum(np.log1p(budget_w * snr), cell.max_spectral_efficiency * np.log(2.0))
-    # Columns: x of each pair, r of each pair, p of each pair in the unit below, and the smallest rate t.
+    most = np.minimum(np.log1p(budget_w * snr_per_w.ravel()), cell.max_spectral_efficiency * np.log(2.0))
+    if objective == "min_power":  # nobody needs more than the promise
+        most = np.minimum(most, min_rate_bps / per_nat)
     unit_w = 1.0 / float(np.median(snr_per_w.max(axis=0)))
-    x, r, p, t = np.arange(pairs), pairs + np.arange(pairs), 2 * pairs + np.arange(pairs), 3 * pairs
-    rows: list[LinearConstraint] = []
-
-    def limit(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]], low: float, high: float, count: int) -> None:
-        """Rows low ≤ Σ coefficient · column ≤ high from (row, column, coefficient) triples."""
-        row, column, value = (np.concatenate(piece) for piece in zip(*parts, strict=True))
-        rows.append(LinearConstraint(coo_array((value, (row, column)), shape=(count, t + 1)).tocsc(), low, high))
-
-    one = np.ones(pairs)
-    limit([(subcarrier, x, one)], -np.inf, 1.0, subcarriers)
-    limit([(x, r, one), (x, x, -most)], -np.inf, 0.0, pairs)
-    for share in np.linspace(0.0, 1.0, TANGENTS):
-        at = share * most
-        slope = np.exp(at) / snr / unit_w  # p ≥ slope (r − at x) + (e^at − 1)/a x
-        limit([(x, p, -one), (x, r, slope), (x, x, np.expm1(at) / snr / unit_w - slope * at)], -np.inf, 0.0, pairs)
+    program = Program(snr=snr_per_w.ravel(), most=most, user=user, subcarrier=subcarrier, unit_w=unit_w)
+    program.link()
+    r, p, t, one = pairs + np.arange(pairs), 2 * pairs + np.arange(pairs), 3 * pairs, np.ones(pairs)
     cost = np.zeros(t + 1)
+    cost[{"min_power": p, "max_rate": r, "max_min_rate": t}[objective]] = 1.0 if objective == "min_power" else -1.0
     if min_rate_bps > 0:
-        limit([(user, r, one)], min_rate_bps / per_nat, np.inf, users)
-    if objective == "min_power":
-        cost[p] = 1.0
-    else:
-        limit([(np.zeros(pairs, dtype=np.int64), p, one)], -np.inf, budget_w / unit_w, 1)
-        cost[r] = -1.0 if objective == "max_rate" else 0.0
-        cost[t] = -1.0 if objective == "max_min_rate" else 0.0
+        program.limit([(user, r, one)], min_rate_bps / per_nat, np.inf, users)
+    if objective != "min_power":
+        program.limit([(np.zeros(pairs, dtype=np.int64), p, one)], -np.inf, budget_w / unit_w, 1)
     if objective == "max_min_rate":
-        limit([(user, r, one), (np.arange(users), np.full(users, t), -np.ones(users))], 0.0, np.inf, users)
-    upper = np.concatenate([one, most, np.full(pairs + 1, np.inf)])
+        smallest = (np.arange(users), np.full(users, t), -np.ones(users))
+        program.limit([(user, r, one), smallest], 0.0, np.inf, users)
     found = milp(
         cost,
-        constraints=rows,
-        bounds=Bounds(np.zeros(t + 1), upper),
+        constraints=program.rows,
+        bounds=Bounds(np.zeros(t + 1), np.concatenate([one, most, np.full(pairs + 1, np.inf)])),
         integrality=np.arange(t + 1) < pairs,
         options={"time_limit": limit_s, "mip_rel_gap": 1e-4},
     )
@@ -79,8 +101,7 @@ def solve(
     sign, unit = (1.0, unit_w) if objective == "min_power" else (-1.0, per_nat)
     bound = np.nan if found.mip_dual_bound is None else sign * float(found.mip_dual_bound) * unit
     if found.x is None:
-        peer = Peer(value=np.nan, time_s=time.perf_counter() - start, solver_s=solver_s, status=found.message)
-        return peer, bound
+        return Peer(value=np.nan, time_s=solver_s, solver_s=solver_s, status=found.message), bound
     chosen = found.x[:pairs].reshape(users, subcarriers)
     owner = np.where(chosen.max(axis=0) > 0.5, chosen.argmax(axis=0), -1)
     best = relaxation.solve(objective, snr_per_w, cell, budget_w=budget_w, min_rate_bps=min_rate_bps, owner=owner)

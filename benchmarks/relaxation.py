@@ -135,6 +135,7 @@ def _solve_on(
     budget_w: float,
     min_rate_bps: float,
 ) -> Master:
+    """The program on the pairs ``kept``, with the cones centred on the water levels (user,)."""
     import cvxpy as cp
     from scipy.sparse import csr_array
 
@@ -162,34 +163,43 @@ def _solve_on(
     if objective != "min_power":
         limits.append(total <= budget_w / unit_w * whole)
     if efficiency:
-        limits.append(
-            total * (unit_w / cell.amplifier_efficiency / drawn_w) + (cell.circuit_power_w / drawn_w) * whole <= 1.0
-        )
-    goals: dict[str, Any] = {
-        "min_power": lambda: cp.Minimize(total),
-        "max_rate": lambda: cp.Maximize(cp.sum(rate)),
-        "max_energy_efficiency": lambda: cp.Maximize(cp.sum(rate)),
-        "proportional_fairness": lambda: cp.Maximize(cp.sum(cp.log(rate))),
-        "max_min_rate": lambda: cp.Maximize(cp.min(rate)),
-    }
-    program = cp.Problem(goals[objective](), limits)
-    for settings in SETTINGS:
-        with warnings.catch_warnings(), contextlib.suppress(cp.SolverError):
-            warnings.simplefilter("ignore")  # "may be inaccurate" is in the status
-            program.solve(solver=cp.CLARABEL, **settings)
-        if program.status == cp.OPTIMAL:
-            break
-    if program.value is None or not np.isfinite(program.value):
-        status = program.status or "solver error"
-        none = np.empty(0)
+        drawn = total * (unit_w / cell.amplifier_efficiency / drawn_w) + (cell.circuit_power_w / drawn_w) * whole
+        limits.append(drawn <= 1.0)
+    program = cp.Problem(_goal(objective, rate, total), limits)
+    if not _solved(program):
+        none, status = np.empty(0), program.status or "solver error"
         return Master(
             value=np.nan, rate_price=none, power_price=np.nan, subcarrier_price=none, solver_s=0.0, status=status
         )
+    scale = {"min_power": unit_w, "max_energy_efficiency": 1.0 / drawn_w}.get(objective, 1.0)
     return Master(
-        value=float(program.value) * {"min_power": unit_w, "max_energy_efficiency": 1.0 / drawn_w}.get(objective, 1.0),
+        value=float(program.value) * scale,
         rate_price=np.asarray(carried.dual_value),
         power_price=float(spent.dual_value) / unit_w,
         subcarrier_price=np.asarray(shared.dual_value),
         solver_s=program.solver_stats.solve_time,
         status=program.status,
     )
+
+
+def _goal(objective: str, rate: Any, total: Any) -> Any:
+    import cvxpy as cp
+
+    if objective == "min_power":
+        return cp.Minimize(total)
+    if objective == "proportional_fairness":
+        return cp.Maximize(cp.sum(cp.log(rate)))
+    return cp.Maximize(cp.min(rate) if objective == "max_min_rate" else cp.sum(rate))
+
+
+def _solved(program: Any) -> bool:
+    """Whether one of the ``SETTINGS`` brings a finite value; the program keeps it."""
+    import cvxpy as cp
+
+    for settings in SETTINGS:
+        with warnings.catch_warnings(), contextlib.suppress(cp.SolverError):
+            warnings.simplefilter("ignore")  # "may be inaccurate" is in the status
+            program.solve(solver=cp.CLARABEL, **settings)
+        if program.status == cp.OPTIMAL:
+            break
+    return program.value is not None and bool(np.isfinite(program.value))
