@@ -53,7 +53,8 @@ class Report:
         if not name:
             return rows
         achieved = "–" if self.achieved is None else self._worth(self.achieved)
-        return [(name.capitalize(), self._worth(self.predicted), achieved), *rows]
+        label = name[:1].upper() + name[1:] if name.isascii() else name  # a capital α reads as an A
+        return [(label, self._worth(self.predicted), achieved), *rows]
 
     def _worth(self, metrics: LinkMetrics) -> str:
         """The objective's value for these rates and power."""
