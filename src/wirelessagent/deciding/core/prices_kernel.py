@@ -297,6 +297,8 @@ def bend(users_rows: FloatArray, supplied: FloatArray, curvature: float, bent: F
         bent[k, 1] = users_rows[k, CURVATURE]
         bent[k, 2] = users_rows[k, REFERENCE]
         bent[k, 3] = 0.0
+        if users_rows[k, LOW] >= users_rows[k, HIGH]:
+            bent[k, 0] = 0.0
         if users_rows[k, CURVATURE] < curvature and bent[k, 0] > 0.0:
             middle = min(max(supplied[k], users_rows[k, LOW] + curvature * mean), users_rows[k, HIGH])
             if users_rows[k, CURVATURE] > 0.0:

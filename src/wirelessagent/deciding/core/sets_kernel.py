@@ -1,8 +1,9 @@
 """Sets of subcarriers, one per user, and the ways to improve them: moves and swaps, each worth exactly what it says.
 
 The state of a search is which user owns each group of subcarriers. At a price of power μ the users' worths V_k(S_k; μ)
-(see :mod:`.bundle_kernel`) add up, so a move of a group or a swap of two changes just two of them. The worth of a user
-with a group more, less or exchanged is kept until that user's set changes.
+(see :mod:`.bundle_kernel`) add up, so a move of a group or a swap of two changes just two of them. A search meets the
+same sets again and again, so what they are worth is remembered: a set is known by a hash that changes by one exclusive
+or with every group (Zobrist 1970), and a new price by a new salt.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 
 ROUNDING = 1e-12
 """Share of a worth below which a gain is none."""
+MOST_KNOWN = 65536
 
 
 class Channel(NamedTuple):
@@ -42,43 +44,65 @@ class Sets(NamedTuple):
         owner: user of each group, −1 for nobody, shape (group,).
         members, count: each user's groups, shapes (user, group) and (user,).
         worth: V of each user's set, shape (user,).
-        stamp: a number that changes with each user's set, shape (user + 1,); the last counts them.
-        without, without_stamp: V of a group's owner without it, shape (group,).
-        joined, joined_stamp: V of a user with a group more, shape (group, user).
-        traded, traded_stamp: V of the owner of the first group with the second in its place, shape (group, group).
-        scratch: five rows of workspace, shape (5, subcarrier).
+        changed, checked: when a user's set last changed, shape (user,), and when a group was last seen to be best
+            where it is, shape (group,), by the first number of ``clock``; the second is the salt.
+        sign, digest: a random number for each group, and the hash of each user's set, shapes (group,) and (user,).
+        known, known_worth: hashes of sets and their worths, as many as a power of two.
+        floor, inverse, ceiling, spare, spare_cap: workspace for one set, shape (subcarrier,).
     """
 
     owner: IntArray
     members: IntArray
     count: IntArray
     worth: FloatArray
-    stamp: IntArray
-    without: FloatArray
-    without_stamp: IntArray
-    joined: FloatArray
-    joined_stamp: IntArray
-    traded: FloatArray
-    traded_stamp: IntArray
-    scratch: FloatArray
+    changed: IntArray
+    checked: IntArray
+    clock: IntArray
+    sign: IntArray
+    digest: IntArray
+    known: IntArray
+    known_worth: FloatArray
+    floor: FloatArray
+    inverse: FloatArray
+    ceiling: FloatArray
+    spare: FloatArray
+    spare_cap: FloatArray
+
+
+@kernel
+def mixed(x: int) -> int:
+    """A number in which every bit of ``x`` shows everywhere; the finaliser of splitmix64."""
+    x = (x ^ ((x >> 30) & 0x3FFFFFFFF)) * -4658895280553007687
+    x = (x ^ ((x >> 27) & 0x1FFFFFFFFF)) * -7723592293110705685
+    return x ^ ((x >> 31) & 0x1FFFFFFFF)
 
 
 @kernel
 def empty_sets(users: int, groups: int, subcarriers: int) -> Sets:
     """Sets that own nothing yet, their worth unknown."""
+    size = 1024
+    while size < min(16 * users * groups, MOST_KNOWN):
+        size *= 2
+    sign = np.empty(groups, dtype=np.int64)
+    for g in range(groups):
+        sign[g] = mixed(g + 1)
     return Sets(
         np.full(groups, -1),
         np.empty((users, groups), dtype=np.int64),
         np.zeros(users, dtype=np.int64),
         np.zeros(users),
-        np.zeros(users + 1, dtype=np.int64),
-        np.empty(groups),
-        np.full(groups, -1),
-        np.empty((groups, users)),
-        np.full((groups, users), -1),
-        np.empty((groups, groups)),
-        np.full((groups, groups), -1),
-        np.empty((5, subcarriers)),
+        np.zeros(users, dtype=np.int64),
+        np.zeros(groups, dtype=np.int64),
+        np.zeros(2, dtype=np.int64),
+        sign,
+        np.zeros(users, dtype=np.int64),
+        np.zeros(size, dtype=np.int64),
+        np.empty(size),
+        np.empty(subcarriers),
+        np.empty(subcarriers),
+        np.empty(subcarriers),
+        np.empty(subcarriers),
+        np.empty(subcarriers),
     )
 
 
@@ -89,21 +113,19 @@ def gather(channel: Channel, sets: Sets, user: int, skipped: int, added: int) ->
     −1 stands for no group.
     """
     size = 0
-    scratch = sets.scratch
-    for i in range(sets.count[user] + 1):
-        if i < sets.count[user]:
-            g = sets.members[user, i]
-            if g == skipped:
-                continue
-        else:
-            g = added
-            if g < 0:
-                break
-        for n in range(channel.start[g], channel.start[g + 1]):
-            if channel.ceiling[user, n] > 0.0:
-                scratch[0, size] = channel.floor[user, n]
-                scratch[1, size] = channel.inverse[user, n]
-                scratch[2, size] = channel.ceiling[user, n]
+    floor, inverse, ceiling, start = channel.floor, channel.inverse, channel.ceiling, channel.start
+    set_floor, set_inverse, set_ceiling = sets.floor, sets.inverse, sets.ceiling
+    members = sets.members
+    own = sets.count[user]
+    for i in range(own + 1):
+        g = members[user, i] if i < own else added
+        if g < 0 or (g == skipped and i < own):
+            continue
+        for n in range(start[g], start[g + 1]):
+            if ceiling[user, n] > 0.0:
+                set_floor[size] = floor[user, n]
+                set_inverse[size] = inverse[user, n]
+                set_ceiling[size] = ceiling[user, n]
                 size += 1
     return size
 
@@ -114,21 +136,42 @@ def set_bundle(
 ) -> tuple[float, float, float, float]:
     """Worth, rate, power and level of a user's set, without one group and with another; −1 stands for no group."""
     size = gather(channel, sets, user, skipped, added)
-    scratch = sets.scratch
-    return bundle(rows[user], scratch[0], scratch[1], scratch[2], size, log_mu, scratch[3], scratch[4])
+    return bundle(rows[user], sets.floor, sets.inverse, sets.ceiling, size, log_mu, sets.spare, sets.spare_cap)
+
+
+@kernel
+def worth_of(
+    channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, user: int, skipped: int, added: int
+) -> float:
+    """V of a user's set, without one group and with another; remembered."""
+    digest = sets.digest[user]
+    if skipped >= 0:
+        digest ^= sets.sign[skipped]
+    if added >= 0:
+        digest ^= sets.sign[added]
+    place = digest & (sets.known.size - 1)
+    if sets.known[place] != digest:
+        sets.known_worth[place] = set_bundle(channel, rows, log_mu, sets, user, skipped, added)[0]
+        sets.known[place] = digest
+    return sets.known_worth[place]
 
 
 @kernel
 def value_set(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, user: int) -> None:
-    """Work out a user's worth afresh, and forget what was known of its set."""
-    sets.worth[user] = set_bundle(channel, rows, log_mu, sets, user, -1, -1)[0]
-    sets.stamp[-1] += 1
-    sets.stamp[user] = sets.stamp[-1]
+    """Note that a user's set has changed, and its worth."""
+    sets.worth[user] = worth_of(channel, rows, log_mu, sets, user, -1, -1)
+    sets.clock[0] += 1
+    sets.changed[user] = sets.clock[0]
 
 
 @kernel
 def value_all(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets) -> float:
-    """:func:`value_set` for every user; the sum of their worths."""
+    """Forget all worths, for a new price, and work out those of the sets; their sum."""
+    sets.clock[1] += 1
+    for k in range(sets.count.size):
+        sets.digest[k] = mixed(sets.clock[1] * sets.count.size + k + 1)
+        for i in range(sets.count[k]):
+            sets.digest[k] ^= sets.sign[sets.members[k, i]]
     for k in range(sets.count.size):
         value_set(channel, rows, log_mu, sets, k)
     return sets.worth.sum()
@@ -157,39 +200,12 @@ def hand_over(sets: Sets, group: int, user: int) -> None:
                 sets.members[k, i] = sets.members[k, last]
                 break
         sets.count[k] = last
+        sets.digest[k] ^= sets.sign[group]
     sets.owner[group] = user
     if user >= 0:
+        sets.digest[user] ^= sets.sign[group]
         sets.members[user, sets.count[user]] = group
         sets.count[user] += 1
-
-
-@kernel
-def worth_without(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, group: int) -> float:
-    """V of the group's owner without it."""
-    k = sets.owner[group]
-    if sets.without_stamp[group] != sets.stamp[k]:
-        sets.without[group] = set_bundle(channel, rows, log_mu, sets, k, group, -1)[0]
-        sets.without_stamp[group] = sets.stamp[k]
-    return sets.without[group]
-
-
-@kernel
-def worth_with(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, group: int, user: int) -> float:
-    """V of ``user`` with ``group`` more."""
-    if sets.joined_stamp[group, user] != sets.stamp[user]:
-        sets.joined[group, user] = set_bundle(channel, rows, log_mu, sets, user, -1, group)[0]
-        sets.joined_stamp[group, user] = sets.stamp[user]
-    return sets.joined[group, user]
-
-
-@kernel
-def worth_traded(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, given: int, taken: int) -> float:
-    """V of the owner of ``given`` with ``taken`` in its place."""
-    k = sets.owner[given]
-    if sets.traded_stamp[given, taken] != sets.stamp[k]:
-        sets.traded[given, taken] = set_bundle(channel, rows, log_mu, sets, k, given, taken)[0]
-        sets.traded_stamp[given, taken] = sets.stamp[k]
-    return sets.traded[given, taken]
 
 
 @kernel
@@ -201,32 +217,50 @@ def best_change(
     ``candidates`` (group, choice) lists the users that a group may go to, −1 for none; ``wanted`` (group, user) the
     same as a table.
     """  # fmt: skip
-    k = sets.owner[group]
+    owner, members, count, worth = sets.owner, sets.members, sets.count, sets.worth
+    changed, digest, sign = sets.changed, sets.digest, sets.sign
+    known, known_worth = sets.known, sets.known_worth
+    last = known.size - 1
+    k = owner[group]
     best, new_owner, in_return = 0.0, -1, -1
-    loss = worth_without(channel, rows, log_mu, sets, group) - sets.worth[k] if k >= 0 else 0.0
+    since = sets.checked[group]
+    seen = k < 0 or changed[k] <= since
+    loss = np.nan
     for c in range(candidates.shape[1]):
         j = candidates[group, c]
         if j < 0:
             break
-        if j == k:
+        if j == k or (seen and changed[j] <= since):
             continue
-        gain = worth_with(channel, rows, log_mu, sets, group, j) - sets.worth[j] + loss
-        if gain > best + ROUNDING * abs(sets.worth[j]):
-            best, new_owner, in_return = gain, j, -1
+        if np.isnan(loss):
+            loss = worth_of(channel, rows, log_mu, sets, k, group, -1) - worth[k] if k >= 0 else 0.0
+        mark = digest[j] ^ sign[group]
+        place = mark & last
+        joined = known_worth[place] if known[place] == mark else worth_of(channel, rows, log_mu, sets, j, -1, group)
+        if joined - worth[j] + loss > best + ROUNDING * abs(worth[j]):
+            best, new_owner, in_return = joined - worth[j] + loss, j, -1
         if k < 0:
             continue
-        for i in range(sets.count[j]):
-            other = sets.members[j, i]
+        for i in range(count[j]):
+            other = members[j, i]
             if not wanted[other, k]:
                 continue
+            trade = sign[group] ^ sign[other]
+            mark = digest[k] ^ trade
+            place = mark & last
             gain = (
-                worth_traded(channel, rows, log_mu, sets, group, other)
-                - sets.worth[k]
-                + worth_traded(channel, rows, log_mu, sets, other, group)
-                - sets.worth[j]
+                known_worth[place] if known[place] == mark else worth_of(channel, rows, log_mu, sets, k, group, other)
             )
-            if gain > best + ROUNDING * (abs(sets.worth[j]) + abs(sets.worth[k])):
+            mark = digest[j] ^ trade
+            place = mark & last
+            gain += (
+                known_worth[place] if known[place] == mark else worth_of(channel, rows, log_mu, sets, j, other, group)
+            )
+            gain -= worth[k] + worth[j]
+            if gain > best + ROUNDING * (abs(worth[j]) + abs(worth[k])):
                 best, new_owner, in_return = gain, j, other
+    if new_owner < 0:
+        sets.checked[group] = sets.clock[0]
     return best, new_owner, in_return
 
 

@@ -1,0 +1,334 @@
+"""The dual core: prices, sets by the prices, better sets, powers; one problem or a batch.
+
+Each problem is solved on its own and from its arrays alone, so a batch is a loop, and threads share it out.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wirelessagent.deciding.core.bundle_kernel import HIGH, LOW, SLOPE
+from wirelessagent.deciding.core.exclusive_sets_kernel import least_power
+from wirelessagent.deciding.core.prices_kernel import FARTHEST, climb, conjugate, price_terms
+from wirelessagent.deciding.core.search_kernel import choose_candidates, polish, restart, serve_all
+from wirelessagent.deciding.core.sets_kernel import Channel, assign, empty_sets, set_bundle, value_all
+from wirelessagent.deciding.core.settle_kernel import LEVEL, OVERSPENT, POWER, SUM, set_level
+from wirelessagent.deciding.core.start_kernel import equal_price, even_split, typical_snr
+from wirelessagent.kernels import kernel
+from wirelessagent.model.arrays import FloatArray, IntArray
+
+COLD = np.array([0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3])
+WARM = np.array([3e-3, 1e-3])
+LAST = np.array([1e-3])
+"""Temperatures of a climb from afar, from the prices of the slot before, and from prices just found."""
+ROUNDS = 12
+SETTLED = 1e-7
+MARGIN = 1e-6
+
+
+class Ask(NamedTuple):
+    """What is wanted of a problem, beside its channel.
+
+    Attributes:
+        goal: one of :mod:`.settle_kernel`'s.
+        cap_w, max_nats: most power of each subcarrier, shape (subcarrier,), and most nats; infinite for none.
+        start: first subcarrier of each group, shape (group + 1,).
+        rows: one row of six per user (:mod:`.bundle_kernel`), shape (user, 6).
+        share: for the highest common level each user's share and limits, shape (user, 3).
+        most_level: the level beyond which nothing is gained.
+        budget_w, circuit_w: P and C.
+    """
+
+    goal: int
+    cap_w: FloatArray
+    max_nats: float
+    start: IntArray
+    rows: FloatArray
+    share: FloatArray
+    most_level: float
+    budget_w: float
+    circuit_w: float
+
+
+class Found(NamedTuple):
+    """What was found.
+
+    Attributes:
+        score: of the allocation; see :mod:`.settle_kernel`.
+        at: ln μ of the allocation, or ln of its level.
+        dual: F at the best prices; minus the least power for that goal, and for the level a bound on it.
+        log_mu: ln μ at those prices.
+        missing: users without a rate that they must have.
+        iterations: Newton steps.
+    """
+
+    score: float
+    at: float
+    dual: float
+    log_mu: float
+    missing: int
+    iterations: int
+
+
+@kernel
+def channel_of(snr_per_w: FloatArray, ask: Ask) -> Channel:
+    """The channel as the kernels read it, from a (user, subcarrier) in 1/W; 0 where a pair may not be used."""
+    users, subcarriers = snr_per_w.shape
+    floor = np.empty((users, subcarriers))
+    inverse = np.empty((users, subcarriers))
+    ceiling = np.empty((users, subcarriers))
+    usable = np.zeros((ask.start.size - 1, users), dtype=np.bool_)
+    group = 0
+    for n in range(subcarriers):
+        if n == ask.start[group + 1]:
+            group += 1
+        for k in range(users):
+            snr = snr_per_w[k, n]
+            if snr > 0.0:
+                floor[k, n] = -np.log(snr)
+                inverse[k, n] = 1.0 / snr
+                ceiling[k, n] = (
+                    min(np.log1p(ask.cap_w[n] * snr), ask.max_nats) if ask.cap_w[n] < np.inf else ask.max_nats
+                )
+                usable[group, k] = True
+            else:
+                floor[k, n] = np.inf
+                inverse[k, n] = 0.0
+                ceiling[k, n] = 0.0
+    return Channel(floor, inverse, ceiling, ask.start, usable)
+
+
+@kernel
+def find_prices(
+    snr_per_w: FloatArray,
+    channel: Channel,
+    ask: Ask,
+    rows: FloatArray,
+    log_price: FloatArray,
+    log_mu: float,
+    warm: bool,
+    term: FloatArray,
+) -> tuple[float, float, int]:
+    """Climb to the dual's best prices; returns F (for the level its bound), ln μ and the Newton steps.
+
+    ``log_price`` (user,) holds ln λ of the slot before where ``warm``, and receives the best; ``term`` (group, user)
+    the groups' terms at them. ``rows`` is overwritten for the level.
+    """  # fmt: skip
+    users, subcarriers = snr_per_w.shape
+    groups = ask.start.size - 1
+    log_snr = np.ascontiguousarray(-channel.floor.T)
+    inverse = np.ascontiguousarray(channel.inverse.T)
+    ceiling = np.ascontiguousarray(channel.ceiling.T)
+    full_w = np.full((subcarriers, users), np.inf)
+    if ceiling.max() < np.inf:
+        full_w = np.expm1(ceiling) * inverse
+    rate = np.empty((groups, users))
+    rising = np.empty((groups, users))
+    supplied = np.empty(users)
+    moving = ask.goal == SUM
+    budget = ask.budget_w if moving else 0.0
+    level = 1.0
+    if not warm:
+        typical = np.empty(users)
+        typical_snr(snr_per_w, typical)
+        if ask.goal == LEVEL:
+            level = first_level(typical, ask, subcarriers)
+            set_level(rows, ask.share, level)
+        equal_price(rows, typical, subcarriers, log_price)
+        if ask.goal != POWER and ask.goal != LEVEL:
+            log_mu = even_split(rows, typical, subcarriers, ask.budget_w, log_price)
+    elif ask.goal == LEVEL:
+        level = np.exp(log_mu)
+        set_level(rows, ask.share, level)
+    if ask.goal == POWER or ask.goal == LEVEL:
+        log_mu = 0.0
+    dual, steps, iterations = np.inf, 0, 0
+    for i in range(ROUNDS):
+        temperatures = (WARM if warm else COLD) if i == 0 else LAST
+        dual, log_mu, steps = climb(
+            log_snr, inverse, ceiling, full_w, ask.start, rows, budget, moving, temperatures, log_price, log_mu,
+            rate, term, rising, supplied,
+        )  # fmt: skip
+        iterations += steps
+        if ask.goal == POWER or ask.goal == SUM:
+            break
+        total = price_terms(log_snr, inverse, ceiling, full_w, ask.start, log_price, rate, term, rising)
+        if ask.goal == LEVEL:
+            higher = level_bound(ask.share, log_price, total + ask.budget_w, ask.most_level)
+            done = abs(higher - level) <= SETTLED * level
+            level = higher
+            dual = level
+            if done or level <= 0.0:
+                break
+            set_level(rows, ask.share, level)
+            continue
+        if moving:
+            break
+        power = -total
+        for k in range(users):
+            if supplied[k] > 0.0:
+                power += np.exp(log_price[k]) * supplied[k]
+        if power > ask.budget_w:
+            moving = True
+            budget = ask.budget_w
+            continue
+        surplus = dual - np.exp(log_mu) * ask.circuit_w
+        step = surplus / max(power + ask.circuit_w, 1e-300) / np.exp(log_mu)
+        log_mu += np.log1p(max(step, -0.9))
+        if abs(step) <= SETTLED:
+            break
+    price_terms(log_snr, inverse, ceiling, full_w, ask.start, log_price, rate, term, rising)
+    if ask.goal == LEVEL:
+        log_mu = np.log(level) if level > 0.0 else -FARTHEST
+    return dual, log_mu, iterations
+
+
+@kernel
+def first_level(typical: FloatArray, ask: Ask, subcarriers: int) -> float:
+    """A level to start from: that of the user with the least for its share of an even split."""
+    users = typical.size
+    level = ask.most_level
+    for k in range(users):
+        if ask.share[k, 0] > 0.0:
+            rate = subcarriers / users * np.log1p(ask.budget_w / subcarriers * typical[k])
+            level = min(level, max(rate / ask.share[k, 0], 1e-250))
+    return level
+
+
+@kernel
+def level_bound(share: FloatArray, log_price: FloatArray, worth_w: float, most: float) -> float:
+    """The largest level t whose rates r(t) cost no more than ``worth_w`` = Σ max t_kg + P at the prices λ."""
+    price = np.exp(log_price)
+    low, high = 0.0, most
+    paid = 0.0
+    slope = 0.0
+    for k in range(price.size):
+        paid += price[k] * min(max(high * share[k, 0], share[k, 1]), share[k, 2])
+        slope += price[k] * share[k, 0]
+    if paid <= worth_w:
+        return most
+    if slope > 0.0:
+        plain = worth_w / slope
+        held = True
+        for k in range(price.size):
+            if share[k, 0] > 0.0 and price[k] > 0.0:
+                held = held and share[k, 1] <= plain * share[k, 0] <= share[k, 2]
+            elif share[k, 1] > 0.0:
+                held = False
+        if held:
+            return min(plain, most)
+    for _ in range(200):
+        middle = 0.5 * (low + high) if low > 0.0 or high < 1e-3 else np.sqrt(max(low, 1e-12 * high) * high)
+        paid = 0.0
+        for k in range(price.size):
+            paid += price[k] * min(max(middle * share[k, 0], share[k, 1]), share[k, 2])
+        if paid <= worth_w:
+            low = middle
+        else:
+            high = middle
+        if high - low <= 1e-15 * high:
+            break
+    return high
+
+
+@kernel
+def slack_of(
+    ask: Ask, rows: FloatArray, log_price: FloatArray, log_mu: float, term: FloatArray, dual: float, score: float,
+    at: float,
+) -> float:
+    """By how much a group's term may fall short of its largest, in W, in any allocation that scores higher.
+
+    The dual is the score of the allocation at hand plus what its groups and users fall short of their best by.
+    """  # fmt: skip
+    if not score > -OVERSPENT * 1e-9:
+        return np.inf
+    if ask.goal == POWER:
+        return max(-score - -dual, 0.0) * (1.0 + MARGIN)
+    total = 0.0
+    for g in range(term.shape[0]):
+        total += max(term[g].max(), 0.0)
+    if ask.goal == LEVEL:
+        paid = 0.0
+        for k in range(log_price.size):
+            rate = min(max(np.exp(at) * ask.share[k, 0], ask.share[k, 1]), ask.share[k, 2])
+            paid += np.exp(log_price[k]) * rate
+        return max(ask.budget_w - (paid - total), 0.0) * (1.0 + MARGIN)
+    mu = np.exp(log_mu)
+    if ask.goal == SUM:
+        return max(dual - score, 0.0) / mu * (1.0 + MARGIN)
+    most = 0.0
+    for k in range(log_price.size):
+        most += conjugate(rows[k], log_price[k] + log_mu)
+    if mu < score:
+        return np.inf
+    most += mu * total + (mu - score) * ask.budget_w - score * ask.circuit_w
+    return max(most, 0.0) / mu * (1.0 + MARGIN)
+
+
+@kernel
+def solve(
+    snr_per_w: FloatArray,
+    ask: Ask,
+    choices: int,
+    restarts: int,
+    seed: int,
+    warm: bool,
+    log_price: FloatArray,
+    log_mu: float,
+    owner: IntArray,
+    power_w: FloatArray,
+) -> Found:
+    """One problem from its channel a (user, subcarrier) in 1/W.
+
+    Args:
+        choices: most candidates of a group.
+        restarts, seed: of the search.
+        warm, log_price, log_mu: whether ln λ (user,) and ln μ are those of the slot before; ln λ is overwritten.
+        owner, power_w: written, shape (subcarrier,).
+    """  # fmt: skip
+    users, subcarriers = snr_per_w.shape
+    groups = ask.start.size - 1
+    channel = channel_of(snr_per_w, ask)
+    rows = ask.rows.copy()
+    term = np.empty((groups, users))
+    dual, log_mu, iterations = find_prices(snr_per_w, channel, ask, rows, log_price, log_mu, warm, term)
+    usable = channel.usable.copy()
+    for k in range(users):
+        if rows[k, HIGH] <= 0.0 or (rows[k, LOW] <= 0.0 and rows[k, SLOPE] <= 0.0):
+            usable[:, k] = False
+    candidates = np.empty((groups, min(choices, users)), dtype=np.int64)
+    wanted = np.empty((groups, users), dtype=np.bool_)
+    choose_candidates(term, usable, np.inf, candidates, wanted)
+    sets = empty_sets(users, groups, subcarriers)
+    best_owner = np.empty(groups, dtype=np.int64)
+    for g in range(groups):
+        k = candidates[g, 0]
+        best_owner[g] = k if k >= 0 and term[g, k] > 0.0 else -1
+    assign(sets, best_owner)
+    at = log_mu
+    price = 0.0 if ask.goal == LEVEL else log_mu
+    value_all(channel, rows, price, sets)
+    missing = serve_all(channel, rows, price, sets)
+    score, at = polish(
+        ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets, at,
+        best_owner,
+    )  # fmt: skip
+    if restarts > 0:
+        slack = slack_of(ask, rows, log_price, log_mu, term, dual, score, at)
+        choose_candidates(term, usable, slack, candidates, wanted)
+        state = np.array([seed * 2654435761 + 88172645463325252])
+        score, at = restart(
+            ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets,
+            score, at, best_owner, restarts, state,
+        )  # fmt: skip
+    assign(sets, best_owner)
+    nats = np.zeros(users)
+    price = 0.0 if ask.goal == LEVEL else at
+    for k in range(users):
+        nats[k] = set_bundle(channel, rows, price, sets, k, -1, -1)[1]
+    for g in range(groups):
+        owner[ask.start[g] : ask.start[g + 1]] = best_owner[g]
+    least_power(snr_per_w, channel.ceiling, nats, owner, power_w, np.empty(users))
+    return Found(score, at, dual, log_mu, missing, iterations)
