@@ -15,7 +15,6 @@ the best prices so far, wider after a success and narrower after a failure (the 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -92,7 +91,7 @@ def column_prices(
     log_mu: float,
     known: Sets,
     *,
-    value: Callable[[], float] = lambda: -np.inf,
+    value: float = -np.inf,
     accuracy: float = 1e-9,
     deadline: float = np.inf,
     rounds: int = 200,
@@ -104,7 +103,7 @@ def column_prices(
         price: π to start from, shape (column,).
         log_mu: ln μ to start from; ln q where there is no budget.
         known: sets to start with, such as those of an allocation; may be empty.
-        value: of the best allocation known; the search ends where the bound is within ``accuracy`` of it.
+        value: of the best allocation known; the search ends where the bound reaches it.
         accuracy: relative; the search also ends where the programme says that D falls by less.
         deadline: in seconds on ``time.perf_counter``; at least one bound is worked out.
         rounds: times that the programme is solved at most.
@@ -118,7 +117,7 @@ def column_prices(
         search.take(price, log_mu, bound, promised)
         sets = sets.with_others(found)
         close = accuracy * abs(search.bound)
-        if search.bound - value() <= close or done >= rounds or time.perf_counter() >= deadline:
+        if search.bound - value <= 1e-12 * abs(search.bound) or done >= rounds or time.perf_counter() >= deadline:
             break
         watched = _watched(watched, log_mu, search.log_mu)
         solved = _solve(market, sets, watched, search)

@@ -1,18 +1,20 @@
-"""The true optimum: every set that an optimal allocation may hold, listed by its reduced cost, and the best choice.
+"""The true optimum: column prices, the few sets that they leave to choose from, and branching where these are many.
 
-At column prices of bound D, an allocation worth L in a market holds no set that is worth more than D − L less than its
-user's best (its reduced cost), since all the others together are worth at most what D says. So:
+At column prices of bound D, an allocation that is worth more than L in a market holds no set that is worth D − L less
+than its user's best (its reduced cost), since all the others together are worth at most what D says. So:
 
-1. an allocation (given, improved by the sets that column generation has met) and column prices for its own level;
-2. all sets whose reduced cost is within D − L, by branch and bound;
-3. the best choice among them, which is the optimum. Where it reaches a higher level it is the next allocation of 3: the
-   list holds for that as well, because what reaches a higher level reaches this one too.
+1. an allocation (given, improved by the sets that column generation has met) and column prices at its own level;
+2. all sets whose reduced cost is within D − L, by branch and bound, and the best choice among them. The list holds for
+   higher levels as well, because what exceeds a higher level exceeds this one, too;
+3. where these are too many, two problems instead: one in which some column is for one user alone, and one in which it
+   is not for that user. Each has prices and a smaller D of its own; the larger D is always looked at first.
 """
 
 from __future__ import annotations
 
+import heapq
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,16 +22,17 @@ from wirelessagent.deciding.core.column_prices import ColumnPrices, column_price
 from wirelessagent.deciding.core.goals import Goal
 from wirelessagent.deciding.core.market import Market, Sets
 from wirelessagent.deciding.core.set_packing import pack
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray
 
 _ROUNDING = 1e-9
 """Of the worth at stake, by which the limit on reduced costs is widened."""
 _ACCURACY = 1e-10
 _PRICE_ACCURACY = 1e-6
 _ROUNDS = 30
-_NODES = 30_000_000
-_SHARE = 0.5
-"""Of the time that is left, for each attempt at a better allocation before sets are listed."""
+_NODES = 3_000_000
+_FRACTION = 1e-6
+_PACKED_FROM = 0.3
+"""Share of the time left that a search among the sets met may take."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -41,9 +44,8 @@ class Exact:
         x: the level that they reach (:mod:`.goals`).
         log_mu: ln μ there.
         bound: no allocation reaches more.
-        price: π of the columns, in the market at x, shape (column,).
-        listed: how many sets were listed.
-        complete: whether these were all.
+        price: π of the columns at the start of the search, shape (column,).
+        nodes: how many problems were looked at.
     """
 
     sets: Sets
@@ -51,52 +53,132 @@ class Exact:
     log_mu: float
     bound: float
     price: FloatArray
-    listed: int
-    complete: bool
+    nodes: int
 
 
-def search(
-    goal: Goal, known: Sets, price: FloatArray, log_mu: float, *, deadline: float, most_sets: int
-) -> Exact:
-    """The best allocation from a ``known`` one that keeps every limit, and prices π and ln μ to start from."""
+@dataclass(kw_only=True, eq=False)
+class _Best:
+    """The best allocation so far, its level and its price of power."""
+
+    sets: Sets
+    x: float
+    log_mu: float
+
+    def offer(self, goal: Goal, sets: Sets, log_mu: float) -> bool:
+        """Take an allocation that reaches more."""
+        x, own = goal.reached(sets, log_mu)
+        if x <= self.x:
+            return False
+        self.sets, self.x, self.log_mu = sets, x, own
+        return True
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Node:
+    """A problem with some pairs of user and column ruled out, and what is known of it.
+
+    Attributes:
+        allowed: shape (user, column).
+        price, log_mu: where to start.
+        sets: to start with.
+        limit: no allocation of it reaches a higher level.
+    """
+
+    allowed: BoolArray
+    price: FloatArray
+    log_mu: float
+    sets: Sets
+    limit: float
+
+
+def search(goal: Goal, known: Sets, price: FloatArray, log_mu: float, *, deadline: float, most_sets: int) -> Exact:
+    """The best allocation from a ``known`` one that keeps every limit, and prices π and ln μ to start from.
+
+    ``most_sets`` is how many sets are listed at most for one problem before it is divided.
+    """
     x, own = goal.reached(known, log_mu)
-    known, x, own, priced, market = _improved(goal, known, x, own, price, log_mu, deadline)
-    gap = priced.bound - goal.target(x)
-    scale = _scale(market, priced)
-    found = Exact(
-        sets=known, x=x, log_mu=own, bound=np.inf, price=priced.price, listed=len(priced.sets), complete=False
-    )
-    if gap <= _ACCURACY * scale:
-        return _with(found, bound=x, complete=True)
-    limit = goal.no_more_than(x, priced.price, priced.log_mu, priced.bound)
-    if time.perf_counter() >= deadline:
-        return _with(found, bound=limit)
-    complete, listed = _listed(goal, market, priced, gap + _ROUNDING * scale, limit, most_sets)
-    if not complete:
-        listed = listed.with_others(priced.sets)
-    for _ in range(_ROUNDS):
-        market = goal.at(x)
-        packed = pack(market, listed, known, max(own, market.least_log_mu), scale=scale, deadline=deadline)
+    best = _Best(sets=known, x=x, log_mu=own)
+    everything = np.ones((goal.market.users.shape[0], goal.market.columns), dtype=bool)
+    root = _Node(allowed=everything, price=price, log_mu=log_mu, sets=known, limit=np.inf)
+    first_price = price
+    heap: list[tuple[float, int, _Node]] = [(-np.inf, 0, root)]
+    nodes = made = 0
+    limit = -np.inf  # of the problems that were closed without proof
+    while heap and time.perf_counter() < deadline:
+        node = heapq.heappop(heap)[2]
+        if node.limit <= best.x:
+            continue
+        priced, left = _look(goal, node, best, deadline, most_sets)
+        nodes += 1
+        if nodes == 1:
+            first_price = priced.price
+        if left <= best.x:
+            continue
+        left = min(left, node.limit)
+        children = _children(node, priced, left)
+        if not children or time.perf_counter() >= deadline:
+            limit = max(limit, left)
+        for child in children if time.perf_counter() < deadline else ():
+            made += 1
+            heapq.heappush(heap, (-left, made, child))
+    limit = max([limit, best.x, *(node.limit for _, _, node in heap)])
+    return Exact(sets=best.sets, x=best.x, log_mu=best.log_mu, bound=limit, price=first_price, nodes=max(nodes, 1))
+
+
+def _look(
+    goal: Goal, node: _Node, best: _Best, deadline: float, most_sets: int
+) -> tuple[ColumnPrices, float]:
+    """Prices of a problem, and the level that none of its allocations exceeds; at most ``best.x`` where it is closed."""
+    price, log_mu, sets = node.price, node.log_mu, node.sets
+    while True:
+        x = best.x
+        market = _masked(goal.at(x), node.allowed)
         target = goal.target(x)
-        proven = packed.bound <= max(target, packed.value) + 2.0 * _ACCURACY * scale
-        if packed.sets is None or packed.value <= target + _ACCURACY * scale:
+        priced = column_prices(
+            market,
+            price,
+            max(log_mu, market.least_log_mu),
+            sets,
+            value=target,
+            accuracy=_PRICE_ACCURACY,
+            deadline=deadline,
+        )
+        price, log_mu, sets = priced.price, priced.log_mu, priced.sets
+        scale = _scale(market, priced)
+        if priced.bound - target <= _ACCURACY * scale:
+            return priced, x
+        now = time.perf_counter()
+        limit = goal.no_more_than(x, market, price, log_mu, priced.bound)
+        if now >= deadline:
+            return priced, limit
+        near = _near(market, priced, priced.bound - target)
+        until = now + _PACKED_FROM * (deadline - now)
+        packed = pack(market, near, log_mu, scale=scale, least=target, deadline=until)
+        if not (packed.sets is not None and best.offer(goal, packed.sets, packed.log_mu)):
             break
-        better, own_of_better = goal.reached(packed.sets, packed.log_mu)
-        if not better > x:
+        if goal.at(best.x) is goal.at(x):  # a sum: the prices hold for the better allocation, too
+            target = goal.target(best.x)
+            if priced.bound - target <= _ACCURACY * scale:
+                return priced, best.x
             break
-        known, x, own = packed.sets, better, own_of_better
-        if goal.target(x) == packed.value:  # a sum: this was the best choice
-            break
-    else:
-        proven = False
-    bound = x if complete and proven else max(limit, x)
-    return _with(found, sets=known, x=x, log_mu=own, bound=bound, listed=len(listed), complete=complete and proven)
+    gap = priced.bound - goal.target(best.x) + _ROUNDING * scale
+    complete, listed = _listed(goal, market, priced, gap, limit, most_sets)
+    return priced, _settled(goal, node, listed, best, scale, deadline) if complete else limit
 
 
-def _with(found: Exact, **changes: object) -> Exact:
-    from dataclasses import replace
-
-    return replace(found, **changes)
+def _settled(goal: Goal, node: _Node, listed: Sets, best: _Best, scale: float, deadline: float) -> float:
+    """The level that no choice among all sets of a problem exceeds; ``best.x`` but where time runs out."""
+    for _ in range(_ROUNDS):
+        market = _masked(goal.at(best.x), node.allowed)
+        target = goal.target(best.x)
+        packed = pack(market, listed, max(best.log_mu, market.least_log_mu), scale=scale, least=target, deadline=deadline)
+        if packed.bound <= target + 2.0 * _ACCURACY * scale:
+            return best.x
+        better = packed.sets is not None and best.offer(goal, packed.sets, packed.log_mu)
+        if not better or packed.bound <= goal.target(best.x) + 2.0 * _ACCURACY * scale:
+            done = packed.bound <= max(packed.value, goal.target(best.x)) + 2.0 * _ACCURACY * scale
+            return best.x if done else np.inf
+    return np.inf
 
 
 def _scale(market: Market, priced: ColumnPrices) -> float:
@@ -104,42 +186,24 @@ def _scale(market: Market, priced: ColumnPrices) -> float:
     return max(abs(priced.bound - market.left_w(priced.log_mu)), abs(priced.bound), 1e-300)
 
 
-def _improved(
-    goal: Goal, known: Sets, x: float, own: float, price: FloatArray, log_mu: float, deadline: float
-) -> tuple[Sets, float, float, ColumnPrices, Market]:
-    """Column prices for an allocation's own level, and a better allocation from the sets met, while there is one."""
-    sets = known
-    while True:
-        market = goal.at(x)
-        log_mu = max(log_mu, market.least_log_mu)
-        target = goal.target(x)
-        priced = column_prices(
-            market, price, log_mu, sets, value=lambda target=target: target, accuracy=_PRICE_ACCURACY, deadline=deadline
-        )
-        price, log_mu, sets = priced.price, priced.log_mu, priced.sets
-        scale = _scale(market, priced)
-        now = time.perf_counter()
-        if priced.bound - target <= _ACCURACY * scale or now >= deadline:
-            return known, x, own, priced, market
-        tight = _near(market, priced, priced.bound - target)
-        packed = pack(market, tight.with_others(known), known, log_mu, scale=scale, deadline=now + _SHARE * (deadline - now))
-        if packed.sets is None or packed.value <= target + _ACCURACY * scale:
-            return known, x, own, priced, market
-        better, own_of_better = goal.reached(packed.sets, packed.log_mu)
-        if not better > x:
-            return known, x, own, priced, market
-        known, x, own = packed.sets, better, own_of_better
-        if goal.at(x) is market:  # a sum: the prices hold for the better allocation, too
-            return known, x, own, priced, market
+def _masked(market: Market, allowed: BoolArray) -> Market:
+    if allowed.all():
+        return market
+    usable = np.repeat(allowed, np.diff(market.start), axis=1)
+    return replace(market, ceiling=np.where(usable, market.ceiling, 0.0))
+
+
+def _net(market: Market, priced: ColumnPrices) -> FloatArray:
+    """V(S; μ) − π(S) of the sets met, (set,)."""
+    worth, _ = market.worths(priced.sets, priced.log_mu)
+    paid = np.concatenate([[0.0], np.cumsum(priced.price[priced.sets.member])])
+    return worth - (paid[priced.sets.first[1:]] - paid[priced.sets.first[:-1]])
 
 
 def _near(market: Market, priced: ColumnPrices, gap: float) -> Sets:
     """The sets met whose reduced cost is within ``gap``."""
     bound, _ = priced_bounds(market, priced.price, priced.log_mu)
-    worth, _ = market.worths(priced.sets, priced.log_mu)
-    paid = np.concatenate([[0.0], np.cumsum(priced.price[priced.sets.member])])
-    net = worth - (paid[priced.sets.first[1:]] - paid[priced.sets.first[:-1]])
-    return priced.sets.chosen(np.flatnonzero(bound[priced.sets.user] - net <= gap))
+    return priced.sets.chosen(np.flatnonzero(bound[priced.sets.user] - _net(market, priced) <= gap))
 
 
 def _listed(
@@ -149,9 +213,40 @@ def _listed(
     from wirelessagent.deciding.core.columns_kernel import bundles_within
 
     bound, _ = priced_bounds(market, priced.price, priced.log_mu, _NODES)
-    wettest = goal.wettest(limit) if np.isfinite(limit) else market.users
+    wettest = goal.at(limit).users if np.isfinite(limit) else market.users
     complete, user, first, member = bundles_within(
         market.users, market.floor, market.inverse, market.ceiling, market.start, priced.price, priced.log_mu,
         bound - gap, np.ascontiguousarray(wettest), market.least_log_mu, market.budget_w, _NODES, most_sets,
     )  # fmt: skip
     return complete, Sets(user=user, first=first, member=member)
+
+
+def _children(node: _Node, priced: ColumnPrices, limit: float) -> list[_Node]:
+    """The two problems that a column divides a problem into: for one user alone, and not for that user."""
+    share = np.zeros(node.allowed.shape)
+    np.add.at(
+        share,
+        (np.repeat(priced.sets.user, priced.sets.size), priced.sets.member),
+        np.repeat(priced.taken, priced.sets.size),
+    )
+    open_pairs = node.allowed & (node.allowed.sum(axis=0) > 1)
+    if not open_pairs.any():
+        return []
+    split = np.where(open_pairs, np.minimum(share, 1.0 - share) * priced.price, -1.0)
+    if split.max() <= _FRACTION * priced.price.max(initial=0.0):  # nothing is shared: a column that somebody takes
+        split = np.where(open_pairs, share * priced.price + 1e-12, -1.0)
+    user, column = np.unravel_index(int(split.argmax()), split.shape)
+    alone, without = node.allowed.copy(), node.allowed.copy()
+    alone[:, column] = False
+    alone[user, column] = True
+    without[user, column] = False
+    return [_child(priced, allowed, limit) for allowed in (alone, without)]
+
+
+def _child(priced: ColumnPrices, allowed: BoolArray, limit: float) -> _Node:
+    user = np.repeat(priced.sets.user, priced.sets.size)
+    ruled_out = np.concatenate([[0], np.cumsum(~allowed[user, priced.sets.member])])
+    kept = np.flatnonzero(ruled_out[priced.sets.first[1:]] == ruled_out[priced.sets.first[:-1]])
+    return _Node(
+        allowed=allowed, price=priced.price, log_mu=priced.log_mu, sets=priced.sets.chosen(kept), limit=limit
+    )

@@ -1,6 +1,6 @@
 """What is to be made largest, as a row of markets: one for a sum or a power, one for each level otherwise.
 
-A level x (an efficiency, or a common rate) is reached by an allocation just where the allocation is worth at least
+A level x (an efficiency, or a common rate) is exceeded by an allocation just where the allocation is worth more than
 ``target(x)`` in the market at x. So the largest x is found by improving an allocation in the market at its own x, until
 none there is worth more than the target: Dinkelbach's method (1967) for efficiency, and the same for common rates.
 """
@@ -17,6 +17,8 @@ from wirelessagent.model.arrays import FloatArray
 
 _STEPS = 100
 _HALVINGS = 48
+_HAIR = 1e-10
+_LEAST_LEVEL = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -35,19 +37,15 @@ class Goal(ABC):
 
     @abstractmethod
     def target(self, x: float) -> float:
-        """What an allocation that reaches x is worth at least in the market at x."""
+        """What an allocation that reaches x is worth in the market at x; infinite where x is the most there is."""
 
     @abstractmethod
     def reached(self, sets: Sets, log_mu: float) -> tuple[float, float]:
         """The largest x that one set for each user reaches, −∞ where it keeps not every limit, and ln μ there."""
 
     @abstractmethod
-    def no_more_than(self, x: float, price: FloatArray, log_mu: float, bound: float) -> float:
-        """A level that nothing exceeds, from the prices of the market at x and their ``bound`` there."""
-
-    def wettest(self, x: float) -> FloatArray:
-        """The users' rows (user, 6) that take most of every set, for levels up to x."""
-        return self.at(x).users
+    def no_more_than(self, x: float, market: Market, price: FloatArray, log_mu: float, bound: float) -> float:
+        """A level that nothing exceeds, from prices of the market at x and their ``bound`` there."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -64,8 +62,8 @@ class Most(Goal):
     def reached(self, sets: Sets, log_mu: float) -> tuple[float, float]:
         return self.market.value(sets, log_mu)
 
-    def no_more_than(self, x: float, price: FloatArray, log_mu: float, bound: float) -> float:
-        del x, price, log_mu
+    def no_more_than(self, x: float, market: Market, price: FloatArray, log_mu: float, bound: float) -> float:
+        del x, market, price, log_mu
         return bound
 
 
@@ -100,13 +98,13 @@ class MostPerJoule(Goal):
             _, log_mu = self.at(x).value(sets, log_mu)
         return best, log_mu
 
-    def no_more_than(self, x: float, price: FloatArray, log_mu: float, bound: float) -> float:
+    def no_more_than(self, x: float, market: Market, price: FloatArray, log_mu: float, bound: float) -> float:
         """From A(μ) = Σ π + Σ max [V(S; μ) − π(S)], which falls with μ: x is at most μ where A(μ) ≤ μ C.
 
         Then (A + μ P)/(P + C) is a bound as well; otherwise A(μ)/C is, being a price where the former holds.
         """
         mu = float(np.exp(log_mu))
-        worth = bound - self.at(x).left_w(log_mu)
+        worth = bound - market.left_w(log_mu)
         if worth > mu * self.circuit_w:
             return worth / self.circuit_w if self.circuit_w > 0 else np.inf
         return min(mu, (worth + mu * self.market.budget_w) / (self.market.budget_w + self.circuit_w))
@@ -127,26 +125,30 @@ class HighestLevel(Goal):
     power_w: float
 
     def at(self, x: float) -> Market:
-        nats = np.clip(min(x, self.most_level) * self.share[:, 0], self.share[:, 1], self.share[:, 2])
+        """The market a hair above the level x, since ceilings may leave power at the highest level."""
+        return self._at(x + _HAIR * max(x, _LEAST_LEVEL))
+
+    def _at(self, level: float) -> Market:
+        nats = np.clip(min(level, self.most_level) * self.share[:, 0], self.share[:, 1], self.share[:, 2])
         return self.market.with_users(promises(nats), cost_per_w=1.0)
 
     def target(self, x: float) -> float:
-        return -self.power_w
+        return -self.power_w if x < self.most_level else np.inf
 
     def reached(self, sets: Sets, log_mu: float) -> tuple[float, float]:
         def fits(t: float) -> bool:
-            return self.at(t).value(sets)[0] >= -self.power_w * (1.0 + 1e-13)
+            return self._at(t).value(sets)[0] >= -self.power_w * (1.0 + 1e-13)
 
         if not fits(0.0):
             return -np.inf, 0.0
         return _largest(fits, self.most_level, _STEPS), 0.0
 
-    def no_more_than(self, x: float, price: FloatArray, log_mu: float, bound: float) -> float:
+    def no_more_than(self, x: float, market: Market, price: FloatArray, log_mu: float, bound: float) -> float:
         from wirelessagent.deciding.core.column_prices import priced_bounds, total_bound
 
         def allowed(t: float) -> bool:
-            market = self.at(t)
-            return total_bound(market, price, log_mu, priced_bounds(market, price, log_mu)[0]) >= -self.power_w
+            there = market.with_users(self._at(t).users)
+            return total_bound(there, price, log_mu, priced_bounds(there, price, log_mu)[0]) >= -self.power_w
 
         if x >= self.most_level or allowed(self.most_level):
             return self.most_level

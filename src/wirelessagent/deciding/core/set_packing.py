@@ -45,22 +45,27 @@ class Packing:
 
 
 def pack(
-    market: Market, sets: Sets, known: Sets | None, log_mu: float, *, scale: float, deadline: float = np.inf
+    market: Market,
+    sets: Sets,
+    log_mu: float,
+    *,
+    scale: float,
+    least: float = -np.inf,
+    deadline: float = np.inf,
 ) -> Packing:
     """The best choice among ``sets``.
 
     Args:
         market: users, columns and power.
         sets: the list.
-        known: a choice that keeps every limit, where there is one; the answer is not worse.
         log_mu: ln of the first price of power to hold.
         scale: what is at stake; the answer is exact to 1e-10 of it.
+        least: choices worth no more are of no use; the search ends where there is no better one.
         deadline: in seconds on ``time.perf_counter``.
     """
     unit = _UNIT * scale
-    value, own = market.value(known, log_mu) if known is not None else (-np.inf, log_mu)
-    best = Packing(sets=known, value=value, log_mu=own, bound=np.inf)
-    cuts = [log_mu] if np.isinf(market.budget_w) or abs(own - log_mu) < 1e-12 else [log_mu, own]
+    best = Packing(sets=None, value=-np.inf, log_mu=log_mu, bound=np.inf)
+    cuts = [log_mu]
     bound = np.inf
     for _ in range(_ROUNDS):
         worths = np.stack([market.worths(sets, cut)[0] for cut in cuts])
@@ -72,9 +77,9 @@ def pack(
         value, own = market.value(chosen, cuts[-1])
         if value > best.value:
             best = Packing(sets=chosen, value=value, log_mu=own, bound=bound)
-        if bound - best.value <= _CLOSE * scale or np.isinf(market.budget_w) or time.perf_counter() >= deadline:
+        if bound - max(best.value, least) <= _CLOSE * scale or np.isinf(market.budget_w):
             break
-        if any(abs(own - cut) <= 1e-13 * (1.0 + abs(cut)) for cut in cuts):
+        if time.perf_counter() >= deadline or any(abs(own - cut) <= 1e-13 * (1.0 + abs(cut)) for cut in cuts):
             break
         cuts.append(own)
     return Packing(sets=best.sets, value=best.value, log_mu=best.log_mu, bound=max(bound, best.value))
