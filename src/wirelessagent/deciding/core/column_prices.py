@@ -30,8 +30,11 @@ _NEAR = 0.3
 """How far from a user's best, in units of the mean worth of a user, its sets enter the programme in the first round."""
 _BOX = 1.0
 """Half-width of the box at first, in units of the mean price."""
-_BOX_MU = 0.3
-"""The same of ln μ."""
+_BOX_MU, _BOX_MU_MOST = 0.3, 3.0
+"""The same of ln μ, at first and at most."""
+_WIDENINGS = 2
+_MOST_SETS, _KEPT_SETS = 40, 20
+"""Sets in the programme per user before some are dropped, and after."""
 _POWER_PRICES = 3
 """At how many prices of power the programme knows each set."""
 
@@ -75,7 +78,7 @@ class _Search:
         if np.isfinite(fall):
             factor = 2.0 if fall > 0.5 * promised else 0.5 if fall < 0.1 * promised else 1.0
             self.box *= factor
-            self.box_mu = min(self.box_mu * factor, 3.0)
+            self.box_mu = min(self.box_mu * factor, _BOX_MU_MOST)
 
 
 def start_prices(market: Market, log_rate_price: FloatArray, log_mu: float) -> FloatArray:
@@ -111,7 +114,7 @@ def column_prices(
     search = _Search(price=price, log_mu=log_mu, box=_BOX * float(price.mean()))
     sets, taken, promised = known, np.zeros(len(known)), np.inf
     watched: list[float] = []
-    done = 0
+    done = widened = 0
     while True:
         bound, found = _priced(market, price, log_mu, done == 0)
         search.take(price, log_mu, bound, promised)
@@ -127,11 +130,13 @@ def column_prices(
         price, log_mu, least, taken, free = solved
         done += 1
         promised = search.bound - least
-        if promised <= close:
-            if free:
+        if promised <= close:  # nothing to gain in the box; D being convex, little outside
+            if free or widened == _WIDENINGS:
                 break
+            widened += 1
             search.box *= 4.0
-            search.box_mu = min(4.0 * search.box_mu, 3.0)
+            search.box_mu = min(4.0 * search.box_mu, _BOX_MU_MOST)
+        sets, taken = _trimmed(market, sets, taken, price, log_mu)
     if taken.size < len(sets):
         taken = np.concatenate([taken, np.zeros(len(sets) - taken.size)])
     return ColumnPrices(
@@ -168,6 +173,20 @@ def _priced(market: Market, price: FloatArray, log_mu: float, first_round: bool)
         market.users, log_mu, np.inf, _NODES, _FIRST_SETS if first_round else _LATER_SETS,
     )  # fmt: skip
     return total_bound(market, price, log_mu, bound), best.with_others(Sets(user=user, first=first, member=member))
+
+
+def _trimmed(
+    market: Market, sets: Sets, taken: FloatArray, price: FloatArray, log_mu: float
+) -> tuple[Sets, FloatArray]:
+    """The sets that are taken or best at the last prices, where there are too many."""
+    users = market.users.shape[0]
+    if len(sets) <= _MOST_SETS * users:
+        return sets, taken
+    net = np.where(taken > 0.0, np.inf, sets.net(market.worths(sets, log_mu)[0], price))
+    order = np.lexsort((-net, sets.user))
+    rank = np.arange(order.size) - np.searchsorted(sets.user[order], sets.user[order])
+    kept = np.sort(order[(rank < _KEPT_SETS) | (taken[order] > 0.0)])
+    return sets.chosen(kept), taken[kept]
 
 
 def _watched(before: list[float], trial: float, best: float) -> list[float]:
@@ -230,10 +249,12 @@ def _solve(
     )
     if result.status != 0:
         return None
-    dual = np.maximum(-np.asarray(result.ineqlin.marginals, dtype=np.float64) * scale, 0.0)
+    dual = -np.asarray(result.ineqlin.marginals, dtype=np.float64) * scale
+    price = np.clip(dual[:columns], cheap, dear)
     log_mu = search.log_mu
     if budgeted:
-        log_mu = float(np.log(max(dual[columns] / market.budget_w + market.cost_per_w, 1e-300)))
+        mu = np.clip(dual[columns] / market.budget_w, bottom, top) + market.cost_per_w
+        log_mu = float(np.log(mu)) if mu > 0.0 else log_mu
     share = np.minimum(np.bincount(usable % count, weights=result.x[: usable.size], minlength=count), 1.0)
     traded = float(result.x[usable.size :].sum())
-    return dual[:columns], log_mu, -float(result.fun) * scale, share, traded <= 1e-7
+    return price, log_mu, -float(result.fun) * scale, share, traded <= 1e-7

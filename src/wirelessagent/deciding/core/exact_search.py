@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wirelessagent.deciding.core.column_prices import ColumnPrices, column_prices, priced_bounds
+from wirelessagent.deciding.core.column_prices import ColumnPrices, column_prices, priced_bounds, total_bound
 from wirelessagent.deciding.core.goals import Goal
 from wirelessagent.deciding.core.market import Market, Sets
 from wirelessagent.deciding.core.set_packing import pack
@@ -31,6 +31,8 @@ _PRICE_ACCURACY = 1e-6
 _ROUNDS = 30
 _NODES = 3_000_000
 _FRACTION = 1e-6
+_LOOSE = 1e-7
+_HALVINGS = 6
 _PACKED_FROM = 0.3
 """Share of the time left that a search among the sets met may take."""
 
@@ -193,17 +195,11 @@ def _masked(market: Market, allowed: BoolArray) -> Market:
     return replace(market, ceiling=np.where(usable, market.ceiling, 0.0))
 
 
-def _net(market: Market, priced: ColumnPrices) -> FloatArray:
-    """V(S; μ) − π(S) of the sets met, (set,)."""
-    worth, _ = market.worths(priced.sets, priced.log_mu)
-    paid = np.concatenate([[0.0], np.cumsum(priced.price[priced.sets.member])])
-    return worth - (paid[priced.sets.first[1:]] - paid[priced.sets.first[:-1]])
-
-
 def _near(market: Market, priced: ColumnPrices, gap: float) -> Sets:
     """The sets met whose reduced cost is within ``gap``."""
     bound, _ = priced_bounds(market, priced.price, priced.log_mu)
-    return priced.sets.chosen(np.flatnonzero(bound[priced.sets.user] - _net(market, priced) <= gap))
+    net = priced.sets.net(market.worths(priced.sets, priced.log_mu)[0], priced.price)
+    return priced.sets.chosen(np.flatnonzero(bound[priced.sets.user] - net <= gap))
 
 
 def _listed(
@@ -212,13 +208,43 @@ def _listed(
     """All sets whose reduced cost is within ``gap``, and whether they are all."""
     from wirelessagent.deciding.core.columns_kernel import bundles_within
 
-    bound, _ = priced_bounds(market, priced.price, priced.log_mu, _NODES)
+    price, bound = _central(market, priced)
+    gap += total_bound(market, price, priced.log_mu, bound) - priced.bound
     wettest = goal.at(limit).users if np.isfinite(limit) else market.users
     complete, user, first, member = bundles_within(
-        market.users, market.floor, market.inverse, market.ceiling, market.start, priced.price, priced.log_mu,
+        market.users, market.floor, market.inverse, market.ceiling, market.start, price, priced.log_mu,
         bound - gap, np.ascontiguousarray(wettest), market.least_log_mu, market.budget_w, _NODES, most_sets,
     )  # fmt: skip
     return complete, Sets(user=user, first=first, member=member)
+
+
+def _central(market: Market, priced: ColumnPrices) -> tuple[FloatArray, FloatArray]:
+    """Prices of nearly the same bound that are away from the ends of their ranges, and the users' bounds there.
+
+    Where a utility is straight, a price that is just what its user would pay makes all subsets equally good. So each
+    price is lowered half as far as D stays the same, then raised likewise.
+    """
+    price = priced.price.copy()
+    here, _ = priced_bounds(market, price, priced.log_mu, _NODES)
+    total = total_bound(market, price, priced.log_mu, here)
+    allowed = total + _LOOSE * abs(total) / price.size
+
+    def same(column: int, value: float) -> bool:
+        trial = price.copy()
+        trial[column] = value
+        return total_bound(market, trial, priced.log_mu, priced_bounds(market, trial, priced.log_mu)[0]) <= allowed
+
+    for column in range(price.size):
+        low, high = 0.0, float(price[column])
+        if high == 0.0:
+            continue
+        if same(column, 0.0):
+            high = 0.0
+        for _ in range(_HALVINGS if high else 0):
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if same(column, middle) else (middle, high)
+        price[column] = 0.5 * (high + price[column])
+    return price, priced_bounds(market, price, priced.log_mu, _NODES)[0]
 
 
 def _children(node: _Node, priced: ColumnPrices, limit: float) -> list[_Node]:

@@ -77,6 +77,11 @@ class Sets:
         total = np.concatenate([[0], np.cumsum(number[0][self.member])])  # wraps around
         return total[self.first[1:]] - total[self.first[:-1]] + number[1][self.user]
 
+    def net(self, worth: FloatArray, price: FloatArray) -> FloatArray:
+        """``worth`` (set,) less the prices of the sets' columns."""
+        paid = np.concatenate([[0.0], np.cumsum(price[self.member])])
+        return worth - (paid[self.first[1:]] - paid[self.first[:-1]])
+
     def owner(self, columns: int) -> IntArray:
         """The user of each column, −1 where it is in no set, shape (column,)."""
         owner = np.full(columns, -1, dtype=np.int64)
