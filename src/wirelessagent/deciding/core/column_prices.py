@@ -24,6 +24,8 @@ from wirelessagent.model.arrays import FloatArray
 
 _NODES = 200_000
 """Sets looked at per user and round."""
+_TIE = 1e-12
+"""Of a user's part in the prices, by which a set must be better than another to be looked for."""
 _FIRST_SETS, _LATER_SETS = 12, 4
 """Sets that enter the programme per user and round."""
 _NEAR = 0.3
@@ -149,8 +151,9 @@ def priced_bounds(market: Market, price: FloatArray, log_mu: float, nodes: int =
     from wirelessagent.deciding.core.columns_kernel import best_bundles
 
     bound = np.empty(market.users.shape[0])
+    tolerance = _TIE * (float(price.sum()) + abs(market.left_w(log_mu))) / bound.size
     worth, first, member = best_bundles(
-        market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu, 0.0, nodes, bound
+        market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu, tolerance, nodes, bound
     )  # fmt: skip
     sets = Sets(user=np.arange(worth.size), first=first, member=member)
     return bound, sets.chosen(np.flatnonzero(worth > NOTHING))

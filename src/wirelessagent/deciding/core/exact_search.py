@@ -31,7 +31,10 @@ _PRICE_ACCURACY = 1e-6
 _ROUNDS = 30
 _NODES = 3_000_000
 _FRACTION = 1e-6
-_LOOSE = 1e-7
+_LOOSE = 0.05
+"""Part of the gap that central prices may cost."""
+_DEARER = (8.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25)
+"""Steps in ln μ."""
 _HALVINGS = 6
 _PACKED_FROM = 0.3
 """Share of the time left that a search among the sets met may take."""
@@ -108,15 +111,16 @@ def search(goal: Goal, known: Sets, price: FloatArray, log_mu: float, *, deadlin
     limit = -np.inf  # of the problems that were closed without proof
     while heap and time.perf_counter() < deadline:
         node = heapq.heappop(heap)[2]
-        if node.limit <= best.x:
+        if node.limit - best.x <= _ACCURACY * abs(best.x):
+            limit = max(limit, node.limit)
             continue
         priced, left = _look(goal, node, best, deadline, most_sets)
         nodes += 1
         if nodes == 1:
             first_price = priced.price
+        left = min(left, node.limit)
         if left <= best.x:
             continue
-        left = min(left, node.limit)
         children = _children(node, priced, left)
         if not children or time.perf_counter() >= deadline:
             limit = max(limit, left)
@@ -153,9 +157,10 @@ def _look(
         limit = goal.no_more_than(x, market, price, log_mu, priced.bound)
         if now >= deadline:
             return priced, limit
-        near = _near(market, priced, priced.bound - target)
+        central = _central(market, priced, priced.bound - target, now + _PACKED_FROM * (deadline - now))
+        near = _near(market, central, central.bound - target)
         until = now + _PACKED_FROM * (deadline - now)
-        packed = pack(market, near, log_mu, scale=scale, least=target, deadline=until)
+        packed = pack(market, near, central.log_mu, scale=scale, least=target, deadline=until)
         if not (packed.sets is not None and best.offer(goal, packed.sets, packed.log_mu)):
             break
         if goal.at(best.x) is goal.at(x):  # a sum: the prices hold for the better allocation, too
@@ -163,9 +168,10 @@ def _look(
             if priced.bound - target <= _ACCURACY * scale:
                 return priced, best.x
             break
-    gap = priced.bound - goal.target(best.x) + _ROUNDING * scale
-    complete, listed = _listed(goal, market, priced, gap, limit, most_sets)
-    return priced, _settled(goal, node, listed, best, scale, deadline) if complete else limit
+    gap = central.bound - target + _ROUNDING * scale
+    complete, listed = _listed(goal, market, central, gap, limit, most_sets)
+    left = _settled(goal, node, listed, best, scale, deadline) if complete else limit
+    return replace(priced, price=central.price, log_mu=central.log_mu), left
 
 
 def _settled(goal: Goal, node: _Node, listed: Sets, best: _Best, scale: float, deadline: float) -> float:
@@ -208,43 +214,44 @@ def _listed(
     """All sets whose reduced cost is within ``gap``, and whether they are all."""
     from wirelessagent.deciding.core.columns_kernel import bundles_within
 
-    price, bound = _central(market, priced)
-    gap += total_bound(market, price, priced.log_mu, bound) - priced.bound
+    bound, _ = priced_bounds(market, priced.price, priced.log_mu, _NODES)
     wettest = goal.at(limit).users if np.isfinite(limit) else market.users
     complete, user, first, member = bundles_within(
-        market.users, market.floor, market.inverse, market.ceiling, market.start, price, priced.log_mu,
+        market.users, market.floor, market.inverse, market.ceiling, market.start, priced.price, priced.log_mu,
         bound - gap, np.ascontiguousarray(wettest), market.least_log_mu, market.budget_w, _NODES, most_sets,
     )  # fmt: skip
     return complete, Sets(user=user, first=first, member=member)
 
 
-def _central(market: Market, priced: ColumnPrices) -> tuple[FloatArray, FloatArray]:
-    """Prices of nearly the same bound that are away from the ends of their ranges, and the users' bounds there.
+def _central(market: Market, priced: ColumnPrices, gap: float, until: float) -> ColumnPrices:
+    """Prices of nearly the same bound that are away from the ends of their ranges.
 
-    Where a utility is straight, a price that is just what its user would pay makes all subsets equally good. So each
-    price is lowered half as far as D stays the same, then raised likewise.
+    Where a utility is straight, a price that is just what its user would pay makes all subsets equally good, and where
+    power is worth little all its uses are. So power is made as dear, and each column half as much cheaper, as D allows.
     """
-    price = priced.price.copy()
-    here, _ = priced_bounds(market, price, priced.log_mu, _NODES)
-    total = total_bound(market, price, priced.log_mu, here)
-    allowed = total + _LOOSE * abs(total) / price.size
+    price, log_mu, bound = priced.price.copy(), priced.log_mu, priced.bound
 
-    def same(column: int, value: float) -> bool:
-        trial = price.copy()
-        trial[column] = value
-        return total_bound(market, trial, priced.log_mu, priced_bounds(market, trial, priced.log_mu)[0]) <= allowed
+    def worth(trial: FloatArray, log_mu: float) -> float:
+        return total_bound(market, trial, log_mu, priced_bounds(market, trial, log_mu)[0])
 
-    for column in range(price.size):
-        low, high = 0.0, float(price[column])
-        if high == 0.0:
-            continue
-        if same(column, 0.0):
-            high = 0.0
-        for _ in range(_HALVINGS if high else 0):
-            middle = 0.5 * (low + high)
-            low, high = (low, middle) if same(column, middle) else (middle, high)
+    for step in _DEARER if np.isfinite(market.budget_w) else ():
+        dearer = worth(price, log_mu + step)
+        if dearer <= priced.bound + _LOOSE * gap:
+            log_mu, bound = log_mu + step, dearer
+    allowed = (bound - priced.bound + _LOOSE * gap) / price.size
+    for column in np.flatnonzero(price > 0.0):
+        if time.perf_counter() >= until:
+            break
+        trial, low, high = price.copy(), 0.0, float(price[column])
+        for _ in range(_HALVINGS):
+            trial[column] = 0.5 * (low + high)
+            if worth(trial, log_mu) <= bound + allowed:
+                high = trial[column]
+            else:
+                low = trial[column]
         price[column] = 0.5 * (high + price[column])
-    return price, priced_bounds(market, price, priced.log_mu, _NODES)[0]
+        bound = worth(price, log_mu)
+    return replace(priced, price=price, log_mu=log_mu, bound=bound)
 
 
 def _children(node: _Node, priced: ColumnPrices, limit: float) -> list[_Node]:
