@@ -27,6 +27,8 @@ UNREACHABLE = 1e200
 SLACK = 1.0 - 1e-12
 """Share of a promised rate that the ceilings of a set must reach; the rest is rounding."""
 MOST_POWER = 1e150
+SHALLOW = 1e-3
+"""A depth in nats below which powers are not worked out from sums, where they would cancel."""
 STEPS = 60
 SETTLED = 1e-13
 
@@ -219,3 +221,61 @@ def bundle(
     if low >= user[HIGH]:
         rate = low
     return utility(user, rate) - np.exp(log_mu) * power, rate, power, level
+
+
+@kernel
+def wet_worth(
+    low: float,
+    high: float,
+    reference: float,
+    slope: float,
+    curvature: float,
+    base: float,
+    size: int,
+    floors: float,
+    inverses: float,
+    highest: float,
+    lowest: float,
+    ceiling: float,
+    log_mu: float,
+) -> float:
+    """V(S; μ) from sums over the set alone, where all its subcarriers carry something and none is full; NaN elsewhere.
+
+    ``floors`` and ``inverses`` are Σ −ln a and Σ 1/a over the ``size`` subcarriers, ``highest`` and ``lowest`` the
+    extreme floors, ``ceiling`` the least ceiling. Then r = |S| z − Σ floors, and the power is |S| e^z − Σ 1/a.
+    """
+    if size == 0:
+        return np.nan
+    if slope <= 0.0 or low >= high:
+        rate = low
+    elif curvature == 0.0:
+        rate = size * (np.log(slope) - log_mu) - floors
+    else:
+        target = np.log(slope) - log_mu + curvature * np.log(reference)
+        rate = reference
+        for _ in range(STEPS):
+            excess = curvature * np.log(rate) + (rate + floors) / size - target
+            step = excess / (curvature / rate + 1.0 / size)
+            rate = max(rate - step, 0.1 * rate)
+            if abs(step) <= 1e-14 * rate:
+                break
+    rate = min(max(rate, low), high)
+    level = (rate + floors) / size
+    if not (highest < level <= lowest + ceiling and rate > 0.0 and level > lowest + SHALLOW):
+        return np.nan
+    power = size * np.exp(level) - inverses
+    if not power < MOST_POWER:
+        return np.nan
+    worth = base
+    if slope > 0.0:
+        exponent = 1.0 - curvature
+        if curvature == 0.0:
+            worth += slope * (rate - reference)
+        elif curvature == 1.0:
+            worth += slope * reference * np.log(rate / reference)
+        else:
+            logarithm = np.log(rate / reference)
+            if abs(exponent * logarithm) < 1e-8:
+                return np.nan
+            worth += slope * reference * np.expm1(exponent * logarithm) / exponent
+    return worth - np.exp(log_mu) * power

@@ -14,7 +14,7 @@ from wirelessagent.deciding.core.exclusive_sets_kernel import least_power
 from wirelessagent.deciding.core.prices_kernel import FARTHEST, climb, conjugate, price_terms
 from wirelessagent.deciding.core.search_kernel import choose_candidates, polish, restart, serve_all
 from wirelessagent.deciding.core.sets_kernel import Channel, assign, empty_sets, set_bundle, value_all
-from wirelessagent.deciding.core.settle_kernel import LEVEL, OVERSPENT, POWER, SUM, set_level
+from wirelessagent.deciding.core.settle_kernel import EFFICIENCY, LEVEL, OVERSPENT, POWER, SUM, set_level
 from wirelessagent.deciding.core.start_kernel import equal_price, even_split, typical_snr
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
@@ -23,7 +23,7 @@ COLD = np.array([0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3])
 WARM = np.array([3e-3, 1e-3])
 LAST = np.array([1e-3])
 """Temperatures of a climb from afar, from the prices of the slot before, and from prices just found."""
-ROUNDS = 12
+ROUNDS = 20
 SETTLED = 1e-7
 MARGIN = 1e-6
 
@@ -76,28 +76,32 @@ class Found(NamedTuple):
 def channel_of(snr_per_w: FloatArray, ask: Ask) -> Channel:
     """The channel as the kernels read it, from a (user, subcarrier) in 1/W; 0 where a pair may not be used."""
     users, subcarriers = snr_per_w.shape
-    floor = np.empty((users, subcarriers))
-    inverse = np.empty((users, subcarriers))
-    ceiling = np.empty((users, subcarriers))
+    floor = np.full((users, subcarriers), np.inf)
+    inverse = np.zeros((users, subcarriers))
+    ceiling = np.zeros((users, subcarriers))
+    log_best = np.zeros(users)
     usable = np.zeros((ask.start.size - 1, users), dtype=np.bool_)
-    group = 0
-    for n in range(subcarriers):
-        if n == ask.start[group + 1]:
-            group += 1
-        for k in range(users):
-            snr = snr_per_w[k, n]
-            if snr > 0.0:
-                floor[k, n] = -np.log(snr)
-                inverse[k, n] = 1.0 / snr
-                ceiling[k, n] = (
-                    min(np.log1p(ask.cap_w[n] * snr), ask.max_nats) if ask.cap_w[n] < np.inf else ask.max_nats
-                )
-                usable[group, k] = True
-            else:
-                floor[k, n] = np.inf
-                inverse[k, n] = 0.0
-                ceiling[k, n] = 0.0
-    return Channel(floor, inverse, ceiling, ask.start, usable)
+    least = np.inf
+    for k in range(users):
+        best = snr_per_w[k].max()
+        if best <= 0.0:
+            continue
+        log_best[k] = np.log(best)
+        for g in range(ask.start.size - 1):
+            for n in range(ask.start[g], ask.start[g + 1]):
+                snr = snr_per_w[k, n]
+                if snr <= 0.0:
+                    continue
+                floor[k, n] = -np.log(snr / best)
+                inverse[k, n] = best / snr
+                ceiling[k, n] = ask.max_nats
+                if ask.cap_w[n] < np.inf:
+                    ceiling[k, n] = min(np.log1p(ask.cap_w[n] * snr), ask.max_nats)
+                least = min(least, ceiling[k, n])
+                usable[g, k] = True
+    if ask.start.size - 1 < subcarriers:
+        least = np.nan
+    return Channel(floor, inverse, ceiling, log_best, ask.start, usable, least)
 
 
 @kernel
@@ -118,8 +122,13 @@ def find_prices(
     """  # fmt: skip
     users, subcarriers = snr_per_w.shape
     groups = ask.start.size - 1
-    log_snr = np.ascontiguousarray(-channel.floor.T)
-    inverse = np.ascontiguousarray(channel.inverse.T)
+    log_snr = np.empty((subcarriers, users))
+    inverse = np.empty((subcarriers, users))
+    for k in range(users):
+        scale = np.exp(-channel.log_best[k])
+        for n in range(subcarriers):
+            log_snr[n, k] = channel.log_best[k] - channel.floor[k, n]
+            inverse[n, k] = channel.inverse[k, n] * scale
     ceiling = np.ascontiguousarray(channel.ceiling.T)
     full_w = np.full((subcarriers, users), np.inf)
     if ceiling.max() < np.inf:
@@ -127,7 +136,7 @@ def find_prices(
     rate = np.empty((groups, users))
     rising = np.empty((groups, users))
     supplied = np.empty(users)
-    moving = ask.goal == SUM
+    moving = ask.goal == SUM or ask.goal == EFFICIENCY
     budget = ask.budget_w if moving else 0.0
     level = 1.0
     if not warm:
@@ -145,6 +154,7 @@ def find_prices(
     if ask.goal == POWER or ask.goal == LEVEL:
         log_mu = 0.0
     dual, steps, iterations = np.inf, 0, 0
+    low, high = -np.inf, np.inf
     for i in range(ROUNDS):
         temperatures = (WARM if warm else COLD) if i == 0 else LAST
         dual, log_mu, steps = climb(
@@ -164,21 +174,25 @@ def find_prices(
                 break
             set_level(rows, ask.share, level)
             continue
+        # Efficiency: with the budget spent F/(P + C) is at least what can be had; it is that if the price is above it.
         if moving:
-            break
-        power = -total
-        for k in range(users):
-            if supplied[k] > 0.0:
-                power += np.exp(log_price[k]) * supplied[k]
-        if power > ask.budget_w:
-            moving = True
-            budget = ask.budget_w
+            reached = dual / (ask.budget_w + ask.circuit_w)
+            if reached <= np.exp(log_mu) or not reached > 0.0 or ask.circuit_w <= 0.0:
+                break
+            moving, budget = False, 0.0
+            low, high = log_mu, np.inf
+            log_mu = np.log(reached)
             continue
-        surplus = dual - np.exp(log_mu) * ask.circuit_w
-        step = surplus / max(power + ask.circuit_w, 1e-300) / np.exp(log_mu)
-        log_mu += np.log1p(max(step, -0.9))
-        if abs(step) <= SETTLED:
+        surplus = dual / np.exp(log_mu) - ask.circuit_w  # falls with the price; the efficiency is where it is 0
+        if surplus > 0.0:
+            low = log_mu
+        else:
+            high = log_mu
+        worth_w = total + ask.circuit_w
+        if abs(surplus) <= SETTLED * worth_w or high - low <= SETTLED:
             break
+        trial = log_mu + surplus / max(worth_w - surplus, 0.1 * worth_w)
+        log_mu = trial if low < trial < high else (0.5 * (low + high) if high < np.inf else low + 1.0)
     price_terms(log_snr, inverse, ceiling, full_w, ask.start, log_price, rate, term, rising)
     if ask.goal == LEVEL:
         log_mu = np.log(level) if level > 0.0 else -FARTHEST
@@ -235,7 +249,13 @@ def level_bound(share: FloatArray, log_price: FloatArray, worth_w: float, most: 
 
 @kernel
 def slack_of(
-    ask: Ask, rows: FloatArray, log_price: FloatArray, log_mu: float, term: FloatArray, dual: float, score: float,
+    ask: Ask,
+    rows: FloatArray,
+    log_price: FloatArray,
+    log_mu: float,
+    term: FloatArray,
+    dual: float,
+    score: float,
     at: float,
 ) -> float:
     """By how much a group's term may fall short of its largest, in W, in any allocation that scores higher.

@@ -21,6 +21,7 @@ from wirelessagent.deciding.core.sets_kernel import (
     change,
     hand_over,
     improve,
+    undo,
     value_all,
     value_set,
     worth_of,
@@ -33,6 +34,8 @@ ROUNDS = 8
 GAIN = 1e-12
 """Share of a score by which a better one is higher."""
 MOST_KICKED = 3
+SLACK_SHARE = 1e-9
+LIFT = 1e-6
 CHECKED = 400
 """Up to this many groups × candidates every change is settled before it is taken where a whole round did not score."""
 
@@ -166,21 +169,26 @@ def polish(
     Returns the best score and its ln μ (or ln level); ``best_owner`` and ``sets`` then hold the best sets. Where sets
     improved at one price score less at their own, changes are tried one by one.
     """  # fmt: skip
-    score, at, _ = settle(goal, channel, rows, share, budget_w, circuit_w, most, at, sets)
+    score, at, spent = settle(goal, channel, rows, share, budget_w, circuit_w, most, at, sets)
     best_owner[:] = sets.owner
     for _ in range(ROUNDS):
         log_mu = 0.0 if goal == LEVEL else at
         if goal == LEVEL:
             set_level(rows, share, np.exp(at))
+            if spent < budget_w * (1.0 - SLACK_SHARE):  # no power lifts the level: somebody's subcarriers are full
+                set_level(rows, share, min(np.exp(at) * (1.0 + LIFT), most))
         before = value_all(channel, rows, log_mu, sets)
-        if improve(channel, rows, log_mu, candidates, wanted, sets) == 0:
+        if goal == LEVEL and sets.worth.min() <= -UNREACHABLE:
+            serve_all(channel, rows, log_mu, sets)
+            improve(channel, rows, log_mu, candidates, wanted, sets)
+        elif improve(channel, rows, log_mu, candidates, wanted, sets) == 0:
             break
         after = sets.worth.sum()
         if after <= before + GAIN * abs(before):
             break
-        found, found_at, _ = settle(goal, channel, rows, share, budget_w, circuit_w, most, at, sets)
+        found, found_at, found_w = settle(goal, channel, rows, share, budget_w, circuit_w, most, at, sets)
         if found > score + GAIN * abs(score):
-            score, at = found, found_at
+            score, at, spent = found, found_at, found_w
             best_owner[:] = sets.owner
             if goal == POWER:
                 break
@@ -232,12 +240,7 @@ def single_changes(
             return found, found_at
         if goal == LEVEL:
             set_level(rows, share, np.exp(at))
-        hand_over(sets, g, k)
-        if in_return >= 0:
-            hand_over(sets, in_return, new_owner)
-        value_set(channel, rows, log_mu, sets, new_owner)
-        if k >= 0:
-            value_set(channel, rows, log_mu, sets, k)
+        undo(channel, rows, log_mu, sets, g, k, new_owner, in_return)
     return score, at
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wirelessagent.deciding.core.bundle_kernel import bundle
+from wirelessagent.deciding.core.bundle_kernel import BASE, CURVATURE, HIGH, LOW, REFERENCE, SLOPE, bundle, wet_worth
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 
@@ -25,16 +25,21 @@ class Channel(NamedTuple):
     """The channel as the kernels read it.
 
     Attributes:
-        floor, inverse, ceiling: −ln a, 1/a and the most nats, shape (user, subcarrier); ∞, 0 and 0 where a is 0.
+        floor, inverse, ceiling: ln(â/a), â/a and the most nats, shape (user, subcarrier), â the user's largest a; ∞, 0
+            and 0 where a is 0. Levels measured from a user's best subcarrier keep their digits where rates are tiny.
+        log_best: ln â of each user, shape (user,); 0 where there is none.
         start: first subcarrier of each group, shape (group + 1,).
         usable: whether a user can use any subcarrier of a group, shape (group, user).
+        least_ceiling: the least ceiling of a usable pair; NaN where groups have more than one subcarrier.
     """
 
     floor: FloatArray
     inverse: FloatArray
     ceiling: FloatArray
+    log_best: FloatArray
     start: IntArray
     usable: BoolArray
+    least_ceiling: float
 
 
 class Sets(NamedTuple):
@@ -48,6 +53,8 @@ class Sets(NamedTuple):
             where it is, shape (group,), by the first number of ``clock``; the second is the salt.
         sign, digest: a random number for each group, and the hash of each user's set, shapes (group,) and (user,).
         known, known_worth: hashes of sets and their worths, as many as a power of two.
+        sums: of each user's set the subcarriers, Σ −ln a, Σ 1/a, the highest floor, the next, the lowest and the next,
+            shape (user, 7).
         floor, inverse, ceiling, spare, spare_cap: workspace for one set, shape (subcarrier,).
     """
 
@@ -62,6 +69,7 @@ class Sets(NamedTuple):
     digest: IntArray
     known: IntArray
     known_worth: FloatArray
+    sums: FloatArray
     floor: FloatArray
     inverse: FloatArray
     ceiling: FloatArray
@@ -98,6 +106,7 @@ def empty_sets(users: int, groups: int, subcarriers: int) -> Sets:
         np.zeros(users, dtype=np.int64),
         np.zeros(size, dtype=np.int64),
         np.empty(size),
+        np.empty((users, 7)),
         np.empty(subcarriers),
         np.empty(subcarriers),
         np.empty(subcarriers),
@@ -136,7 +145,11 @@ def set_bundle(
 ) -> tuple[float, float, float, float]:
     """Worth, rate, power and level of a user's set, without one group and with another; −1 stands for no group."""
     size = gather(channel, sets, user, skipped, added)
-    return bundle(rows[user], sets.floor, sets.inverse, sets.ceiling, size, log_mu, sets.spare, sets.spare_cap)
+    log_best = channel.log_best[user]
+    worth, rate, power, level = bundle(
+        rows[user], sets.floor, sets.inverse, sets.ceiling, size, log_mu - log_best, sets.spare, sets.spare_cap
+    )  # fmt: skip
+    return worth, rate, power * np.exp(-log_best), level - log_best
 
 
 @kernel
@@ -157,8 +170,71 @@ def worth_of(
 
 
 @kernel
+def sum_up(channel: Channel, sets: Sets, user: int) -> None:
+    """Write the sums of a user's set."""
+    size, floors, inverses = 0, 0.0, 0.0
+    highest, higher, lowest, lower = -np.inf, -np.inf, np.inf, np.inf
+    for i in range(sets.count[user]):
+        g = sets.members[user, i]
+        for n in range(channel.start[g], channel.start[g + 1]):
+            floor = channel.floor[user, n]
+            if channel.ceiling[user, n] <= 0.0:
+                continue
+            size += 1
+            floors += floor
+            inverses += channel.inverse[user, n]
+            if floor > highest:
+                highest, higher = floor, highest
+            elif floor > higher:
+                higher = floor
+            if floor < lowest:
+                lowest, lower = floor, lowest
+            elif floor < lower:
+                lower = floor
+    sums = sets.sums
+    sums[user, 0], sums[user, 1], sums[user, 2] = size, floors, inverses
+    sums[user, 3], sums[user, 4], sums[user, 5], sums[user, 6] = highest, higher, lowest, lower
+
+
+@kernel
+def changed_worth(
+    rows: FloatArray,
+    sums: FloatArray,
+    floor: FloatArray,
+    inverse: FloatArray,
+    least_ceiling: float,
+    log_mu: FloatArray,
+    user: int,
+    skipped: int,
+    added: int,
+) -> float:
+    """V of a user's set without one subcarrier and with another, from its sums; NaN where they are not enough."""
+    size = sums[user, 0]
+    floors, inverses, highest, lowest = sums[user, 1], sums[user, 2], sums[user, 3], sums[user, 5]
+    if skipped >= 0:
+        f = floor[user, skipped]
+        size -= 1
+        floors -= f
+        inverses -= inverse[user, skipped]
+        highest = sums[user, 4] if f == highest else highest
+        lowest = sums[user, 6] if f == lowest else lowest
+    if added >= 0:
+        f = floor[user, added]
+        size += 1
+        floors += f
+        inverses += inverse[user, added]
+        highest = max(highest, f)
+        lowest = min(lowest, f)
+    return wet_worth(
+        rows[user, LOW], rows[user, HIGH], rows[user, REFERENCE], rows[user, SLOPE], rows[user, CURVATURE],
+        rows[user, BASE], int(size), floors, inverses, highest, lowest, least_ceiling, log_mu[user],
+    )  # fmt: skip
+
+
+@kernel
 def value_set(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, user: int) -> None:
     """Note that a user's set has changed, and its worth."""
+    sum_up(channel, sets, user)
     sets.worth[user] = worth_of(channel, rows, log_mu, sets, user, -1, -1)
     sets.clock[0] += 1
     sets.changed[user] = sets.clock[0]
@@ -218,9 +294,8 @@ def best_change(
     same as a table.
     """  # fmt: skip
     owner, members, count, worth = sets.owner, sets.members, sets.count, sets.worth
-    changed, digest, sign = sets.changed, sets.digest, sets.sign
-    known, known_worth = sets.known, sets.known_worth
-    last = known.size - 1
+    changed, sums, floor, inverse = sets.changed, sets.sums, channel.floor, channel.inverse
+    least, log_mus = channel.least_ceiling, log_mu - channel.log_best
     k = owner[group]
     best, new_owner, in_return = 0.0, -1, -1
     since = sets.checked[group]
@@ -233,30 +308,31 @@ def best_change(
         if j == k or (seen and changed[j] <= since):
             continue
         if np.isnan(loss):
-            loss = worth_of(channel, rows, log_mu, sets, k, group, -1) - worth[k] if k >= 0 else 0.0
-        mark = digest[j] ^ sign[group]
-        place = mark & last
-        joined = known_worth[place] if known[place] == mark else worth_of(channel, rows, log_mu, sets, j, -1, group)
-        if joined - worth[j] + loss > best + ROUNDING * abs(worth[j]):
-            best, new_owner, in_return = joined - worth[j] + loss, j, -1
+            loss = 0.0
+            if k >= 0:
+                loss = changed_worth(rows, sums, floor, inverse, least, log_mus, k, group, -1)
+                if np.isnan(loss):
+                    loss = worth_of(channel, rows, log_mu, sets, k, group, -1)
+                loss -= worth[k]
+        gain = changed_worth(rows, sums, floor, inverse, least, log_mus, j, -1, group)
+        if np.isnan(gain):
+            gain = worth_of(channel, rows, log_mu, sets, j, -1, group)
+        gain += loss - worth[j]
+        if gain > best + ROUNDING * abs(worth[j]):
+            best, new_owner, in_return = gain, j, -1
         if k < 0:
             continue
         for i in range(count[j]):
             other = members[j, i]
             if not wanted[other, k]:
                 continue
-            trade = sign[group] ^ sign[other]
-            mark = digest[k] ^ trade
-            place = mark & last
-            gain = (
-                known_worth[place] if known[place] == mark else worth_of(channel, rows, log_mu, sets, k, group, other)
-            )
-            mark = digest[j] ^ trade
-            place = mark & last
-            gain += (
-                known_worth[place] if known[place] == mark else worth_of(channel, rows, log_mu, sets, j, other, group)
-            )
-            gain -= worth[k] + worth[j]
+            gain = changed_worth(rows, sums, floor, inverse, least, log_mus, k, group, other)
+            if np.isnan(gain):
+                gain = worth_of(channel, rows, log_mu, sets, k, group, other)
+            back = changed_worth(rows, sums, floor, inverse, least, log_mus, j, other, group)
+            if np.isnan(back):
+                back = worth_of(channel, rows, log_mu, sets, j, other, group)
+            gain += back - (worth[k] + worth[j])
             if gain > best + ROUNDING * (abs(worth[j]) + abs(worth[k])):
                 best, new_owner, in_return = gain, j, other
     if new_owner < 0:
@@ -279,6 +355,41 @@ def change(
 
 
 @kernel
+def try_change(
+    channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, group: int, new_owner: int, in_return: int
+) -> bool:
+    """Carry out a change unless its gain was rounding, so that no search can go round in circles; whether it was not."""
+    k = sets.owner[group]
+    before = sets.worth[new_owner] + (sets.worth[k] if k >= 0 else 0.0)
+    change(channel, rows, log_mu, sets, group, new_owner, in_return)
+    if sets.worth[new_owner] + (sets.worth[k] if k >= 0 else 0.0) > before:
+        return True
+    undo(channel, rows, log_mu, sets, group, k, new_owner, in_return)
+    sets.checked[group] = sets.clock[0]
+    return False
+
+
+@kernel
+def undo(
+    channel: Channel,
+    rows: FloatArray,
+    log_mu: float,
+    sets: Sets,
+    group: int,
+    old_owner: int,
+    new_owner: int,
+    in_return: int,
+) -> None:
+    """Take back a change."""
+    hand_over(sets, group, old_owner)
+    if in_return >= 0:
+        hand_over(sets, in_return, new_owner)
+    value_set(channel, rows, log_mu, sets, new_owner)
+    if old_owner >= 0:
+        value_set(channel, rows, log_mu, sets, old_owner)
+
+
+@kernel
 def improve(
     channel: Channel, rows: FloatArray, log_mu: float, candidates: IntArray, wanted: BoolArray, sets: Sets
 ) -> int:
@@ -289,8 +400,7 @@ def improve(
     groups = sets.owner.size
     while unchanged < groups:
         gain, new_owner, in_return = best_change(channel, rows, log_mu, candidates, wanted, sets, g)
-        if gain > 0.0:
-            change(channel, rows, log_mu, sets, g, new_owner, in_return)
+        if gain > 0.0 and try_change(channel, rows, log_mu, sets, g, new_owner, in_return):
             changes += 1
             unchanged = 0
         else:

@@ -29,6 +29,7 @@ OVERSPENT = 1e100
 """What a budget exceeded by its own size costs."""
 SETTLED = 1e-13
 STEPS = 80
+LEAST_LEVEL = 1e-250
 
 
 @kernel
@@ -145,7 +146,7 @@ def settle_level(
 ) -> tuple[float, float, float]:
     """The level, its logarithm and Σ P: the highest common level, at most ``most``; ``rows`` then promise it."""
     low, high = -np.inf, np.log(most)
-    log_level = min(np.log(level), high)
+    log_level = min(np.log(max(level, LEAST_LEVEL)), high)
     low_slack, high_slack = np.nan, np.nan
     reach = 0.05
     power = 0.0
@@ -163,7 +164,7 @@ def settle_level(
             stuck = stuck - 1 if stuck < 0 else -1
             if excess > -SETTLED or high - low <= SETTLED:
                 break
-        if high - low <= SETTLED or log_level < -600.0:
+        if high - low <= SETTLED or log_level < np.log(LEAST_LEVEL):
             break
         if np.isinf(low):
             trial = log_level - reach
@@ -179,9 +180,8 @@ def settle_level(
             trial = min(max(trial, low + 1e-3 * (high - low)), high - 1e-3 * (high - low))
         log_level = trial
     if np.isinf(low):
-        if missing > 0:
-            return -UNREACHABLE * missing, log_level, power
-        return -OVERSPENT * (power / budget_w - 1.0), log_level, power
+        score = -UNREACHABLE * missing if missing > 0 else -OVERSPENT * max(power / budget_w - 1.0, 1e-9)
+        return score, np.log(max(level, LEAST_LEVEL)), power
     set_level(rows, share, np.exp(low))
     _, power, missing = totals(channel, rows, 0.0, sets)
     return np.exp(low), low, power
