@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -148,7 +149,7 @@ def column_prices(
 
 def priced_bounds(market: Market, price: FloatArray, log_mu: float, nodes: int = _NODES) -> tuple[FloatArray, Sets]:
     """A bound on V_k(S; μ) − π(S) for each user, (user,), and a best set of each that has any."""
-    from wirelessagent.deciding.core.columns_kernel import best_bundles
+    from wirelessagent.deciding.core.column_search_kernel import best_bundles
 
     bound = np.empty(market.users.shape[0])
     tolerance = _TIE * (float(price.sum()) + abs(market.left_w(log_mu))) / bound.size
@@ -166,7 +167,7 @@ def total_bound(market: Market, price: FloatArray, log_mu: float, bound: FloatAr
 
 def _priced(market: Market, price: FloatArray, log_mu: float, first_round: bool) -> tuple[float, Sets]:
     """D at some prices, and the sets that are best there or nearly so."""
-    from wirelessagent.deciding.core.columns_kernel import bundles_within
+    from wirelessagent.deciding.core.column_search_kernel import bundles_within
 
     bound, best = priced_bounds(market, price, log_mu)
     typical = (float(np.abs(bound).sum()) + float(price.sum())) / bound.size
@@ -208,10 +209,10 @@ def _solve(
 
     A column, or power, may also be bought at the upper end of its box and sold at the lower one.
     """
-    from scipy.optimize import linprog
     from scipy.sparse import block_array, coo_array, csc_array, eye_array
 
     users, columns, count = market.users.shape[0], market.columns, len(sets)
+    top = bottom = 0.0
     budgeted = bool(np.isfinite(market.budget_w))
     worths = [market.worths(sets, log_mu) for log_mu in watched]
     mus = np.exp(np.repeat(watched, count))
@@ -241,23 +242,31 @@ def _solve(
         limits = np.ones(columns + 1)
     cost = np.concatenate(costs) / scale
     equal = block_array([[each, coo_array((users, cost.size - usable.size))]], format="csc")
-    result = linprog(
-        cost,
-        A_ub=block_array(rows, format="csc"),
-        b_ub=limits,
-        A_eq=equal,
-        b_eq=np.ones(users),
-        bounds=(0, None),
-        method="highs-ds",
-    )
-    if result.status != 0:
+    solution = _minimised(cost, block_array(rows, format="csc"), limits, equal, np.ones(users))
+    if solution is None:
         return None
-    dual = -np.asarray(result.ineqlin.marginals, dtype=np.float64) * scale
+    least, amount, dual = solution[0] * scale, solution[1], solution[2] * scale
     price = np.clip(dual[:columns], cheap, dear)
     log_mu = search.log_mu
     if budgeted:
         mu = np.clip(dual[columns] / market.budget_w, bottom, top) + market.cost_per_w
         log_mu = float(np.log(mu)) if mu > 0.0 else log_mu
-    share = np.minimum(np.bincount(usable % count, weights=result.x[: usable.size], minlength=count), 1.0)
-    traded = float(result.x[usable.size :].sum())
-    return price, log_mu, -float(result.fun) * scale, share, traded <= 1e-7
+    share = np.minimum(np.bincount(usable % count, weights=amount[: usable.size], minlength=count), 1.0)
+    traded = float(amount[usable.size :].sum())
+    return price, log_mu, -least, share, traded <= 1e-7
+
+
+def _minimised(
+    cost: FloatArray, at_most: object, limits: FloatArray, equal: object, wanted: FloatArray
+) -> tuple[float, FloatArray, FloatArray] | None:
+    """The least cost of a linear programme, its amounts ≥ 0, and the prices of its limits; None if it fails."""
+    from scipy.optimize import linprog
+
+    solver: Any = linprog  # its types know no sparse arrays
+    result: Any = solver(
+        cost, A_ub=at_most, b_ub=limits, A_eq=equal, b_eq=wanted, bounds=(0, None), method="highs-ds"
+    )  # fmt: skip
+    if result.status != 0:
+        return None
+    amounts = np.asarray(result.x, dtype=np.float64)
+    return float(result.fun), amounts, -np.asarray(result.ineqlin.marginals, dtype=np.float64)

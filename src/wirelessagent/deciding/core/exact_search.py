@@ -131,10 +131,8 @@ def search(goal: Goal, known: Sets, price: FloatArray, log_mu: float, *, deadlin
     return Exact(sets=best.sets, x=best.x, log_mu=best.log_mu, bound=limit, price=first_price, nodes=max(nodes, 1))
 
 
-def _look(
-    goal: Goal, node: _Node, best: _Best, deadline: float, most_sets: int
-) -> tuple[ColumnPrices, float]:
-    """Prices of a problem, and the level that none of its allocations exceeds; at most ``best.x`` where it is closed."""
+def _look(goal: Goal, node: _Node, best: _Best, deadline: float, most_sets: int) -> tuple[ColumnPrices, float]:
+    """Prices of a problem, and the level that no allocation of it exceeds; at most ``best.x`` where it is closed."""
     price, log_mu, sets = node.price, node.log_mu, node.sets
     while True:
         x = best.x
@@ -179,7 +177,9 @@ def _settled(goal: Goal, node: _Node, listed: Sets, best: _Best, scale: float, d
     for _ in range(_ROUNDS):
         market = _masked(goal.at(best.x), node.allowed)
         target = goal.target(best.x)
-        packed = pack(market, listed, max(best.log_mu, market.least_log_mu), scale=scale, least=target, deadline=deadline)
+        packed = pack(
+            market, listed, max(best.log_mu, market.least_log_mu), scale=scale, least=target, deadline=deadline
+        )
         if packed.bound <= target + 2.0 * _ACCURACY * scale:
             return best.x
         better = packed.sets is not None and best.offer(goal, packed.sets, packed.log_mu)
@@ -212,7 +212,7 @@ def _listed(
     goal: Goal, market: Market, priced: ColumnPrices, gap: float, limit: float, most_sets: int
 ) -> tuple[bool, Sets]:
     """All sets whose reduced cost is within ``gap``, and whether they are all."""
-    from wirelessagent.deciding.core.columns_kernel import bundles_within
+    from wirelessagent.deciding.core.column_search_kernel import bundles_within
 
     bound, _ = priced_bounds(market, priced.price, priced.log_mu, _NODES)
     wettest = goal.at(limit).users if np.isfinite(limit) else market.users
@@ -280,6 +280,4 @@ def _child(priced: ColumnPrices, allowed: BoolArray, limit: float) -> _Node:
     user = np.repeat(priced.sets.user, priced.sets.size)
     ruled_out = np.concatenate([[0], np.cumsum(~allowed[user, priced.sets.member])])
     kept = np.flatnonzero(ruled_out[priced.sets.first[1:]] == ruled_out[priced.sets.first[:-1]])
-    return _Node(
-        allowed=allowed, price=priced.price, log_mu=priced.log_mu, sets=priced.sets.chosen(kept), limit=limit
-    )
+    return _Node(allowed=allowed, price=priced.price, log_mu=priced.log_mu, sets=priced.sets.chosen(kept), limit=limit)

@@ -8,6 +8,7 @@ none there is worth more than the target: Dinkelbach's method (1967) for efficie
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,6 +35,10 @@ class Goal(ABC):
     @abstractmethod
     def at(self, x: float) -> Market:
         """The market at the level x."""
+
+    def reaching(self, x: float) -> Market:
+        """The market in which the allocation that reaches x has its powers."""
+        return self.at(x)
 
     @abstractmethod
     def target(self, x: float) -> float:
@@ -128,6 +133,9 @@ class HighestLevel(Goal):
         """The market a hair above the level x, since ceilings may leave power at the highest level."""
         return self._at(x + _HAIR * max(x, _LEAST_LEVEL))
 
+    def reaching(self, x: float) -> Market:
+        return self._at(x)
+
     def _at(self, level: float) -> Market:
         nats = np.clip(min(level, self.most_level) * self.share[:, 0], self.share[:, 1], self.share[:, 2])
         return self.market.with_users(promises(nats), cost_per_w=1.0)
@@ -173,7 +181,7 @@ def promises(nats: FloatArray) -> FloatArray:
     return rows
 
 
-def _largest(fits, most: float, steps: int) -> float:
+def _largest(fits: Callable[[float], bool], most: float, steps: int) -> float:
     """The largest t up to ``most`` that fits, where 0 does, to rounding."""
     if np.isfinite(most) and fits(most):
         return most

@@ -51,14 +51,15 @@ class Sets:
 
     @property
     def size(self) -> IntArray:
+        """Columns of each set, shape (set,)."""
         return np.diff(self.first)
 
     def chosen(self, which: IntArray) -> Sets:
         """Some of the sets, in this order."""
         size = self.size[which]
         first = np.concatenate([[0], np.cumsum(size)])
-        step = np.arange(first[-1]) - np.repeat(first[:-1], size)
-        return Sets(user=self.user[which], first=first, member=self.member[np.repeat(self.first[which], size) + step])
+        place = np.arange(int(first[-1])) - np.repeat(first[:-1] - self.first[which], size)
+        return Sets(user=self.user[which], first=first, member=self.member[place])
 
     def with_others(self, others: Sets) -> Sets:
         """These and those that are not yet among them."""
@@ -175,6 +176,7 @@ class Market:
         price found does not exceed the budget.
         """
         low = self.least_log_mu
+        near_log_mu = min(max(near_log_mu, -_FARTHEST), _FARTHEST)
         if np.isinf(self.budget_w):
             return self._at(sets, low), low
 

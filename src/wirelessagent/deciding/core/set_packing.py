@@ -1,7 +1,7 @@
 """The best choice among listed sets: a set for every user, no column twice, by integer programming.
 
-Given sets are worth the least, over prices of power μ ≥ q, of Σ V_k(S_k; μ) + (μ − q) P. So with x_s = 1 where the set s
-is taken the problem is
+Given sets are worth the least, over prices of power μ ≥ q, of Σ V_k(S_k; μ) + (μ − q) P. So with x_s = 1 where the set
+s is taken the problem is
 
     max θ   with   θ ≤ Σ_s V_s(μ) x_s + (μ − q) P   for all μ,
 

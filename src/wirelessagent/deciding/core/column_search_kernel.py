@@ -1,0 +1,289 @@
+"""The best sets of priced columns for a user, and all that are nearly as good, by depth-first branch and bound.
+
+The bounds are those of :mod:`.columns_kernel`: no set is worth more than the smallest of its levels says.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wirelessagent.deciding.core.bundle_kernel import HIGH, best_level, bundle, fill_level
+from wirelessagent.deciding.core.columns_kernel import NOTHING, decoupled, relaxed_level
+from wirelessagent.kernels import kernel
+from wirelessagent.model.arrays import FloatArray, IntArray
+
+
+@kernel
+def power_level(floor: FloatArray, inverse: FloatArray, ceiling: FloatArray, size: int, power_w: float) -> float:
+    """The level that the first ``size`` subcarriers reach with ``power_w``; infinite where a ceiling is in the way."""
+    level = -np.inf
+    wet = np.inf
+    while True:
+        total = power_w
+        count = 0
+        for i in range(size):
+            if floor[i] < wet:
+                total += inverse[i]
+                count += 1
+        if count == 0:
+            return np.inf
+        level = np.log(total / count)
+        settled = True
+        for i in range(size):
+            settled = settled and not level <= floor[i] < wet
+        wet = level
+        if settled:
+            break
+    for i in range(size):
+        if level - floor[i] > ceiling[i]:
+            return np.inf
+    return level
+
+
+@kernel
+def wet_level(
+    wettest: FloatArray,
+    floor: FloatArray,
+    inverse: FloatArray,
+    ceiling: FloatArray,
+    size: int,
+    log_mu: float,
+    budget_w: float,
+    scratch: FloatArray,
+    scratch_cap: FloatArray,
+) -> float:
+    """A level that a set never exceeds at prices of power from e^``log_mu`` on, within the budget."""
+    if size == 0:
+        return np.inf
+    level = np.inf
+    if log_mu > -np.inf:
+        level = best_level(wettest, floor, ceiling, size, log_mu, scratch, scratch_cap)
+    elif wettest[HIGH] < np.inf:
+        level = fill_level(floor, ceiling, size, wettest[HIGH], scratch, scratch_cap)
+    if budget_w < np.inf:
+        level = min(level, power_level(floor, inverse, ceiling, size, budget_w))
+    return level
+
+
+@kernel
+def is_full(floor: FloatArray, ceiling: FloatArray, size: int, level: float) -> bool:
+    """Whether the first ``size`` subcarriers all carry the most that they can at the level z, but for rounding."""
+    full = True
+    for i in range(size):
+        full = full and level - floor[i] >= ceiling[i] * (1.0 - 1e-9)
+    return full
+
+
+@kernel
+def explore(
+    user: FloatArray,
+    floor: FloatArray,
+    inverse: FloatArray,
+    ceiling: FloatArray,
+    start: IntArray,
+    price: FloatArray,
+    log_mu: float,
+    least: float,
+    tolerance: float,
+    wettest: FloatArray,
+    least_log_mu: float,
+    budget_w: float,
+    most_nodes: int,
+    most_sets: int,
+) -> tuple[float, float, int, IntArray, IntArray]:
+    """Branch and bound for one user; see :func:`best_bundles` and :func:`bundles_within`, which call it.
+
+    With ``tolerance`` ≥ 0 only sets that are better by more than that than the best so far are looked for, and the last
+    one is the answer; with a negative one all that reach ``least`` are. Returns the best value, a bound on all values,
+    how many sets there are (−1 − that where it gave up), and the sets: where each begins, and their columns.
+    """
+    first = np.zeros(17, dtype=np.int64)
+    member = np.empty(64, dtype=np.int64)
+    sets = 0
+    best = least
+    root = relaxed_level(user, floor, inverse, ceiling, start, price, log_mu)
+    if root == np.inf:
+        return NOTHING, NOTHING, 0, first, member
+    order, gain, left, base = decoupled(user, floor, inverse, ceiling, start, price, log_mu, root)
+    subcarriers = floor.size
+    columns = order.size
+    levels = base.size
+    set_floor, set_inverse, set_ceiling = np.empty(subcarriers), np.empty(subcarriers), np.empty(subcarriers)
+    scratch, scratch_cap = np.empty(subcarriers), np.empty(subcarriers)
+    bottom = np.full(columns, np.inf)
+    for i in range(columns):
+        for n in range(start[order[i]], start[order[i] + 1]):
+            if ceiling[n] > 0.0:
+                bottom[i] = min(bottom[i], floor[n])
+    position = np.zeros(columns + 1, dtype=np.int64)
+    size = np.zeros(columns + 1, dtype=np.int64)
+    chosen = np.empty(columns + 1, dtype=np.int64)
+    spent = np.zeros(columns + 1)
+    wet = np.full(columns + 1, np.inf)
+    driest = np.full(columns + 1, -np.inf)
+    gained = np.empty((columns + 1, levels))
+    gained[0] = base
+    depth = 0
+    nodes = 0
+    value = bundle(user, set_floor, set_inverse, set_ceiling, 0, log_mu, scratch, scratch_cap)[0]
+    fresh = True
+    while True:
+        net = value - spent[depth]
+        if fresh and net > NOTHING and (net > best + tolerance if tolerance >= 0.0 else net >= least):
+            best = max(best, net)
+            if tolerance >= 0.0:
+                sets = 0
+            if sets == most_sets:
+                return best, (base + left[0]).min(), -1 - sets, first, member
+            if sets + 2 > first.size:
+                first = np.concatenate((first, np.empty(first.size, dtype=np.int64)))
+            while first[sets] + depth > member.size:
+                member = np.concatenate((member, np.empty(member.size, dtype=np.int64)))
+            for i in range(depth):
+                member[first[sets] + i] = order[chosen[i]]
+            first[sets + 1] = first[sets] + depth
+            sets += 1
+        i = position[depth]
+        reachable = False
+        if i < columns:
+            bound = np.inf
+            for g in range(levels):
+                bound = min(bound, gained[depth, g] + left[i, g])
+            reachable = bound > best + tolerance if tolerance >= 0.0 else bound >= least
+        if not reachable:
+            if depth == 0:
+                break
+            depth -= 1
+            fresh = False
+            continue
+        position[depth] = i + 1
+        fresh = False
+        if bottom[i] >= wet[depth]:
+            continue  # here and in all larger sets it would get no power
+        nodes += 1
+        if nodes > most_nodes:
+            return best, (base + left[0]).min(), -1 - sets, first, member
+        filled = size[depth]
+        for n in range(start[order[i]], start[order[i] + 1]):
+            if ceiling[n] > 0.0:
+                set_floor[filled], set_inverse[filled], set_ceiling[filled] = floor[n], inverse[n], ceiling[n]
+                filled += 1
+        value, _, _, level = bundle(
+            user, set_floor, set_inverse, set_ceiling, filled, log_mu, scratch, scratch_cap
+        )  # fmt: skip
+        if tolerance < 0.0:
+            level = wet_level(
+                wettest, set_floor, set_inverse, set_ceiling, filled, least_log_mu, budget_w, scratch, scratch_cap
+            )  # fmt: skip
+        if value <= NOTHING or is_full(set_floor, set_ceiling, filled, level):
+            level = np.inf  # more columns are of use however high their floors
+        if max(driest[depth], bottom[i]) >= level:
+            continue
+        chosen[depth] = i
+        depth += 1
+        driest[depth] = max(driest[depth - 1], bottom[i])
+        wet[depth] = level
+        spent[depth] = spent[depth - 1] + price[order[i]]
+        size[depth] = filled
+        position[depth] = i + 1
+        for g in range(levels):
+            gained[depth, g] = gained[depth - 1, g] + gain[i, g]
+        fresh = True
+    return best, max(best, least) + max(tolerance, 0.0), sets, first, member
+
+
+@kernel
+def best_bundles(
+    users: FloatArray,
+    floor: FloatArray,
+    inverse: FloatArray,
+    ceiling: FloatArray,
+    start: IntArray,
+    price: FloatArray,
+    log_mu: float,
+    tolerance: float,
+    most_nodes: int,
+    bound: FloatArray,
+) -> tuple[FloatArray, IntArray, IntArray]:
+    """For every user the set of columns with the most V(S; μ) − π(S), to within ``tolerance``.
+
+    Args:
+        users: rows of six, shape (user, 6).
+        floor, inverse, ceiling: −ln a, 1/a and the most nats, shape (user, subcarrier); a ceiling of 0 where a pair
+            may not be used.
+        start: where each column begins, and the number of subcarriers, shape (column + 1,).
+        price: π ≥ 0, shape (column,).
+        log_mu: ln μ.
+        tolerance: at least 0.
+        most_nodes: sets to look at per user at most; where that is not enough the bound is weaker.
+        bound: written, shape (user,): no set is worth more.
+
+    Returns:
+        What the sets are worth (user,); where each set begins in the list of their columns (user + 1,); that list.
+    """
+    number = users.shape[0]
+    worth = np.empty(number)
+    first = np.zeros(number + 1, dtype=np.int64)
+    member = np.empty(4 * number, dtype=np.int64)
+    for k in range(number):
+        worth[k], bound[k], count, begin, found = explore(
+            users[k], floor[k], inverse[k], ceiling[k], start, price, log_mu, 4.0 * NOTHING, tolerance,
+            users[k], log_mu, np.inf, most_nodes, 1,
+        )  # fmt: skip
+        held = 0 if count == 0 else begin[1]
+        while first[k] + held > member.size:
+            member = np.concatenate((member, np.empty(member.size, dtype=np.int64)))
+        member[first[k] : first[k] + held] = found[:held]
+        first[k + 1] = first[k] + held
+    return worth, first, member[: first[number]]
+
+
+@kernel
+def bundles_within(
+    users: FloatArray,
+    floor: FloatArray,
+    inverse: FloatArray,
+    ceiling: FloatArray,
+    start: IntArray,
+    price: FloatArray,
+    log_mu: float,
+    least: FloatArray,
+    wettest: FloatArray,
+    least_log_mu: float,
+    budget_w: float,
+    most_nodes: int,
+    most_sets: int,
+) -> tuple[bool, IntArray, IntArray, IntArray]:
+    """All sets with V(S; μ) − π(S) ≥ ``least`` (user,), but none with a column that gets no power whatever happens.
+
+    What may happen is that a user's row becomes that of ``wettest``, and that power costs anything from
+    e^``least_log_mu`` on, within ``budget_w``. Otherwise as :func:`best_bundles`, with ``most_sets`` per user at most.
+
+    Returns:
+        Whether these are all; the user of each set; where each begins in the list of their columns; that list.
+    """
+    complete = True
+    owner = np.empty(64, dtype=np.int64)
+    first = np.zeros(65, dtype=np.int64)
+    member = np.empty(256, dtype=np.int64)
+    total = 0
+    for k in range(users.shape[0]):
+        _, _, count, begin, found = explore(
+            users[k], floor[k], inverse[k], ceiling[k], start, price, log_mu, least[k], -1.0,
+            wettest[k], least_log_mu, budget_w, most_nodes, most_sets,
+        )  # fmt: skip
+        if count < 0:
+            complete = False
+            count = -1 - count
+        while total + count > owner.size:
+            owner = np.concatenate((owner, np.empty(owner.size, dtype=np.int64)))
+            first = np.concatenate((first, np.empty(owner.size + 1 - first.size, dtype=np.int64)))
+        held = begin[count]
+        while first[total] + held > member.size:
+            member = np.concatenate((member, np.empty(member.size, dtype=np.int64)))
+        member[first[total] : first[total] + held] = found[:held]
+        for s in range(count):
+            owner[total + s] = k
+            first[total + s + 1] = first[total] + begin[s + 1]
+        total += count
+    return complete, owner[:total], first[: total + 1], member[: first[total]]
