@@ -297,6 +297,7 @@ def solve(
     warm: bool,
     log_price: FloatArray,
     log_mu: float,
+    given: bool,
     owner: IntArray,
     power_w: FloatArray,
 ) -> Found:
@@ -306,6 +307,7 @@ def solve(
         choices: most candidates of a group.
         restarts, seed: of the search.
         warm, log_price, log_mu: whether ln λ (user,) and ln μ are those of the slot before; ln λ is overwritten.
+        given: whether ``owner`` holds sets to start from as well.
         owner, power_w: written, shape (subcarrier,).
     """  # fmt: skip
     users, subcarriers = snr_per_w.shape
@@ -335,6 +337,22 @@ def solve(
         ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets, at,
         best_owner,
     )  # fmt: skip
+    if given:
+        first_owner = best_owner.copy()
+        for g in range(groups):
+            best_owner[g] = owner[ask.start[g]]
+        assign(sets, best_owner)
+        other, other_at = polish(
+            ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets,
+            at, best_owner,
+        )  # fmt: skip
+        if other > score:
+            score, at = other, other_at
+        else:
+            best_owner[:] = first_owner
+            assign(sets, best_owner)
+            if ask.goal == LEVEL:
+                set_level(rows, ask.share, np.exp(at))
     if restarts > 0:
         slack = slack_of(ask, rows, log_price, log_mu, term, dual, score, at)
         choose_candidates(term, usable, slack, candidates, wanted)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.deciding.method import Method
-from wirelessagent.model.arrays import BoolArray, FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.estimate import ChannelEstimate
@@ -41,6 +41,9 @@ class NormalForm:
         cap_w: power cap of each subcarrier, shape (subcarrier,); infinite where there is none.
         max_nats: the largest rate of a subcarrier in nats; infinite where there is none.
         promised_nats: the rate each served user must get, shape (user,).
+        most_nats: the rate beyond which a user has nothing to send, shape (user,); infinite where there is none.
+        weight: each user's weight, shape (user,); 0 for users who are not served.
+        start: first subcarrier of each resource-block group, and the number of subcarriers, shape (group + 1,).
         bps_per_nat: bit/s that one nat on a subcarrier is worth.
     """
 
@@ -54,6 +57,9 @@ class NormalForm:
     cap_w: FloatArray
     max_nats: float
     promised_nats: FloatArray
+    most_nats: FloatArray
+    weight: FloatArray
+    start: IntArray
     bps_per_nat: float
 
     @classmethod
@@ -65,7 +71,8 @@ class NormalForm:
             InputError: a constraint does not fit the estimate's shape, or the gains leave the range of numbers.
         """
         objective = method.objective_of(problem)
-        cap_w = _caps_w(problem, estimate.num_subcarriers)
+        subcarriers = estimate.num_subcarriers
+        cap_w = _caps_w(problem, subcarriers)
         with np.errstate(over="ignore"):
             snr_per_w = normalised_gain(estimate.gain, cell)
         if np.any(snr_per_w > _MOST_SNR):
@@ -73,7 +80,7 @@ class NormalForm:
                 f"gains up to {estimate.gain.max():g} over a noise of {cell.noise_power_w:g} W are out of range: "
                 "a power gain is about 1 at most; check its unit"
             )
-        served = _served(problem, estimate.num_users)
+        served = problem.serves(estimate.num_users)
         usable = served[:, np.newaxis] & _allowed(problem, estimate.gain.shape) & (cap_w > 0) & (snr_per_w > _LEAST_SNR)
         bps_per_nat = cell.data_bandwidth_hz / np.log(2.0)
         return cls(
@@ -87,6 +94,9 @@ class NormalForm:
             cap_w=cap_w,
             max_nats=cell.max_spectral_efficiency * np.log(2.0),
             promised_nats=np.where(served, problem.min_rates_bps(estimate.num_users), 0.0) / bps_per_nat,
+            most_nats=np.where(served, problem.max_rates_bps(estimate.num_users), 0.0) / bps_per_nat,
+            weight=problem.weights_of(estimate.num_users),
+            start=np.append(np.arange(0, subcarriers, problem.resource_block_group_size), subcarriers),
             bps_per_nat=bps_per_nat,
         )
 
@@ -110,16 +120,6 @@ class NormalForm:
         """The most useful power for ``snr_per_w`` (…, subcarrier): the cap, or less where the rate is full before."""
         with np.errstate(divide="ignore", over="ignore"):
             return np.where(snr_per_w > 0, np.minimum(self.cap_w, self.max_snr / snr_per_w), 0.0)
-
-
-def _served(problem: Problem, num_users: int) -> BoolArray:
-    if problem.users is None:
-        return np.ones(num_users, dtype=bool)
-    if max(problem.users) >= num_users:
-        raise InputError(f"users {problem.users} go beyond the {num_users} of the channel, counted from 0")
-    served = np.zeros(num_users, dtype=bool)
-    served[list(problem.users)] = True
-    return served
 
 
 def _allowed(problem: Problem, shape: tuple[int, ...]) -> BoolArray:

@@ -47,6 +47,22 @@ def least_power_decision(form: NormalForm, allocate: Allocate) -> Decision:
     return _not_kept(form, proof, reason, tried, figures)
 
 
+def broken_decision(form: NormalForm, found_w: float, bound: float = np.nan) -> Decision:
+    """Where no allocation was found that keeps the promised rates: infeasible with a proof, or undecided.
+
+    ``found_w`` is the power of one that keeps them beyond the budget, infinite for none; ``bound`` is that of the
+    objective.
+    """
+    proof = prove(form)
+    reason, most = shortage(form) if np.isinf(found_w) else ("", np.inf)
+    figures = _figures(form, proof)
+    figures["needed_power_w"] = _needed(proof, reason, found_w)
+    at_most = min(proof.max_scaling, most)
+    figures["rate_scaling"] = Bracket(at_least=0.0, at_most=at_most)
+    tried = f"what was found needs {_told(found_w)}" if np.isfinite(found_w) else "no sets that carry them were found"
+    return _not_kept(form, proof, reason, tried, figures, bound)
+
+
 def fixed_power_decision(form: NormalForm, owner: IntArray, power_w: FloatArray, bound: float) -> Decision:
     """A decision for an allocation that does not look at the promised rates, if it happens to keep them.
 

@@ -1,0 +1,136 @@
+"""The dual core on one problem: what the kernels found, with the bound that its prices prove."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.deciding.core.dual_bounds import bound_of
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.program import LEAST_POWER, Program, promises
+from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.decision import Prices
+from wirelessagent.model.rates import user_rate_bps
+
+SMALL = 12
+"""Up to so many users every one is a candidate for every group, beyond it the best few."""
+CANDIDATES = 6
+REFITS = 6
+_WORST = -1e90
+"""Scores below this belong to allocations that do not keep every limit."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Effort:
+    """How hard to search.
+
+    Attributes:
+        restarts: of the local search.
+        seed: of the restarts.
+    """
+
+    restarts: int
+    seed: int
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Search:
+    """What was found.
+
+    Attributes:
+        program: what was asked.
+        owner, power_w: the allocation, shape (subcarrier,).
+        score: of the allocation by the program's rows; more is better.
+        kept: whether it keeps every limit.
+        bound: in the objective's unit.
+        prices: of the dual; ln μ is in the program's utility per W.
+        iterations: Newton steps.
+    """
+
+    program: Program
+    owner: IntArray
+    power_w: FloatArray
+    score: float
+    kept: bool
+    bound: float
+    prices: Prices
+    iterations: int
+
+    @property
+    def spent_w(self) -> float:
+        return float(self.power_w.sum())
+
+
+def search(
+    form: NormalForm,
+    program: Program,
+    effort: Effort,
+    after: Prices | None = None,
+    owner: IntArray | None = None,
+) -> Search:
+    """Prices, sets and powers for one program, from the prices and the sets of an earlier search, if any."""
+    from wirelessagent.deciding.core.dual_kernel import Ask, solve
+
+    users, subcarriers = form.snr_per_w.shape
+    warm = after is not None and after.log_rate.shape == (users,) and bool(np.isfinite(after.log_rate).all())
+    log_price = after.log_rate.copy() if after is not None and warm else np.zeros(users)
+    log_mu = float(after.log_power) if after is not None and warm else 0.0
+    given = owner is not None
+    owner = owner.copy() if given else np.full(subcarriers, -1, dtype=np.int64)
+    power_w = np.empty(subcarriers)
+    ask = Ask(
+        program.goal, form.cap_w, float(form.max_nats), form.start, program.rows, program.share,
+        float(program.most_level), float(form.budget_w), float(form.circuit_w),
+    )  # fmt: skip
+    found = solve(
+        form.snr_per_w, ask, users if users <= SMALL else CANDIDATES, effort.restarts, effort.seed, warm, log_price,
+        log_mu, given, owner, power_w,
+    )  # fmt: skip
+    prices = Prices(log_rate=log_price, log_power=found.log_mu)
+    return Search(
+        program=program,
+        owner=np.where(power_w > 0, owner, -1),
+        power_w=power_w,
+        score=float(found.score),
+        kept=found.score > _WORST and bool(np.isfinite(power_w).all()),
+        bound=bound_of(form, program, log_price, found.log_mu),
+        prices=prices,
+        iterations=int(found.iterations),
+    )
+
+
+def search_objective(
+    form: NormalForm, program: Program, effort: Effort, after: Prices | None = None, owner: IntArray | None = None
+) -> Search:
+    """:func:`search` for the problem's objective, asked again for its utility around the rates found until it fits."""
+    best = search(form, program, effort, after, owner)
+    for _ in range(REFITS):
+        nats = rates_of(form, best)
+        if not best.kept or best.program.meets(form, nats):
+            break
+        again = search(form, Program.of(form, nats), effort, best.prices, best.owner)
+        if not again.kept:
+            break
+        best = dataclasses.replace(again, bound=tighter(form, best.bound, again.bound))
+    return best
+
+
+def search_promises(form: NormalForm, effort: Effort, after: Prices | None = None) -> Search:
+    """:func:`search` for the least power that carries the promised rates, whatever the objective is."""
+    program = Program(
+        goal=LEAST_POWER, rows=promises(form.promised_nats), share=np.zeros((form.promised_nats.size, 3)),
+        most_level=0.0, scale=1.0,
+    )  # fmt: skip
+    return search(form, program, effort, after)
+
+
+def rates_of(form: NormalForm, found: Search) -> FloatArray:
+    """The users' rates in nats, shape (user,)."""
+    return user_rate_bps(form.estimate.gain, found.owner, found.power_w, form.cell) / form.bps_per_nat
+
+
+def tighter(form: NormalForm, one: float, other: float) -> float:
+    """The better of two bounds."""
+    return min(one, other) if form.objective.direction == "max" else max(one, other)

@@ -1,0 +1,153 @@
+"""The default: prices of rates and power, sets by the prices, better sets by search, and a bound by the prices."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from wirelessagent.deciding.core.certificate import certified
+from wirelessagent.deciding.core.closed_form import closed_decision, is_closed
+from wirelessagent.deciding.core.dual_prices import figures_of
+from wirelessagent.deciding.core.dual_search import Effort, Search, search, search_objective, search_promises, tighter
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.program import LEAST_POWER, Program
+from wirelessagent.deciding.core.promises import broken_decision
+from wirelessagent.deciding.core.unserved import without_unservable
+from wirelessagent.deciding.method import Method
+from wirelessagent.model.arrays import IntArray, positive, whole
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.errors import InputError
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.problem import Problem
+from wirelessagent.model.rates import user_rate_bps
+
+_BUDGET_ROUNDING = 1e-10
+_SMALL = 400
+"""Up to so many users × groups a search is restarted by default."""
+_RESTARTS, _THOROUGH_RESTARTS, _CHUNK = 30, 400, 20
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dual(Method):
+    """Any objective with any constraints, by the Lagrangian dual and a local search; certified.
+
+    For given prices of the users' rates and of power the subcarriers decouple. The prices are found by Newton's method
+    on a smoothed dual; they say who gets which subcarrier, and prove a bound. The sets are then improved by moves and
+    swaps, each followed by exact water-filling, and by restarts. The most rate, alone or per joule, without further
+    limits is solved in closed form.
+
+    Attributes:
+        effort: "fast" for a scheduler's slot, "thorough" to search longer and to prove more.
+        deadline_ms: time after which no further restarts begin; restarts go on until then where it is given.
+        restarts: number of restarts instead of that of the effort, to do again what a deadline has cut short.
+        seed: of the restarts.
+    """
+
+    name = "dual"
+    constraints = frozenset(
+        {
+            "weights",
+            "min_rate_bps",
+            "max_rate_bps",
+            "subcarrier_max_power_w",
+            "forbidden",
+            "users",
+            "resource_block_group_size",
+        }
+    )
+    warm_starts: ClassVar[bool] = True
+
+    effort: Literal["fast", "thorough"] = "fast"
+    deadline_ms: float | None = None
+    restarts: int | None = None
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        if self.effort not in ("fast", "thorough"):
+            raise InputError(f"effort must be fast or thorough; got {self.effort!r}")
+        if self.deadline_ms is not None:
+            positive("deadline_ms", self.deadline_ms)
+        for name in ("restarts", "seed"):
+            if getattr(self, name) is not None:
+                whole(name, getattr(self, name), smallest=0)
+
+    def solve(
+        self, estimate: ChannelEstimate, problem: Problem, cell: Cell, *, after: Decision | None = None
+    ) -> Decision:
+        started = time.perf_counter()
+        form = NormalForm.of(self, estimate, problem, cell)
+        program = Program.of(form)
+        if is_closed(form, program):
+            return closed_decision(form, program)
+        earlier = after.prices if after is not None else None
+        effort = self._effort(form)
+        promised = bool(form.promised_nats.any())
+        if program.goal == LEAST_POWER and not promised:
+            nobody = np.full(form.cap_w.size, -1, dtype=np.int64)
+            return certified(form, nobody, np.zeros(form.cap_w.size), 0.0, price_of_power=0.0)
+        least: Search | None = None
+        if promised:
+            wanted = program.goal == LEAST_POWER
+            least = search_promises(form, effort if wanted else Effort(restarts=0, seed=0), earlier if wanted else None)
+            if not _fits(form, least):
+                least = search_promises(form, Effort(restarts=_THOROUGH_RESTARTS, seed=self.seed), least.prices)
+            if not _fits(form, least):
+                return broken_decision(form, least.spent_w if least.kept else np.inf)
+        if least is not None and program.goal == LEAST_POWER:
+            return _decision(form, self._go_on(form, least, started), least, np.empty(0, dtype=np.int64))
+        served, unserved = without_unservable(form, program)
+        found = search_objective(served, Program.of(served) if unserved.size else program, effort, earlier)
+        if least is not None and not found.kept:
+            found = search_objective(served, found.program, effort, found.prices, least.owner)
+        if found.kept:
+            found = self._go_on(served, found, started)
+        elif least is not None:  # the promised rates are kept, if nothing else
+            found = dataclasses.replace(found, owner=least.owner, power_w=least.power_w)
+        else:
+            nobody = np.full(form.cap_w.size, -1, dtype=np.int64)
+            found = dataclasses.replace(found, owner=nobody, power_w=np.zeros(form.cap_w.size))
+        return _decision(form, found, least, unserved)
+
+    def _effort(self, form: NormalForm) -> Effort:
+        small = form.weight.size * (form.start.size - 1) <= _SMALL
+        restarts = _RESTARTS if small else 0
+        if self.effort == "thorough":
+            restarts = _THOROUGH_RESTARTS
+        return Effort(restarts=restarts if self.restarts is None else self.restarts, seed=self.seed)
+
+    def _go_on(self, form: NormalForm, found: Search, started: float) -> Search:
+        """Restart until the deadline, if there is one."""
+        if self.deadline_ms is None:
+            return found
+        seed = self.seed
+        while time.perf_counter() - started < self.deadline_ms / 1e3:
+            seed += 1
+            again = search(form, found.program, Effort(restarts=_CHUNK, seed=seed), found.prices, found.owner)
+            if again.kept and again.score > found.score:
+                found = dataclasses.replace(again, bound=tighter(form, found.bound, again.bound))
+        return found
+
+
+def _fits(form: NormalForm, found: Search) -> bool:
+    return found.kept and found.spent_w <= form.budget_w * (1.0 + _BUDGET_ROUNDING)
+
+
+def _decision(form: NormalForm, found: Search, least: Search | None, unserved: IntArray) -> Decision:
+    figures = figures_of(form, found, least)
+    if unserved.size == 0:
+        return certified(form, found.owner, found.power_w, found.bound, **figures)
+    names = ", ".join(form.estimate.user_names[user] for user in unserved[:3])
+    more = f" and {unserved.size - 3} more" if unserved.size > 3 else ""
+    figures["reason"] = (
+        f"no subcarrier is left for {names}{more}, so {form.objective.name} is at its lowest whatever the others get: "
+        "they are served without them"
+    )
+    figures["price_of_power"] = 0.0
+    rate = user_rate_bps(form.estimate.gain, found.owner, found.power_w, form.cell)
+    value = form.objective.value(rate, found.spent_w, form.cell, form.weight)
+    return certified(form, found.owner, found.power_w, value, **figures)
