@@ -22,7 +22,7 @@ from wirelessagent.deciding.core.column_prices import ColumnPrices, column_price
 from wirelessagent.deciding.core.goals import Goal
 from wirelessagent.deciding.core.market import Market, Sets
 from wirelessagent.deciding.core.set_packing import pack
-from wirelessagent.model.arrays import BoolArray, FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 
 _ROUNDING = 1e-9
 """Of the worth at stake, by which the limit on reduced costs is widened."""
@@ -41,7 +41,7 @@ _PACKED_FROM = 0.3
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Exact:
+class Optimum:
     """What the search found.
 
     Attributes:
@@ -59,6 +59,18 @@ class Exact:
     bound: float
     price: FloatArray
     nodes: int
+
+    def allocation(self, goal: Goal) -> tuple[IntArray, FloatArray]:
+        """The owner, −1 for nobody, and the power in W of each subcarrier, both (subcarrier,)."""
+        from wirelessagent.deciding.core.columns_kernel import spread
+
+        market = goal.reaching(self.x)
+        columns = self.sets.owner(market.columns)
+        power_w: FloatArray = spread(
+            market.users, market.floor, market.inverse, market.ceiling, market.start, self.log_mu, columns
+        )  # fmt: skip
+        owner: IntArray = np.repeat(columns, np.diff(market.start))
+        return np.where(power_w > 0, owner, -1), power_w
 
 
 @dataclass(kw_only=True, eq=False)
@@ -96,7 +108,7 @@ class _Node:
     limit: float
 
 
-def search(goal: Goal, known: Sets, price: FloatArray, log_mu: float, *, deadline: float, most_sets: int) -> Exact:
+def search(goal: Goal, known: Sets, price: FloatArray, log_mu: float, *, deadline: float, most_sets: int) -> Optimum:
     """The best allocation from a ``known`` one that keeps every limit, and prices π and ln μ to start from.
 
     ``most_sets`` is how many sets are listed at most for one problem before it is divided.
@@ -128,7 +140,7 @@ def search(goal: Goal, known: Sets, price: FloatArray, log_mu: float, *, deadlin
             made += 1
             heapq.heappush(heap, (-left, made, child))
     limit = max([limit, best.x, *(node.limit for _, _, node in heap)])
-    return Exact(sets=best.sets, x=best.x, log_mu=best.log_mu, bound=limit, price=first_price, nodes=max(nodes, 1))
+    return Optimum(sets=best.sets, x=best.x, log_mu=best.log_mu, bound=limit, price=first_price, nodes=max(nodes, 1))
 
 
 def _look(goal: Goal, node: _Node, best: _Best, deadline: float, most_sets: int) -> tuple[ColumnPrices, float]:

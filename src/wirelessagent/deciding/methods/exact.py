@@ -1,0 +1,167 @@
+"""The true optimum: for small problems, and as the judge of other methods."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.deciding.core.certificate import Figures, certified, nothing
+from wirelessagent.deciding.core.column_prices import start_prices
+from wirelessagent.deciding.core.dual_prices import figures_of
+from wirelessagent.deciding.core.dual_search import Effort, search_objective, search_promises
+from wirelessagent.deciding.core.exact_search import Optimum, search
+from wirelessagent.deciding.core.exact_start import carried_at_any_power, goal_of, is_met_everywhere, least_power, shown
+from wirelessagent.deciding.core.goals import Goal
+from wirelessagent.deciding.core.market import Sets
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program
+from wirelessagent.deciding.method import Method
+from wirelessagent.deciding.methods.dual import Dual
+from wirelessagent.model.arrays import IntArray, positive, whole
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.decision import Bracket, Decision, Prices
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.problem import Problem
+from wirelessagent.model.units import human
+
+_FARTHEST = 80.0
+"""Of ln μ at the start; a price beyond is that of power to spare."""
+_RESTARTS = 100
+_BUDGET_ROUNDING = 1e-10
+_PROOF_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exact(Method):
+    """Any objective with any constraints, to the proven optimum: about a second for 8 users and 20 subcarriers.
+
+    It starts from the dual method's decision. Prices of subcarriers, by column generation, then bound what any
+    allocation can reach and leave few sets of subcarriers that a user may hold at the optimum; an integer programme
+    (HiGHS) chooses among them, and where they are many the problem is divided.
+
+    An objective whose utility is no power law of the rate, such as proportional fairness with past averages, is solved
+    with the power law that is nearest at the rates found: the decision is then no worse than the dual's, and its bound
+    is the dual's.
+
+    Attributes:
+        deadline_s: time in s after which the best decision so far is returned with its bound.
+        max_sets: number of sets listed for one user before a problem is divided.
+        seed: of the first decision's search.
+    """
+
+    name = "exact"
+    constraints = Dual.constraints
+
+    deadline_s: float = 60.0
+    max_sets: int = 100
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        positive("deadline_s", self.deadline_s)
+        whole("max_sets", self.max_sets)
+        whole("seed", self.seed, smallest=0)
+
+    def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
+        deadline = time.perf_counter() + self.deadline_s
+        form = NormalForm.of(self, estimate, problem, cell)
+        first = dataclasses.replace(Dual(seed=self.seed).solve(estimate, problem, cell), method=self.name)
+        if first.status in ("optimal", "infeasible"):
+            return first
+        program = Program.of(form)
+        if not first.is_usable or first.prices is None:
+            return self._carried(form, program, first, deadline)
+        if program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0:
+            return first  # the best efficiency is that of no power
+        met = is_met_everywhere(form, program)
+        if not met:
+            program = Program.of(form, first.rate_bps / form.bps_per_nat)
+        found = self._search(form, program, goal_of(form, program), first.owner, first.prices, deadline)
+        figures = Figures(
+            price_of_power=first.price_of_power,
+            price_of_rate=first.price_of_rate,
+            needed_power_w=first.needed_power_w,
+            rate_scaling=first.rate_scaling,
+            prices=first.prices,
+            iterations=found.nodes,
+        )
+        decision = _decision(form, program, found, figures, first.bound if not met else None)
+        worse = decision.value < first.value if form.objective.direction == "max" else decision.value > first.value
+        return first if worse and not met else decision
+
+    def _search(
+        self, form: NormalForm, program: Program, goal: Goal, owner: IntArray, prices: Prices, deadline: float
+    ) -> Optimum:
+        known = _sets(form, owner)
+        log_mu = 0.0 if program.goal in (LEAST_POWER, HIGHEST_LEVEL) else float(prices.log_power)
+        log_mu = min(max(log_mu, -_FARTHEST), _FARTHEST)
+        price = start_prices(goal.market, prices.log_rate, log_mu)
+        return search(goal, known, price, log_mu, deadline=deadline, most_sets=self.max_sets)
+
+    def _carried(self, form: NormalForm, program: Program, first: Decision, deadline: float) -> Decision:
+        """The decision where the dual method found none that keeps the promised rates."""
+        goal = least_power(form)
+        least = search_promises(form, Effort(restarts=_RESTARTS, seed=self.seed))
+        if goal.reached(_sets(form, least.owner), 0.0)[0] == -np.inf:
+            possible, carried = carried_at_any_power(goal.market, form.promised_nats, deadline)
+            if carried is None:
+                return first if possible else _impossible(form, first, np.inf, np.inf)
+            columns = carried.owner(goal.market.columns)
+            least = dataclasses.replace(least, owner=np.repeat(columns, np.diff(form.start)))
+        found = self._search(form, least.program, goal, least.owner, least.prices, deadline)
+        if -found.x > form.budget_w * (1.0 + _BUDGET_ROUNDING):
+            return _impossible(form, first, -found.bound, -found.x)
+        owner, power_w = found.allocation(goal)
+        least = dataclasses.replace(least, owner=owner, power_w=power_w, bound=-found.bound, kept=True)
+        if program.goal == LEAST_POWER:
+            return _decision(form, program, found, figures_of(form, least, least))
+        start = search_objective(form, program, Effort(restarts=0, seed=self.seed), None, owner)
+        known = start.owner if start.kept else owner
+        best = self._search(form, start.program, goal_of(form, start.program), known, start.prices, deadline)
+        bound = None if is_met_everywhere(form, start.program) else start.bound
+        owner, power_w = best.allocation(goal_of(form, start.program))
+        start = dataclasses.replace(start, owner=owner, power_w=power_w)
+        return _decision(form, start.program, best, figures_of(form, start, least), bound)
+
+
+def _sets(form: NormalForm, owner: IntArray) -> Sets:
+    """The users' sets of groups; a subcarrier without power may have no owner though its group has one."""
+    return Sets.of_owner(np.maximum.reduceat(owner, form.start[:-1]), form.weight.size)
+
+
+def _decision(
+    form: NormalForm, program: Program, found: Optimum, figures: Figures, bound: float | None = None
+) -> Decision:
+    """The decision for what was found, with its own bound unless another is given."""
+    owner, power_w = found.allocation(goal_of(form, program))
+    if program.goal == LEAST_POWER:
+        figures["needed_power_w"] = Bracket(at_least=-found.bound, at_most=-found.x)
+    proven = shown(form, program, found.bound) if bound is None else bound
+    return certified(form, owner, power_w, proven, **figures)
+
+
+def _impossible(form: NormalForm, first: Decision, at_least: float, at_most: float) -> Decision:
+    """Infeasible where the power needed is proven to be beyond the budget; else ``first``, with what is known of it."""
+    needed = Bracket(at_least=at_least, at_most=at_most)
+    if at_least <= form.budget_w * (1.0 + _PROOF_ROUNDING):
+        return dataclasses.replace(first, needed_power_w=needed)
+    reason = (
+        "no assignment of the subcarriers carries the promised rates at any power"
+        if np.isinf(at_least)
+        else f"the promised rates need at least {human(at_least, 'W')} on this channel, "
+        f"more than the budget of {human(form.budget_w, 'W')}"
+    )
+    bound = at_least if form.objective.measure == "power" else np.nan
+    return nothing(
+        form,
+        "infeasible",
+        bound,
+        reason=reason,
+        needed_power_w=needed,
+        rate_scaling=first.rate_scaling,
+        price_of_rate=first.price_of_rate,
+        price_of_power=np.nan,
+        iterations=first.iterations,
+    )
