@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import time
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -71,7 +70,7 @@ def perfect(scene: Scene) -> ChannelEstimate:
 def resolve(problem: Problem) -> Problem:
     """The problem with its objective looked up, if it was only named."""
     if isinstance(problem.objective, str):
-        return dataclasses.replace(problem, objective=plugins.objective(problem.objective))
+        return problem.resolved(plugins.objective(problem.objective))
     return problem
 
 

@@ -106,7 +106,7 @@ def create(kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *
         InputError: an option that it does not have, or a value that it refuses.
     """
     cls = load(kind, name)
-    given = dict(options or {})
+    given = options or {}
     known = {option.name: option for option in options_of(cls)}
     for key in given:
         if key not in known:
@@ -119,6 +119,16 @@ def create(kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *
 
 def objective(name: str, options: Mapping[str, Any] | None = None) -> Objective:
     """The objective of this name or alias ("max_rate" or "P1"), with its options."""
+    return _plain_objective(name) if not options else _objective(name, options)
+
+
+@functools.cache
+def _plain_objective(name: str) -> Objective:
+    """Objectives are frozen, so one without options serves everybody."""
+    return _objective(name, None)
+
+
+def _objective(name: str, options: Mapping[str, Any] | None) -> Objective:
     if name not in _entry_points("objective"):
         found = [item for item in plugins("objective") if item.cls is not None and name in item.cls.aliases]
         if len(found) > 1:
@@ -138,6 +148,7 @@ def refresh() -> None:
     """Forget what was found, so that packages installed since are seen."""
     _entry_points.cache_clear()
     _load.cache_clear()
+    _plain_objective.cache_clear()
 
 
 @functools.cache

@@ -39,7 +39,10 @@ def per_user(name: str, value: ArrayLike, num_users: int) -> FloatArray:
     array = float_array(name, value)
     if array.ndim > 1 or (array.ndim == 1 and array.size not in (1, num_users)):
         raise InputError(f"{name} must be one value or one per user ({num_users}); got shape {array.shape}")
-    return frozen(np.broadcast_to(array, (num_users,)).copy())
+    filled = np.empty(num_users)
+    filled[:] = array
+    filled.flags.writeable = False
+    return filled
 
 
 def positive(name: str, value: float, *, zero: bool = False, infinite: bool = False) -> float:

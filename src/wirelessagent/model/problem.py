@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable
 from dataclasses import KW_ONLY, dataclass
 
@@ -26,7 +27,8 @@ class Problem:
         max_rate_bps: rate beyond which a user has nothing to send, one value or (user,), in bit/s; inf = full buffer.
         max_power_w: radiated power budget in W; at most the cell's.
         subcarrier_max_power_w: power cap per subcarrier in W, one value or (subcarrier,).
-        forbidden: True where a user may not use a subcarrier, shape (user, subcarrier).
+        forbidden: True where a user may not use a subcarrier, shape (user, subcarrier); that bars it from the
+            subcarrier's whole group.
         users: the users to serve, counted from 0; None serves all.
         resource_block_group_size: number of adjacent subcarriers that are assigned together.
         outage_probability: accepted probability that a user's true rate stays below the promised one.
@@ -67,6 +69,14 @@ class Problem:
         if self.weights is not None:
             self._check_weights(np.asarray(self.weights))
 
+    def resolved(self, objective: Objective) -> Problem:
+        """The same problem with its objective looked up; the rest has been validated before."""
+        if self.weights is not None:
+            return dataclasses.replace(self, objective=objective)  # which must take weights
+        found = object.__new__(type(self))
+        found.__dict__.update(self.__dict__, objective=objective)
+        return found
+
     def budget_w(self, cell: Cell) -> float:
         """The power budget in W; an error where the problem asks for more than the cell may radiate."""
         if self.max_power_w is None:
@@ -86,6 +96,24 @@ class Problem:
             raise InputError(f"users {self.users} go beyond the {num_users} of the channel, counted from 0")
         return np.isin(np.arange(num_users), self.users)
 
+    def allows(self, shape: tuple[int, int]) -> BoolArray:
+        """True where a user may use a subcarrier, ``shape`` (user, subcarrier).
+
+        Who is forbidden one subcarrier of a resource-block group cannot own the group.
+
+        Raises:
+            InputError: ``forbidden`` has another shape.
+        """
+        if self.forbidden is None:
+            return np.ones(shape, dtype=bool)
+        if self.forbidden.shape != shape:
+            raise InputError(
+                f"forbidden must have the channel's shape (user, subcarrier) = {shape}; got {self.forbidden.shape}"
+            )
+        start = np.arange(0, shape[1], self.resource_block_group_size)
+        barred = np.logical_or.reduceat(self.forbidden, start, axis=1)
+        return ~np.repeat(barred, np.diff(np.append(start, shape[1])), axis=1)
+
     def weights_of(self, num_users: int) -> FloatArray:
         """Each user's weight, shape (user,): 1 where none is set, 0 for users who are not served.
 
@@ -93,7 +121,8 @@ class Problem:
             InputError: nobody who is served has a weight above 0.
         """
         weight = per_user("weights", 1.0 if self.weights is None else self.weights, num_users)
-        weight = frozen(np.where(self.serves(num_users), weight, 0.0))
+        if self.users is not None:
+            weight = frozen(np.where(self.serves(num_users), weight, 0.0))
         if not weight.any():
             raise InputError(f"weights are 0 for every user to serve; got {self.weights!r:.80}: give one more than 0")
         return weight
@@ -108,7 +137,9 @@ class Problem:
         Raises:
             InputError: a user must get more than it can use.
         """
-        most = per_user("max_rate_bps", np.inf if self.max_rate_bps is None else self.max_rate_bps, num_users)
+        if self.max_rate_bps is None:
+            return per_user("max_rate_bps", np.inf, num_users)
+        most = per_user("max_rate_bps", self.max_rate_bps, num_users)
         least = self.min_rates_bps(num_users)
         crossed = np.flatnonzero((least > most) & self.serves(num_users))
         if crossed.size:

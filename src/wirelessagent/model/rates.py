@@ -40,14 +40,11 @@ def subcarrier_rate_bps(gain: FloatArray, power_w: FloatArray, cell: Cell) -> Fl
 
 def owned_gain(gain: FloatArray, owner: IntArray) -> FloatArray:
     """The gain of each subcarrier to its owner, shape (subcarrier,); 0 where nobody owns it."""
-    picked = np.take_along_axis(gain, np.maximum(owner, 0)[np.newaxis], axis=0)[0]
+    picked = gain[np.maximum(owner, 0), np.arange(owner.size)]
     return np.where(owner >= 0, picked, 0.0)
 
 
 def user_rate_bps(gain: FloatArray, owner: IntArray, power_w: FloatArray, cell: Cell) -> FloatArray:
     """Each user's rate in bit/s, shape (user,), for a (user, subcarrier) gain and one owner per subcarrier."""
     rate = subcarrier_rate_bps(owned_gain(gain, owner), power_w, cell)
-    total = np.zeros(gain.shape[0])
-    served = owner >= 0
-    np.add.at(total, owner[served], rate[served])
-    return total
+    return np.bincount(owner + 1, weights=rate, minlength=gain.shape[0] + 1)[1:]
