@@ -144,8 +144,7 @@ class _Search:
         caps = np.inf if problem.subcarrier_max_power_w is None else problem.subcarrier_max_power_w
         cap_w = np.broadcast_to(np.asarray(caps, dtype=np.float64), (subcarriers,))
         usable = served[:, np.newaxis] & (cap_w > 0)
-        if problem.forbidden is not None:
-            usable = usable & ~problem.forbidden
+        usable = usable & problem.allows((users, subcarriers))
         unit = cell.data_bandwidth_hz / np.log(2.0)
         budget_w = problem.budget_w(cell)
         group = np.arange(subcarriers, dtype=np.int64) // size

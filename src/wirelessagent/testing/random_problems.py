@@ -89,9 +89,7 @@ def _carried(rng: np.random.Generator, estimate: ChannelEstimate, cell: Cell, pr
     gain, (num_users, num_subcarriers) = estimate.gain, estimate.gain.shape
     group = np.arange(num_subcarriers, dtype=np.int64) // problem.resource_block_group_size
     owner: IntArray = np.asarray(rng.integers(num_users, size=num_subcarriers), dtype=np.int64)[group]
-    may = (gain > 0) & problem.serves(num_users)[:, np.newaxis]
-    if problem.forbidden is not None:
-        may &= ~problem.forbidden
+    may = (gain > 0) & problem.serves(num_users)[:, np.newaxis] & problem.allows((num_users, num_subcarriers))
     cap = np.inf if problem.subcarrier_max_power_w is None else problem.subcarrier_max_power_w
     power = np.minimum(problem.budget_w(cell) / num_subcarriers, cap)
     power = np.where(may[owner, np.arange(num_subcarriers)], power, 0.0)

@@ -32,9 +32,10 @@ def bound_of(form: NormalForm, program: Program, log_price: FloatArray, log_mu: 
         return form.objective.figure(float(form.objective.utility(np.array([level]))[0]), weight)
     mu = float(np.exp(log_mu)) * program.scale
     joint = conjugate(form, program, price * mu / form.bps_per_nat)
+    full = conjugate(form, program, np.zeros(price.shape))  # what the highest rates are worth, whatever they take
     if program.goal == MOST_EFFICIENCY:
-        return _efficiency(form, joint + mu * worth_w, mu)
-    return form.objective.figure(joint + mu * (worth_w + form.budget_w), weight)
+        return min(_efficiency(form, joint + mu * worth_w, mu), _efficiency(form, full, 0.0))
+    return form.objective.figure(min(joint + mu * (worth_w + form.budget_w), full), weight)
 
 
 def conjugate(form: NormalForm, program: Program, price: FloatArray) -> float:

@@ -91,7 +91,7 @@ def search(
     prices = Prices(log_rate=log_price, log_power=found.log_mu)
     return Search(
         program=program,
-        owner=np.where(power_w > 0, owner, -1),
+        owner=owners_with_power(form, owner, power_w),
         power_w=power_w,
         score=float(found.score),
         kept=found.score > _WORST and bool(np.isfinite(power_w).all()),
@@ -129,6 +129,12 @@ def search_promises(form: NormalForm, effort: Effort, after: Prices | None = Non
 def rates_of(form: NormalForm, found: Search) -> FloatArray:
     """The users' rates in nats, shape (user,)."""
     return user_rate_bps(form.estimate.gain, found.owner, found.power_w, form.cell) / form.bps_per_nat
+
+
+def owners_with_power(form: NormalForm, owner: IntArray, power_w: FloatArray) -> IntArray:
+    """The owners (subcarrier,) of groups that carry power, −1 elsewhere: a group is owned as a whole or not at all."""
+    used = np.add.reduceat(power_w, form.start[:-1]) > 0
+    return np.where(np.repeat(used, np.diff(form.start)), owner, -1)
 
 
 def tighter(form: NormalForm, one: float, other: float) -> float:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.deciding.method import Method
-from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
+from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.estimate import ChannelEstimate
@@ -81,7 +81,7 @@ class NormalForm:
                 "a power gain is about 1 at most; check its unit"
             )
         served = problem.serves(estimate.num_users)
-        usable = served[:, np.newaxis] & _allowed(problem, estimate.gain.shape) & (cap_w > 0) & (snr_per_w > _LEAST_SNR)
+        usable = served[:, np.newaxis] & problem.allows((estimate.num_users, subcarriers)) & (cap_w > 0) & (snr_per_w > _LEAST_SNR)
         bps_per_nat = cell.data_bandwidth_hz / np.log(2.0)
         return cls(
             method=method.name,
@@ -120,16 +120,6 @@ class NormalForm:
         """The most useful power for ``snr_per_w`` (…, subcarrier): the cap, or less where the rate is full before."""
         with np.errstate(divide="ignore", over="ignore"):
             return np.where(snr_per_w > 0, np.minimum(self.cap_w, self.max_snr / snr_per_w), 0.0)
-
-
-def _allowed(problem: Problem, shape: tuple[int, ...]) -> BoolArray:
-    if problem.forbidden is None:
-        return np.ones(shape, dtype=bool)
-    if problem.forbidden.shape != shape:
-        raise InputError(
-            f"forbidden must have the channel's shape (user, subcarrier) = {shape}; got {problem.forbidden.shape}"
-        )
-    return ~problem.forbidden
 
 
 def _caps_w(problem: Problem, num_subcarriers: int) -> FloatArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 
 import numpy as np
@@ -47,20 +48,22 @@ def least_power_decision(form: NormalForm, allocate: Allocate) -> Decision:
     return _not_kept(form, proof, reason, tried, figures)
 
 
-def broken_decision(form: NormalForm, found_w: float, bound: float = np.nan) -> Decision:
+def broken_decision(form: NormalForm, found_w: float, needed_w: float, price: FloatArray) -> Decision:
     """Where no allocation was found that keeps the promised rates: infeasible with a proof, or undecided.
 
-    ``found_w`` is the power of one that keeps them beyond the budget, infinite for none; ``bound`` is that of the
-    objective.
+    ``found_w`` is the power of one that keeps them beyond the budget, infinite for none; ``needed_w`` is the least by
+    the dual at the ``price`` λ (user,) of each rate.
     """
     proof = prove(form)
+    if needed_w > proof.needed_w:
+        proof = dataclasses.replace(proof, needed_w=needed_w, price=price)
     reason, most = shortage(form) if np.isinf(found_w) else ("", np.inf)
     figures = _figures(form, proof)
     figures["needed_power_w"] = _needed(proof, reason, found_w)
     at_most = min(proof.max_scaling, most)
     figures["rate_scaling"] = Bracket(at_least=0.0, at_most=at_most)
     tried = f"what was found needs {_told(found_w)}" if np.isfinite(found_w) else "no sets that carry them were found"
-    return _not_kept(form, proof, reason, tried, figures, bound)
+    return _not_kept(form, proof, reason, tried, figures)
 
 
 def fixed_power_decision(form: NormalForm, owner: IntArray, power_w: FloatArray, bound: float) -> Decision:

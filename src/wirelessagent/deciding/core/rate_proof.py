@@ -126,12 +126,12 @@ def shortage(form: NormalForm) -> tuple[str, float]:
     """
     users = np.flatnonzero(form.promised_nats > 0)
     snr, nats = form.snr_per_w[users], form.promised_nats[users]
-    served = int(np.count_nonzero(one_each(snr > 0) >= 0)) if users.size else 0
+    served = int(np.count_nonzero(one_each(usable_groups(form)[users]) >= 0)) if users.size else 0
     if served < users.size:
         return _too_few(form, users, served), 0.0
     if users.size == 0:
         return "", np.inf
-    most = ceilings(form, snr)
+    most = np.add.reduceat(ceilings(form, snr), form.start[:-1], axis=1)  # of each group
     carried = most.sum(axis=1) / nats
     worst = int(carried.argmin())
     if carried[worst] < 1.0 - _ROUNDING:
@@ -147,18 +147,25 @@ def shortage(form: NormalForm) -> tuple[str, float]:
         reason = f"the promised rates add up to {promised}, but the subcarriers carry at most {best} at any power"
         return reason, together
     needed = int(np.ceil(nats / most.max(axis=1) * (1.0 - _ROUNDING)).sum())
-    usable = int(np.count_nonzero(snr.max(axis=0) > 0))
+    usable = int(np.count_nonzero(usable_groups(form)[users].any(axis=0)))
     if needed > usable:
-        return f"the promised rates take at least {needed} subcarriers at any power, but {usable} can be used", np.inf
+        what = "subcarriers" if form.start.size - 1 == form.cap_w.size else "resource-block groups"
+        return f"the promised rates take at least {needed} {what} at any power, but {usable} can be used", np.inf
     return "", np.inf
+
+
+def usable_groups(form: NormalForm) -> BoolArray:
+    """Whether a user can use any subcarrier of a resource-block group, shape (user, group)."""
+    return np.logical_or.reduceat(form.snr_per_w > 0, form.start[:-1], axis=1)
 
 
 def _too_few(form: NormalForm, users: IntArray, served: int) -> str:
     """That of ``users`` no more than ``served`` can have a subcarrier of their own."""
     if users.size == 1:
         return f"{form.estimate.user_names[int(users[0])]} is promised a rate, but no subcarrier is of use to it"
-    count = int(np.count_nonzero(form.snr_per_w[users].max(axis=0) > 0))
-    subcarriers = f"{count} usable subcarrier{'' if count == 1 else 's'}"
+    count = int(np.count_nonzero(usable_groups(form)[users].any(axis=0)))
+    what = "subcarrier" if form.start.size - 1 == form.cap_w.size else "resource-block group"
+    subcarriers = f"{count} usable {what}{'' if count == 1 else 's'}"
     those = f"only {served}" if served else "none"
     return (
         f"{users.size} users are promised a rate, but with {subcarriers} {those} of them can have one of their own"

@@ -4,7 +4,7 @@ Sets are improved at their own price of power until none of the moves and swaps 
 true local optimum: with μ the price that settles the sets S, value(S) = Σ V_k(S_k; μ) + μ P, and no other sets S' can
 be worth more than Σ V_k(S'_k; μ) + μ P, because their own price makes that smallest. So a change can be an improvement
 only if the worths at the present price add up to more. Then it is settled afresh, and kept if the score is higher.
-A restart gives a few groups away at random, improves, and goes back unless that scored.
+A restart gives a few groups away at random, improves, and goes back unless that scored, or was worth just as much.
 """
 
 from __future__ import annotations
@@ -265,13 +265,14 @@ def restart(
     """Restart so many times from the best sets; the best score and its ln μ (or ln level), as :func:`polish`."""
     log_mu = 0.0 if goal == LEVEL else at
     standard = value_all(channel, rows, log_mu, sets)
-    trial_owner = np.empty_like(best_owner)
-    contested = np.empty_like(best_owner)
-    size = contested_groups(candidates, best_owner, contested)
+    base, trial_owner, contested = best_owner.copy(), best_owner.copy(), best_owner.copy()
+    size = contested_groups(candidates, base, contested)
     if size == 0:
         return score, at
     for _ in range(restarts):
         kick(channel, rows, log_mu, candidates, contested, size, sets, state)
+        if sets.worth.min() <= -UNREACHABLE:
+            serve_all(channel, rows, log_mu, sets)
         improve(channel, rows, log_mu, candidates, wanted, sets)
         gained = sets.worth.sum()
         if gained > standard + ROUNDING * abs(standard):
@@ -281,12 +282,18 @@ def restart(
             if found > score + GAIN * abs(score):
                 score, at = found, found_at
                 best_owner[:] = trial_owner
+                base[:] = trial_owner
                 log_mu = 0.0 if goal == LEVEL else at
                 standard = value_all(channel, rows, log_mu, sets)
                 continue
             if goal == LEVEL:
                 set_level(rows, share, np.exp(at))
-        go_back(channel, rows, log_mu, sets, best_owner)
+            assign(sets, base)
+            value_all(channel, rows, log_mu, sets)
+        elif gained >= standard - ROUNDING * abs(standard):
+            base[:] = sets.owner  # as good: go on from there, to cross plateaus
+        else:
+            go_back(channel, rows, log_mu, sets, base)
     return score, at
 
 

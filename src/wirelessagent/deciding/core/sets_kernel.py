@@ -245,7 +245,7 @@ def value_all(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets) -> 
     """Forget all worths, for a new price, and work out those of the sets; their sum."""
     sets.clock[1] += 1
     for k in range(sets.count.size):
-        sets.digest[k] = mixed(sets.clock[1] * sets.count.size + k + 1)
+        sets.digest[k] = mixed(~mixed(sets.clock[1] * sets.count.size + k + 1))  # nothing like the signs
         for i in range(sets.count[k]):
             sets.digest[k] ^= sets.sign[sets.members[k, i]]
     for k in range(sets.count.size):

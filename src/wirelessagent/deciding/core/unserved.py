@@ -12,7 +12,7 @@ import numpy as np
 
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program
-from wirelessagent.deciding.core.rate_proof import one_each
+from wirelessagent.deciding.core.rate_proof import one_each, usable_groups
 from wirelessagent.model.arrays import BoolArray, IntArray
 
 
@@ -22,7 +22,7 @@ def without_unservable(form: NormalForm, program: Program) -> tuple[NormalForm, 
     nobody = np.empty(0, dtype=np.int64)
     if not needy.any():
         return form, nobody
-    usable = np.logical_or.reduceat(form.snr_per_w > 0, form.start[:-1], axis=1)
+    usable = usable_groups(form)
     wanting = needy | (form.promised_nats > 0)
     if np.all(one_each(usable & wanting[:, np.newaxis])[wanting] >= 0):
         return form, nobody

@@ -97,7 +97,8 @@ class Dual(Method):
             if not _fits(form, least):
                 least = search_promises(form, Effort(restarts=_THOROUGH_RESTARTS, seed=self.seed), least.prices)
             if not _fits(form, least):
-                return broken_decision(form, least.spent_w if least.kept else np.inf)
+                price = np.where(form.promised_nats > 0, np.exp(least.prices.log_rate), 0.0)
+                return broken_decision(form, least.spent_w if least.kept else np.inf, least.bound, price)
         if least is not None and program.goal == LEAST_POWER:
             return _decision(form, self._go_on(form, least, started), least, np.empty(0, dtype=np.int64))
         served, unserved = without_unservable(form, program)
