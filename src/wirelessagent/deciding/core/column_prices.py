@@ -74,12 +74,15 @@ class _Search:
     box_mu: float = _BOX_MU
 
     def take(self, price: FloatArray, log_mu: float, bound: float, promised: float) -> None:
-        """Keep the prices of a smaller bound, and fit the box to how much of the ``promised`` fall came true."""
+        """Keep the prices of a smaller bound, and fit the box to how much of the ``promised`` fall came true.
+
+        At a kink where many sets tie D hardly ever falls at once; there the box must stay, and the sets come one by one.
+        """
         fall = self.bound - bound
         if fall > 0.0:
             self.price, self.log_mu, self.bound = price, log_mu, bound
         if np.isfinite(fall):
-            factor = 2.0 if fall > 0.5 * promised else 0.5 if fall < 0.1 * promised else 1.0
+            factor = 2.0 if fall > 0.5 * promised else 0.5 if fall < -3.0 * promised else 1.0
             self.box *= factor
             self.box_mu = min(self.box_mu * factor, _BOX_MU_MOST)
 
@@ -241,7 +244,7 @@ def _solve(
         rows = [[packing, -unit, unit, None], [used, None, None, csc_array(np.array([[-1.0, 1.0]]))]]
         limits = np.ones(columns + 1)
     cost = np.concatenate(costs) / scale
-    equal = block_array([[each, coo_array((users, cost.size - usable.size))]], format="csc")
+    equal: Any = block_array([[each, coo_array((users, cost.size - usable.size))]], format="csc")
     solution = _minimised(cost, block_array(rows, format="csc"), limits, equal, np.ones(users))
     if solution is None:
         return None
