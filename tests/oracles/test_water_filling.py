@@ -10,7 +10,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from wirelessagent.deciding.core.exclusive_sets_kernel import least_power
+from wirelessagent.deciding.core.least_power_kernel import least_power
 from wirelessagent.deciding.core.water_filling_kernel import max_rate
 from wirelessagent.model.arrays import FloatArray, IntArray
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wirelessagent.deciding.core.bundle_kernel import HIGH, LOW, SLOPE
-from wirelessagent.deciding.core.exclusive_sets_kernel import least_power
+from wirelessagent.deciding.core.least_power_kernel import least_power
 from wirelessagent.deciding.core.prices_kernel import FARTHEST, climb, conjugate, price_terms
 from wirelessagent.deciding.core.search_kernel import choose_candidates, polish, restart, serve_all
 from wirelessagent.deciding.core.sets_kernel import Channel, assign, empty_sets, set_bundle, value_all

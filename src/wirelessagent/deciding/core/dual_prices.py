@@ -97,7 +97,7 @@ def _scaling(form: NormalForm, least: Search) -> Bracket:
 
 def _carried(form: NormalForm, owner: IntArray, spent_w: float, most: float) -> float:
     """The largest factor that given sets carry within the budget, at least 1: ln P over ln s by false position."""
-    from wirelessagent.deciding.core.exclusive_sets_kernel import least_power
+    from wirelessagent.deciding.core.least_power_kernel import least_power
     from wirelessagent.deciding.core.rate_proof import ceilings
 
     ceiling, power_w, price = ceilings(form, form.snr_per_w), np.empty(owner.size), np.empty(form.weight.size)

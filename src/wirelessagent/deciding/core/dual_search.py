@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wirelessagent.deciding.core.dual_bounds import bound_of
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.deciding.core.program import LEAST_POWER, Program, promises
+from wirelessagent.deciding.core.program import Program
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Prices
 from wirelessagent.model.rates import user_rate_bps
+
+if TYPE_CHECKING:
+    from wirelessagent.deciding.core.dual_kernel import Ask
 
 SMALL = 12
 """Up to so many users every one is a candidate for every group, beyond it the best few."""
 CANDIDATES = 6
 REFITS = 6
-_WORST = -1e90
+WORST = -1e90
 """Scores below this belong to allocations that do not keep every limit."""
 
 
@@ -71,7 +75,7 @@ def search(
     owner: IntArray | None = None,
 ) -> Search:
     """Prices, sets and powers for one program, from the prices and the sets of an earlier search, if any."""
-    from wirelessagent.deciding.core.dual_kernel import Ask, solve
+    from wirelessagent.deciding.core.dual_kernel import solve
 
     users, subcarriers = form.snr_per_w.shape
     warm = after is not None and after.log_rate.shape == (users,) and bool(np.isfinite(after.log_rate).all())
@@ -80,13 +84,9 @@ def search(
     given = owner is not None
     owner = owner.copy() if given else np.full(subcarriers, -1, dtype=np.int64)
     power_w = np.empty(subcarriers)
-    ask = Ask(
-        program.goal, form.cap_w, float(form.max_nats), form.start, program.rows, program.share,
-        float(program.most_level), float(form.budget_w), float(form.circuit_w),
-    )  # fmt: skip
     found = solve(
-        form.snr_per_w, ask, users if users <= SMALL else CANDIDATES, effort.restarts, effort.seed, warm, log_price,
-        log_mu, given, owner, power_w,
+        form.snr_per_w, ask_of(form, program), users if users <= SMALL else CANDIDATES, effort.restarts, effort.seed,
+        warm, log_price, log_mu, given, owner, power_w,
     )  # fmt: skip
     prices = Prices(log_rate=log_price, log_power=found.log_mu)
     return Search(
@@ -94,7 +94,7 @@ def search(
         owner=owners_with_power(form, owner, power_w),
         power_w=power_w,
         score=float(found.score),
-        kept=found.score > _WORST and bool(np.isfinite(power_w).all()),
+        kept=found.score > WORST and bool(np.isfinite(power_w).all()),
         bound=bound_of(form, program, log_price, found.log_mu),
         prices=prices,
         iterations=int(found.iterations),
@@ -119,11 +119,17 @@ def search_objective(
 
 def search_promises(form: NormalForm, effort: Effort, after: Prices | None = None) -> Search:
     """:func:`search` for the least power that carries the promised rates, whatever the objective is."""
-    program = Program(
-        goal=LEAST_POWER, rows=promises(form.promised_nats), share=np.zeros((form.promised_nats.size, 3)),
-        most_level=0.0, scale=1.0,
+    return search(form, Program.of_promises(form), effort, after)
+
+
+def ask_of(form: NormalForm, program: Program) -> Ask:
+    """The program as the kernels read it."""
+    from wirelessagent.deciding.core.dual_kernel import Ask
+
+    return Ask(
+        program.goal, form.cap_w, float(form.max_nats), form.start, program.rows, program.share,
+        float(program.most_level), float(form.budget_w), float(form.circuit_w),
     )  # fmt: skip
-    return search(form, program, effort, after)
 
 
 def rates_of(form: NormalForm, found: Search) -> FloatArray:

@@ -66,6 +66,12 @@ class Program:
         goal = MOST_EFFICIENCY if form.objective.measure == "efficiency" else MOST_UTILITY
         return cls(goal=goal, rows=rows, share=share, most_level=0.0, scale=scale)
 
+    @classmethod
+    def of_promises(cls, form: NormalForm) -> Program:
+        """The least power that carries the promised rates, whatever the objective is."""
+        share = np.zeros((form.promised_nats.size, 3))
+        return cls(goal=LEAST_POWER, rows=promises(form.promised_nats), share=share, most_level=0.0, scale=1.0)
+
     def meets(self, form: NormalForm, nats: FloatArray) -> bool:
         """Whether the rows are the objective's utility at the rates ``nats`` (user,), too."""
         if self.goal in (LEAST_POWER, HIGHEST_LEVEL):

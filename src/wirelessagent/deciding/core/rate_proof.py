@@ -198,7 +198,7 @@ def _starts(snr: FloatArray, log: FloatArray, ceiling: FloatArray, nats: FloatAr
     The first is near the best where rates are ordinary. With huge rates the users' prices differ so little, next to
     what a subcarrier more or less does to greedy sets, that one price is better; with tiny rates users do not meet.
     """
-    from wirelessagent.deciding.core.exclusive_sets_kernel import grow_sets, least_power
+    from wirelessagent.deciding.core.least_power_kernel import grow_sets, least_power
 
     users = nats.size
     owner = np.full(snr.shape[1], -1, dtype=np.int64)

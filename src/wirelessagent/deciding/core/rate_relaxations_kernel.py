@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.exclusive_sets_kernel import fill_rate
+from wirelessagent.deciding.core.least_power_kernel import fill_rate
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray
 

@@ -9,24 +9,20 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from wirelessagent.deciding.core.certificate import certified
 from wirelessagent.deciding.core.closed_form import closed_decision, is_closed
-from wirelessagent.deciding.core.dual_prices import figures_of
 from wirelessagent.deciding.core.dual_search import Effort, Search, search, search_objective, search_promises, tighter
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, Program
-from wirelessagent.deciding.core.promises import broken_decision
+from wirelessagent.deciding.core.search_decision import decision_of, fits, unkept_decision, unpowered_decision
 from wirelessagent.deciding.core.unserved import without_unservable
 from wirelessagent.deciding.method import Method
-from wirelessagent.model.arrays import IntArray, positive, whole
+from wirelessagent.model.arrays import positive, whole
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.problem import Problem
-from wirelessagent.model.rates import user_rate_bps
 
-_BUDGET_ROUNDING = 1e-10
 _SMALL = 400
 """Up to so many users × groups a search is restarted by default."""
 _RESTARTS, _THOROUGH_RESTARTS, _CHUNK = 30, 400, 20
@@ -88,19 +84,17 @@ class Dual(Method):
         effort = self._effort(form)
         promised = bool(form.promised_nats.any())
         if program.goal == LEAST_POWER and not promised:
-            nobody = np.full(form.cap_w.size, -1, dtype=np.int64)
-            return certified(form, nobody, np.zeros(form.cap_w.size), 0.0, price_of_power=0.0)
+            return unpowered_decision(form)
         least: Search | None = None
         if promised:
             wanted = program.goal == LEAST_POWER
             least = search_promises(form, effort if wanted else Effort(restarts=0, seed=0), earlier if wanted else None)
-            if not _fits(form, least):
+            if not fits(form, least):
                 least = search_promises(form, Effort(restarts=_THOROUGH_RESTARTS, seed=self.seed), least.prices)
-            if not _fits(form, least):
-                price = np.where(form.promised_nats > 0, np.exp(least.prices.log_rate), 0.0)
-                return broken_decision(form, least.spent_w if least.kept else np.inf, least.bound, price)
+            if not fits(form, least):
+                return unkept_decision(form, least)
         if least is not None and program.goal == LEAST_POWER:
-            return _decision(form, self._go_on(form, least, started), least, np.empty(0, dtype=np.int64))
+            return decision_of(form, self._go_on(form, least, started), least, np.empty(0, dtype=np.int64))
         served, unserved = without_unservable(form, program)
         found = search_objective(served, Program.of(served) if unserved.size else program, effort, earlier)
         if least is not None and not found.kept:
@@ -112,7 +106,7 @@ class Dual(Method):
         else:
             nobody = np.full(form.cap_w.size, -1, dtype=np.int64)
             found = dataclasses.replace(found, owner=nobody, power_w=np.zeros(form.cap_w.size))
-        return _decision(form, found, least, unserved)
+        return decision_of(form, found, least, unserved)
 
     def _effort(self, form: NormalForm) -> Effort:
         small = form.weight.size * (form.start.size - 1) <= _SMALL
@@ -132,23 +126,3 @@ class Dual(Method):
             if again.kept and again.score > found.score:
                 found = dataclasses.replace(again, bound=tighter(form, found.bound, again.bound))
         return found
-
-
-def _fits(form: NormalForm, found: Search) -> bool:
-    return found.kept and found.spent_w <= form.budget_w * (1.0 + _BUDGET_ROUNDING)
-
-
-def _decision(form: NormalForm, found: Search, least: Search | None, unserved: IntArray) -> Decision:
-    figures = figures_of(form, found, least)
-    if unserved.size == 0:
-        return certified(form, found.owner, found.power_w, found.bound, **figures)
-    names = ", ".join(form.estimate.user_names[user] for user in unserved[:3])
-    more = f" and {unserved.size - 3} more" if unserved.size > 3 else ""
-    figures["reason"] = (
-        f"no subcarrier is left for {names}{more}, so {form.objective.name} is at its lowest whatever the others get: "
-        "they are served without them"
-    )
-    figures["price_of_power"] = 0.0
-    rate = user_rate_bps(form.estimate.gain, found.owner, found.power_w, form.cell)
-    value = form.objective.value(rate, found.spent_w, form.cell, form.weight)
-    return certified(form, found.owner, found.power_w, value, **figures)

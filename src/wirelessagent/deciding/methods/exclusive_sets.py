@@ -32,7 +32,7 @@ class ExclusiveSets(Method):
     constraints = frozenset({"min_rate_bps", "users", "forbidden", "subcarrier_max_power_w"})
 
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
-        from wirelessagent.deciding.core.exclusive_sets_kernel import grow_sets, least_power
+        from wirelessagent.deciding.core.least_power_kernel import grow_sets, least_power
 
         form = NormalForm.of(self, estimate, problem, cell)
         snr, log, ceiling = form.snr_per_w, log_snr(form.snr_per_w), ceilings(form, form.snr_per_w)

@@ -1,4 +1,4 @@
-"""Conflict-free sets of subcarriers for promised rates, by greedy saving, and the least power on given sets.
+"""The least power that carries given rates on given sets, and conflict-free sets that grow by greedy saving.
 
 Within its set S a user reaches its rate R at least power by water-filling in rates: r_n = min(max(z + ln a_n, 0), c_n)
 with Σ r_n = R and p_n = (e^r_n − 1)/a_n. So the level comes from the same kernel as P1's, on floors −ln a.

@@ -1,0 +1,53 @@
+"""From what a search found to a decision: kept or not, with the dual's prices, and a word on whoever is left out."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wirelessagent.deciding.core.certificate import certified
+from wirelessagent.deciding.core.dual_prices import figures_of
+from wirelessagent.deciding.core.dual_search import Search
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.promises import broken_decision
+from wirelessagent.model.arrays import IntArray
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.rates import user_rate_bps
+
+_BUDGET_ROUNDING = 1e-10
+
+
+def fits(form: NormalForm, found: Search) -> bool:
+    """Whether what was found keeps every limit, the budget too."""
+    return found.kept and found.spent_w <= form.budget_w * (1.0 + _BUDGET_ROUNDING)
+
+
+def unpowered_decision(form: NormalForm) -> Decision:
+    """The least power where nothing is promised: none, for nobody."""
+    nobody = np.full(form.cap_w.size, -1, dtype=np.int64)
+    return certified(form, nobody, np.zeros(form.cap_w.size), 0.0, price_of_power=0.0)
+
+
+def unkept_decision(form: NormalForm, least: Search) -> Decision:
+    """The decision where the search for the least power of the promised rates found none within the budget."""
+    price = np.where(form.promised_nats > 0, np.exp(least.prices.log_rate), 0.0)
+    return broken_decision(form, least.spent_w if least.kept else np.inf, least.bound, price)
+
+
+def decision_of(form: NormalForm, found: Search, least: Search | None, unserved: IntArray) -> Decision:
+    """The decision for what was found; ``least`` is the search for the least power of the promised rates, if any.
+
+    ``unserved`` are the users without whom the others are served (:mod:`.unserved`).
+    """
+    figures = figures_of(form, found, least)
+    if unserved.size == 0:
+        return certified(form, found.owner, found.power_w, found.bound, **figures)
+    names = ", ".join(form.estimate.user_names[user] for user in unserved[:3])
+    more = f" and {unserved.size - 3} more" if unserved.size > 3 else ""
+    figures["reason"] = (
+        f"no subcarrier is left for {names}{more}, so {form.objective.name} is at its lowest whatever the others get: "
+        "they are served without them"
+    )
+    figures["price_of_power"] = 0.0
+    rate = user_rate_bps(form.estimate.gain, found.owner, found.power_w, form.cell)
+    value = form.objective.value(rate, found.spent_w, form.cell, form.weight)
+    return certified(form, found.owner, found.power_w, value, **figures)
