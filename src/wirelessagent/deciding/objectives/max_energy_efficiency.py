@@ -17,7 +17,6 @@ class MaxEnergyEfficiency(Objective):
     name = "max_energy_efficiency"
     aliases = ("P3",)
     unit = "bit/J"
-    default_method = "fractional"
     measure = "efficiency"
     phrases = phrases(
         en=["energy efficiency", "most bits per joule", "best trade-off between rate and power"],

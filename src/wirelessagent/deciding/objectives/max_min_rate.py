@@ -21,7 +21,6 @@ class MaxMinRate(Objective):
     name = "max_min_rate"
     aliases = ("max-min",)
     unit = "bit/s"
-    default_method = "round_robin"
     joined = "min"
     figure_name = phrases(en=["lowest rate"], zh=["最低速率"])
     phrases = phrases(

@@ -17,7 +17,6 @@ class MaxRate(Objective):
     name = "max_rate"
     aliases = ("P1",)
     unit = "bit/s"
-    default_method = "water_filling"
     phrases = phrases(
         en=["maximum rate", "highest throughput", "as fast as possible", "more speed"],
         zh=["最大速率", "最高吞吐量", "越快越好", "提高网速"],

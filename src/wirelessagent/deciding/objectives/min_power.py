@@ -19,7 +19,6 @@ class MinPower(Objective):
     aliases = ("P2",)
     unit = "W"
     direction = "min"
-    default_method = "exclusive_sets"
     measure = "power"
     phrases = phrases(
         en=["minimum power", "save power", "as little power as possible", "lowest transmit power"],

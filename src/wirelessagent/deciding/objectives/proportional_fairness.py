@@ -37,7 +37,6 @@ class ProportionalFairness(Objective):
     name = "proportional_fairness"
     aliases = ("PF",)
     unit = "bit/s"
-    default_method = "round_robin"
     figure_name = phrases(en=["geometric mean rate"], zh=["几何平均速率"])
     phrases = phrases(
         en=["proportional fairness", "share fairly", "a fair share for everyone"],
