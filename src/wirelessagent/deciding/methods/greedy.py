@@ -1,0 +1,63 @@
+"""A plain, fast rule for any objective: each group of subcarriers to whoever gains most, then the exact powers."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.deciding.core.greedy_search import search_greedily, search_objective_greedily
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.program import LEAST_POWER, Program
+from wirelessagent.deciding.core.search_decision import decision_of, fits, unkept_decision, unpowered_decision
+from wirelessagent.deciding.core.unserved import without_unservable
+from wirelessagent.deciding.method import Method
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.problem import Problem
+
+
+@dataclass(frozen=True, kw_only=True)
+class Greedy(Method):
+    """Any objective with any constraints: each subcarrier to whoever gains most by it, water-filling within each set.
+
+    First come users who have no set yet that carries what they must have, then whoever gains most at the price of power
+    that the Lagrangian dual finds; nothing that was given away is taken back. The powers are the best on these sets.
+    The sets are a heuristic; the bound, the dual at its prices, tells how far they may be from the optimum.
+    """
+
+    name = "greedy"
+    constraints = frozenset(
+        {
+            "weights",
+            "min_rate_bps",
+            "max_rate_bps",
+            "subcarrier_max_power_w",
+            "forbidden",
+            "users",
+            "resource_block_group_size",
+        }
+    )
+
+    def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
+        form = NormalForm.of(self, estimate, problem, cell)
+        program = Program.of(form)
+        least = search_greedily(form, Program.of_promises(form)) if form.promised_nats.any() else None
+        if least is not None and not fits(form, least):
+            return unkept_decision(form, least)
+        if program.goal == LEAST_POWER:
+            if least is None:
+                return unpowered_decision(form)
+            return decision_of(form, least, least, np.empty(0, dtype=np.int64))
+        served, unserved = without_unservable(form, program)
+        program = Program.of(served) if unserved.size else program
+        found = search_objective_greedily(served, program)
+        if least is not None and not found.kept:  # the sets of the promises first, and what they leave
+            found = search_objective_greedily(served, program, least.owner)
+        if not found.kept:
+            nobody = np.full(form.cap_w.size, -1, dtype=np.int64), np.zeros(form.cap_w.size)
+            owner, power_w = (least.owner, least.power_w) if least is not None else nobody
+            found = dataclasses.replace(found, owner=owner, power_w=power_w)
+        return decision_of(form, found, least, unserved)
