@@ -149,10 +149,10 @@ def best_level(
     Between its limits the rate solves α ln(r/r₀) + z + ln μ = ln s, by Newton's method kept inside a bracket.
     """  # fmt: skip
     low, high = user[LOW], user[HIGH]
-    if user[SLOPE] <= 0.0 or low >= high:
-        return fill_level(floor, ceiling, size, low, scratch, scratch_cap)
-    if size == 0:
+    if size == 0 or high <= 0.0:
         return np.inf if low > 0.0 else -np.inf
+    if user[SLOPE] <= 0.0 or low >= high:
+        return fill_level(floor, ceiling, size, low, scratch, scratch_cap) if low > 0.0 else -np.inf
     alpha = user[CURVATURE]
     level = np.log(user[SLOPE]) - log_mu
     rate, rising = supply(floor, ceiling, size, level)

@@ -26,6 +26,8 @@ LAST = np.array([1e-3])
 ROUNDS = 20
 SETTLED = 1e-7
 MARGIN = 1e-6
+LOWER = (0.7, 0.3, 1e-2, 1e-6)
+"""Shares of a level at which users who cannot reach it are given subcarriers first."""
 
 
 class Ask(NamedTuple):
@@ -333,6 +335,14 @@ def solve(
     price = 0.0 if ask.goal == LEVEL else log_mu
     value_all(channel, rows, price, sets)
     missing = serve_all(channel, rows, price, sets)
+    if ask.goal == LEVEL:
+        for share_of_level in LOWER:
+            if missing == 0:
+                break
+            at = log_mu + np.log(share_of_level)
+            set_level(rows, ask.share, np.exp(at))
+            value_all(channel, rows, price, sets)
+            missing = serve_all(channel, rows, price, sets)
     score, at = polish(
         ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets, at,
         best_owner,
