@@ -76,7 +76,7 @@ class _Search:
     def take(self, price: FloatArray, log_mu: float, bound: float, promised: float) -> None:
         """Keep the prices of a smaller bound, and fit the box to how much of the ``promised`` fall came true.
 
-        At a kink where many sets tie D hardly ever falls at once; there the box must stay, and the sets come one by one.
+        At a kink where many sets tie D hardly ever falls at once; there the box stays, and the sets come one by one.
         """
         fall = self.bound - bound
         if fall > 0.0:
@@ -224,7 +224,7 @@ def _solve(
     usable = np.flatnonzero(value > NOTHING)
     value, power = value[usable], power[usable]
     gain = value + (mus[usable] - market.cost_per_w) * power
-    scale = max(float(np.abs(gain).mean()), 1e-300)
+    scale = max(float(np.abs(value).mean()), float(search.price.mean())) or 1.0
     incidence = csc_array((np.ones(sets.member.size), sets.member, sets.first), shape=(columns, count))
     packing = csc_array(incidence[:, usable % count])
     each = coo_array(

@@ -29,7 +29,7 @@ _ROUNDING = 1e-9
 _ACCURACY = 1e-10
 _PRICE_ACCURACY = 1e-6
 _ROUNDS = 30
-_NODES = 3_000_000
+_NODES = 300_000
 _FRACTION = 1e-6
 _LOOSE = 0.05
 """Part of the gap that central prices may cost."""
