@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.certificate import certified
+from wirelessagent.deciding.core.certificate import Figures, certified
 from wirelessagent.deciding.core.dual_prices import figures_of
 from wirelessagent.deciding.core.dual_search import Search
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.promises import broken_decision
-from wirelessagent.model.arrays import IntArray
+from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.rates import user_rate_bps
 
@@ -41,6 +41,21 @@ def decision_of(form: NormalForm, found: Search, least: Search | None, unserved:
     figures = figures_of(form, found, least)
     if unserved.size == 0:
         return certified(form, found.owner, found.power_w, found.bound, **figures)
+    return worthless_decision(form, found.owner, found.power_w, unserved, figures)
+
+
+def unservable_decision(form: NormalForm, least: Search | None, unserved: IntArray) -> Decision:
+    """Where nobody whose rate counts can be served: the promised rates are kept, and that is all."""
+    if least is None:
+        nobody = np.full(form.cap_w.size, -1, dtype=np.int64)
+        return worthless_decision(form, nobody, np.zeros(nobody.size), unserved, Figures())
+    return worthless_decision(form, least.owner, least.power_w, unserved, figures_of(form, least, least))
+
+
+def worthless_decision(
+    form: NormalForm, owner: IntArray, power_w: FloatArray, unserved: IntArray, figures: Figures
+) -> Decision:
+    """The optimum of an objective that is at its lowest because of users who cannot be served."""
     names = ", ".join(form.estimate.user_names[user] for user in unserved[:3])
     more = f" and {unserved.size - 3} more" if unserved.size > 3 else ""
     figures["reason"] = (
@@ -48,6 +63,6 @@ def decision_of(form: NormalForm, found: Search, least: Search | None, unserved:
         "they are served without them"
     )
     figures["price_of_power"] = 0.0
-    rate = user_rate_bps(form.estimate.gain, found.owner, found.power_w, form.cell)
-    value = form.objective.value(rate, found.spent_w, form.cell, form.weight)
-    return certified(form, found.owner, found.power_w, value, **figures)
+    rate = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
+    value = form.objective.value(rate, float(power_w.sum()), form.cell, form.weight)
+    return certified(form, owner, power_w, value, **figures)

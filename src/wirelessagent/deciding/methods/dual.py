@@ -13,7 +13,13 @@ from wirelessagent.deciding.core.closed_form import closed_decision, is_closed
 from wirelessagent.deciding.core.dual_search import Effort, Search, search, search_objective, search_promises, tighter
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, Program
-from wirelessagent.deciding.core.search_decision import decision_of, fits, unkept_decision, unpowered_decision
+from wirelessagent.deciding.core.search_decision import (
+    decision_of,
+    fits,
+    unkept_decision,
+    unpowered_decision,
+    unservable_decision,
+)
 from wirelessagent.deciding.core.unserved import without_unservable
 from wirelessagent.deciding.method import Method
 from wirelessagent.model.arrays import positive, whole
@@ -96,6 +102,8 @@ class Dual(Method):
         if least is not None and program.goal == LEAST_POWER:
             return decision_of(form, self._go_on(form, least, started), least, np.empty(0, dtype=np.int64))
         served, unserved = without_unservable(form, program)
+        if not served.weight.any():
+            return unservable_decision(form, least, unserved)
         found = search_objective(served, Program.of(served) if unserved.size else program, effort, earlier)
         if least is not None and not found.kept:
             found = search_objective(served, found.program, effort, found.prices, least.owner)
