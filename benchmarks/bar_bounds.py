@@ -39,7 +39,7 @@ def _bounds(
 ) -> list[list[str]]:
     cell = dataclasses.replace(cell, max_power_w=max(cell.max_power_w, problem.max_power_w or 0.0))
     objective = _name(problem)
-    chosen = contenders("greedy", "exclusive_sets", "dual fast", "dual thorough")
+    chosen = contenders("greedy", "dual fast", "dual thorough")
     tallies = {label: Tally() for label in chosen}
     signed: dict[str, list[float]] = {label: [] for label in chosen}
     times: list[float] = []
@@ -81,7 +81,7 @@ def milp(count: int) -> None:
     for case in ("min power, 1 Mbit/s each", *list(PROBLEMS)[:1], *list(PROBLEMS)[3:]):
         problem, link = ALL[case], "Shannon"
         cell = dataclasses.replace(LINKS[link], max_power_w=max(20.0, problem.max_power_w or 0.0))
-        chosen = contenders("greedy", "exclusive_sets", "dual fast", "dual thorough", "exact")
+        chosen = contenders("greedy", "dual fast", "dual thorough", "exact")
         tallies = {label: Tally() for label in chosen}
         times: list[float] = []
         gaps: list[float] = []

@@ -45,7 +45,7 @@ def budget(count: int) -> None:
     """Bar 1 at the cell's 20 W: what is feasible, and who knows."""
     rows: list[list[str]] = []
     for users, subcarriers in ((8, 20), (64, 273)):
-        chosen = contenders() if users == 8 else contenders("greedy", "exclusive_sets", "dual fast")
+        chosen = contenders() if users == 8 else contenders("greedy", "dual fast")
         for rate in RATES_BPS:
             problem = Problem("min_power", min_rate_bps=rate)
             for label, (method, options) in chosen.items():
@@ -61,7 +61,7 @@ def budget(count: int) -> None:
 def large(count: int) -> None:
     """Bar 2: certified gaps at 64×273."""
     rows: list[list[str]] = []
-    chosen = contenders("paper's rule", "greedy", "exclusive_sets", "dual fast", "dual thorough")
+    chosen = contenders("paper's rule", "greedy", "dual fast", "dual thorough")
     for rate in RATES_BPS:
         problem = Problem("min_power", min_rate_bps=rate)
         for label, (method, options) in chosen.items():
@@ -100,7 +100,7 @@ def warm(count: int) -> None:
 def huge(count: int) -> None:
     """Bar 2: nearly as many users as subcarriers."""
     problem = Problem("min_power", min_rate_bps=0.1e6)
-    tallies = {label: Tally() for label in contenders("greedy", "exclusive_sets", "dual fast", "dual thorough")}
+    tallies = {label: Tally() for label in contenders("greedy", "dual fast", "dual thorough")}
     over: list[float] = []
     for estimate in draws(256, 273, count):
         found = {

@@ -20,7 +20,6 @@ from wirelessagent.model.problem import Problem
 CONTENDERS: dict[str, tuple[str, dict[str, Any]]] = {
     "paper's rule": ("paper", {}),
     "greedy": ("greedy", {}),
-    "exclusive_sets": ("exclusive_sets", {}),
     "dual fast": ("dual", {"effort": "fast"}),
     "dual thorough": ("dual", {"effort": "thorough"}),
     "exact": ("exact", {}),

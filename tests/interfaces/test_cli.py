@@ -88,9 +88,9 @@ def test_simulate_repair_solve_compare_pass_files_on(tmp_path: Path, capsys: pyt
     assert json.loads(allocation.read_text())["owner"] == decided["owner"]
 
     compared = answer(
-        capsys, "compare", repaired, "--objective", "max_rate", "--methods", "water_filling", "--methods", "paper"
+        capsys, "compare", repaired, "--objective", "max_rate", "--methods", "dual", "--methods", "paper"
     )
-    assert [one["method"] for one in compared["answers"]] == ["water_filling", "paper"]
+    assert [one["method"] for one in compared["answers"]] == ["dual", "paper"]
     assert all(one["decision"]["gap"] < 1e-3 for one in compared["answers"])
 
 
@@ -202,7 +202,7 @@ def test_an_unclear_sentence_gets_a_question_back(capsys: pytest.CaptureFixture[
         (["solve", EXAMPLE, "--min-rate-bps", "1,x"], "--min-rate-bps"),
         (["solve", EXAMPLE, "--users", "nobody"], "nobody"),
         (["solve", EXAMPLE, "--overhead", "1.5"], "overhead"),
-        (["solve", EXAMPLE, "--method", "water_filling", "--objective", "min_power"], "does not solve"),
+        (["solve", EXAMPLE, "--method", "paper_scan", "--objective", "min_power"], "does not solve"),
         (["repair", EXAMPLE, "--out", "no/such/folder/x.npz", "--drop", "0"], "no/such/folder"),
         (["simulate", "--loss", "rain:0.1"], "rain"),
         (["simulate", "--num-users", "0"], "num_users"),

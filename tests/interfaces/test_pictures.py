@@ -43,7 +43,7 @@ def a_run(
     rate = user_rate_bps(estimate.gain, owner, power_w, cell)
     decision = Decision(
         owner=owner, power_w=power_w, rate_bps=rate, status=status, value=1.0, bound=1.0, gap=0.0, unit="bit/s",
-        method="water_filling", problem=Problem(MaxRate(), min_rate_bps=min_rate_bps), cell=cell,
+        method="dual", problem=Problem(MaxRate(), min_rate_bps=min_rate_bps), cell=cell,
         user_names=observation.user_names, reason="" if status in ("optimal", "feasible") else "needs at least 43.2 W",
     )  # fmt: skip
     outcome = None
@@ -142,7 +142,7 @@ def test_small_powers_take_a_prefix(water_level_w, unit, scale):
     assert heights(panel, 20) == pytest.approx(run["decision"].power_w / scale, rel=1e-12)
     assert panel.lines[0].get_ydata()[0] == pytest.approx(water_level_w / scale, rel=1e-9)
     assert f"water level {water_level_w / scale:.3g} {unit}" in texts(canvas)
-    assert f"Decided by water_filling: {run['decision'].total_power_w / scale:.3g} {unit}" in texts(canvas)
+    assert f"Decided by dual: {run['decision'].total_power_w / scale:.3g} {unit}" in texts(canvas)
 
 
 def test_the_strip_shows_the_owner_of_every_subcarrier():
@@ -192,7 +192,7 @@ def test_without_an_allocation_the_reason_stands_where_the_powers_would(status):
     shown = texts(canvas)
 
     assert f"{status}: needs at least 43.2 W" in shown
-    assert f"Decided by water_filling: {status}" in shown
+    assert f"Decided by dual: {status}" in shown
     assert not allocation.axison, "an axis without data says nothing"
     assert "minimum" in shown
     assert "predicted" not in shown

@@ -16,12 +16,12 @@ from wirelessagent.model.rates import user_rate_bps
 from wirelessagent.testing.channels import known, rayleigh_gain
 
 METHODS = {
-    "max_rate": ("water_filling", "paper_bisection", "equal_power", "round_robin"),
-    "min_power": ("exclusive_sets", "paper_inversion", "equal_power", "round_robin"),
-    "max_energy_efficiency": ("fractional", "paper_scan", "equal_power", "round_robin"),
+    "max_rate": ("dual", "greedy", "paper_bisection", "equal_power", "round_robin"),
+    "min_power": ("dual", "greedy", "paper_inversion", "equal_power", "round_robin"),
+    "max_energy_efficiency": ("dual", "greedy", "paper_scan", "equal_power", "round_robin"),
 }
 PAIRS = [(objective, method) for objective, methods in METHODS.items() for method in methods]
-EXACT = [("max_rate", "water_filling"), ("max_energy_efficiency", "fractional")]
+EXACT = [("max_rate", "dual"), ("max_energy_efficiency", "dual")]
 CELLS = (wa.Cell(max_power_w=1e6), wa.Cell.nr(max_power_w=1e6))
 
 quick = settings(max_examples=25, deadline=None, derandomize=True)
@@ -149,7 +149,7 @@ def test_the_bound_on_power_hardly_depends_on_order(gain: FloatArray, seed: int,
     """The search for prices starts from a heuristic, so its bound may differ a little; the true optimum does not."""
     rng = np.random.default_rng(seed)
     moved = gain[rng.permutation(gain.shape[0])][:, rng.permutation(gain.shape[1])]
-    first, second = (solve(g, "min_power", "exclusive_sets", CELLS[0], min_rate_bps=rate_bps) for g in (gain, moved))
+    first, second = (solve(g, "min_power", "dual", CELLS[0], min_rate_bps=rate_bps) for g in (gain, moved))
     assert first.status == second.status or "undecided" in (first.status, second.status)
     if gain.shape[0] <= gain.shape[1]:
         assert first.needed_power_w is not None
@@ -178,9 +178,9 @@ def test_rate_never_falls_with_budget(
     method: str, gain: FloatArray, low_w: float, factor: float, link: wa.Cell
 ) -> None:
     low, high = (solve(gain, "max_rate", method, link, max_power_w=budget) for budget in (low_w, low_w * factor))
-    slack = 2e-6 if method == "paper_bisection" else 1e-13  # the bisection leaves up to 1e-6 of the budget unspent
+    slack = {"paper_bisection": 2e-6, "greedy": 1e-9}.get(method, 1e-13)  # the bisection leaves up to 1e-6 unspent
     assert high.value >= low.value * (1 - slack)
-    assert high.bound >= low.bound * (1 - 1e-13)
+    assert high.bound >= low.bound * (1 - min(slack, 1e-9))
 
 
 @given(gain=gains(), low_w=st.floats(1e-9, 1e3), factor=st.floats(1.0, 1e3), link=st.sampled_from(CELLS))
@@ -188,11 +188,11 @@ def test_rate_never_falls_with_budget(
 def test_efficiency_never_falls_with_budget_nor_rises_beyond_the_best_ratio(
     gain: FloatArray, low_w: float, factor: float, link: wa.Cell
 ) -> None:
-    low = solve(gain, "max_energy_efficiency", "fractional", link, max_power_w=low_w)
-    high = solve(gain, "max_energy_efficiency", "fractional", link, max_power_w=low_w * factor)
+    low = solve(gain, "max_energy_efficiency", "dual", link, max_power_w=low_w)
+    high = solve(gain, "max_energy_efficiency", "dual", link, max_power_w=low_w * factor)
     assert high.value >= low.value * (1 - 1e-13)
     assert high.total_power_w >= low.total_power_w * (1 - 1e-6)
-    most = solve(gain, "max_rate", "water_filling", link, max_power_w=high.total_power_w)
+    most = solve(gain, "max_rate", "dual", link, max_power_w=high.total_power_w)
     assert high.rate_bps.sum() == pytest.approx(most.value, rel=1e-12)
 
 
@@ -201,9 +201,9 @@ def test_efficiency_never_falls_with_budget_nor_rises_beyond_the_best_ratio(
 def test_one_user_round_trip(gain: FloatArray, budget_w: float, link: wa.Cell) -> None:
     """The least power for the best rate of a budget is that budget, and both are proven optimal."""
     alone = gain[:1]
-    best = solve(alone, "max_rate", "water_filling", link, max_power_w=budget_w)
+    best = solve(alone, "max_rate", "dual", link, max_power_w=budget_w)
     back = solve(
-        alone, "min_power", "exclusive_sets", link, max_power_w=budget_w, min_rate_bps=best.value * (1 - 1e-13)
+        alone, "min_power", "dual", link, max_power_w=budget_w, min_rate_bps=best.value * (1 - 1e-13)
     )  # fmt: skip
     assert back.status == "optimal"
     assert back.value == pytest.approx(best.total_power_w, rel=1e-9)
@@ -237,7 +237,7 @@ def test_from_one_bit_to_a_petabit_per_second(method: str, link: int) -> None:
 @quick
 def test_more_rate_needs_more_power(gain: FloatArray, rate_bps: float, factor: float, link: wa.Cell) -> None:
     less, more = (
-        solve(gain, "min_power", "exclusive_sets", link, min_rate_bps=rate) for rate in (rate_bps, rate_bps * factor)
+        solve(gain, "min_power", "dual", link, min_rate_bps=rate) for rate in (rate_bps, rate_bps * factor)
     )
     assert less.needed_power_w is not None
     assert more.needed_power_w is not None

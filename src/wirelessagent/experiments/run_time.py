@@ -29,9 +29,9 @@ from wirelessagent.pictures.canvas import Canvas
 from wirelessagent.sensing.rayleigh import Rayleigh
 
 _DECISIONS = (
-    ("max_rate", "water_filling"),
-    ("min_power", "exclusive_sets"),
-    ("max_energy_efficiency", "fractional"),
+    ("max_rate", "dual"),
+    ("min_power", "dual"),
+    ("max_energy_efficiency", "dual"),
     ("max_energy_efficiency", "paper_scan"),
 )
 

@@ -33,16 +33,24 @@ NONE, UNKNOWN = -1, -2
 
 @kernel
 def best_free(
-    channel: Channel, rows: FloatArray, log_mu: float, log_mus: FloatArray, sets: Sets, user: int
+    channel: Channel, rows: FloatArray, log_mu: float, log_mus: FloatArray, sets: Sets, user: int, alike: bool
 ) -> tuple[int, float]:
     """The free group that is worth most to a user and what it gains by it; −1 if none is of use.
 
     The gain of a user who has no set that carries what it must have is its need: ln of the power that the whole rate
-    takes, roughly, on the best subcarrier of the group. ``log_mus`` is ln μ less ln â of each user.
+    takes, roughly, on the best subcarrier of the group. ``log_mus`` is ln μ less ln â of each user; groups are
+    ``alike`` if nothing but the gain tells them apart.
     """  # fmt: skip
     now = sets.worth[user]
     best, chosen = now + ROUNDING * abs(now), NONE
-    for g in range(sets.owner.size):
+    first, last = 0, sets.owner.size
+    if alike:
+        lowest = np.inf
+        for g in range(sets.owner.size):
+            if sets.owner[g] < 0 and channel.floor[user, g] < lowest:
+                lowest, first = channel.floor[user, g], g
+        last = first + 1
+    for g in range(first, last):
         if sets.owner[g] >= 0 or not channel.usable[g, user]:
             continue
         worth = changed_worth(
@@ -59,8 +67,11 @@ def best_free(
 
 
 @kernel
-def hand_out(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets) -> None:
-    """Give free groups away, one by one, to the user who needs one most or, where nobody needs any, gains most."""
+def hand_out(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, alike: bool) -> None:
+    """Give free groups away, one by one, to the user who needs one most or, where nobody needs any, gains most.
+
+    ``alike`` as in :func:`best_free`.
+    """
     users = sets.count.size
     choice = np.full(users, UNKNOWN)
     gain = np.empty(users)
@@ -70,7 +81,7 @@ def hand_out(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets) -> N
         urgent = False
         for k in range(users):
             if choice[k] == UNKNOWN or (choice[k] != NONE and sets.owner[choice[k]] >= 0):
-                choice[k], gain[k] = best_free(channel, rows, log_mu, log_mus, sets, k)
+                choice[k], gain[k] = best_free(channel, rows, log_mu, log_mus, sets, k, alike)
             if choice[k] == NONE:
                 continue
             needy = sets.worth[k] <= -UNREACHABLE
@@ -107,7 +118,7 @@ def solve_greedily(
     assign(sets, owners)
     price = 0.0 if ask.goal == LEVEL else log_mu
     value_all(channel, rows, price, sets)
-    hand_out(channel, rows, price, sets)
+    hand_out(channel, rows, price, sets, groups == subcarriers and ask.cap_w.min() == np.inf)
     missing = 0
     for k in range(users):
         if sets.worth[k] <= -UNREACHABLE:

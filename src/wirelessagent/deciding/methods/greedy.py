@@ -10,7 +10,13 @@ import numpy as np
 from wirelessagent.deciding.core.greedy_search import search_greedily, search_objective_greedily
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, Program
-from wirelessagent.deciding.core.search_decision import decision_of, fits, unkept_decision, unpowered_decision
+from wirelessagent.deciding.core.search_decision import (
+    decision_of,
+    fits,
+    unkept_decision,
+    unpowered_decision,
+    unservable_decision,
+)
 from wirelessagent.deciding.core.unserved import without_unservable
 from wirelessagent.deciding.method import Method
 from wirelessagent.model.cell import Cell
@@ -52,6 +58,8 @@ class Greedy(Method):
                 return unpowered_decision(form)
             return decision_of(form, least, least, np.empty(0, dtype=np.int64))
         served, unserved = without_unservable(form, program)
+        if not served.weight.any():
+            return unservable_decision(form, least, unserved)
         program = Program.of(served) if unserved.size else program
         found = search_objective_greedily(served, program)
         if least is not None and not found.kept:  # the sets of the promises first, and what they leave

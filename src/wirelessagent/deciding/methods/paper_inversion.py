@@ -23,7 +23,7 @@ class PaperInversion(Method):
 
     The paper's sets S_k may overlap, ours never do: the users with a promised rate take turns in their order, each turn
     taking the best subcarrier that is still free. K counts those users. It is a heuristic, judged by the same bound as
-    :class:`ExclusiveSets`.
+    :class:`Dual`.
     """
 
     name = "paper_inversion"
