@@ -53,9 +53,17 @@ def require_matplotlib() -> None:
 
 
 class Canvas:
-    """A figure of ``rows`` × ``columns`` panels, counted row by row."""
+    """A figure of ``rows`` × ``columns`` panels, counted row by row; ``heights`` are the rows', relative."""
 
-    def __init__(self, *, rows: int = 1, columns: int = 1, width_in: float, height_in: float) -> None:
+    def __init__(
+        self,
+        *,
+        rows: int = 1,
+        columns: int = 1,
+        width_in: float,
+        height_in: float,
+        heights: Sequence[float] | None = None,
+    ) -> None:
         require_matplotlib()
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
@@ -63,7 +71,9 @@ class Canvas:
         self.figure: Figure = Figure(figsize=(width_in, height_in), dpi=_DOTS_PER_INCH, layout="constrained")
         FigureCanvasAgg(self.figure)
         self.figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)  # pyright: ignore[reportOptionalMemberAccess, reportCallIssue]
-        grid: Sequence[Axes] = self.figure.subplots(rows, columns, squeeze=False).ravel().tolist()
+        grid: Sequence[Axes] = self.figure.subplots(
+            rows, columns, squeeze=False, height_ratios=heights
+        ).ravel().tolist()  # fmt: skip
         self.panels: tuple[Panel, ...] = tuple(Panel(axes) for axes in grid)
 
     def title(self, *lines: str) -> None:
@@ -171,6 +181,17 @@ class Panel:
             linewidth=0.4,
         )
 
+    def columns(self, x: ArrayLike, bottom: ArrayLike, top: ArrayLike, *, colour: str, label: str) -> None:
+        """Columns from ``bottom`` to ``top``, for stacking, on a logarithmic axis too."""
+        start, end = np.asarray(bottom, dtype=float), np.asarray(top, dtype=float)
+        self.axes.bar(
+            np.asarray(x, dtype=float), end - start, bottom=start, width=0.9, color=colour, label=label, linewidth=0.0
+        )  # fmt: skip
+
+    def path(self, x: ArrayLike, y: ArrayLike, *, colour: str, label: str | None = None) -> None:
+        """A plain line."""
+        self.axes.plot(np.asarray(x, dtype=float), np.asarray(y, dtype=float), color=colour, linewidth=1.5, label=label)
+
     def strip(self, x: ArrayLike, colours: Sequence[str], *, below: float) -> None:
         """A row of coloured fields from ``below``, a negative value, almost up to zero, and room for it."""
         positions = np.asarray(x, dtype=float)
@@ -194,6 +215,10 @@ class Panel:
     def level(self, y: float, *, label: str, colour: str = "black") -> None:
         """A dashed line across the panel."""
         self.axes.axhline(y, color=colour, linestyle="--", linewidth=1.3, label=label)
+
+    def band(self, low: float, high: float, *, label: str) -> None:
+        """A shaded band across the panel."""
+        self.axes.axhspan(low, high, color="#F6D9C4", linewidth=0.0, label=label, zorder=0.5)
 
     def guide(self, x: ArrayLike, y: ArrayLike, *, label: str) -> None:
         """A thin dashed curve to compare others with."""
