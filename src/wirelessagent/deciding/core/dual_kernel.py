@@ -26,6 +26,10 @@ LAST = np.array([1e-3])
 ROUNDS = 20
 SETTLED = 1e-7
 MARGIN = 1e-6
+NEAR, FAR = 0.2, 0.6
+"""By how much, in units of a group's mean term, a candidate's term may fall short at first, and later."""
+MANY = 100
+"""From so many restarts on, all candidates are tried that the dual does not exclude."""
 LOWER = (0.7, 0.3, 1e-2, 1e-6)
 """Shares of a level at which users who cannot reach it are given subcarriers first."""
 
@@ -250,6 +254,15 @@ def level_bound(share: FloatArray, log_price: FloatArray, worth_w: float, most: 
 
 
 @kernel
+def mean_term(term: FloatArray) -> float:
+    """Mean over the groups of the largest term."""
+    total = 0.0
+    for g in range(term.shape[0]):
+        total += max(term[g].max(), 0.0)
+    return total / term.shape[0]
+
+
+@kernel
 def slack_of(
     ask: Ask,
     rows: FloatArray,
@@ -324,7 +337,8 @@ def solve(
             usable[:, k] = False
     candidates = np.empty((groups, min(choices, users)), dtype=np.int64)
     wanted = np.empty((groups, users), dtype=np.bool_)
-    choose_candidates(term, usable, np.inf, candidates, wanted)
+    mean = mean_term(term)
+    choose_candidates(term, usable, NEAR * mean, candidates, wanted)
     sets = empty_sets(users, groups, subcarriers)
     best_owner = np.empty(groups, dtype=np.int64)
     for g in range(groups):
@@ -363,9 +377,14 @@ def solve(
             assign(sets, best_owner)
             if ask.goal == LEVEL:
                 set_level(rows, ask.share, np.exp(at))
-    if restarts > 0:
-        slack = slack_of(ask, rows, log_price, log_mu, term, dual, score, at)
-        choose_candidates(term, usable, slack, candidates, wanted)
+    slack = slack_of(ask, rows, log_price, log_mu, term, dual, score, at)
+    reach = FAR * mean if restarts < MANY else np.inf
+    if slack > 0.0:
+        choose_candidates(term, usable, min(slack, reach), candidates, wanted)
+        score, at = polish(
+            ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets,
+            at, best_owner,
+        )  # fmt: skip
         state = np.array([seed * 2654435761 + 88172645463325252])
         score, at = restart(
             ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets,
