@@ -212,7 +212,10 @@ def _solve(
 
     A column, or power, may also be bought at the upper end of its box and sold at the lower one.
     """
-    from scipy.sparse import block_array, coo_array, csc_array, eye_array
+    from scipy import sparse
+    from scipy.sparse import coo_array, csc_array, eye_array
+
+    block_array: Any = sparse.block_array  # its types know no missing blocks
 
     users, columns, count = market.users.shape[0], market.columns, len(sets)
     top = bottom = 0.0
@@ -244,8 +247,9 @@ def _solve(
         rows = [[packing, -unit, unit, None], [used, None, None, csc_array(np.array([[-1.0, 1.0]]))]]
         limits = np.ones(columns + 1)
     cost = np.concatenate(costs) / scale
-    equal: Any = block_array([[each, coo_array((users, cost.size - usable.size))]], format="csc")
-    solution = _minimised(cost, block_array(rows, format="csc"), limits, equal, np.ones(users))
+    equal = block_array([[each, coo_array((users, cost.size - usable.size))]], format="csc")
+    at_most = block_array(rows, format="csc")
+    solution = _minimised(cost, at_most, limits, equal, np.ones(users))
     if solution is None:
         return None
     least, amount, dual = solution[0] * scale, solution[1], solution[2] * scale

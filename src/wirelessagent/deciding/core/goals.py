@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.deciding.core.market import Market, Sets
+from wirelessagent.deciding.core.program import promises
 from wirelessagent.model.arrays import FloatArray
 
 _STEPS = 100
@@ -171,14 +172,6 @@ class HighestLevel(Goal):
             middle = 0.5 * (low + high)
             low, high = (middle, high) if allowed(middle) else (low, middle)
         return min(high, self.most_level)
-
-
-def promises(nats: FloatArray) -> FloatArray:
-    """Rows of six of users who must get ``nats`` (user,) and want no more."""
-    rows = np.zeros((nats.size, 6))
-    rows[:, 0] = rows[:, 1] = nats
-    rows[:, 2] = np.maximum(nats, 1.0)
-    return rows
 
 
 def _largest(fits: Callable[[float], bool], most: float, steps: int) -> float:
