@@ -343,10 +343,20 @@ def test_rate_prices_are_the_best(seed: int, rate_bps: float) -> None:
         assert -found.fun <= decision.needed_power_w.at_least * (1 + 1e-3)
 
 
-@pytest.mark.parametrize("rate_bps", [1e5, 1e6])
-def test_rate_scaling_is_known_closely(rate_bps: float) -> None:
-    decision = wa.decide(known(rayleigh_gain(4, 48, seed=2)[0]), wa.Problem("min_power", min_rate_bps=rate_bps))
-    assert decision.rate_scaling.at_most <= 1.05 * decision.rate_scaling.at_least
+@pytest.mark.parametrize("method", ["dual", "greedy"])
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.98])
+def test_rate_scaling_brackets_the_largest_common_rate(share: float, method: str) -> None:
+    """What the sets at hand carry is no more than the largest common rate, and what the prices exclude no less."""
+    estimate = known(rayleigh_gain(4, 48, seed=2)[0])
+    most = wa.decide(estimate, wa.Problem("max_min_rate"))
+    rate_bps = share * most.value
+    decision = wa.decide(estimate, wa.Problem("min_power", min_rate_bps=rate_bps), method=method)
+    scaling = decision.rate_scaling
+    assert scaling is not None
+    assert 1.0 <= scaling.at_least <= most.bound / rate_bps * (1 + 1e-9)
+    assert scaling.at_most >= most.value / rate_bps * (1 - 1e-9)
+    if share > 0.9 and method == "dual":
+        assert scaling.at_most <= 1.05 * scaling.at_least
 
 
 def test_price_of_rate_predicts_a_little_more() -> None:

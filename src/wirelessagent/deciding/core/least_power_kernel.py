@@ -1,4 +1,4 @@
-"""The least power that carries given rates on given sets, and conflict-free sets that grow by greedy saving.
+"""The least power that carries given rates on given sets of subcarriers.
 
 Within its set S a user reaches its rate R at least power by water-filling in rates: r_n = min(max(z + ln a_n, 0), c_n)
 with Σ r_n = R and p_n = (e^r_n − 1)/a_n. So the level comes from the same kernel as P1's, on floors −ln a.
@@ -68,101 +68,6 @@ def log_ratio(snr_per_w: FloatArray, log_snr: FloatArray, top: int, n: int) -> f
     if difference > 0.1:
         return difference
     return np.log1p((snr_per_w[top] - snr_per_w[n]) / snr_per_w[n])
-
-
-@kernel
-def best_free(snr_per_w: FloatArray, owner: IntArray) -> int:
-    """The free subcarrier with the best gain in a user's row, −1 if none is of use."""
-    found = -1
-    best = 0.0
-    for n in range(owner.size):
-        if owner[n] < 0 and snr_per_w[n] > best:
-            best = snr_per_w[n]
-            found = n
-    return found
-
-
-@kernel
-def merit_of(
-    n: int,
-    snr_per_w: FloatArray,
-    log_snr: FloatArray,
-    ceiling: FloatArray,
-    members: IntArray,
-    size: int,
-    nats: float,
-    cost: float,
-    floor: FloatArray,
-    cap: FloatArray,
-) -> float:
-    """What subcarrier ``n`` is to a user: the power that it saves; for one who cannot reach its rate yet, its need."""
-    if cost == np.inf:
-        return nats - log_snr[n]
-    members[size] = n
-    return cost - fill_rate(snr_per_w, log_snr, ceiling, members, size + 1, nats, floor, cap)[1]
-
-
-@kernel
-def grow_sets(
-    snr_per_w: FloatArray, log_snr: FloatArray, ceiling: FloatArray, nats: FloatArray, owner: IntArray
-) -> None:
-    """Give free subcarriers away one by one, each to the user whose power falls most by its best free one.
-
-    Users that cannot reach their rate yet come first, the neediest ahead: the one for which the whole rate on its best
-    free subcarrier would cost most. So nobody is left empty while others collect.
-
-    Args:
-        snr_per_w, log_snr: a and ln a, shape (user, subcarrier), C-contiguous.
-        ceiling: most nats on each subcarrier, same shape.
-        nats: promised rate, shape (user,); users with 0 get nothing.
-        owner: shape (subcarrier,), −1 where free; written.
-    """
-    users, subcarriers = snr_per_w.shape
-    members = np.empty((users, subcarriers + 1), dtype=np.int64)
-    size = np.zeros(users, dtype=np.int64)
-    cost = np.empty(users)
-    candidate = np.empty(users, dtype=np.int64)
-    merit = np.empty(users)
-    floor = np.empty(subcarriers)
-    cap = np.empty(subcarriers)
-    for n in range(subcarriers):
-        if owner[n] >= 0:
-            members[owner[n], size[owner[n]]] = n
-            size[owner[n]] += 1
-    for k in range(users):
-        cost[k] = fill_rate(snr_per_w[k], log_snr[k], ceiling[k], members[k], size[k], nats[k], floor, cap)[1]
-        candidate[k] = -2
-    while True:
-        chosen = -1
-        urgent = False
-        for k in range(users):
-            if nats[k] <= 0.0 or candidate[k] == -1:
-                continue
-            if candidate[k] == -2 or owner[candidate[k]] >= 0:
-                n = best_free(snr_per_w[k], owner)
-                candidate[k] = n
-                if n < 0:
-                    continue
-                merit[k] = merit_of(
-                    n, snr_per_w[k], log_snr[k], ceiling[k], members[k], size[k], nats[k], cost[k], floor, cap
-                )  # fmt: skip
-            unserved = cost[k] == np.inf
-            if merit[k] <= 0.0 and not unserved:
-                candidate[k] = -1  # its later candidates are worse still
-                continue
-            if chosen < 0 or (unserved and not urgent) or (unserved == urgent and merit[k] > merit[chosen]):
-                chosen = k
-                urgent = unserved
-        if chosen < 0:
-            return
-        n = candidate[chosen]
-        owner[n] = chosen
-        members[chosen, size[chosen]] = n
-        size[chosen] += 1
-        cost[chosen] = fill_rate(
-            snr_per_w[chosen], log_snr[chosen], ceiling[chosen], members[chosen], size[chosen], nats[chosen], floor, cap
-        )[1]  # fmt: skip
-        candidate[chosen] = -2
 
 
 @kernel

@@ -1,7 +1,7 @@
 """What can be proven of promised rates before any allocation is known: the power they need, and what no power carries.
 
-The dual of P2 (:mod:`.rate_prices_kernel`) gives prices λ; the figures here are then worked out afresh from them with
-:func:`.surplus.surplus`, so that they hold whatever the search did:
+The dual of P2 (:mod:`.prices_kernel`) gives prices λ; the figures here are then worked out afresh from them with
+:mod:`.terms_kernel`, so that they hold whatever the search did:
 
     P ≥ λ·R − Φ(λ, 1)                for any allocation that carries the rates R,
     s ≤ (P_max + Φ(λ, 1))/(λ·R)      for any factor s such that s R is carried within the budget.
@@ -17,12 +17,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.program import promises
 from wirelessagent.deciding.core.rate_relaxations import Relaxations, largest_scaling, relaxations
-from wirelessagent.deciding.core.surplus import surplus
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.units import human
 
 _ROUNDS = 4
+_TEMPERATURES = np.array([0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3])
 _SETTLED = 1e-2
 _ROUNDING = 1e-9
 _HIGHEST_LOG_PRICE = 500.0
@@ -75,16 +76,13 @@ def prove(form: NormalForm) -> RateProof:
 
 
 def _judge(form: NormalForm, snr: FloatArray, nats: FloatArray, log_price: FloatArray) -> tuple[float, float]:
-    """The least power and the largest scaling that prices λ prove for ``nats``; see the module's docstring.
+    """The least power and the largest scaling that prices λ prove for ``nats``; see the module's docstring."""
+    from wirelessagent.deciding.core.terms_kernel import worth_of_groups
 
-    The prices are taken in units of the highest, so that no product overflows but the power itself.
-    """
-    top = float(log_price.max())
-    share, watt = np.exp(log_price - top), float(np.exp(-top))
-    worth = surplus(snr, form.caps_w(snr), share, watt)
-    paid = float(share @ nats)
-    with np.errstate(over="ignore"):
-        return float(np.exp(top)) * max(paid - worth, 0.0), (form.budget_w * watt + worth) / paid
+    price = np.exp(log_price)  # of a few hundred at most, so that no product overflows
+    worth_w = float(worth_of_groups(snr, form.cap_w, form.max_snr, form.start, price))
+    paid_w = float(price @ nats)
+    return max(paid_w - worth_w, 0.0), (form.budget_w + worth_w) / paid_w
 
 
 def _prices_of(relaxed: Relaxations) -> FloatArray:
@@ -174,38 +172,18 @@ def _too_few(form: NormalForm, users: IntArray, served: int) -> str:
 
 def _climb(form: NormalForm, snr: FloatArray, nats: FloatArray) -> tuple[FloatArray, int]:
     """ln λ (user,) near the dual's maximum for ``nats``, and the Newton steps done."""
-    from wirelessagent.deciding.core.rate_prices_kernel import climb_prices
+    from wirelessagent.deciding.core.prices_kernel import climb
+    from wirelessagent.deciding.core.start_kernel import equal_price, typical_snr
 
-    log, ceiling = log_snr(snr), ceilings(form, snr)
+    users, subcarriers = snr.shape
+    rows, typical, log_price = promises(nats), np.empty(users), np.empty(users)
+    typical_snr(snr, typical)
+    equal_price(rows, typical, subcarriers, log_price)
     with np.errstate(divide="ignore", over="ignore"):
         inverse = np.where(snr > 0, 1.0 / snr, 0.0)
-    found = np.empty(nats.size)
-    _, steps = climb_prices(
-        np.ascontiguousarray(log.T),
-        np.ascontiguousarray(inverse.T),
-        np.ascontiguousarray(ceiling.T),
-        np.ascontiguousarray(form.caps_w(snr).T),
-        nats,
-        _starts(snr, log, ceiling, nats),
-        found,
+    channel = (np.ascontiguousarray(of.T) for of in (log_snr(snr), inverse, ceilings(form, snr), form.caps_w(snr)))
+    rate, term, rising = np.empty((3, form.start.size - 1, users))
+    _, _, steps = climb(
+        *channel, form.start, rows, 0.0, False, _TEMPERATURES, log_price, 0.0, rate, term, rising, np.empty(users)
     )
-    return found, steps
-
-
-def _starts(snr: FloatArray, log: FloatArray, ceiling: FloatArray, nats: FloatArray) -> FloatArray:
-    """Prices to start from, ln λ, shape (choice, user): of greedy sets, of all users as one, and of each user alone.
-
-    The first is near the best where rates are ordinary. With huge rates the users' prices differ so little, next to
-    what a subcarrier more or less does to greedy sets, that one price is better; with tiny rates users do not meet.
-    """
-    from wirelessagent.deciding.core.least_power_kernel import grow_sets, least_power
-
-    users = nats.size
-    owner = np.full(snr.shape[1], -1, dtype=np.int64)
-    price = np.empty(users)
-    grow_sets(snr, log, ceiling, nats, owner)
-    least_power(snr, ceiling, nats, owner, np.empty(owner.size), price)
-    share = nats * users / owner.size - np.max(log, axis=1)  # as if all had equally many subcarriers
-    greedy = np.where(np.isfinite(price), price, np.where(np.isfinite(share), share, 0.0))
-    relaxed = relaxations(snr, log, ceiling, nats).log_price
-    return np.stack([greedy, np.full(users, relaxed[0]), relaxed[1:]])
+    return log_price, int(steps)

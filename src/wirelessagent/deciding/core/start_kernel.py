@@ -16,6 +16,8 @@ from wirelessagent.model.arrays import FloatArray
 MOST_AVERAGED = 8
 BISECTIONS = 24
 NEWTON_STEPS = 30
+SHALLOW = 1e-3
+"""A rate in nats below which (r − 1) e^r + 1 is worked out as a series, where it would cancel."""
 
 
 @kernel
@@ -46,7 +48,8 @@ def nats_at(log_worth: float) -> float:
     worth = np.exp(min(log_worth, 600.0))
     for _ in range(NEWTON_STEPS):
         grown = np.exp(min(r, 600.0))
-        step = ((r - 1.0) * grown + 1.0 - worth) / (r * grown)
+        reached = (r - 1.0) * grown + 1.0 if r > SHALLOW else r * r * (0.5 + r * (1.0 / 3.0 + 0.125 * r))
+        step = (reached - worth) / (r * grown)
         r = max(r - step, 0.1 * r)
         if abs(step) < 1e-6 * r:
             break
@@ -60,7 +63,7 @@ def equal_price(rows: FloatArray, typical: FloatArray, subcarriers: int, log_pri
     low, high = np.inf, -np.inf
     for k in range(users):
         if rows[k, LOW] > 0.0 and typical[k] > 0.0:
-            low = min(low, -np.log(typical[k]) - 60.0)
+            low = min(low, -np.log(typical[k]) - 60.0 + 2.0 * min(np.log(rows[k, LOW]), 0.0))
             high = max(high, -np.log(typical[k]) + min(rows[k, LOW], 400.0) + 60.0)
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
