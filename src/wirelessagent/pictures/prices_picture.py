@@ -61,7 +61,7 @@ def prices_canvas(*, estimate: ChannelEstimate, decision: Decision) -> Canvas:
     form = NormalForm.of(Dual(), estimate, decision.problem, decision.cell)
     with np.errstate(over="ignore"):
         price = np.exp(decision.prices.log_rate)
-    canvas = Canvas(width_in=9.0, height_in=9.0, rows=3, heights=(3.2, 2.6, 1.9))
+    canvas = Canvas(width_in=9.0, height_in=8.0, rows=3, heights=(3.2, 2.6, 1.9))
     _draw_levels(canvas.panels[0], form, decision, price)
     _draw_worths(canvas.panels[1], form, decision, price)
     _draw_bounds(canvas.panels[2], form, decision, decision.prices)
