@@ -20,9 +20,10 @@ from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
 COLD = np.array([0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3])
-WARM = np.array([3e-3, 1e-3])
+PROMISED = np.array([0.1, 0.02, 5e-3, 1.5e-3])
+WARM = np.array([5e-3, 1.5e-3])
 LAST = np.array([1e-3])
-"""Temperatures of a climb from afar, from the prices of the slot before, and from prices just found."""
+"""Temperatures of a climb from afar, from a start for promises alone, from the slot before, and from prices just found."""
 ROUNDS = 20
 SETTLED = 1e-7
 MARGIN = 1e-6
@@ -162,7 +163,7 @@ def find_prices(
     dual, steps, iterations = np.inf, 0, 0
     low, high = -np.inf, np.inf
     for i in range(ROUNDS):
-        temperatures = (WARM if warm else COLD) if i == 0 else LAST
+        temperatures = LAST if i > 0 else WARM if warm else COLD if moving else PROMISED
         dual, log_mu, steps = climb(
             log_snr, inverse, ceiling, full_w, ask.start, rows, budget, moving, temperatures, log_price, log_mu,
             rate, term, rising, supplied,

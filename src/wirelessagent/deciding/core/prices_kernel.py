@@ -234,6 +234,23 @@ def bent_utility(user: FloatArray, bent: FloatArray, rate: float) -> float:
 
 
 @kernel
+def dot(matrix: FloatArray, row: int, other: int, size: int) -> float:
+    """The scalar product of the beginnings of two rows, in four sums that run side by side."""
+    a, b, c, d = 0.0, 0.0, 0.0, 0.0
+    i = 0
+    while i + 4 <= size:
+        a += matrix[row, i] * matrix[other, i]
+        b += matrix[row, i + 1] * matrix[other, i + 1]
+        c += matrix[row, i + 2] * matrix[other, i + 2]
+        d += matrix[row, i + 3] * matrix[other, i + 3]
+        i += 4
+    while i < size:
+        a += matrix[row, i] * matrix[other, i]
+        i += 1
+    return (a + b) + (c + d)
+
+
+@kernel
 def newton_step(hessian: FloatArray, gradient: FloatArray, size: int, step: FloatArray) -> None:
     """Write −hessian⁻¹ · gradient, by Cholesky's method with a small ridge; ``hessian`` is used up."""
     largest = 0.0
@@ -242,15 +259,10 @@ def newton_step(hessian: FloatArray, gradient: FloatArray, size: int, step: Floa
     for k in range(size):
         hessian[k, k] += 1e-12 * largest + 1e-300
     for j in range(size):
-        pivot = hessian[j, j]
-        for i in range(j):
-            pivot -= hessian[j, i] * hessian[j, i]
+        pivot = hessian[j, j] - dot(hessian, j, j, j)
         hessian[j, j] = np.sqrt(max(pivot, 1e-12 * largest + 1e-300))
         for k in range(j + 1, size):
-            rest = hessian[k, j]
-            for i in range(j):
-                rest -= hessian[k, i] * hessian[j, i]
-            hessian[k, j] = rest / hessian[j, j]
+            hessian[k, j] = (hessian[k, j] - dot(hessian, k, j, j)) / hessian[j, j]
     for k in range(size):
         rest = -gradient[k]
         for i in range(k):
@@ -403,15 +415,18 @@ def climb(
                 break
             here, here_mu, value = trial, trial_mu, trial_value
             gradient[:] = trial_gradient
+        straight = False
         for tolerance in (0.0, 2.0 * relative_temperature):
             settled = here.copy()
             straight = straighten(users_rows, supplied, tolerance, settled, here_mu)
-            total = price_terms(log_snr, inverse, ceiling, full_w, start, settled, rate, term, rising)
+            if straight:
+                total = price_terms(log_snr, inverse, ceiling, full_w, start, settled, rate, term, rising)
             found = exact_dual(users_rows, budget_w, settled + here_mu, here_mu, total)
             if found < best:
                 best, best_mu = found, here_mu
                 log_price[:] = settled
             if not straight:
                 break
-        total = price_terms(log_snr, inverse, ceiling, full_w, start, here, rate, term, rising)
+        if straight:
+            total = price_terms(log_snr, inverse, ceiling, full_w, start, here, rate, term, rising)
     return best, best_mu, iterations
