@@ -24,7 +24,9 @@ from wirelessagent.deciding.core.market import NOTHING, Market, Sets
 from wirelessagent.model.arrays import FloatArray
 
 _NODES = 200_000
-"""Sets looked at per user and round."""
+"""Sets looked at for a user's best."""
+_NEAR_NODES = 2_000
+"""Sets looked at for those that are nearly as good, which may be missed."""
 _TIE = 1e-12
 """Of a user's part in the prices, by which a set must be better than another to be looked for."""
 _FIRST_SETS, _LATER_SETS = 12, 4
@@ -177,7 +179,7 @@ def _priced(market: Market, price: FloatArray, log_mu: float, first_round: bool)
     near = _NEAR * typical * (1.0 if first_round else 0.25)
     _, user, first, member = bundles_within(
         market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu, bound - near,
-        market.users, log_mu, np.inf, _NODES, _FIRST_SETS if first_round else _LATER_SETS,
+        market.users, log_mu, np.inf, _NEAR_NODES, _FIRST_SETS if first_round else _LATER_SETS,
     )  # fmt: skip
     return total_bound(market, price, log_mu, bound), best.with_others(Sets(user=user, first=first, member=member))
 
@@ -212,10 +214,7 @@ def _solve(
 
     A column, or power, may also be bought at the upper end of its box and sold at the lower one.
     """
-    from scipy import sparse
-    from scipy.sparse import coo_array, csc_array, eye_array
-
-    block_array: Any = sparse.block_array  # its types know no missing blocks
+    from scipy.sparse import block_array, coo_array, csc_array, eye_array
 
     users, columns, count = market.users.shape[0], market.columns, len(sets)
     top = bottom = 0.0
@@ -236,7 +235,7 @@ def _solve(
     dear, cheap = search.price + search.box, np.maximum(search.price - search.box, 0.0)
     costs = [-gain, dear, -cheap]
     unit = eye_array(columns, format="csc")
-    rows = [[packing, -unit, unit]]
+    rows: list[list[Any]] = [[packing, -unit, unit]]
     limits = np.ones(columns)
     if budgeted:
         mu = np.exp(search.log_mu)
@@ -247,9 +246,10 @@ def _solve(
         rows = [[packing, -unit, unit, None], [used, None, None, csc_array(np.array([[-1.0, 1.0]]))]]
         limits = np.ones(columns + 1)
     cost = np.concatenate(costs) / scale
-    equal = block_array([[each, coo_array((users, cost.size - usable.size))]], format="csc")
-    at_most = block_array(rows, format="csc")
-    solution = _minimised(cost, at_most, limits, equal, np.ones(users))
+    equal: Any = block_array([[each, coo_array((users, cost.size - usable.size))]], format="csc")
+    at_most: Any = block_array(rows, format="csc")
+    wanted: FloatArray = np.ones(users)
+    solution = _minimised(cost, at_most, limits, equal, wanted)
     if solution is None:
         return None
     least, amount, dual = solution[0] * scale, solution[1], solution[2] * scale
