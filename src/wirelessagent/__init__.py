@@ -20,11 +20,12 @@ if TYPE_CHECKING:
     from wirelessagent.acting.base_station import BaseStation
     from wirelessagent.acting.file import FileBaseStation
     from wirelessagent.acting.simulated import SimulatedBaseStation
-    from wirelessagent.chain import compare, decide, perfect, repair, simulate
+    from wirelessagent.chain import compare, decide, decide_batch, perfect, repair, simulate
     from wirelessagent.deciding.method import Method
     from wirelessagent.explain.report import report
     from wirelessagent.kernels import kernel
     from wirelessagent.model import units
+    from wirelessagent.model.batch_decision import BatchDecision
     from wirelessagent.model.cell import Cell
     from wirelessagent.model.decision import Bracket, Decision, Prices
     from wirelessagent.model.errors import InputError, WirelessAgentError
@@ -47,6 +48,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "BaseStation": "acting.base_station",
+    "BatchDecision": "model.batch_decision",
     "Bracket": "model.decision",
     "Cell": "model.cell",
     "ChannelEstimate": "model.estimate",
@@ -70,6 +72,7 @@ _HOMES = {
     "ask": "operations.chain_run",
     "compare": "chain",
     "decide": "chain",
+    "decide_batch": "chain",
     "kernel": "kernels",
     "link_metrics": "model.metrics",
     "loss": "sensing",
@@ -85,11 +88,11 @@ _HOMES = {
 }
 
 __all__ = [  # kept in the order of _HOMES; a test compares the two
-    "BaseStation", "Bracket", "Cell", "ChannelEstimate", "ChannelObservation", "ChannelSource", "Decision",
-    "FileBaseStation", "GammaPosterior", "InputError", "LinkMetrics", "Method", "Objective", "Outcome", "Posterior",
-    "Prices", "Problem", "Repairer", "Scene", "SimulatedBaseStation", "WirelessAgentError", "ask", "compare", "decide",
-    "kernel", "link_metrics", "loss", "perfect", "phrases", "plugins", "read", "repair", "report", "simulate",
-    "testing", "units",
+    "BaseStation", "BatchDecision", "Bracket", "Cell", "ChannelEstimate", "ChannelObservation", "ChannelSource",
+    "Decision", "FileBaseStation", "GammaPosterior", "InputError", "LinkMetrics", "Method", "Objective", "Outcome",
+    "Posterior", "Prices", "Problem", "Repairer", "Scene", "SimulatedBaseStation", "WirelessAgentError", "ask",
+    "compare", "decide", "decide_batch", "kernel", "link_metrics", "loss", "perfect", "phrases", "plugins", "read",
+    "repair", "report", "simulate", "testing", "units",
 ]  # fmt: skip
 
 

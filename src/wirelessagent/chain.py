@@ -11,6 +11,8 @@ import numpy as np
 
 from wirelessagent import plugins
 from wirelessagent.deciding.method import Method
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.batch_decision import BatchDecision
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError, UnsupportedProblemError
@@ -107,6 +109,38 @@ def decide(
     if not chosen.warm_starts:
         raise InputError(f"method {chosen.name!r} does not start from an earlier decision: leave out after=…")
     return cast(Decision, cast(Any, chosen).solve(estimate, resolved, cell or Cell(), after=after))
+
+
+def decide_batch(
+    gain: FloatArray,
+    problem: Problem,
+    cell: Cell | None = None,
+    *,
+    restarts: int | None = None,
+    seed: int = 0,
+    workers: int | None = None,
+) -> BatchDecision:
+    """The method dual's decisions for many channels of one cell: slots, draws, or cells that are alike.
+
+    The same decisions as :func:`decide` makes one by one, without its cost per call and on several threads.
+
+    Args:
+        gain: complete linear power gains, shape (…, user, subcarrier).
+        problem: what to decide on each of them.
+        restarts: of the local search; the method's own choice if not given.
+        seed: of the restarts.
+        workers: threads; as many as there are processors if not given.
+
+    Raises:
+        UnsupportedProblemError: the method does not solve such problems.
+        InputError: the gains are not complete, or a constraint does not fit them.
+    """
+    from wirelessagent.deciding.batch import decide_all
+    from wirelessagent.deciding.methods.dual import Dual
+
+    resolved = resolve(problem)
+    _check(resolved, Dual)
+    return decide_all(Dual(restarts=restarts, seed=seed), gain, resolved, cell or Cell(), workers=workers)
 
 
 def check_solvable(problem: Problem, method: str | None = None) -> None:

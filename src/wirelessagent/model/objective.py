@@ -90,16 +90,32 @@ class Objective(ABC):
         Raises:
             InputError: nobody has a weight above 0.
         """
+        return float(self.values(rate, np.array(power_w), cell, weight))
+
+    @final
+    def values(self, rate: FloatArray, power_w: FloatArray, cell: Cell, weight: FloatArray | None = None) -> FloatArray:
+        """:meth:`value` of many allocations, shape (…), for rates (…, user), powers (…) and one weight (user,)."""
         if self.measure == "power":
-            return float(power_w)
-        weight = np.ones(rate.shape) if weight is None else weight
-        counts = weight > 0
+            return power_w
+        counted: FloatArray = np.ones(rate.shape[-1:]) if weight is None else weight
+        counts = counted > 0
         if not counts.any():
-            raise InputError(f"nobody's rate counts with the weights {weight}: give a user one above 0")
-        omega = weight[counts]
+            raise InputError(f"nobody's rate counts with the weights {counted}: give a user one above 0")
+        omega = counted[counts]
         if self.joined == "min":
-            joint = float(self.utility(rate / np.where(counts, weight, 1.0))[counts].min())
+            joint = self.utility(rate / np.where(counts, counted, 1.0))[..., counts].min(axis=-1)
         else:
-            joint = float((omega * self.utility(rate)[counts]).sum())
-        figure = float(self.figure(joint, float(omega.sum())))
-        return energy_efficiency_bit_per_j(figure, power_w, cell) if self.measure == "efficiency" else figure
+            joint = (omega * self.utility(rate)[..., counts]).sum(axis=-1)
+        figure = self.figures(joint, float(omega.sum()))
+        if self.measure == "utility":
+            return figure
+        pairs = zip(figure.flat, power_w.flat, strict=True)
+        efficiency = [energy_efficiency_bit_per_j(float(worth), float(power), cell) for worth, power in pairs]
+        return np.array(efficiency).reshape(figure.shape)
+
+    @final
+    def figures(self, utility: FloatArray, weight: float) -> FloatArray:
+        """:meth:`figure` of many joint utilities, same shape."""
+        if type(self).figure is Objective.figure:
+            return np.asarray(utility)
+        return np.array([self.figure(float(joint), weight) for joint in np.ravel(utility)]).reshape(np.shape(utility))

@@ -9,6 +9,8 @@ which is the paper's eq. (1) for Γ = 1, o = 0 and c = ∞. The cap makes power 
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from wirelessagent.model.arrays import FloatArray, IntArray
@@ -39,12 +41,23 @@ def subcarrier_rate_bps(gain: FloatArray, power_w: FloatArray, cell: Cell) -> Fl
 
 
 def owned_gain(gain: FloatArray, owner: IntArray) -> FloatArray:
-    """The gain of each subcarrier to its owner, shape (subcarrier,); 0 where nobody owns it."""
-    picked = gain[np.maximum(owner, 0), np.arange(owner.size)]
-    return np.where(owner >= 0, picked, 0.0)
+    """The gain of each subcarrier to its owner, shape (…, subcarrier); 0 where nobody owns it."""
+    users, size = int(gain.shape[-2]), int(gain.shape[-1])
+    rows: IntArray = np.maximum(owner, 0)
+    index = (rows + _numbered(owner.shape[:-1]) * users) * size + np.arange(size)
+    return np.where(owner >= 0, gain.reshape(-1)[index], 0.0)
 
 
 def user_rate_bps(gain: FloatArray, owner: IntArray, power_w: FloatArray, cell: Cell) -> FloatArray:
-    """Each user's rate in bit/s, shape (user,), for a (user, subcarrier) gain and one owner per subcarrier."""
+    """Each user's rate in bit/s, shape (…, user), for a gain (…, user, subcarrier) and one owner per subcarrier."""
     rate = subcarrier_rate_bps(owned_gain(gain, owner), power_w, cell)
-    return np.bincount(owner + 1, weights=rate, minlength=gain.shape[0] + 1)[1:]
+    leading, users = gain.shape[:-2], gain.shape[-2]
+    place = owner + 1 + _numbered(owner.shape[:-1]) * (users + 1)  # the first place of each problem is nobody's
+    places = math.prod(leading) * (users + 1)
+    total = np.bincount(place.reshape(-1), weights=rate.reshape(-1), minlength=places)
+    return total.astype(np.float64, copy=False).reshape(*leading, users + 1)[..., 1:]
+
+
+def _numbered(leading: tuple[int, ...]) -> IntArray:
+    """The number of each problem of a batch, shape (…, 1)."""
+    return np.arange(math.prod(leading)).reshape(*leading, 1)

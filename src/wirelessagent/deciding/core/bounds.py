@@ -9,17 +9,18 @@ import numpy as np
 
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.surplus import surplus
+from wirelessagent.model.arrays import FloatArray
 
 _STEP = 4e-16
 
 
-def rate_bound_nats(form: NormalForm, price: float) -> float:
-    """The most nats that the budget can carry: Φ(1, μ) + μ P_max, the Lagrangian dual of P1."""
+def rate_bound_nats(form: NormalForm, price: float | FloatArray) -> FloatArray:
+    """The most nats that the budget can carry: Φ(1, μ) + μ P_max, the Lagrangian dual of P1; elementwise, (…)."""
     return _best_surplus(form, price) + price * form.budget_w
 
 
-def efficiency_bound_nats_per_j(form: NormalForm, price: float) -> float:
-    """The most nats per joule, R/(P + ξ P_c), from a price of power near the right one.
+def efficiency_bound_nats_per_j(form: NormalForm, price: float | FloatArray) -> FloatArray:
+    """The most nats per joule, R/(P + ξ P_c), from a price of power near the right one; elementwise, (…).
 
     An efficiency q cannot be reached if R − q (P + C) < 0 for all allocations, which a price μ ≥ q proves where
     Φ(1, μ) + μ P_max − q (P_max + C) < 0. That holds above q = (Φ(1, μ) + μ P_max)/(P_max + C), and this q is at most μ
@@ -27,11 +28,11 @@ def efficiency_bound_nats_per_j(form: NormalForm, price: float) -> float:
     """
     step = _STEP
     value = _best_surplus(form, price)
-    while value > price * form.circuit_w:
-        price *= 1.0 + step
+    while np.any(low := value > price * form.circuit_w):
+        price = np.where(low, price * (1.0 + step), price)
         step *= 2.0
         value = _best_surplus(form, price)
-    return min(price, (value + price * form.budget_w) / (form.budget_w + form.circuit_w))
+    return np.minimum(price, (value + price * form.budget_w) / (form.budget_w + form.circuit_w))
 
 
 def best_efficiency_nats_per_j(form: NormalForm) -> float:
@@ -41,7 +42,7 @@ def best_efficiency_nats_per_j(form: NormalForm) -> float:
     price = max_efficiency(
         form.snr_per_w[np.newaxis], form.cap_w, form.max_snr, np.array([form.budget_w]), form.circuit_w
     )[2]
-    return efficiency_bound_nats_per_j(form, float(price[0]))
+    return float(efficiency_bound_nats_per_j(form, price[0]))
 
 
 def best_rate_nats(form: NormalForm) -> float:
@@ -49,7 +50,7 @@ def best_rate_nats(form: NormalForm) -> float:
     from wirelessagent.deciding.core.water_filling_kernel import max_rate
 
     price = max_rate(form.snr_per_w[np.newaxis], form.cap_w, form.max_snr, np.array([form.budget_w]))[2]
-    return rate_bound_nats(form, float(price[0]))
+    return float(rate_bound_nats(form, price[0]))
 
 
 def known_bound(form: NormalForm) -> float:
@@ -61,7 +62,7 @@ def known_bound(form: NormalForm) -> float:
     return 0.0 if form.objective.name == "min_power" else np.nan
 
 
-def _best_surplus(form: NormalForm, price: float) -> float:
-    """Φ(1, μ): at equal weights the user with the best gain is worth most, whatever the price."""
-    best = form.best_snr_per_w[np.newaxis]
+def _best_surplus(form: NormalForm, price: float | FloatArray) -> FloatArray:
+    """Φ(1, μ), shape (…): at equal weights the user with the best gain is worth most, whatever the price."""
+    best = form.best_snr_per_w[..., np.newaxis, :]
     return surplus(best, form.caps_w(best), np.ones(1), price)

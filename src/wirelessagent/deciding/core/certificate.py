@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TypedDict, Unpack
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Bracket, Decision, Prices, Status
+from wirelessagent.model.objective import Objective
 from wirelessagent.model.rates import user_rate_bps
 
 _ROUNDING = 1e-12
@@ -34,9 +36,9 @@ def relative_gap(value: float, bound: float) -> float:
     (0.0, 0.01)
     """
     distance = abs(value - bound)
-    if distance == 0.0 or np.isnan(distance):
+    if distance == 0.0 or math.isnan(distance):
         return distance
-    return distance / abs(bound) if bound != 0.0 else np.inf
+    return distance / abs(bound) if bound != 0.0 else math.inf
 
 
 def certified(
@@ -44,14 +46,19 @@ def certified(
 ) -> Decision:
     """The decision for an allocation that keeps every constraint; ``bound`` in the objective's unit, NaN for none."""
     rate_bps = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
-    weight = form.problem.weights_of(form.estimate.num_users)
+    weight = form.problem.weights_of(form.estimate.num_users)  # the form's own may leave out who cannot be served
     value = form.objective.value(rate_bps, float(power_w.sum()), form.cell, weight)
-    beyond = value - bound if form.objective.direction == "max" else bound - value
+    bound, gap, status = judged(form.objective, value, bound)
+    return _decision(form, owner, power_w, rate_bps, status, value, bound, gap, figures)
+
+
+def judged(objective: Objective, value: float, bound: float) -> tuple[float, float, Status]:
+    """The bound, which a value beyond it by rounding alone replaces, the gap and the status of a usable allocation."""
+    beyond = value - bound if objective.direction == "max" else bound - value
     if 0.0 < beyond <= _ROUNDING * abs(bound):
         bound = value
     gap = relative_gap(value, bound)
-    status: Status = "optimal" if gap <= OPTIMAL_GAP else "feasible"
-    return _decision(form, owner, power_w, rate_bps, status, value, bound, gap, figures)
+    return bound, gap, "optimal" if gap <= OPTIMAL_GAP else "feasible"
 
 
 def nothing(form: NormalForm, status: Status, bound: float, **figures: Unpack[Figures]) -> Decision:

@@ -5,12 +5,15 @@ Each subcarrier then goes to its best user, whatever the price of power, and one
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from wirelessagent.deciding.core.bounds import efficiency_bound_nats_per_j, rate_bound_nats
 from wirelessagent.deciding.core.certificate import certified
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.deciding.core.program import MOST_EFFICIENCY, MOST_UTILITY, Program
+from wirelessagent.deciding.core.program import MOST_EFFICIENCY, MOST_UTILITY, Program, Programs
+from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 
 _ROUNDING = 1e-12
@@ -21,44 +24,75 @@ _APPROACHED = (
 )
 
 
-def is_closed(form: NormalForm, program: Program) -> bool:
+def is_closed(form: NormalForm, program: Program | Programs) -> bool:
     """Whether :func:`closed_decision` solves the problem."""
+    if program.goal not in (MOST_UTILITY, MOST_EFFICIENCY) or form.start.size <= form.cap_w.size:
+        return False
+    if form.problem.min_rate_bps is not None and form.promised_nats.any():
+        return False
     counts = form.weight > 0
-    return (
-        program.goal in (MOST_UTILITY, MOST_EFFICIENCY)
-        and bool(np.all(program.rows[counts, 4] == 0.0))
-        and bool(np.ptp(form.weight[counts]) == 0.0)
-        and not form.promised_nats.any()
-        and bool(np.isinf(form.most_nats[counts]).all())
-        and form.start.size - 1 == form.snr_per_w.shape[1]
+    weight = form.weight[counts]
+    return not (
+        program.rows[..., counts, 4].any()
+        or (weight != weight[0]).any()
+        or (form.problem.max_rate_bps is not None and np.isfinite(form.most_nats[counts]).any())
     )
 
 
 def closed_decision(form: NormalForm, program: Program) -> Decision:
     """The optimum, proven by the dual at its price."""
+    found = closed_allocations(form, program)
+    owner, power_w, price, bound = found.owner[0], found.power_w[0], float(found.price[0]), float(found.bound[0])
+    if program.goal == MOST_UTILITY:
+        return certified(form, owner, power_w, bound, price_of_power=price * found.worth)
+    # Where the budget binds, a watt more brings μ nats and costs q of them, spread over P + C; elsewhere nothing.
+    binds = float(power_w.sum()) >= form.budget_w * (1.0 - _ROUNDING)
+    surplus = max(price * found.worth - bound, 0.0) / (form.budget_w + form.circuit_w) if binds else 0.0
+    return certified(
+        form,
+        owner,
+        power_w,
+        bound,
+        reason=_APPROACHED if form.circuit_w == 0.0 and power_w.any() else "",
+        price_of_power=surplus,
+        iterations=int(found.steps[0]),
+    )
+
+
+class Closed(NamedTuple):
+    """Optima of a batch.
+
+    Attributes:
+        owner, power_w: shape (batch, subcarrier).
+        price: of power in nats per W, shape (batch,).
+        bound: in the objective's unit, shape (batch,).
+        steps: of the search, shape (batch,).
+        worth: of a nat, in the objective's unit.
+    """
+
+    owner: IntArray
+    power_w: FloatArray
+    price: FloatArray
+    bound: FloatArray
+    steps: IntArray
+    worth: float
+
+
+def closed_allocations(form: NormalForm, program: Program | Programs) -> Closed:
+    """The optima for the form's channels, (user, subcarrier) for a batch of one or (batch, user, subcarrier)."""
     from wirelessagent.deciding.core.fractional_kernel import max_efficiency
     from wirelessagent.deciding.core.water_filling_kernel import max_rate
 
-    worth = program.scale * float(program.rows[form.weight > 0, 3].max())  # of a nat, in the objective's unit
-    snr = np.where((form.weight > 0)[:, np.newaxis], form.snr_per_w, 0.0)[np.newaxis]
-    budget = np.array([form.budget_w])
+    counts = form.weight > 0
+    worth = float(np.ravel(program.scale)[0]) * float(program.rows[..., counts, 3].max())
+    snr = np.where(counts[:, np.newaxis], form.snr_per_w, 0.0).reshape(-1, *form.snr_per_w.shape[-2:])
+    budget = np.full(len(snr), form.budget_w)
     if program.goal == MOST_UTILITY:
         owner, power_w, price = max_rate(snr, form.cap_w, form.max_snr, budget)
-        mu = float(price[0])
-        bound = form.objective.figure(rate_bound_nats(form, mu) * worth, float(form.weight.sum()))
-        return certified(form, owner[0], power_w[0], bound, price_of_power=mu * worth)
-    owner, power_w, price, iterations = max_efficiency(snr, form.cap_w, form.max_snr, budget, form.circuit_w)
-    bound = efficiency_bound_nats_per_j(form, float(price[0]))
+        rate = rate_bound_nats(form, price.reshape(form.snr_per_w.shape[:-2]))
+        bound = form.objective.figures(rate * worth, float(form.weight.sum()))
+        return Closed(owner, power_w, price, bound.reshape(-1), np.zeros(len(snr), dtype=np.int64), worth)
+    owner, power_w, price, steps = max_efficiency(snr, form.cap_w, form.max_snr, budget, form.circuit_w)
     worth *= form.cell.amplifier_efficiency
-    # Where the budget binds, a watt more brings μ nats and costs q of them, spread over P + C; elsewhere nothing.
-    binds = float(power_w[0].sum()) >= form.budget_w * (1.0 - _ROUNDING)
-    surplus = max(float(price[0]) - bound, 0.0) / (form.budget_w + form.circuit_w) if binds else 0.0
-    return certified(
-        form,
-        owner[0],
-        power_w[0],
-        bound * worth,
-        reason=_APPROACHED if form.circuit_w == 0.0 and power_w[0].any() else "",
-        price_of_power=surplus * worth,
-        iterations=int(iterations[0]),
-    )
+    bound = efficiency_bound_nats_per_j(form, price.reshape(form.snr_per_w.shape[:-2])) * worth
+    return Closed(owner, power_w, price, bound.reshape(-1), steps, worth)

@@ -15,59 +15,71 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program
+from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program, Programs
 from wirelessagent.model.arrays import FloatArray
 
 
 def bound_of(form: NormalForm, program: Program, log_price: FloatArray, log_mu: float) -> float:
     """The bound in the objective's unit, from ln λ (user,) and ln μ in the program's utility per W."""
+    return float(bounds_of(form, program, log_price, np.asarray(log_mu)))
+
+
+def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArray, log_mu: FloatArray) -> FloatArray:
+    """:func:`bound_of` for the form's channels, shape (…), from ln λ (…, user) and ln μ (…)."""
     with np.errstate(over="ignore"):
         price = np.exp(log_price)
-    worth_w = groups_worth_w(form, price)
+    worth_w = _groups_worth_w(form, price)
     if program.goal == LEAST_POWER:
-        return max(float(price @ form.promised_nats) - worth_w, 0.0)
+        return np.maximum(price @ form.promised_nats - worth_w, 0.0)
     weight = float(form.weight.sum())
     if program.goal == HIGHEST_LEVEL:
-        level = highest_level(program, log_price, worth_w + form.budget_w) * form.bps_per_nat
-        return form.objective.figure(float(form.objective.utility(np.array([level]))[0]), weight)
-    mu = float(np.exp(log_mu)) * program.scale
-    joint = conjugate(form, program, price * mu / form.bps_per_nat)
-    full = conjugate(form, program, np.zeros(price.shape))  # what the highest rates are worth, whatever they take
+        level = _highest_level(program, log_price, worth_w + form.budget_w) * form.bps_per_nat
+        return form.objective.figures(form.objective.utility(level[..., np.newaxis])[..., 0], weight)
+    mu = np.exp(log_mu) * program.scale
+    joint = _conjugate(form, program, price * mu[..., np.newaxis] / form.bps_per_nat)
+    full = _conjugate(form, program, np.zeros(price.shape))  # what the highest rates are worth, whatever they take
     if program.goal == MOST_EFFICIENCY:
-        return min(_efficiency(form, joint + mu * worth_w, mu), _efficiency(form, full, 0.0))
-    return form.objective.figure(min(joint + mu * (worth_w + form.budget_w), full), weight)
-
-
-def conjugate(form: NormalForm, program: Program, price: FloatArray) -> float:
-    """u*(w) = Σ ω_k u_k*(w_k/ω_k) for prices w (user,) per bit/s, over the rates that are allowed.
-
-    A user of weight 0 takes what it is promised.
-    """
-    low, high = program.share[:, 1] * form.bps_per_nat, program.share[:, 2] * form.bps_per_nat
-    counts = form.weight > 0
-    weight = np.where(counts, form.weight, 1.0)
-    value, _ = form.objective.conjugate(price / weight, low, high)
-    return float(np.where(counts, weight * value, -price * low).sum())
+        return np.minimum(_efficiency(form, joint + mu * worth_w, mu), _efficiency(form, full, np.zeros(full.shape)))
+    return form.objective.figures(np.minimum(joint + mu * (worth_w + form.budget_w), full), weight)
 
 
 def groups_worth_w(form: NormalForm, price: FloatArray) -> float:
     """Φ(λ) in W, for λ (user,) in W per nat."""
-    from wirelessagent.deciding.core.terms_kernel import worth_of_groups
-
-    return float(worth_of_groups(form.snr_per_w, form.cap_w, form.max_snr, form.start, price))
+    return float(_groups_worth_w(form, price))
 
 
-def highest_level(program: Program, log_price: FloatArray, worth_w: float) -> float:
-    """The largest t whose rates cost no more than ``worth_w`` at the prices, in nats."""
-    from wirelessagent.deciding.core.dual_kernel import level_bound
+def _conjugate(form: NormalForm, program: Program | Programs, price: FloatArray) -> FloatArray:
+    """u*(w) = Σ ω_k u_k*(w_k/ω_k) for prices w (…, user) per bit/s, over the rates that are allowed, shape (…).
 
-    return float(level_bound(program.share, log_price, worth_w, program.most_level))
+    A user of weight 0 takes what it is promised.
+    """
+    low, high = program.share[..., 1] * form.bps_per_nat, program.share[..., 2] * form.bps_per_nat
+    counts = form.weight > 0
+    weight = np.where(counts, form.weight, 1.0)
+    value, _ = form.objective.conjugate(price / weight, low, high)
+    return np.asarray(np.where(counts, weight * value, -price * low).sum(axis=-1))
 
 
-def _efficiency(form: NormalForm, worth: float, mu: float) -> float:
+def _groups_worth_w(form: NormalForm, price: FloatArray) -> FloatArray:
+    from wirelessagent.deciding.core.batch_kernel import worth_of_all
+
+    snr_per_w, flat = form.snr_per_w.reshape(-1, *form.snr_per_w.shape[-2:]), price.reshape(-1, price.shape[-1])
+    return worth_of_all(snr_per_w, form.cap_w, form.max_snr, form.start, flat).reshape(price.shape[:-1])
+
+
+def _highest_level(program: Program | Programs, log_price: FloatArray, worth_w: FloatArray) -> FloatArray:
+    """The largest t whose rates cost no more than ``worth_w`` (…) at the prices (…, user), in nats, shape (…)."""
+    from wirelessagent.deciding.core.batch_kernel import level_bounds
+
+    share, flat = program.share.reshape(-1, *program.share.shape[-2:]), log_price.reshape(-1, log_price.shape[-1])
+    level = level_bounds(share, flat, np.ravel(worth_w), np.ravel(program.most_level))
+    return level.reshape(np.shape(worth_w))
+
+
+def _efficiency(form: NormalForm, worth: FloatArray, mu: FloatArray) -> FloatArray:
     """U ≤ worth + μ P, so U/(P + C) ≤ μ + (worth − μ C)/(P + C): largest at one end of 0 ≤ P ≤ P_max."""
     circuit = form.circuit_w
     surplus = worth - mu * circuit
-    drawn = circuit if surplus > 0 else form.budget_w + circuit
-    bound = mu + surplus / drawn if drawn > 0 else np.inf
+    drawn = np.where(surplus > 0, circuit, form.budget_w + circuit)
+    bound = mu + np.where(drawn > 0, surplus / np.where(drawn > 0, drawn, 1.0), np.inf)
     return bound * form.cell.amplifier_efficiency

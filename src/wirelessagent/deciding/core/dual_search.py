@@ -138,9 +138,9 @@ def rates_of(form: NormalForm, found: Search) -> FloatArray:
 
 
 def owners_with_power(form: NormalForm, owner: IntArray, power_w: FloatArray) -> IntArray:
-    """The owners (subcarrier,) of groups that carry power, −1 elsewhere: a group is owned as a whole or not at all."""
-    used = np.add.reduceat(power_w, form.start[:-1]) > 0
-    return np.where(np.repeat(used, np.diff(form.start)), owner, -1)
+    """The owners (…, subcarrier) of groups that carry power, −1 elsewhere: a group is owned as a whole."""
+    used = np.add.reduceat(power_w, form.start[:-1], axis=-1) > 0
+    return np.where(np.repeat(used, np.diff(form.start), axis=-1), owner, -1)
 
 
 def tighter(form: NormalForm, one: float, other: float) -> float:

@@ -7,6 +7,8 @@ no algorithm needs to know of them.
 
 from __future__ import annotations
 
+import dataclasses
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +26,8 @@ _MOST_SNR = 1e60
 """In 1/W; a gain of 1 over the thermal noise in 1 Hz has less than 1e21."""
 _LEAST_SNR = 1e-200
 """In 1/W; a pair with less counts as unusable: no budget reaches it, and its figures leave the range of numbers."""
+
+_LARGEST_EXPONENT = 700.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,38 +77,35 @@ class NormalForm:
         objective = method.objective_of(problem)
         subcarriers = estimate.num_subcarriers
         cap_w = _caps_w(problem, subcarriers)
-        with np.errstate(over="ignore"):
-            snr_per_w = normalised_gain(estimate.gain, cell)
-        if np.any(snr_per_w > _MOST_SNR):
-            raise InputError(
-                f"gains up to {estimate.gain.max():g} over a noise of {cell.noise_power_w:g} W are out of range: "
-                "a power gain is about 1 at most; check its unit"
-            )
         served = problem.serves(estimate.num_users)
-        usable = served[:, np.newaxis] & problem.allows((estimate.num_users, subcarriers)) & (cap_w > 0) & (snr_per_w > _LEAST_SNR)
-        bps_per_nat = cell.data_bandwidth_hz / np.log(2.0)
+        bps_per_nat = cell.data_bandwidth_hz / math.log(2.0)
+        promised, group = problem.min_rates_bps(estimate.num_users), problem.resource_block_group_size
         return cls(
             method=method.name,
             objective=objective,
             problem=problem,
             cell=cell,
             estimate=estimate,
-            snr_per_w=np.where(usable, snr_per_w, 0.0),
+            snr_per_w=_snr_per_w(estimate.gain, problem, cell, cap_w),
             budget_w=problem.budget_w(cell),
             cap_w=cap_w,
-            max_nats=cell.max_spectral_efficiency * np.log(2.0),
-            promised_nats=np.where(served, problem.min_rates_bps(estimate.num_users), 0.0) / bps_per_nat,
+            max_nats=cell.max_spectral_efficiency * math.log(2.0),
+            promised_nats=np.where(served, promised, 0.0) / bps_per_nat,
             most_nats=np.where(served, problem.max_rates_bps(estimate.num_users), 0.0) / bps_per_nat,
             weight=problem.weights_of(estimate.num_users),
-            start=np.append(np.arange(0, subcarriers, problem.resource_block_group_size), subcarriers),
+            start=np.minimum(np.arange(0, subcarriers + group, group), subcarriers),
             bps_per_nat=bps_per_nat,
         )
+
+    def on(self, gain: FloatArray) -> NormalForm:
+        """The same problem on many channels, ``gain`` (…, user, subcarrier); ``snr_per_w`` then has that shape."""
+        snr_per_w = _snr_per_w(gain, self.problem, self.cell, self.cap_w)
+        return dataclasses.replace(self, snr_per_w=snr_per_w)
 
     @property
     def max_snr(self) -> float:
         """The SNR at which a subcarrier reaches its largest rate, infinite where there is none."""
-        with np.errstate(over="ignore"):
-            return float(np.expm1(self.max_nats))
+        return math.expm1(self.max_nats) if self.max_nats < _LARGEST_EXPONENT else math.inf
 
     @property
     def circuit_w(self) -> float:
@@ -113,13 +114,31 @@ class NormalForm:
 
     @property
     def best_snr_per_w(self) -> FloatArray:
-        """a of the best user on each subcarrier, shape (subcarrier,)."""
-        return self.snr_per_w.max(axis=0)
+        """a of the best user on each subcarrier, shape (…, subcarrier)."""
+        return self.snr_per_w.max(axis=-2)
 
     def caps_w(self, snr_per_w: FloatArray) -> FloatArray:
         """The most useful power for ``snr_per_w`` (…, subcarrier): the cap, or less where the rate is full before."""
         with np.errstate(divide="ignore", over="ignore"):
             return np.where(snr_per_w > 0, np.minimum(self.cap_w, self.max_snr / snr_per_w), 0.0)
+
+
+def _snr_per_w(gain: FloatArray, problem: Problem, cell: Cell, cap_w: FloatArray) -> FloatArray:
+    """a for ``gain`` (…, user, subcarrier), 0 where a pair may not be used."""
+    with np.errstate(over="ignore"):
+        snr_per_w = normalised_gain(gain, cell)
+    if np.any(snr_per_w > _MOST_SNR):
+        raise InputError(
+            f"gains up to {gain.max():g} over a noise of {cell.noise_power_w:g} W are out of range: "
+            "a power gain is about 1 at most; check its unit"
+        )
+    users, subcarriers = gain.shape[-2:]
+    usable = (snr_per_w > _LEAST_SNR) & (cap_w > 0)
+    if problem.users is not None:
+        usable &= problem.serves(users)[:, np.newaxis]
+    if problem.forbidden is not None:
+        usable &= problem.allows((users, subcarriers))
+    return np.where(usable, snr_per_w, 0.0)
 
 
 def _caps_w(problem: Problem, num_subcarriers: int) -> FloatArray:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 
 LEAST_POWER, MOST_UTILITY, MOST_EFFICIENCY, HIGHEST_LEVEL = 0, 1, 2, 3
 """The goals, as the kernels number them."""
@@ -46,25 +46,9 @@ class Program:
     @classmethod
     def of(cls, form: NormalForm, reference: FloatArray | None = None) -> Program:
         """The program of a problem; ``reference`` (user,) are the rates in nats around which utilities are met."""
-        low, high = form.promised_nats, np.minimum(form.most_nats, _reach(form))
-        high = np.maximum(low, high)
-        share = np.stack([form.weight, low, high], axis=1)
-        if form.objective.joined == "min" and form.objective.measure == "utility":
-            counts = form.weight > 0
-            most = float(np.min(high[counts] / form.weight[counts]))
-            return cls(goal=HIGHEST_LEVEL, rows=promises(low), share=share, most_level=most, scale=1.0)
-        if form.objective.measure == "power":
-            return cls(goal=LEAST_POWER, rows=promises(low), share=share, most_level=0.0, scale=1.0)
-        if reference is None:
-            reference = _even_split(form)
-        reference = np.clip(reference, np.maximum(low, _LEAST_REFERENCE), np.maximum(high, _LEAST_REFERENCE))
-        slope, curvature, base = _power_law(form, reference)
-        scale = float(slope.max())
-        if not 0.0 < scale < np.inf:
-            scale = 1.0
-        rows = np.stack([low, high, reference, slope / scale, curvature, base / scale], axis=1)
-        goal = MOST_EFFICIENCY if form.objective.measure == "efficiency" else MOST_UTILITY
-        return cls(goal=goal, rows=rows, share=share, most_level=0.0, scale=scale)
+        asked = Programs.of(form, reference)
+        most_level, scale = float(asked.most_level), float(asked.scale)
+        return cls(goal=asked.goal, rows=asked.rows, share=asked.share, most_level=most_level, scale=scale)
 
     @classmethod
     def of_promises(cls, form: NormalForm) -> Program:
@@ -74,42 +58,107 @@ class Program:
 
     def meets(self, form: NormalForm, nats: FloatArray) -> bool:
         """Whether the rows are the objective's utility at the rates ``nats`` (user,), too."""
+        scale, most_level = np.asarray(self.scale), np.asarray(self.most_level)
+        asked = Programs(goal=self.goal, rows=self.rows, share=self.share, most_level=most_level, scale=scale)
+        return bool(asked.meet(form, nats))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Programs:
+    """:class:`Program` for problems that differ in their channel alone, the form's ``snr_per_w`` (…, user, subcarrier).
+
+    Every array has the leading axes of the channel, but for promises, which are the same for all.
+    """
+
+    goal: int
+    rows: FloatArray
+    share: FloatArray
+    most_level: FloatArray
+    scale: FloatArray
+
+    @classmethod
+    def of(cls, form: NormalForm, reference: FloatArray | None = None) -> Programs:
+        """The programs of problems; ``reference`` (…, user) as in :meth:`Program.of`."""
+        low, high = form.promised_nats, np.minimum(form.most_nats, _reach(form))
+        high = np.maximum(low, high)
+        share, one, zero = _columns(form.weight, low, high), np.ones(high.shape[:-1]), np.zeros(high.shape[:-1])
+        if form.objective.joined == "min" and form.objective.measure == "utility":
+            counts = form.weight > 0
+            most = np.asarray(np.min(high[..., counts] / form.weight[counts], axis=-1))
+            return cls(goal=HIGHEST_LEVEL, rows=promises(low), share=share, most_level=most, scale=one)
+        if form.objective.measure == "power":
+            return cls(goal=LEAST_POWER, rows=promises(low), share=share, most_level=zero, scale=one)
+        if reference is None:
+            reference = _even_split(form)
+        reference = np.clip(reference, np.maximum(low, _LEAST_REFERENCE), np.maximum(high, _LEAST_REFERENCE))
+        slope, curvature, base = _power_law(form, reference)
+        scale = slope.max(axis=-1)
+        scale = np.where((scale > 0.0) & (scale < np.inf), scale, one)
+        unit = scale[..., np.newaxis]
+        rows = _columns(low, high, reference, slope / unit, curvature, base / unit)
+        goal = MOST_EFFICIENCY if form.objective.measure == "efficiency" else MOST_UTILITY
+        return cls(goal=goal, rows=rows, share=share, most_level=zero, scale=scale)
+
+    @classmethod
+    def of_promises(cls, form: NormalForm) -> Programs:
+        """The least power that carries the promised rates, as :meth:`Program.of_promises`."""
+        one = Program.of_promises(form)
+        zero = np.zeros(form.snr_per_w.shape[:-2])
+        return cls(goal=one.goal, rows=one.rows, share=one.share, most_level=zero, scale=zero + 1.0)
+
+    def at(self, chosen: IntArray | BoolArray) -> Programs:
+        """Those of the ``chosen`` problems of a batch."""
+        rows = self.rows[chosen] if self.rows.ndim == self.share.ndim else self.rows
+        most_level, scale = self.most_level[chosen], self.scale[chosen]
+        return Programs(goal=self.goal, rows=rows, share=self.share[chosen], most_level=most_level, scale=scale)
+
+    def meet(self, form: NormalForm, nats: FloatArray) -> BoolArray:
+        """:meth:`Program.meets` for each problem, shape (…)."""
         if self.goal in (LEAST_POWER, HIGHEST_LEVEL):
-            return True
+            return np.ones(nats.shape[:-1], dtype=bool)
         found = np.maximum(nats, _LEAST_REFERENCE)
         slope, curvature, _ = _power_law(form, found)
-        _, _, reference, here, bend, _ = self.rows.T
+        reference, here, bend = self.rows[..., 2], self.rows[..., 3], self.rows[..., 4]
         with np.errstate(over="ignore"):
-            expected = here * self.scale * (found / reference) ** -bend
-        return bool(np.all(np.abs(slope - expected) <= 1e-7 * expected) and np.all(np.abs(curvature - bend) <= 1e-3))
+            expected = here * self.scale[..., np.newaxis] * (found / reference) ** -bend
+        met = (np.abs(slope - expected) <= 1e-7 * expected) & (np.abs(curvature - bend) <= 1e-3)
+        return np.asarray(met.all(axis=-1))
 
 
 def promises(nats: FloatArray) -> FloatArray:
     """Rows of users who want just ``nats``, shape (user, 6)."""
-    zero = np.zeros(nats.shape)
-    return np.stack([nats, nats, np.maximum(nats, _LEAST_REFERENCE), zero, zero, zero], axis=1)
+    return _columns(nats, nats, np.maximum(nats, _LEAST_REFERENCE), 0.0, 0.0, 0.0)
+
+
+def _columns(*columns: FloatArray | float) -> FloatArray:
+    """Values of (…, user), broadcast together, side by side: shape (…, user, column)."""
+    shape = np.broadcast_shapes(*(np.shape(column) for column in columns))
+    beside = np.empty((*shape, len(columns)))
+    for number, column in enumerate(columns):
+        beside[..., number] = column
+    return beside
 
 
 def _reach(form: NormalForm) -> FloatArray:
-    """A rate in nats that no user exceeds alone, shape (user,): N ln(1 + P max a/N), the caps aside."""
-    size = form.snr_per_w.shape[1]
-    most = size * np.log1p(form.budget_w / size * form.snr_per_w.max(axis=1))
+    """A rate in nats that no user exceeds alone, shape (…, user): N ln(1 + P max a/N), the caps aside."""
+    size = form.snr_per_w.shape[-1]
+    most = size * np.log1p(form.budget_w / size * form.snr_per_w.max(axis=-1))
     return np.minimum(most, size * form.max_nats) if np.isfinite(form.max_nats) else most
 
 
 def _even_split(form: NormalForm) -> FloatArray:
-    """Rates of users who each get their share of subcarriers and power, in nats, shape (user,)."""
-    users, size = form.snr_per_w.shape
-    return size / users * np.log1p(form.budget_w / size * form.snr_per_w.max(axis=1))
+    """Rates of users who each get their share of subcarriers and power, in nats, shape (…, user)."""
+    users, size = form.snr_per_w.shape[-2:]
+    return size / users * np.log1p(form.budget_w / size * form.snr_per_w.max(axis=-1))
 
 
 def _power_law(form: NormalForm, reference: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Slope per nat, curvature and value of the weighted utilities at ``reference`` (user,) in nats.
+    """Slope per nat, curvature and value of the weighted utilities at ``reference`` (…, user) in nats.
 
     With u₋, u₀, u₊ at r e^∓h a power law has (u₊ − u₀)/(u₀ − u₋) = e^((1 − α) h).
     """
-    rate = reference * form.bps_per_nat * np.exp(_STEP * np.array([[-1.0], [0.0], [1.0]]))
-    below, base, above = form.objective.utility(rate)
+    around = np.exp(_STEP * np.array([-1.0, 0.0, 1.0])).reshape(3, *(1,) * reference.ndim)
+    below, base, above = form.objective.utility(reference * form.bps_per_nat * around)
     fall, rise = base - below, above - base
     sloped = (fall > 0) & (rise > 0)
     exponent = np.log(np.where(sloped, rise, 1.0) / np.where(sloped, fall, 1.0)) / _STEP

@@ -13,12 +13,12 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.rates import user_rate_bps
 
-_BUDGET_ROUNDING = 1e-10
+BUDGET_ROUNDING = 1e-10
 
 
 def fits(form: NormalForm, found: Search) -> bool:
     """Whether what was found keeps every limit, the budget too."""
-    return found.kept and found.spent_w <= form.budget_w * (1.0 + _BUDGET_ROUNDING)
+    return found.kept and found.spent_w <= form.budget_w * (1.0 + BUDGET_ROUNDING)
 
 
 def unpowered_decision(form: NormalForm) -> Decision:

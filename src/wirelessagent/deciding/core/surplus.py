@@ -15,22 +15,22 @@ import numpy as np
 from wirelessagent.model.arrays import FloatArray
 
 
-def surplus(snr_per_w: FloatArray, cap_w: FloatArray, weight: FloatArray, price: float) -> float:
-    """Φ(w, μ) of the module's docstring.
+def surplus(snr_per_w: FloatArray, cap_w: FloatArray, weight: FloatArray, price: float | FloatArray) -> FloatArray:
+    """Φ(w, μ) of the module's docstring, shape (…).
 
     Args:
-        snr_per_w: a, shape (user, subcarrier), in 1/W; 0 where a pair may not be used.
+        snr_per_w: a, shape (…, user, subcarrier), in 1/W; 0 where a pair may not be used.
         cap_w: u, same shape, 0 where a is 0.
-        weight: w, shape (user,).
-        price: μ ≥ 0; where it is 0 every cap must be finite.
+        weight: w, shape (…, user).
+        price: μ ≥ 0, shape (…); where it is 0 every cap must be finite.
 
     >>> a = np.array([[4.0, 1.0]])
-    >>> round(surplus(a, np.full((1, 2), np.inf), np.ones(1), 1.0), 6)  # p = 3/4 and 0; ln 4 − 3/4
+    >>> round(float(surplus(a, np.full((1, 2), np.inf), np.ones(1), 1.0)), 6)  # p = 3/4 and 0; ln 4 − 3/4
     0.636294
     """
-    w = weight[:, np.newaxis]
+    w, mu = weight[..., np.newaxis], np.asarray(price)[..., np.newaxis, np.newaxis]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        snr = np.maximum((w * snr_per_w - price) / price, 0.0)  # exact near the cut-off, unlike w a/μ − 1
+        snr = np.maximum((w * snr_per_w - mu) / mu, 0.0)  # exact near the cut-off, unlike w a/μ − 1
         power = np.where(snr_per_w > 0, np.minimum(snr / snr_per_w, cap_w), 0.0)
-    worth = w * np.log1p(power * snr_per_w) - price * power
-    return float(np.maximum(worth, 0.0).max(axis=0).sum())
+    worth = w * np.log1p(power * snr_per_w) - mu * power
+    return np.asarray(np.maximum(worth, 0.0).max(axis=-2).sum(axis=-1))

@@ -18,7 +18,7 @@ from wirelessagent.model.arrays import BoolArray, IntArray
 
 def without_unservable(form: NormalForm, program: Program) -> tuple[NormalForm, IntArray]:
     """The problem with weight 0 for users who cannot get a subcarrier beside the others, and who they are."""
-    needy = _needy(form, program)
+    needy = needy_users(form, program)
     nobody = np.empty(0, dtype=np.int64)
     if not needy.any():
         return form, nobody
@@ -39,7 +39,7 @@ def without_unservable(form: NormalForm, program: Program) -> tuple[NormalForm, 
     return dataclasses.replace(form, weight=weight), left
 
 
-def _needy(form: NormalForm, program: Program) -> BoolArray:
+def needy_users(form: NormalForm, program: Program) -> BoolArray:
     """Users whose rate of zero makes the objective worthless, shape (user,)."""
     counts = form.weight > 0
     if program.goal in (LEAST_POWER, MOST_EFFICIENCY):

@@ -87,7 +87,7 @@ class Dual(Method):
         if is_closed(form, program):
             return closed_decision(form, program)
         earlier = after.prices if after is not None else None
-        effort = self._effort(form)
+        effort = self.effort_for(form)
         promised = bool(form.promised_nats.any())
         if program.goal == LEAST_POWER and not promised:
             return unpowered_decision(form)
@@ -116,7 +116,8 @@ class Dual(Method):
             found = dataclasses.replace(found, owner=nobody, power_w=np.zeros(form.cap_w.size))
         return decision_of(form, found, least, unserved)
 
-    def _effort(self, form: NormalForm) -> Effort:
+    def effort_for(self, form: NormalForm) -> Effort:
+        """How hard to search a problem of this size."""
         small = form.weight.size * (form.start.size - 1) <= _SMALL
         restarts = _RESTARTS if small else 0
         if self.effort == "thorough":

@@ -63,7 +63,7 @@ class PaperBisection(Method):
                     break
         power_w = _power_w(snr, cap_w, high)
         owner = np.where(power_w > 0, form.snr_per_w.argmax(axis=0), -1)
-        bound = rate_bound_nats(form, high) * form.bps_per_nat
+        bound = float(rate_bound_nats(form, high)) * form.bps_per_nat
         return certified(
             form, owner, power_w, bound, price_of_power=high * form.bps_per_nat, iterations=iterations
         )  # fmt: skip
