@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 
 import numpy as np
@@ -26,24 +27,23 @@ def batches(count: int) -> None:
     """Problems per second, once warm."""
     del count
     gain = gains(8 * BATCH, 20, FIRST_SEED)[0].reshape(BATCH, 8, 20)
-    decide_batch = getattr(wa, "decide_batch", None)
     rows: list[list[str]] = []
     for case, problem in ALL.items():
         try:
             one_by_one = _one_by_one(gain[:200], problem)
         except UnsupportedProblemError:
-            rows.append([case, "refused", "", ""])
+            rows.append([case, "refused", "", "", ""])
             continue
-        batch = usable = "–"
-        if decide_batch is not None:
-            decide_batch(gain[:64], problem, SHANNON)
+        found = wa.decide_batch(gain[:64], problem, SHANNON)
+        speed: list[str] = []
+        for workers in (1, None):
             start = time.perf_counter()
-            found = decide_batch(gain, problem, SHANNON)
-            batch = f"{BATCH / (time.perf_counter() - start):,.0f}"
-            usable = f"{100 * np.mean(np.isfinite(found.value)):.1f} %"
-        rows.append([case, batch, usable, f"{one_by_one:,.0f}"])
-    header = ("objective", "decide_batch: problems/s", "with an allocation", "wa.decide, one by one: problems/s")
-    table(f"Throughput at 8×20, {BATCH:,} problems, {SHANNON.max_power_w:g} W", header, rows)
+            found = wa.decide_batch(gain, problem, SHANNON, workers=workers)
+            speed.append(f"{BATCH / (time.perf_counter() - start):,.0f}")
+        rows.append([case, f"{one_by_one:,.0f}", *speed, f"{100 * np.mean(found.is_usable):.1f} %"])
+    threads = f"batch, {os.cpu_count()} threads"
+    header = ("objective", "wa.decide, one by one", "batch, 1 thread", threads, "with an allocation")
+    table(f"Problems per second at 8×20, {BATCH:,} problems, {SHANNON.max_power_w:g} W", header, rows)
 
 
 def _one_by_one(gain: np.ndarray, problem: Problem) -> float:
