@@ -20,7 +20,11 @@ import wirelessagent as wa
 
 @dataclass(frozen=True, kw_only=True)
 class AlphaFairness(wa.Objective):
-    """Rates shared α-fairly; Mo and Walrand (2000)."""
+    """Rates shared α-fairly; Mo and Walrand (2000).
+
+    Attributes:
+        alpha: how fair, more than 0; 1 is proportional fairness.
+    """
 
     name = "alpha_fairness"
     unit = "bit/s"
@@ -53,4 +57,4 @@ class AlphaFairness(wa.Objective):
         if self.alpha == 1:
             return float(np.exp(worth))
         with np.errstate(divide="ignore"):
-            return float(np.power((1 - self.alpha) * worth, 1 / (1 - self.alpha)))
+            return float(np.power(np.maximum((1 - self.alpha) * worth, 0), 1 / (1 - self.alpha)))

@@ -87,9 +87,7 @@ def test_simulate_repair_solve_compare_pass_files_on(tmp_path: Path, capsys: pyt
     assert decided["total_power_w"] == pytest.approx(10, rel=1e-9)
     assert json.loads(allocation.read_text())["owner"] == decided["owner"]
 
-    compared = answer(
-        capsys, "compare", repaired, "--objective", "max_rate", "--methods", "dual", "--methods", "paper"
-    )
+    compared = answer(capsys, "compare", repaired, "--objective", "max_rate", "--methods", "dual", "--methods", "paper")
     assert [one["method"] for one in compared["answers"]] == ["dual", "paper"]
     assert all(one["decision"]["gap"] < 1e-3 for one in compared["answers"])
 
@@ -214,7 +212,10 @@ def test_an_unclear_sentence_gets_a_question_back(capsys: pytest.CaptureFixture[
         (["solve", EXAMPLE, "--objective", "P3", "--method", "paper_scan", "--num-levels", "1000000000"], "num_levels"),
         (["dance"], "dance"),
         (["ask", "max rate \udcff"], "text: this is not text in UTF-8"),
-        (["ask", "max rate, 1 Mbit/s each"], "min_rate_bps: leave it out or name another method (equal_power, "),
+        (
+            ["solve", EXAMPLE, "--method", "paper_bisection", "--objective", "P1", "--min-rate-bps", "1e6"],
+            "min_rate_bps: leave it out or name another method (dual, equal_power, greedy, ",
+        ),
         (["ask", "maximum rate", "--no-such-option"], "--no-such-option"),
     ],
     ids=lambda value: " ".join(map(str, value))[:60] if isinstance(value, list) else None,

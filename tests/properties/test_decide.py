@@ -199,13 +199,13 @@ def test_efficiency_never_falls_with_budget_nor_rises_beyond_the_best_ratio(
 @given(gain=gains(), budget_w=st.floats(1e-6, 1e3), link=st.sampled_from(CELLS))
 @quick
 def test_one_user_round_trip(gain: FloatArray, budget_w: float, link: wa.Cell) -> None:
-    """The least power for the best rate of a budget is that budget, and both are proven optimal."""
+    """The least power for the best rate of a budget is that budget, and both are proven so."""
     alone = gain[:1]
     best = solve(alone, "max_rate", "dual", link, max_power_w=budget_w)
     back = solve(
         alone, "min_power", "dual", link, max_power_w=budget_w, min_rate_bps=best.value * (1 - 1e-13)
     )  # fmt: skip
-    assert back.status == "optimal"
+    assert back.gap <= 1e-6
     assert back.value == pytest.approx(best.total_power_w, rel=1e-9)
     assert back.rate_scaling is not None
     assert back.rate_scaling.at_least == pytest.approx(1.0, rel=1e-5)
@@ -236,9 +236,7 @@ def test_from_one_bit_to_a_petabit_per_second(method: str, link: int) -> None:
 @given(gain=gains(), rate_bps=st.floats(1e3, 1e6), factor=st.floats(1.01, 3.0), link=st.sampled_from(CELLS))
 @quick
 def test_more_rate_needs_more_power(gain: FloatArray, rate_bps: float, factor: float, link: wa.Cell) -> None:
-    less, more = (
-        solve(gain, "min_power", "dual", link, min_rate_bps=rate) for rate in (rate_bps, rate_bps * factor)
-    )
+    less, more = (solve(gain, "min_power", "dual", link, min_rate_bps=rate) for rate in (rate_bps, rate_bps * factor))
     assert less.needed_power_w is not None
     assert more.needed_power_w is not None
     assert more.needed_power_w.at_least >= less.needed_power_w.at_least * (1 - 1e-2)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 from alpha_fairness import AlphaFairness
 
 import wirelessagent as wa
+from wirelessagent.interfaces.cli import run
 
 
 class TestAlphaFairness(wa.testing.ObjectiveContract):
@@ -58,9 +62,58 @@ def test_it_is_found_by_name_once_installed() -> None:
     assert wa.plugins.plugin("objective", "alpha_fairness").package == "wirelessagent-alpha-fairness"
 
 
-def test_a_method_for_any_objective_decides_by_it() -> None:
-    scene = wa.simulate("rayleigh", num_users=4, seed=1)
-    estimate = wa.repair(scene.observe())
-    decision = wa.decide(estimate, wa.Problem("alpha_fairness"), scene.cell, method="round_robin")
+@pytest.fixture(scope="module")
+def channel() -> tuple[wa.ChannelEstimate, wa.Cell]:
+    scene = wa.simulate("rayleigh", num_users=4, num_subcarriers=16, seed=1)
+    return wa.perfect(scene), scene.cell
+
+
+@pytest.mark.parametrize("alpha", [0.5, 1.0, 2.0, 4.0])
+def test_the_default_method_solves_it_with_a_certificate(
+    channel: tuple[wa.ChannelEstimate, wa.Cell], alpha: float
+) -> None:
+    estimate, cell = channel
+    decision = wa.decide(estimate, wa.Problem(AlphaFairness(alpha=alpha)), cell)
+    assert (decision.method, decision.unit) == ("dual", "bit/s")
     assert decision.is_usable
-    assert decision.value == pytest.approx(AlphaFairness().value(decision.rate_bps, decision.total_power_w, scene.cell))
+    value = AlphaFairness(alpha=alpha).value(decision.rate_bps, decision.total_power_w, cell)
+    assert decision.value == pytest.approx(value, rel=1e-9)
+    assert decision.value <= decision.bound * (1 + 1e-9)
+    assert decision.gap < 0.05
+    turns = wa.decide(estimate, wa.Problem(AlphaFairness(alpha=alpha)), cell, method="round_robin")
+    assert turns.value < decision.value
+
+
+def test_with_alpha_one_it_is_proportional_fairness(channel: tuple[wa.ChannelEstimate, wa.Cell]) -> None:
+    estimate, cell = channel
+    limits = {"weights": (1.0, 3.0, 1.0, 2.0), "min_rate_bps": (0.0, 0.0, 3e5, 0.0)}
+    ours = wa.decide(estimate, wa.Problem(AlphaFairness(alpha=1), **limits), cell)
+    theirs = wa.decide(estimate, wa.Problem("proportional_fairness", **limits), cell)
+    assert ours.value == pytest.approx(theirs.value, rel=1e-9)
+    assert ours.bound == pytest.approx(theirs.bound, rel=1e-6)
+    assert ours.rate_bps[2] >= 3e5 * (1 - 1e-9)
+
+
+def test_compare_lists_every_method_that_solves_it(channel: tuple[wa.ChannelEstimate, wa.Cell]) -> None:
+    estimate, cell = channel
+    found = {one.method: one.decision for one in wa.compare(estimate, wa.Problem("alpha_fairness"), cell)}
+    assert found.keys() >= {"dual", "greedy", "equal_power", "round_robin"}
+    assert "paper" not in found
+    best = found["dual"]
+    assert all(one.value <= best.bound * (1 + 1e-9) for one in found.values() if one.is_usable)
+
+
+def test_the_command_line_solves_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    gains = tmp_path / "gains.csv"
+    np.savetxt(gains, 1e-11 * np.random.default_rng(1).exponential(size=(3, 8)), delimiter=",")
+    assert run(["solve", str(gains), "--objective", "alpha_fairness", "--alpha", "1", "--json"]) == 0
+    decided = json.loads(capsys.readouterr().out)
+    assert (decided["objective"], decided["method"]) == ("alpha_fairness", "dual")
+    assert decided["gap"] < 0.1
+
+
+def test_an_operator_may_ask_for_it(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["ask", "Share alpha-fairly with at most 10 W", "--json"]) == 0
+    asked = json.loads(capsys.readouterr().out)
+    assert asked["decision"]["objective"] == "alpha_fairness"
+    assert asked["decision"]["method"] == "dual"

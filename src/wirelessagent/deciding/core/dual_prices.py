@@ -81,7 +81,8 @@ def _figure_slope(form: NormalForm, found: Search) -> float:
     joint = float((form.weight[counts] * form.objective.utility(rate)[counts]).sum())
     if not np.isfinite(joint):
         return 0.0
-    total, step = float(form.weight.sum()), 1e-6 * max(abs(joint), 1e-9)
+    magnitude = float((form.weight[counts] * np.abs(form.objective.utility(rate)[counts])).sum())
+    total, step = float(form.weight.sum()), 1e-6 * (magnitude if magnitude > 0 else 1e-9)
     rise = form.objective.figure(joint + step, total) - form.objective.figure(joint - step, total)
     return rise / (2.0 * step)
 
@@ -97,10 +98,11 @@ def _scaling(form: NormalForm, least: Search) -> Bracket:
 
 def _carried(form: NormalForm, owner: IntArray, spent_w: float, most: float) -> float:
     """The largest factor that given sets carry within the budget, at least 1: ln P over ln s by false position."""
-    from wirelessagent.deciding.core.least_power_kernel import least_power
+    from wirelessagent.deciding.core.least_power_kernel import owned_power
     from wirelessagent.deciding.core.rate_proof import ceilings
 
-    ceiling, power_w, price = ceilings(form, form.snr_per_w), np.empty(owner.size), np.empty(form.weight.size)
+    snr = np.where(owner >= 0, form.snr_per_w[owner, np.arange(owner.size)], 0.0)
+    ceiling, power_w, price = ceilings(form, snr), np.empty(owner.size), np.empty(form.weight.size)
     low, high = 1.0, most
     low_excess, high_excess = np.log(max(spent_w, 1e-300) / form.budget_w), np.nan
     for step in range(_STEPS):
@@ -111,7 +113,7 @@ def _carried(form: NormalForm, owner: IntArray, spent_w: float, most: float) -> 
         else:
             factor = low + (high - low) * low_excess / (low_excess - high_excess)
             factor = min(max(factor, low + 0.02 * (high - low)), high - 0.02 * (high - low))
-        needed = float(least_power(form.snr_per_w, ceiling, factor * form.promised_nats, owner, power_w, price))
+        needed = float(owned_power(snr, ceiling, factor * form.promised_nats, owner, power_w, price))
         if needed <= form.budget_w:
             low, low_excess = factor, np.log(needed / form.budget_w)
         else:

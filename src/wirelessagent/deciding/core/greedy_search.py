@@ -15,6 +15,8 @@ from wirelessagent.model.arrays import BoolArray, IntArray
 from wirelessagent.model.decision import Prices
 
 _REFITS = 3
+_FARTHEST = 500.0
+"""Any prices prove a bound; those within e^±500 without leaving the range of numbers."""
 
 
 def search_greedily(form: NormalForm, program: Program, owner: IntArray | None = None) -> Search:
@@ -53,14 +55,16 @@ def _search(form: NormalForm, program: Program, owner: IntArray) -> tuple[Search
     users, subcarriers = form.snr_per_w.shape
     owner, power_w, log_price = owner.copy(), np.empty(subcarriers), np.zeros(users)
     found = solve_greedily(form.snr_per_w, ask_of(form, program), log_price, owner, power_w)
+    log_price = np.clip(np.nan_to_num(log_price), -_FARTHEST, _FARTHEST)  # without a channel they run away
+    log_mu = float(np.clip(np.nan_to_num(found.log_mu), -_FARTHEST, _FARTHEST))
     search = Search(
         program=program,
         owner=owners_with_power(form, owner, power_w),
         power_w=power_w,
         score=float(found.score),
         kept=found.score > WORST and bool(np.isfinite(power_w).all()),
-        bound=bound_of(form, program, log_price, found.log_mu),
-        prices=Prices(log_rate=log_price, log_power=found.log_mu),
+        bound=bound_of(form, program, log_price, log_mu),
+        prices=Prices(log_rate=log_price, log_power=log_mu),
         iterations=int(found.iterations),
     )
     return search, int(found.missing)
