@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -59,7 +60,7 @@ def test_water_stands_on_the_owners_floor_up_to_one_level():
 
 
 def test_worths_are_the_most_that_power_can_earn():
-    estimate, decision = a_decision(wa.Problem("proportional_fairness", subcarrier_max_power_w=0.3))
+    estimate, decision = a_decision(wa.Problem("proportional_fairness", subcarrier_max_power_w=0.3, max_power_w=3))
     form = NormalForm.of(Dual(), estimate, decision.problem, CELL)
     price = np.exp(decision.prices.log_rate)
     power_w = np.linspace(0.0, 0.3, 20001)
@@ -87,6 +88,13 @@ def test_without_prices_or_an_allocation_the_error_says_so(problem, why):
 
     with pytest.raises(wa.InputError, match=why):
         prices_canvas(estimate=estimate, decision=decision)
+
+
+def test_prices_without_an_allocation_are_refused():
+    estimate, decision = a_decision(PROBLEMS["sum"])
+
+    with pytest.raises(wa.InputError, match="undecided and allocates nothing"):
+        prices_canvas(estimate=estimate, decision=dataclasses.replace(decision, status="undecided"))
 
 
 def test_more_users_than_colours_are_refused():
