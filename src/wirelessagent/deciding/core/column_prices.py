@@ -216,7 +216,7 @@ def _solve(
     """
     from scipy.sparse import block_array, coo_array, csc_array, eye_array
 
-    users, columns, count = market.users.shape[0], market.columns, len(sets)
+    users, columns, count = len(market.users), market.columns, len(sets)
     top = bottom = 0.0
     budgeted = bool(np.isfinite(market.budget_w))
     worths = [market.worths(sets, log_mu) for log_mu in watched]
@@ -248,8 +248,7 @@ def _solve(
     cost = np.concatenate(costs) / scale
     equal: Any = block_array([[each, coo_array((users, cost.size - usable.size))]], format="csc")
     at_most: Any = block_array(rows, format="csc")
-    wanted: FloatArray = np.ones(users)
-    solution = _minimised(cost, at_most, limits, equal, wanted)
+    solution = _minimised(cost, at_most, limits, equal, users)
     if solution is None:
         return None
     least, amount, dual = solution[0] * scale, solution[1], solution[2] * scale
@@ -264,14 +263,14 @@ def _solve(
 
 
 def _minimised(
-    cost: FloatArray, at_most: object, limits: FloatArray, equal: object, wanted: FloatArray
+    cost: FloatArray, at_most: object, limits: FloatArray, equal: object, users: int
 ) -> tuple[float, FloatArray, FloatArray] | None:
     """The least cost of a linear programme, its amounts ≥ 0, and the prices of its limits; None if it fails."""
     from scipy.optimize import linprog
 
     solver: Any = linprog  # its types know no sparse arrays
     result: Any = solver(
-        cost, A_ub=at_most, b_ub=limits, A_eq=equal, b_eq=wanted, bounds=(0, None), method="highs-ds"
+        cost, A_ub=at_most, b_ub=limits, A_eq=equal, b_eq=np.ones(users), bounds=(0, None), method="highs-ds"
     )  # fmt: skip
     if result.status != 0:
         return None
