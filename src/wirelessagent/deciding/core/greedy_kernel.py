@@ -105,7 +105,7 @@ def solve_greedily(
             and the owners written.
         power_w: written, shape (subcarrier,).
     """
-    users, subcarriers = snr_per_w.shape
+    users, subcarriers = log_price.size, owner.size
     groups = ask.start.size - 1
     channel = channel_of(snr_per_w, ask)
     rows = ask.rows.copy()

@@ -175,15 +175,16 @@ def _climb(form: NormalForm, snr: FloatArray, nats: FloatArray) -> tuple[FloatAr
     from wirelessagent.deciding.core.prices_kernel import climb
     from wirelessagent.deciding.core.start_kernel import equal_price, typical_snr
 
-    users, subcarriers = snr.shape
+    users, subcarriers = nats.size, form.cap_w.size
     rows, typical, log_price = promises(nats), np.empty(users), np.empty(users)
     typical_snr(snr, typical)
     equal_price(rows, typical, subcarriers, log_price)
     with np.errstate(divide="ignore", over="ignore"):
         inverse = np.where(snr > 0, 1.0 / snr, 0.0)
-    channel = (np.ascontiguousarray(of.T) for of in (log_snr(snr), inverse, ceilings(form, snr), form.caps_w(snr)))
     rate, term, rising = np.empty((3, form.start.size - 1, users))
     _, _, steps = climb(
-        *channel, form.start, rows, 0.0, False, _TEMPERATURES, log_price, 0.0, rate, term, rising, np.empty(users)
-    )
-    return log_price, int(steps)
+        np.ascontiguousarray(log_snr(snr).T), np.ascontiguousarray(inverse.T),
+        np.ascontiguousarray(ceilings(form, snr).T), np.ascontiguousarray(form.caps_w(snr).T), form.start, rows, 0.0,
+        False, _TEMPERATURES, log_price, 0.0, rate, term, rising, np.empty(users),
+    )  # fmt: skip
+    return log_price, steps

@@ -56,7 +56,7 @@ def worthless_decision(
     form: NormalForm, owner: IntArray, power_w: FloatArray, unserved: IntArray, figures: Figures
 ) -> Decision:
     """The optimum of an objective that is at its lowest because of users who cannot be served."""
-    names = ", ".join(form.estimate.user_names[user] for user in unserved[:3])
+    names = ", ".join(form.estimate.user_names[user] for user in map(int, unserved[:3]))
     more = f" and {unserved.size - 3} more" if unserved.size > 3 else ""
     figures["reason"] = (
         f"no subcarrier is left for {names}{more}, so {form.objective.name} is at its lowest whatever the others get: "
