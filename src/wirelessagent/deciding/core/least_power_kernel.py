@@ -84,31 +84,53 @@ def least_power(
     Writes ``power_w`` (subcarrier,) and ``log_price`` (user,), ln of dP_k/dR_k in W per nat, which is the water level
     v with r_n = ln(a_n v): NaN for users that are not served.
     """  # fmt: skip
-    users, subcarriers = snr_per_w.shape
-    snr = np.empty(subcarriers)
-    cap = np.empty(subcarriers)
-    rate = np.empty(subcarriers)
+    subcarriers = owner.size
+    snr = np.zeros(subcarriers)
+    most = np.zeros(subcarriers)
+    for n in range(subcarriers):
+        if owner[n] >= 0:
+            snr[n] = snr_per_w[owner[n], n]
+            most[n] = ceiling[owner[n], n]
+    return owned_power(snr, most, nats, owner, power_w, log_price)
+
+
+@kernel
+def owned_power(
+    snr_per_w: FloatArray,
+    ceiling: FloatArray,
+    nats: FloatArray,
+    owner: IntArray,
+    power_w: FloatArray,
+    log_price: FloatArray,
+) -> float:
+    """:func:`least_power` from the owners' own a and ceilings, shape (subcarrier,)."""
+    users, subcarriers = nats.size, owner.size
+    size = np.zeros(users + 1, dtype=np.int64)
+    for n in range(subcarriers):
+        if owner[n] >= 0 and snr_per_w[n] > 0.0:
+            size[owner[n] + 1] += 1
+    first = np.cumsum(size)
+    member = np.empty(subcarriers, dtype=np.int64)
+    filled = first[:users].copy()
+    for n in range(subcarriers):
+        if owner[n] >= 0 and snr_per_w[n] > 0.0:
+            member[filled[owner[n]]] = n
+            filled[owner[n]] += 1
+    snr, cap, rate = snr_per_w[member[: first[users]]], ceiling[member[: first[users]]], np.empty(subcarriers)
     total = 0.0
     power_w[:] = 0.0
     for k in range(users):
         log_price[k] = np.nan
         if nats[k] <= 0.0:
             continue
-        capacity = 0.0
-        last = -1
-        for n in range(subcarriers):
-            mine = owner[n] == k
-            snr[n] = snr_per_w[k, n] if mine else 0.0
-            cap[n] = ceiling[k, n] if mine else 0.0
-            capacity += cap[n]
-            if snr[n] > 0.0 and (last < 0 or snr[n] > snr[last]):
-                last = n
-        if capacity < nats[k] * SLACK:
+        low, high = first[k], first[k + 1]
+        if cap[low:high].sum() < nats[k] * SLACK or low == high:
             total = np.inf
             continue
-        log_price[k] = settle(snr, cap, nats[k], True, last, rate)
-        for n in range(subcarriers):
-            if rate[n] > 0.0:
-                power_w[n] = np.expm1(rate[n]) / snr[n]
-                total += power_w[n]
+        best = int(np.argmax(snr[low:high]))
+        log_price[k] = settle(snr[low:high], cap[low:high], nats[k], True, best, rate[low:high])
+        for i in range(low, high):
+            if rate[i] > 0.0:
+                power_w[member[i]] = np.expm1(rate[i]) / snr[i]
+                total += power_w[member[i]]
     return total
