@@ -23,14 +23,15 @@ COLD = np.array([0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3])
 PROMISED = np.array([0.1, 0.02, 5e-3, 1.5e-3])
 WARM = np.array([5e-3, 1.5e-3])
 LAST = np.array([1e-3])
-"""Temperatures of a climb from afar, from a start for promises alone, from the slot before, and from prices just found."""
+"""Temperatures of a climb from afar, from a start for promises alone, from the slot before, and from near prices."""
 ROUNDS = 20
 SETTLED = 1e-7
 MARGIN = 1e-6
 NEAR, FAR = 0.2, 0.6
 """By how much, in units of a group's mean term, a candidate's term may fall short at first, and later."""
-MANY = 100
-"""From so many restarts on, all candidates are tried that the dual does not exclude."""
+MANY, TINY = 100, 64
+"""From so many restarts on, or up to so many users × groups, all candidates are tried that the dual does not exclude;
+so they are where utilities, not promises, say what is near."""
 LOWER = (0.7, 0.3, 1e-2, 1e-6)
 """Shares of a level at which users who cannot reach it are given subcarriers first."""
 
@@ -379,7 +380,8 @@ def solve(
             if ask.goal == LEVEL:
                 set_level(rows, ask.share, np.exp(at))
     slack = slack_of(ask, rows, log_price, log_mu, term, dual, score, at)
-    reach = FAR * mean if restarts < MANY else np.inf
+    promised = ask.goal == POWER or ask.goal == LEVEL
+    reach = FAR * mean if promised and restarts < MANY and users * groups > TINY else np.inf
     if slack > 0.0:
         choose_candidates(term, usable, min(slack, reach), candidates, wanted)
         score, at = polish(

@@ -93,22 +93,29 @@ def _scaling(form: NormalForm, least: Search) -> Bracket:
         price = np.exp(least.prices.log_rate)
     paid = float(price @ form.promised_nats)
     most = (form.budget_w + groups_worth_w(form, price)) / paid if paid > 0 else np.inf
-    return Bracket(at_least=_carried(form, least.owner, least.spent_w, max(most, 1.0)), at_most=max(most, 1.0))
+    return Bracket(at_least=carried_scaling(form, least.owner, least.spent_w, max(most, 1.0)), at_most=max(most, 1.0))
 
 
-def _carried(form: NormalForm, owner: IntArray, spent_w: float, most: float) -> float:
-    """The largest factor that given sets carry within the budget, at least 1: ln P over ln s by false position."""
+def carried_scaling(form: NormalForm, owner: IntArray, spent_w: float, most: float) -> float:
+    """The largest factor that given sets carry within the budget: ln P over ln s by false position.
+
+    ``spent_w`` is what they need for the factor 1. Where that is above the budget the search goes downwards, from the
+    share that the budget has of it: the power is convex in the factor, so that much is carried for certain.
+    """
     from wirelessagent.deciding.core.least_power_kernel import owned_power
     from wirelessagent.deciding.core.rate_proof import ceilings
 
     snr = np.where(owner >= 0, form.snr_per_w[owner, np.arange(owner.size)], 0.0)
     ceiling, power_w, price = ceilings(form, snr), np.empty(owner.size), np.empty(form.weight.size)
-    low, high = 1.0, most
-    low_excess, high_excess = np.log(max(spent_w, 1e-300) / form.budget_w), np.nan
+    low, high, low_excess, high_excess = 1.0, most, np.log(max(spent_w, 1e-300) / form.budget_w), np.nan
+    if low_excess > _ACCURACY:
+        low, high, high_excess = form.budget_w / spent_w, 1.0, low_excess
+        low_w = float(owned_power(snr, ceiling, low * form.promised_nats, owner, power_w, price))
+        low_excess = min(np.log(max(low_w, 1e-300) / form.budget_w), 0.0)
     for step in range(_STEPS):
         if high - low <= _ACCURACY * high or low_excess >= -_ACCURACY:
             break
-        if step == 0 or not np.isfinite(high_excess):
+        if not np.isfinite(high_excess):
             factor = high if step == 0 else np.sqrt(low * high)
         else:
             factor = low + (high - low) * low_excess / (low_excess - high_excess)
