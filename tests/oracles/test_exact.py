@@ -167,7 +167,7 @@ def test_exact_is_the_best_of_all_assignments(name: str, which: int, cell: wa.Ce
     limits = {k: v for k, v in PROBLEMS[which].items() if not (k == "weights" and name == "min_power")}
     estimate = known(rayleigh_gain(3, 5, seed=10 * which + 1)[0])
     problem = wa.Problem(OBJECTIVES[name], **limits)
-    decision = Exact(deadline_s=20.0).solve(estimate, problem, cell)
+    decision = Exact(deadline_s=600.0).solve(estimate, problem, cell)
     best = best_allocation(estimate, problem, cell)
     if best is None:
         assert decision.status == "infeasible"
@@ -185,7 +185,7 @@ def test_eight_users_to_the_optimum(rate_bps: float) -> None:
     for seed in range(2):
         estimate = known(rayleigh_gain(8, 20, seed=seed)[0])
         problem = wa.Problem(MinPower(), min_rate_bps=rate_bps)
-        fast, exact = Dual().solve(estimate, problem, cell), Exact().solve(estimate, problem, cell)
+        fast, exact = Dual().solve(estimate, problem, cell), Exact(deadline_s=600.0).solve(estimate, problem, cell)
         assert exact.status == "optimal"
         assert fast.bound <= exact.value * (1 + 1e-9)
         assert exact.value <= fast.value * (1 + 1e-9)
