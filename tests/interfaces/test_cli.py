@@ -90,6 +90,14 @@ def test_simulate_repair_solve_compare_pass_files_on(tmp_path: Path, capsys: pyt
     compared = answer(capsys, "compare", repaired, "--objective", "max_rate", "--methods", "dual", "--methods", "paper")
     assert [one["method"] for one in compared["answers"]] == ["dual", "paper"]
     assert all(one["decision"]["gap"] < 1e-3 for one in compared["answers"])
+    against = answer(
+        capsys, "compare", repaired, "--objective", "PF", *("--methods=round_robin", "--methods=paper_scan")
+    )
+    assert [one["method"] for one in against["answers"]] == ["round_robin", "paper_scan"]
+    assert "does not solve" in against["answers"][1]["refusal"]
+    every = answer(capsys, "compare", repaired, "--objective", "proportional_fairness")["answers"]
+    values = [one["decision"]["value"] for one in every]
+    assert values == sorted(values, reverse=True)
 
 
 def test_a_simulation_is_the_same_for_the_same_seed(capsys: pytest.CaptureFixture[str]) -> None:

@@ -109,3 +109,16 @@ def test_a_dead_channel_is_not_told_as_a_lack_of_promises() -> None:
     assert "No rate is promised" not in said
     nothing_asked = wa.decide(ESTIMATE, wa.Problem("min_power"), method="paper_inversion")
     assert "No rate is promised" in " ".join(explain(ESTIMATE, wa.report(nothing_asked)))
+
+
+def test_groups_are_said_to_cost_what_the_bound_without_them_proves() -> None:
+    estimate = wa.perfect(wa.simulate("rayleigh", num_users=3, num_subcarriers=12, seed=2))
+    for problem in (wa.Problem("max_rate"), wa.Problem("min_power", min_rate_bps=1e6)):
+        grouped = replace(problem, resource_block_group_size=4)
+        decision = wa.decide(estimate, grouped)
+        bound = wa.decide(estimate, problem).bound
+        cost = 100 * abs(1 - decision.value / bound)
+        said = [part for part in explain(estimate, wa.report(decision)) if "groups of 4" in part]
+        assert len(said) == 1
+        assert f"at most {cost:.2g} %" in said[0]
+        assert not [part for part in explain(estimate, wa.report(wa.decide(estimate, problem))) if "groups" in part]

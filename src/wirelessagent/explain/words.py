@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 
 import numpy as np
 
+from wirelessagent import chain
 from wirelessagent.explain.report import Report, name_of_figure
 from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
@@ -31,6 +33,9 @@ _ENGLISH: Mapping[str, str] = {
     "rate_price": "One more {step} for {user} would cost about {price} at the margin, the dearest of all.",
     "rate_figure": "One more {step} promised to {user} would lower the {figure} by about {price} at the margin, "
     "the dearest of all.",
+    "idle_one": "Nothing for {names}, who is {margin:.1f} dB behind the winner on its best subcarrier.",
+    "groups": "Assigning subcarriers in groups of {size} costs at most {cost:.2g} % of the {figure}: one by one, "
+    "nothing does better than {bound}.",
     "idle": "Nothing for {names}; the closest, {closest}, is {margin:.1f} dB behind the winner on its best subcarrier.",
     "repaired": "Repaired by {method}: {missing} of {entries} gains; "
     "{resting} of the {used} subcarriers in use rest on a repaired gain.",
@@ -39,6 +44,7 @@ _ENGLISH: Mapping[str, str] = {
     "complete": "No gain was missing, so nothing was repaired.",
     "kept": "On the true channel every promised rate was kept.",
     "missed": "On the true channel {names} fell short of the promised rate, by up to {short:.2g} %.",
+    "value": "value",
     "comma": ", ",
 }
 
@@ -59,6 +65,8 @@ _CHINESE: Mapping[str, str] = {
     "power_figure": "边际上每增加一瓦，{figure}约提高 {price}。",
     "rate_price": "边际上给 {user} 再增加 {step} 约需 {price}，是所有用户中最贵的。",
     "rate_figure": "边际上向 {user} 多承诺 {step}，{figure}约降低 {price}，是所有用户中最贵的。",
+    "idle_one": "{names} 没有分到子载波，在其最好的子载波上比胜者低 {margin:.1f} dB。",
+    "groups": "以 {size} 个子载波为一组分配，{figure}的损失最多为 {cost:.2g} %：逐个分配时任何方案都不会优于 {bound}。",
     "idle": "{names} 没有分到子载波；其中最接近的 {closest} 在其最好的子载波上仍比胜者低 {margin:.1f} dB。",
     "repaired": "{entries} 个增益中缺失 {missing} 个，由 {method} 修复；"
     "使用的 {used} 个子载波中有 {resting} 个依赖修复值。",
@@ -67,6 +75,7 @@ _CHINESE: Mapping[str, str] = {
     "complete": "没有缺失的增益，因此无需修复。",
     "kept": "在真实信道上，所有承诺的速率都已兑现。",
     "missed": "在真实信道上 {names} 未达到承诺速率，最多少 {short:.2g} %。",
+    "value": "目标值",
     "comma": "、",
 }
 
@@ -83,6 +92,7 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
         return [words["no_promise"]]
     figure = name_of_figure(decision, language)
     said = [_allocation(words, decision), *_goal(words, decision, objective, figure), _certificate(words, decision)]
+    said += _groups(words, decision, estimate, figure)
     said += [decision.reason] if decision.reason else []
     said += _prices(words, decision, objective, figure)
     said += _idle_users(words, decision, estimate)
@@ -112,6 +122,30 @@ def _certificate(words: Mapping[str, str], decision: Decision) -> str:
     if np.isinf(decision.gap):
         return words["zero_bound"].format(method=decision.method)
     return words["gap"].format(bound=human(decision.bound, decision.unit), gap=100 * decision.gap)
+
+
+def _groups(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate, figure: str) -> list[str]:
+    """What assigning whole resource-block groups costs at most, by the bound without groups."""
+    size = decision.problem.resource_block_group_size
+    if size == 1:
+        return []
+    single = dataclasses.replace(decision.problem, resource_block_group_size=1)
+    bound = chain.decide(estimate, single, decision.cell, "dual", restarts=0).bound
+    if not np.isfinite(bound) or bound == 0.0:
+        return []
+    cost = max(decision.value / bound - 1.0 if _falls(decision) else 1.0 - decision.value / bound, 0.0)
+    return [
+        words["groups"].format(
+            size=size, cost=100 * cost, figure=figure or words["value"], bound=human(bound, decision.unit)
+        )
+    ]
+
+
+def _falls(decision: Decision) -> bool:
+    """Whether smaller values are better."""
+    objective = decision.problem.objective
+    assert isinstance(objective, Objective)
+    return objective.direction == "min"
 
 
 def _goal(words: Mapping[str, str], decision: Decision, objective: Objective, figure: str) -> list[str]:
@@ -166,6 +200,8 @@ def _idle_users(words: Mapping[str, str], decision: Decision, estimate: ChannelE
     if not np.isfinite(margin_db[closest]) or margin_db[closest] <= 0:
         return []
     names = [decision.user_names[user] for user in idle]
+    if len(names) == 1:
+        return [words["idle_one"].format(names=names[0], margin=float(margin_db[closest]))]
     return [
         words["idle"].format(names=words["comma"].join(names), margin=float(margin_db[closest]), closest=names[closest])
     ]

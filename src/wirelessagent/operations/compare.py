@@ -5,7 +5,9 @@ from __future__ import annotations
 from pydantic import Field
 
 from wirelessagent import chain
+from wirelessagent.chain import Comparison
 from wirelessagent.model.errors import UnsupportedProblemError
+from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human
 from wirelessagent.operations.answers import DecisionAnswer, percent
 from wirelessagent.operations.operation import Operation, Progress
@@ -36,13 +38,22 @@ class CompareRecord(Record):
     def blocks(self) -> list[Block]:
         rows = tuple(_row(answer) for answer in self.answers)
         columns = ("method", "status", "value", "bound", "gap", "power", "time")
-        return [Table(title=f"Methods for {self.objective}", columns=columns, rows=rows)]
+        table = Table(title=f"Methods for {self.objective}, the best first", columns=columns, rows=rows)
+        refusals = [f"{answer.method}: {answer.refusal}" for answer in self.answers if answer.refusal]
+        return [table, *self._why(), *refusals]
+
+    def _why(self) -> list[str]:
+        """Why there is no allocation, in the words of the first method that has none, if no method has one."""
+        decisions = [answer.decision for answer in self.answers if answer.decision is not None]
+        reasons = [decision.reason for decision in decisions if decision.reason]
+        usable = any(decision.status in ("optimal", "feasible") for decision in decisions)
+        return [] if usable or not reasons else [f"{decisions[0].status}: {reasons[0]}"]
 
 
 def _row(answer: MethodAnswer) -> tuple[str, ...]:
     decision = answer.decision
     if decision is None:
-        return (answer.method, answer.refusal, *["–"] * 5)
+        return (answer.method, "refused", *["–"] * 5)
     return (
         answer.method,
         decision.status,
@@ -52,6 +63,18 @@ def _row(answer: MethodAnswer) -> tuple[str, ...]:
         human(decision.total_power_w, "W"),
         human(answer.time_s, "s"),
     )
+
+
+def _place(one: Comparison) -> tuple[int, float, float]:
+    """Where a method stands: the best value first, then those without an allocation, then those that refuse."""
+    decision = one.decision
+    if decision is None:
+        return 3, 0.0, 0.0
+    if not decision.is_usable:
+        return (1 if decision.status == "infeasible" else 2), 0.0, one.time_s
+    objective = decision.problem.objective
+    assert isinstance(objective, Objective)
+    return 0, decision.value if objective.direction == "min" else -decision.value, one.time_s
 
 
 def run(request: CompareRequest, progress: Progress) -> CompareRecord:
@@ -66,7 +89,7 @@ def run(request: CompareRequest, progress: Progress) -> CompareRecord:
             time_s=one.time_s,
             decision=None if one.decision is None else DecisionAnswer.of(one.decision),
         )
-        for one in found
+        for one in sorted(found, key=_place)
     ]
     return CompareRecord(objective=request.objective, facts=dict(scene.facts), answers=answers)
 

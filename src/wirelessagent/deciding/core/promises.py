@@ -48,11 +48,11 @@ def least_power_decision(form: NormalForm, allocate: Allocate) -> Decision:
     return _not_kept(form, proof, reason, tried, figures)
 
 
-def broken_decision(form: NormalForm, found_w: float, needed_w: float, price: FloatArray) -> Decision:
+def broken_decision(form: NormalForm, found_w: float, needed_w: float, price: FloatArray, scaling: float) -> Decision:
     """Where no allocation was found that keeps the promised rates: infeasible with a proof, or undecided.
 
     ``found_w`` is the power of one that keeps them beyond the budget, infinite for none; ``needed_w`` is the least by
-    the dual at the ``price`` λ (user,) of each rate.
+    the dual at the ``price`` λ (user,) of each rate; ``scaling`` is the common factor that is known to fit the budget.
     """
     proof = prove(form)
     if needed_w > proof.needed_w:
@@ -61,7 +61,7 @@ def broken_decision(form: NormalForm, found_w: float, needed_w: float, price: Fl
     figures = _figures(form, proof)
     figures["needed_power_w"] = _needed(proof, reason, found_w)
     at_most = min(proof.max_scaling, most)
-    figures["rate_scaling"] = Bracket(at_least=0.0, at_most=at_most)
+    figures["rate_scaling"] = Bracket(at_least=min(scaling, at_most), at_most=at_most)
     tried = f"what was found needs {_told(found_w)}" if np.isfinite(found_w) else "no sets that carry them were found"
     return _not_kept(form, proof, reason, tried, figures)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.deciding.core.certificate import Figures, certified
-from wirelessagent.deciding.core.dual_prices import figures_of
+from wirelessagent.deciding.core.dual_prices import carried_scaling, figures_of
 from wirelessagent.deciding.core.dual_search import Search
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.promises import broken_decision
@@ -30,7 +30,10 @@ def unpowered_decision(form: NormalForm) -> Decision:
 def unkept_decision(form: NormalForm, least: Search) -> Decision:
     """The decision where the search for the least power of the promised rates found none within the budget."""
     price = np.where(form.promised_nats > 0, np.exp(least.prices.log_rate), 0.0)
-    return broken_decision(form, least.spent_w if least.kept else np.inf, least.bound, price)
+    if not least.kept:
+        return broken_decision(form, np.inf, least.bound, price, 0.0)
+    scaling = carried_scaling(form, least.owner, least.spent_w, 1.0)
+    return broken_decision(form, least.spent_w, least.bound, price, scaling)
 
 
 def decision_of(form: NormalForm, found: Search, least: Search | None, unserved: IntArray) -> Decision:
