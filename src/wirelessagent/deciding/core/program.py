@@ -132,7 +132,7 @@ def promises(nats: FloatArray) -> FloatArray:
 
 def _columns(*columns: FloatArray | float) -> FloatArray:
     """Values of (…, user), broadcast together, side by side: shape (…, user, column)."""
-    shape = np.broadcast_shapes(*(np.shape(column) for column in columns))
+    shape = np.broadcast(*columns).shape
     beside = np.empty((*shape, len(columns)))
     for number, column in enumerate(columns):
         beside[..., number] = column
