@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wirelessagent.deciding.core.bundle_kernel import HIGH, LOW, SLOPE
+from wirelessagent.deciding.core.bundle_kernel import CURVATURE, HIGH, LOW, SLOPE
 from wirelessagent.deciding.core.least_power_kernel import least_power
 from wirelessagent.deciding.core.prices_kernel import FARTHEST, climb, conjugate, price_terms
 from wirelessagent.deciding.core.search_kernel import choose_candidates, polish, restart, serve_all
@@ -165,6 +165,8 @@ def find_prices(
     low, high = -np.inf, np.inf
     for i in range(ROUNDS):
         temperatures = LAST if i > 0 else WARM if warm else COLD if moving else PROMISED
+        if ask.goal == EFFICIENCY and i > 0:
+            temperatures = WARM if i > 1 else COLD
         dual, log_mu, steps = climb(
             log_snr, inverse, ceiling, full_w, ask.start, rows, budget, moving, temperatures, log_price, log_mu,
             rate, term, rising, supplied,
@@ -189,6 +191,7 @@ def find_prices(
                 break
             moving, budget = False, 0.0
             low, high = log_mu, np.inf
+            keep_worths(rows, log_price, log_mu, np.log(reached))
             log_mu = np.log(reached)
             continue
         surplus = dual / np.exp(log_mu) - ask.circuit_w  # falls with the price; the efficiency is where it is 0
@@ -200,11 +203,23 @@ def find_prices(
         if abs(surplus) <= SETTLED * worth_w or high - low <= SETTLED:
             break
         trial = log_mu + surplus / max(worth_w - surplus, 0.1 * worth_w)
-        log_mu = trial if low < trial < high else (0.5 * (low + high) if high < np.inf else low + 1.0)
+        if not low < trial < high:
+            trial = 0.5 * (low + high) if high < np.inf else low + 1.0
+        keep_worths(rows, log_price, log_mu, trial)
+        log_mu = trial
     price_terms(log_snr, inverse, ceiling, full_w, ask.start, log_price, rate, term, rising)
     if ask.goal == LEVEL:
         log_mu = np.log(level) if level > 0.0 else -FARTHEST
     return dual, log_mu, iterations
+
+
+@kernel
+def keep_worths(rows: FloatArray, log_price: FloatArray, log_mu: float, new_log_mu: float) -> None:
+    """Keep the prices of rates that are what their straight utility pays where the price of power changes."""
+    for k in range(log_price.size):
+        straight = rows[k, SLOPE] > 0.0 and rows[k, CURVATURE] == 0.0 and rows[k, LOW] < rows[k, HIGH]
+        if straight and abs(log_price[k] + log_mu - np.log(rows[k, SLOPE])) < 1e-6:
+            log_price[k] -= new_log_mu - log_mu
 
 
 @kernel

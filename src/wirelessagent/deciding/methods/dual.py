@@ -20,6 +20,7 @@ from wirelessagent.deciding.core.search_decision import (
     unpowered_decision,
     unservable_decision,
 )
+from wirelessagent.deciding.core.thorough import tightened
 from wirelessagent.deciding.core.unserved import without_unservable
 from wirelessagent.deciding.method import Method
 from wirelessagent.model.arrays import positive, whole
@@ -32,6 +33,7 @@ from wirelessagent.model.problem import Problem
 _SMALL = 400
 """Up to so many users × groups a search is restarted by default."""
 _RESTARTS, _THOROUGH_RESTARTS, _CHUNK = 30, 400, 20
+_THOROUGH_S = 5.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,8 +46,9 @@ class Dual(Method):
     limits is solved in closed form.
 
     Attributes:
-        effort: "fast" for a scheduler's slot, "thorough" to search longer and to prove more.
-        deadline_ms: time after which no further restarts begin; restarts go on until then where it is given.
+        effort: "fast" for a scheduler's slot; "thorough" goes on with prices of subcarriers, which prove more and find
+            better sets, for some seconds at most, and often to the proven optimum.
+        deadline_ms: time after which nothing new begins; a fast search is restarted until then.
         restarts: number of restarts instead of that of the effort, to do again what a deadline has cut short.
         seed: of the restarts.
     """
@@ -120,12 +123,15 @@ class Dual(Method):
         """How hard to search a problem of this size."""
         small = form.weight.size * (form.start.size - 1) <= _SMALL
         restarts = _RESTARTS if small else 0
-        if self.effort == "thorough":
+        if self.effort == "thorough" and small:
             restarts = _THOROUGH_RESTARTS
         return Effort(restarts=restarts if self.restarts is None else self.restarts, seed=self.seed)
 
     def _go_on(self, form: NormalForm, found: Search, started: float) -> Search:
-        """Restart until the deadline, if there is one."""
+        """Restart until the deadline, if there is one; thoroughly, go on with prices of subcarriers."""
+        if self.effort == "thorough":
+            allowed = _THOROUGH_S if self.deadline_ms is None else self.deadline_ms / 1e3
+            return tightened(form, found, started + allowed)
         if self.deadline_ms is None:
             return found
         seed = self.seed

@@ -1,0 +1,47 @@
+"""What prices of subcarriers add to what prices of rates have found: a tighter bound, and often better sets.
+
+Prices of rates let users share every single subcarrier, which few or heavily loaded ones do not allow. Prices of the
+subcarriers (:mod:`.column_prices`) do not, and their search ends at the optimum if it is given the time.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from wirelessagent.deciding.core.column_prices import start_prices
+from wirelessagent.deciding.core.dual_search import Search, owners_with_power, tighter
+from wirelessagent.deciding.core.exact_search import search
+from wirelessagent.deciding.core.exact_start import goal_of, is_met_everywhere, shown
+from wirelessagent.deciding.core.market import Sets
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY
+
+_FARTHEST = 80.0
+"""Of ln μ at the start; a price beyond is that of power to spare."""
+_SETS = 100
+"""Sets listed for one user before a problem is divided."""
+
+
+def tightened(form: NormalForm, found: Search, deadline: float) -> Search:
+    """``found``, or better sets, with the better bound; ``deadline`` in seconds on ``time.perf_counter``."""
+    program = found.program
+    if not found.kept or (program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0):
+        return found
+    goal = goal_of(form, program)
+    owner = np.maximum.reduceat(found.owner, form.start[:-1])
+    fixed = program.goal in (LEAST_POWER, HIGHEST_LEVEL)
+    log_mu = 0.0 if fixed else min(max(float(found.prices.log_power), -_FARTHEST), _FARTHEST)
+    price = start_prices(goal.market, found.prices.log_rate, log_mu)
+    optimum = search(
+        goal, Sets.of_owner(owner, form.weight.size), price, log_mu, deadline=deadline, most_sets=_SETS
+    )  # fmt: skip
+    if is_met_everywhere(form, program):
+        found = dataclasses.replace(found, bound=tighter(form, found.bound, shown(form, program, optimum.bound)))
+    if optimum.x <= found.score:
+        return found
+    own, power_w = optimum.allocation(goal)
+    return dataclasses.replace(
+        found, owner=owners_with_power(form, own, power_w), power_w=power_w, score=float(optimum.x)
+    )  # fmt: skip
