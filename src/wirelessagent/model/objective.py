@@ -107,7 +107,7 @@ class Objective(ABC):
         else:
             joint = (omega * self.utility(rate)[..., counts]).sum(axis=-1)
         figure = self.figures(joint, float(omega.sum()))
-        if self.measure == "utility":
+        if self.measure != "efficiency":
             return figure
         pairs = zip(figure.flat, power_w.flat, strict=True)
         efficiency = [energy_efficiency_bit_per_j(float(worth), float(power), cell) for worth, power in pairs]

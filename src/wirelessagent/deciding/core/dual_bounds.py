@@ -30,7 +30,7 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
         price = np.exp(log_price)
     worth_w = _groups_worth_w(form, price)
     if program.goal == LEAST_POWER:
-        return np.maximum(price @ form.promised_nats - worth_w, 0.0)
+        return np.maximum(price @ form.promised_nats - worth_w, _first_nats_w(form))
     weight = float(form.weight.sum())
     if program.goal == HIGHEST_LEVEL:
         level = _highest_level(program, log_price, worth_w + form.budget_w) * form.bps_per_nat
@@ -46,6 +46,16 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
 def groups_worth_w(form: NormalForm, price: FloatArray) -> float:
     """Φ(λ) in W, for λ (user,) in W per nat."""
     return float(_groups_worth_w(form, price))
+
+
+def _first_nats_w(form: NormalForm) -> FloatArray:
+    """Σ R_k/max a_k, shape (…): what the promised rates cost if all nats cost as little as the first.
+
+    That is the bound at λ = 1/max a. The climb of the prices loses its digits where rates are so small that they need
+    hardly more.
+    """
+    best = form.snr_per_w.max(axis=-1)
+    return np.where(best > 0, form.promised_nats / np.where(best > 0, best, 1.0), 0.0).sum(axis=-1)
 
 
 def _conjugate(form: NormalForm, program: Program | Programs, price: FloatArray) -> FloatArray:

@@ -58,6 +58,10 @@ def prove(form: NormalForm) -> RateProof:
     strongest = int(relaxed.needed_w.argmax())
     needed = float(relaxed.needed_w[strongest])
     best = _prices_of(relaxed)[strongest]
+    first = np.minimum(-log_snr(snr.max(axis=1)), _HIGHEST_LOG_PRICE)  # as if all nats cost as little as the first
+    power, _ = _judge(form, snr, nats, first)
+    if power > needed:
+        needed, best = power, first
     scaling = min(largest_scaling(form, snr, nats), 1e300)
     iterations, factor = 0, 1.0
     for _ in range(1 + _ROUNDS):  # at the promised rates; then at those scaled to the budget, until that settles
