@@ -35,8 +35,10 @@ def relative_gap(value: float, bound: float) -> float:
     >>> relative_gap(0.0, 0.0), relative_gap(99.0, 100.0)
     (0.0, 0.01)
     """
+    if value == bound:  # infinite ones, too
+        return 0.0
     distance = abs(value - bound)
-    if distance == 0.0 or math.isnan(distance):
+    if math.isnan(distance):
         return distance
     return distance / abs(bound) if bound != 0.0 else math.inf
 

@@ -15,8 +15,8 @@ from wirelessagent.model.arrays import BoolArray, IntArray
 from wirelessagent.model.decision import Prices
 
 _REFITS = 3
-_FARTHEST = 500.0
-"""Any prices prove a bound; those within e^±500 without leaving the range of numbers."""
+_FARTHEST = 300.0
+"""Without a channel prices run away. Any prices prove a bound, those within e^±300 without an overflow."""
 
 
 def search_greedily(form: NormalForm, program: Program, owner: IntArray | None = None) -> Search:
@@ -55,7 +55,7 @@ def _search(form: NormalForm, program: Program, owner: IntArray) -> tuple[Search
     users, subcarriers = form.snr_per_w.shape
     owner, power_w, log_price = owner.copy(), np.empty(subcarriers), np.zeros(users)
     found = solve_greedily(form.snr_per_w, ask_of(form, program), log_price, owner, power_w)
-    log_price = np.clip(np.nan_to_num(log_price), -_FARTHEST, _FARTHEST)  # without a channel they run away
+    log_price = np.clip(np.where(np.isfinite(log_price), log_price, -_FARTHEST), -_FARTHEST, _FARTHEST)
     log_mu = float(np.clip(np.nan_to_num(found.log_mu), -_FARTHEST, _FARTHEST))
     search = Search(
         program=program,
