@@ -222,7 +222,7 @@ def test_an_unclear_sentence_gets_a_question_back(capsys: pytest.CaptureFixture[
         (["ask", "max rate \udcff"], "text: this is not text in UTF-8"),
         (
             ["solve", EXAMPLE, "--method", "paper_bisection", "--objective", "P1", "--min-rate-bps", "1e6"],
-            "min_rate_bps: leave it out or name another method (dual, equal_power, greedy, ",
+            "min_rate_bps: leave it out or name another method (dual, equal_power, exact, greedy, ",
         ),
         (["ask", "maximum rate", "--no-such-option"], "--no-such-option"),
     ],

@@ -36,7 +36,17 @@ def is_closed(form: NormalForm, program: Program | Programs) -> bool:
         program.rows[..., counts, 4].any()
         or (weight != weight[0]).any()
         or (form.problem.max_rate_bps is not None and np.isfinite(form.most_nats[counts]).any())
+        or not _is_straight(form, program)
     )
+
+
+def _is_straight(form: NormalForm, program: Program | Programs) -> bool:
+    """Whether the utility is a multiple of the rate, at the reference and at the highest rate."""
+    _, high, reference, slope, _, _ = np.moveaxis(program.rows, -1, 0)
+    rate = np.stack([reference, np.maximum(high, reference)]) * form.bps_per_nat
+    worth = form.objective.utility(rate) * form.weight
+    expected = rate * slope * (np.asarray(program.scale)[..., np.newaxis] / form.bps_per_nat)
+    return bool(np.all(np.abs(worth - expected) <= 1e-9 * np.abs(expected)))
 
 
 def closed_decision(form: NormalForm, program: Program) -> Decision:

@@ -18,6 +18,10 @@ from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program, Programs
 from wirelessagent.model.arrays import FloatArray
 
+_COARSE = np.append(0.0, np.arange(-8.0, 8.25, 0.5))
+_FINE = np.arange(-0.5, 0.51, 0.05)
+"""Steps in ln μ at which the bound is worked out; the first is the price that was found."""
+
 
 def bound_of(form: NormalForm, program: Program, log_price: FloatArray, log_mu: float) -> float:
     """The bound in the objective's unit, from ln λ (user,) and ln μ in the program's utility per W."""
@@ -35,12 +39,22 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
     if program.goal == HIGHEST_LEVEL:
         level = _highest_level(program, log_price, worth_w + form.budget_w) * form.bps_per_nat
         return form.objective.figures(form.objective.utility(level[..., np.newaxis])[..., 0], weight)
-    mu = np.exp(log_mu) * program.scale
-    joint = _conjugate(form, program, price * mu[..., np.newaxis] / form.bps_per_nat)
     full = _conjugate(form, program, np.zeros(price.shape))  # what the highest rates are worth, whatever they take
-    if program.goal == MOST_EFFICIENCY:
-        return np.minimum(_efficiency(form, joint + mu * worth_w, mu), _efficiency(form, full, np.zeros(full.shape)))
-    return form.objective.figures(np.minimum(joint + mu * (worth_w + form.budget_w), full), weight)
+    best = _efficiency(form, full, np.zeros(full.shape)) if program.goal == MOST_EFFICIENCY else full
+    center = np.asarray(log_mu, dtype=np.float64)
+    for steps in (_COARSE, _FINE):  # λ and Φ(λ) are the costly part: with them given the best μ is soon found
+        tried = center[..., np.newaxis] + steps
+        with np.errstate(over="ignore"):
+            mu = np.exp(tried) * program.scale
+        joint = _conjugate(form, program, price[..., np.newaxis, :] * mu[..., np.newaxis] / form.bps_per_nat)
+        if program.goal == MOST_EFFICIENCY:
+            bounds = _efficiency(form, joint + mu * worth_w[..., np.newaxis], mu)
+        else:
+            bounds = joint + mu * (worth_w + form.budget_w)[..., np.newaxis]
+        at = bounds.argmin(axis=-1)[..., np.newaxis]
+        center = np.take_along_axis(tried, at, axis=-1)[..., 0]
+        best = np.minimum(best, np.take_along_axis(bounds, at, axis=-1)[..., 0])
+    return best if program.goal == MOST_EFFICIENCY else form.objective.figures(best, weight)
 
 
 def groups_worth_w(form: NormalForm, price: FloatArray) -> float:
@@ -63,7 +77,8 @@ def _conjugate(form: NormalForm, program: Program | Programs, price: FloatArray)
 
     A user of weight 0 takes what it is promised.
     """
-    low, high = program.share[..., 1] * form.bps_per_nat, program.share[..., 2] * form.bps_per_nat
+    share = program.share if program.share.ndim == price.ndim + 1 else program.share[..., np.newaxis, :, :]
+    low, high = share[..., 1] * form.bps_per_nat, share[..., 2] * form.bps_per_nat
     counts = form.weight > 0
     weight = np.where(counts, form.weight, 1.0)
     value, _ = form.objective.conjugate(price / weight, low, high)

@@ -13,7 +13,7 @@ from wirelessagent.deciding.core.bundle_kernel import CURVATURE, HIGH, LOW, SLOP
 from wirelessagent.deciding.core.least_power_kernel import least_power
 from wirelessagent.deciding.core.prices_kernel import FARTHEST, climb, conjugate, price_terms
 from wirelessagent.deciding.core.search_kernel import choose_candidates, polish, restart, serve_all
-from wirelessagent.deciding.core.sets_kernel import Channel, assign, empty_sets, set_bundle, value_all
+from wirelessagent.deciding.core.sets_kernel import Channel, assign, empty_sets, no_group, set_bundle, value_all
 from wirelessagent.deciding.core.settle_kernel import EFFICIENCY, LEVEL, OVERSPENT, POWER, SUM, set_level
 from wirelessagent.deciding.core.start_kernel import equal_price, even_split, typical_snr
 from wirelessagent.kernels import kernel
@@ -412,8 +412,9 @@ def solve(
     nats = np.zeros(users)
     price = 0.0 if ask.goal == LEVEL else at
     for k in range(users):
-        nats[k] = set_bundle(channel, rows, price, sets, k, -1, -1)[1]
+        nats[k] = set_bundle(channel, rows, price, sets, k, no_group(), no_group())[1]
     for g in range(groups):
         owner[ask.start[g] : ask.start[g + 1]] = best_owner[g]
-    least_power(snr_per_w, channel.ceiling, nats, owner, power_w, np.empty(users))
+    spare = np.empty(users)
+    least_power(snr_per_w, channel.ceiling, nats, owner, power_w, spare)
     return Found(score, at, dual, log_mu, missing, iterations)

@@ -82,7 +82,7 @@ def search(
     log_price = after.log_rate.copy() if after is not None and warm else np.zeros(users)
     log_mu = float(after.log_power) if after is not None and warm else 0.0
     given = owner is not None
-    owner = owner.copy() if given else np.full(subcarriers, -1, dtype=np.int64)
+    owner = np.full(subcarriers, -1, dtype=np.int64) if owner is None else owner.copy()
     power_w = np.empty(subcarriers)
     found = solve(
         form.snr_per_w, ask_of(form, program), users if users <= SMALL else CANDIDATES, effort.restarts, effort.seed,

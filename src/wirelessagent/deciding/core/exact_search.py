@@ -61,7 +61,7 @@ class Optimum:
     nodes: int
 
     def allocation(self, goal: Goal) -> tuple[IntArray, FloatArray]:
-        """The owner, −1 for nobody, and the power in W of each subcarrier, both (subcarrier,)."""
+        """The owner, −1 for nobody, and the power in W of each subcarrier, both (subcarrier,); a column has one owner."""
         from wirelessagent.deciding.core.columns_kernel import spread
 
         market = goal.reaching(self.x)
@@ -69,8 +69,8 @@ class Optimum:
         power_w: FloatArray = spread(
             market.users, market.floor, market.inverse, market.ceiling, market.start, self.log_mu, columns
         )  # fmt: skip
-        owner: IntArray = np.repeat(columns, np.diff(market.start))
-        return np.where(power_w > 0, owner, -1), power_w
+        used = np.add.reduceat(power_w, market.start[:-1]) > 0
+        return np.repeat(np.where(used, columns, -1), np.diff(market.start)), power_w
 
 
 @dataclass(kw_only=True, eq=False)

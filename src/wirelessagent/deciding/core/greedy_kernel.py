@@ -20,6 +20,7 @@ from wirelessagent.deciding.core.sets_kernel import (
     change,
     changed_worth,
     empty_sets,
+    no_group,
     set_bundle,
     value_all,
     worth_of,
@@ -54,10 +55,10 @@ def best_free(
         if sets.owner[g] >= 0 or not channel.usable[g, user]:
             continue
         worth = changed_worth(
-            rows, sets.sums, channel.floor, channel.inverse, channel.least_ceiling, log_mus, user, -1, g
+            rows, sets.sums, channel.floor, channel.inverse, channel.least_ceiling, log_mus, user, no_group(), g
         )  # fmt: skip
         if np.isnan(worth):
-            worth = worth_of(channel, rows, log_mu, sets, user, -1, g)
+            worth = worth_of(channel, rows, log_mu, sets, user, no_group(), g)
         if worth > best:
             best, chosen = worth, g
     if chosen == NONE or now > -UNREACHABLE:
@@ -72,7 +73,7 @@ def hand_out(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, alik
 
     ``alike`` as in :func:`best_free`.
     """
-    users = sets.count.size
+    users = sets.size.size
     choice = np.full(users, UNKNOWN)
     gain = np.empty(users)
     log_mus = log_mu - channel.log_best
@@ -89,7 +90,7 @@ def hand_out(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, alik
                 chosen, urgent = k, needy
         if chosen < 0:
             return
-        change(channel, rows, log_mu, sets, choice[chosen], chosen, -1)
+        change(channel, rows, log_mu, sets, choice[chosen], chosen, no_group())
         choice[chosen] = UNKNOWN
 
 
@@ -129,7 +130,7 @@ def solve_greedily(
     nats = np.zeros(users)
     price = 0.0 if ask.goal == LEVEL else at
     for k in range(users):
-        nats[k] = set_bundle(channel, rows, price, sets, k, -1, -1)[1]
+        nats[k] = set_bundle(channel, rows, price, sets, k, no_group(), no_group())[1]
     for g in range(groups):
         owner[ask.start[g] : ask.start[g + 1]] = sets.owner[g]
     least_power(snr_per_w, channel.ceiling, nats, owner, power_w, np.empty(users))

@@ -133,4 +133,4 @@ def owned_power(
             if rate[i] > 0.0:
                 power_w[member[i]] = np.expm1(rate[i]) / snr[i]
                 total += power_w[member[i]]
-    return total
+    return float(total)

@@ -21,6 +21,7 @@ from wirelessagent.deciding.core.sets_kernel import (
     change,
     hand_over,
     improve,
+    no_group,
     undo,
     value_all,
     value_set,
@@ -77,24 +78,24 @@ def choose_candidates(
 @kernel
 def serve_all(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets) -> int:
     """Give groups to users who lack a rate that they must have, whatever that costs others; how many still lack one."""
-    users = sets.count.size
+    users = sets.size.size
     missing = 0
     for k in range(users):
         while sets.worth[k] <= -UNREACHABLE:
-            best, chosen = 0.0, -1
+            best, chosen = 0.0, no_group()
             for g in range(sets.owner.size):
                 if not channel.usable[g, k] or sets.owner[g] == k:
                     continue
-                gain = worth_of(channel, rows, log_mu, sets, k, -1, g) - sets.worth[k]
+                gain = worth_of(channel, rows, log_mu, sets, k, no_group(), g) - sets.worth[k]
                 if sets.owner[g] >= 0:
                     holder = sets.owner[g]
-                    gain += worth_of(channel, rows, log_mu, sets, holder, g, -1) - sets.worth[holder]
+                    gain += worth_of(channel, rows, log_mu, sets, holder, g, no_group()) - sets.worth[holder]
                 if gain > best:
                     best, chosen = gain, g
             if chosen < 0:
                 missing += 1
                 break
-            change(channel, rows, log_mu, sets, chosen, k, -1)
+            change(channel, rows, log_mu, sets, chosen, k, no_group())
     return missing
 
 
@@ -134,13 +135,13 @@ def kick(
     state: IntArray,
 ) -> None:
     """Give one to three of the first ``size`` contested groups to random candidates."""
-    for _ in range(1 + random(state, MOST_KICKED)):
+    for _ in range(1 + random(state, MOST_KICKED * size) % MOST_KICKED):
         g = contested[random(state, size)]
         choices = 0
         while choices < candidates.shape[1] and candidates[g, choices] >= 0:
             choices += 1
-        j = candidates[g, random(state, choices)]
-        k = sets.owner[g]
+        j = int(candidates[g, random(state, choices)])
+        k = int(sets.owner[g])
         if j == k:
             continue
         hand_over(sets, g, j)
@@ -300,7 +301,7 @@ def restart(
 @kernel
 def go_back(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, owner: IntArray) -> None:
     """Return to the owners (group,), which no change improves, valuing only the sets that differ."""
-    changed = np.zeros(sets.count.size, dtype=np.bool_)
+    changed = np.zeros(sets.size.size, dtype=np.bool_)
     for g in range(owner.size):
         if sets.owner[g] != owner[g]:
             if sets.owner[g] >= 0:

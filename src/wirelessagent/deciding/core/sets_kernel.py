@@ -47,7 +47,7 @@ class Sets(NamedTuple):
 
     Attributes:
         owner: user of each group, −1 for nobody, shape (group,).
-        members, count: each user's groups, shapes (user, group) and (user,).
+        members, size: each user's groups, shapes (user, group) and (user,).
         worth: V of each user's set, shape (user,).
         changed, checked: when a user's set last changed, shape (user,), and when a group was last seen to be best
             where it is, shape (group,), by the first number of ``clock``; the second is the salt.
@@ -60,7 +60,7 @@ class Sets(NamedTuple):
 
     owner: IntArray
     members: IntArray
-    count: IntArray
+    size: IntArray
     worth: FloatArray
     changed: IntArray
     checked: IntArray
@@ -75,6 +75,12 @@ class Sets(NamedTuple):
     ceiling: FloatArray
     spare: FloatArray
     spare_cap: FloatArray
+
+
+@kernel
+def no_group() -> int:
+    """−1, which stands for no group: Numba would compile each function once more for the literal."""
+    return int(np.int64(-1))
 
 
 @kernel
@@ -125,7 +131,7 @@ def gather(channel: Channel, sets: Sets, user: int, skipped: int, added: int) ->
     floor, inverse, ceiling, start = channel.floor, channel.inverse, channel.ceiling, channel.start
     set_floor, set_inverse, set_ceiling = sets.floor, sets.inverse, sets.ceiling
     members = sets.members
-    own = sets.count[user]
+    own = sets.size[user]
     for i in range(own + 1):
         g = members[user, i] if i < own else added
         if g < 0 or (g == skipped and i < own):
@@ -166,7 +172,7 @@ def worth_of(
     if sets.known[place] != digest:
         sets.known_worth[place] = set_bundle(channel, rows, log_mu, sets, user, skipped, added)[0]
         sets.known[place] = digest
-    return sets.known_worth[place]
+    return float(sets.known_worth[place])
 
 
 @kernel
@@ -174,7 +180,7 @@ def sum_up(channel: Channel, sets: Sets, user: int) -> None:
     """Write the sums of a user's set."""
     size, floors, inverses = 0, 0.0, 0.0
     highest, higher, lowest, lower = -np.inf, -np.inf, np.inf, np.inf
-    for i in range(sets.count[user]):
+    for i in range(sets.size[user]):
         g = sets.members[user, i]
         for n in range(channel.start[g], channel.start[g + 1]):
             floor = channel.floor[user, n]
@@ -235,7 +241,7 @@ def changed_worth(
 def value_set(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, user: int) -> None:
     """Note that a user's set has changed, and its worth."""
     sum_up(channel, sets, user)
-    sets.worth[user] = worth_of(channel, rows, log_mu, sets, user, -1, -1)
+    sets.worth[user] = worth_of(channel, rows, log_mu, sets, user, no_group(), no_group())
     sets.clock[0] += 1
     sets.changed[user] = sets.clock[0]
 
@@ -244,11 +250,11 @@ def value_set(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, use
 def value_all(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets) -> float:
     """Forget all worths, for a new price, and work out those of the sets; their sum."""
     sets.clock[1] += 1
-    for k in range(sets.count.size):
-        sets.digest[k] = mixed(~mixed(sets.clock[1] * sets.count.size + k + 1))  # nothing like the signs
-        for i in range(sets.count[k]):
+    for k in range(sets.size.size):
+        sets.digest[k] = mixed(~mixed(sets.clock[1] * sets.size.size + k + 1))  # nothing like the signs
+        for i in range(sets.size[k]):
             sets.digest[k] ^= sets.sign[sets.members[k, i]]
-    for k in range(sets.count.size):
+    for k in range(sets.size.size):
         value_set(channel, rows, log_mu, sets, k)
     return sets.worth.sum()
 
@@ -256,13 +262,13 @@ def value_all(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets) -> 
 @kernel
 def assign(sets: Sets, owner: IntArray) -> None:
     """Take over the owners (group,); worths are not worked out."""
-    sets.count[:] = 0
+    sets.size[:] = 0
     sets.owner[:] = owner
     for g in range(owner.size):
         k = owner[g]
         if k >= 0:
-            sets.members[k, sets.count[k]] = g
-            sets.count[k] += 1
+            sets.members[k, sets.size[k]] = g
+            sets.size[k] += 1
 
 
 @kernel
@@ -270,18 +276,18 @@ def hand_over(sets: Sets, group: int, user: int) -> None:
     """Make ``user`` (−1 for nobody) the owner of ``group``; worths are not worked out."""
     k = sets.owner[group]
     if k >= 0:
-        last = sets.count[k] - 1
+        last = sets.size[k] - 1
         for i in range(last):
             if sets.members[k, i] == group:
                 sets.members[k, i] = sets.members[k, last]
                 break
-        sets.count[k] = last
+        sets.size[k] = last
         sets.digest[k] ^= sets.sign[group]
     sets.owner[group] = user
     if user >= 0:
         sets.digest[user] ^= sets.sign[group]
-        sets.members[user, sets.count[user]] = group
-        sets.count[user] += 1
+        sets.members[user, sets.size[user]] = group
+        sets.size[user] += 1
 
 
 @kernel
@@ -293,11 +299,11 @@ def best_change(
     ``candidates`` (group, choice) lists the users that a group may go to, −1 for none; ``wanted`` (group, user) the
     same as a table.
     """  # fmt: skip
-    owner, members, count, worth = sets.owner, sets.members, sets.count, sets.worth
+    owner, members, count, worth = sets.owner, sets.members, sets.size, sets.worth
     changed, sums, floor, inverse = sets.changed, sets.sums, channel.floor, channel.inverse
     least, log_mus = channel.least_ceiling, log_mu - channel.log_best
     k = owner[group]
-    best, new_owner, in_return = 0.0, -1, -1
+    best, new_owner, in_return = 0.0, no_group(), no_group()
     since = sets.checked[group]
     seen = k < 0 or changed[k] <= since
     loss = np.nan
@@ -310,16 +316,16 @@ def best_change(
         if np.isnan(loss):
             loss = 0.0
             if k >= 0:
-                loss = changed_worth(rows, sums, floor, inverse, least, log_mus, k, group, -1)
+                loss = changed_worth(rows, sums, floor, inverse, least, log_mus, k, group, no_group())
                 if np.isnan(loss):
-                    loss = worth_of(channel, rows, log_mu, sets, k, group, -1)
+                    loss = worth_of(channel, rows, log_mu, sets, k, group, no_group())
                 loss -= worth[k]
-        gain = changed_worth(rows, sums, floor, inverse, least, log_mus, j, -1, group)
+        gain = changed_worth(rows, sums, floor, inverse, least, log_mus, j, no_group(), group)
         if np.isnan(gain):
-            gain = worth_of(channel, rows, log_mu, sets, j, -1, group)
+            gain = worth_of(channel, rows, log_mu, sets, j, no_group(), group)
         gain += loss - worth[j]
         if gain > best + ROUNDING * abs(worth[j]):
-            best, new_owner, in_return = gain, j, -1
+            best, new_owner, in_return = gain, j, no_group()
         if k < 0:
             continue
         for i in range(count[j]):
@@ -358,7 +364,7 @@ def change(
 def try_change(
     channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, group: int, new_owner: int, in_return: int
 ) -> bool:
-    """Carry out a change unless its gain was rounding, so that no search can go round in circles; whether it was not."""
+    """Carry out a change unless its gain was rounding, so that no search goes round in circles; whether it was not."""
     k = sets.owner[group]
     before = sets.worth[new_owner] + (sets.worth[k] if k >= 0 else 0.0)
     change(channel, rows, log_mu, sets, group, new_owner, in_return)
@@ -396,8 +402,8 @@ def improve(
     """Change owners for as long as the worths add up to more; the number of changes."""
     changes = 0
     unchanged = 0
-    g = 0
     groups = sets.owner.size
+    g = groups - 1
     while unchanged < groups:
         gain, new_owner, in_return = best_change(channel, rows, log_mu, candidates, wanted, sets, g)
         if gain > 0.0 and try_change(channel, rows, log_mu, sets, g, new_owner, in_return):

@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.deciding.core.bundle_kernel import HIGH, LOW, REFERENCE, UNREACHABLE, utility
-from wirelessagent.deciding.core.sets_kernel import Channel, Sets, set_bundle
+from wirelessagent.deciding.core.sets_kernel import Channel, Sets, no_group, set_bundle
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray
 
@@ -36,8 +36,8 @@ LEAST_LEVEL = 1e-250
 def totals(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets) -> tuple[float, float, int]:
     """Σ U, Σ P and the number of users without a rate that they must have, at the price e^``log_mu``."""
     joint, power, missing = 0.0, 0.0, 0
-    for k in range(sets.count.size):
-        worth, rate, spent, _ = set_bundle(channel, rows, log_mu, sets, k, -1, -1)
+    for k in range(sets.size.size):
+        worth, rate, spent, _ = set_bundle(channel, rows, log_mu, sets, k, no_group(), no_group())
         if worth <= -UNREACHABLE:
             missing += 1
         else:

@@ -88,8 +88,7 @@ class Exact(Method):
             iterations=found.nodes,
         )
         decision = _decision(form, program, found, figures, first.bound if not met else None)
-        worse = decision.value < first.value if form.objective.direction == "max" else decision.value > first.value
-        return first if worse and not met else decision
+        return decision if _is_sound(form, decision, first) else first
 
     def _search(
         self, form: NormalForm, program: Program, goal: Goal, owner: IntArray, prices: Prices, deadline: float
@@ -140,6 +139,22 @@ def _decision(
         figures["needed_power_w"] = Bracket(at_least=-found.bound, at_most=-found.x)
     proven = shown(form, program, found.bound) if bound is None else bound
     return certified(form, owner, power_w, proven, **figures)
+
+
+def _is_sound(form: NormalForm, decision: Decision, first: Decision) -> bool:
+    """Whether a decision is no worse than the first, its bound does not contradict that, and it keeps its promises.
+
+    Over gains that lie far apart the sets' levels lose the digits of tiny powers.
+    """
+    sign = 1.0 if form.objective.direction == "max" else -1.0
+    slack = _PROOF_ROUNDING * abs(first.value)
+    promised = form.promised_nats * form.bps_per_nat
+    return bool(
+        sign * (decision.value - first.value) >= -slack
+        and sign * (decision.bound - first.value) >= -slack
+        and np.isfinite(decision.bound)
+        and np.all(decision.rate_bps >= promised * (1.0 - _PROOF_ROUNDING))
+    )
 
 
 def _impossible(form: NormalForm, first: Decision, at_least: float, at_most: float) -> Decision:
