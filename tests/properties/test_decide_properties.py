@@ -68,6 +68,8 @@ def no_worse(better: Decision, worse: Decision) -> bool:
     """Whether the bound of the easier problem is on the better side of the harder one's, both being known."""
     if np.isnan(better.bound) or np.isnan(worse.bound):
         return True
+    if "infeasible" in (better.status, worse.status):  # a bound beyond the budget has proven all that it must
+        return True
     slack = SEARCHED * min(abs(better.bound), abs(worse.bound))
     return better.bound == worse.bound or sign_of(better) * (better.bound - worse.bound) >= -slack
 

@@ -21,6 +21,8 @@ from wirelessagent.model.arrays import FloatArray
 _COARSE = np.append(0.0, np.arange(-8.0, 8.25, 0.5))
 _FINE = np.arange(-0.5, 0.51, 0.05)
 """Steps in ln μ at which the bound is worked out; the first is the price that was found."""
+_DEAREST = 1e130
+"""No price is higher, so that products stay within the range of numbers."""
 
 
 def bound_of(form: NormalForm, program: Program, log_price: FloatArray, log_mu: float) -> float:
@@ -32,6 +34,7 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
     """:func:`bound_of` for the form's channels, shape (…), from ln λ (…, user) and ln μ (…)."""
     with np.errstate(over="ignore"):
         price = np.exp(log_price)
+        price = np.minimum(price, _DEAREST)
     worth_w = _groups_worth_w(form, price)
     if program.goal == LEAST_POWER:
         return np.maximum(price @ form.promised_nats - worth_w, _first_nats_w(form))
@@ -45,7 +48,7 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
     for steps in (_COARSE, _FINE):  # λ and Φ(λ) are the costly part: with them given the best μ is soon found
         tried = center[..., np.newaxis] + steps
         with np.errstate(over="ignore"):
-            mu = np.exp(tried) * program.scale
+            mu = np.minimum(np.exp(tried), _DEAREST) * program.scale
         joint = _conjugate(form, program, price[..., np.newaxis, :] * mu[..., np.newaxis] / form.bps_per_nat)
         if program.goal == MOST_EFFICIENCY:
             bounds = _efficiency(form, joint + mu * worth_w[..., np.newaxis], mu)

@@ -16,6 +16,7 @@ from wirelessagent.deciding.core.search_kernel import choose_candidates, polish,
 from wirelessagent.deciding.core.sets_kernel import Channel, assign, empty_sets, no_group, set_bundle, value_all
 from wirelessagent.deciding.core.settle_kernel import EFFICIENCY, LEVEL, OVERSPENT, POWER, SUM, set_level
 from wirelessagent.deciding.core.start_kernel import equal_price, even_split, typical_snr
+from wirelessagent.deciding.core.terms_kernel import worth_of_groups
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
@@ -320,6 +321,28 @@ def slack_of(
 
 
 @kernel
+def dual_at(snr_per_w: FloatArray, ask: Ask, rows: FloatArray, log_price: FloatArray, log_mu: float) -> float:
+    """What prices prove, so that prices can be compared: less is better. The prices of an allocation may prove more
+    than those found by the climb, which stops at a temperature.
+    """
+    price = np.exp(log_price)
+    worth_w = worth_of_groups(snr_per_w, ask.cap_w, np.expm1(ask.max_nats), ask.start, price)
+    if ask.goal == LEVEL:
+        return level_bound(ask.share, log_price, worth_w + ask.budget_w, ask.most_level)
+    if ask.goal == POWER:
+        return worth_w - (price * rows[:, LOW]).sum()
+    mu = np.exp(log_mu)
+    joint = 0.0
+    for k in range(price.size):
+        joint += conjugate(rows[k], log_price[k] + log_mu)
+    if ask.goal == SUM:
+        return joint + mu * (worth_w + ask.budget_w)
+    surplus = joint + mu * (worth_w - ask.circuit_w)
+    drawn = ask.circuit_w if surplus > 0.0 else ask.budget_w + ask.circuit_w
+    return mu + surplus / max(drawn, 1e-300)
+
+
+@kernel
 def solve(
     snr_per_w: FloatArray,
     ask: Ask,
@@ -411,8 +434,16 @@ def solve(
     assign(sets, best_owner)
     nats = np.zeros(users)
     price = 0.0 if ask.goal == LEVEL else at
+    own_price = log_price.copy()
     for k in range(users):
-        nats[k] = set_bundle(channel, rows, price, sets, k, no_group(), no_group())[1]
+        _, nats[k], spent, level = set_bundle(channel, rows, price, sets, k, no_group(), no_group())
+        if spent > 0.0 and abs(level) < FARTHEST:
+            own_price[k] = level
+    if score > -OVERSPENT * 1e-9:
+        own_dual = dual_at(snr_per_w, ask, rows, own_price, price)
+        if own_dual < dual_at(snr_per_w, ask, rows, log_price, log_mu):
+            log_price[:] = own_price
+            log_mu = log_mu if ask.goal == LEVEL else price
     for g in range(groups):
         owner[ask.start[g] : ask.start[g + 1]] = best_owner[g]
     spare = np.empty(users)

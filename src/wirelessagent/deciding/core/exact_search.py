@@ -61,7 +61,7 @@ class Optimum:
     nodes: int
 
     def allocation(self, goal: Goal) -> tuple[IntArray, FloatArray]:
-        """The owner, −1 for nobody, and the power in W of each subcarrier, both (subcarrier,); a column has one owner."""
+        """The owner, −1 for nobody, and the power in W of each subcarrier, (subcarrier,); a column has one owner."""
         from wirelessagent.deciding.core.columns_kernel import spread
 
         market = goal.reaching(self.x)

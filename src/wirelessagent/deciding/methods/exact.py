@@ -32,6 +32,7 @@ _FARTHEST = 80.0
 _RESTARTS = 100
 _BUDGET_ROUNDING = 1e-10
 _PROOF_ROUNDING = 1e-9
+_TINY = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +69,7 @@ class Exact(Method):
         deadline = time.perf_counter() + self.deadline_s
         form = NormalForm.of(self, estimate, problem, cell)
         first = dataclasses.replace(Dual(seed=self.seed).solve(estimate, problem, cell), method=self.name)
-        if first.status in ("optimal", "infeasible"):
+        if first.status in ("optimal", "infeasible") or not _is_resolved(form):
             return first
         program = Program.of(form)
         if not first.is_usable or first.prices is None:
@@ -139,6 +140,12 @@ def _decision(
         figures["needed_power_w"] = Bracket(at_least=-found.bound, at_most=-found.x)
     proven = shown(form, program, found.bound) if bound is None else bound
     return certified(form, owner, power_w, proven, **figures)
+
+
+def _is_resolved(form: NormalForm) -> bool:
+    """Whether levels, which are logarithms, tell the powers apart: not where all SNRs or promised rates are tiny."""
+    promised = form.promised_nats[form.promised_nats > 0]
+    return form.budget_w * float(form.snr_per_w.max()) > _TINY and bool(np.all(promised > _TINY))
 
 
 def _is_sound(form: NormalForm, decision: Decision, first: Decision) -> bool:

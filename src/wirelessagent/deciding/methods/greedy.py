@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from wirelessagent.deciding.core.closed_form import closed_decision, is_closed
 from wirelessagent.deciding.core.greedy_search import search_greedily, search_objective_greedily
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, Program
@@ -68,4 +69,6 @@ class Greedy(Method):
             nobody = np.full(form.cap_w.size, -1, dtype=np.int64), np.zeros(form.cap_w.size)
             owner, power_w = (least.owner, least.power_w) if least is not None else nobody
             found = dataclasses.replace(found, owner=owner, power_w=power_w)
+        if is_closed(form, program):
+            found = dataclasses.replace(found, bound=closed_decision(form, program).bound)
         return decision_of(form, found, least, unserved)
