@@ -43,7 +43,9 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
         level = _highest_level(program, log_price, worth_w + form.budget_w) * form.bps_per_nat
         return form.objective.figures(form.objective.utility(level[..., np.newaxis])[..., 0], weight)
     full = _conjugate(form, program, np.zeros(price.shape))  # what the highest rates are worth, whatever they take
-    best = _efficiency(form, full, np.zeros(full.shape)) if program.goal == MOST_EFFICIENCY else full
+    best = full
+    if program.goal == MOST_EFFICIENCY:
+        best = np.minimum(_efficiency(form, full, np.zeros(full.shape)), _first_nats_per_j(form, program))
     center = np.asarray(log_mu, dtype=np.float64)
     for steps in (_COARSE, _FINE):  # λ and Φ(λ) are the costly part: with them given the best μ is soon found
         tried = center[..., np.newaxis] + steps
@@ -73,6 +75,18 @@ def _first_nats_w(form: NormalForm) -> FloatArray:
     """
     best = form.snr_per_w.max(axis=-1)
     return np.where(best > 0, form.promised_nats / np.where(best > 0, best, 1.0), 0.0).sum(axis=-1)
+
+
+def _first_nats_per_j(form: NormalForm, program: Program | Programs) -> FloatArray:
+    """The most utility per joule radiated, shape (…): that of the first nats, r ≤ p a, where utilities are straight.
+
+    No other bound holds without circuit power, when less power is always more efficient.
+    """
+    _, _, reference, slope, curvature, base = np.moveaxis(program.rows, -1, 0)
+    if curvature.any() or not np.allclose(base, slope * reference, rtol=1e-9, atol=0.0):
+        return np.asarray(np.inf)
+    best = (slope * form.snr_per_w.max(axis=-1)).max(axis=-1)
+    return best * program.scale * form.cell.amplifier_efficiency
 
 
 def _conjugate(form: NormalForm, program: Program | Programs, price: FloatArray) -> FloatArray:

@@ -167,7 +167,7 @@ def find_prices(
     for i in range(ROUNDS):
         temperatures = LAST if i > 0 else WARM if warm else COLD if moving else PROMISED
         if ask.goal == EFFICIENCY and i > 0:
-            temperatures = WARM if i > 1 else COLD
+            temperatures = COLD
         dual, log_mu, steps = climb(
             log_snr, inverse, ceiling, full_w, ask.start, rows, budget, moving, temperatures, log_price, log_mu,
             rate, term, rising, supplied,
@@ -437,6 +437,8 @@ def solve(
     own_price = log_price.copy()
     for k in range(users):
         _, nats[k], spent, level = set_bundle(channel, rows, price, sets, k, no_group(), no_group())
+        if nats[k] > 0.0:
+            nats[k] = min(max(nats[k], rows[k, LOW]), rows[k, HIGH])  # levels lose digits of tiny rates
         if spent > 0.0 and abs(level) < FARTHEST:
             own_price[k] = level
     if score > -OVERSPENT * 1e-9:

@@ -82,16 +82,16 @@ def search(
     log_price = after.log_rate.copy() if after is not None and warm else np.zeros(users)
     log_mu = float(after.log_power) if after is not None and warm else 0.0
     given = owner is not None
-    owner = np.full(subcarriers, -1, dtype=np.int64) if owner is None else owner.copy()
+    sets: IntArray = np.full(subcarriers, -1) if owner is None else owner.copy()
     power_w = np.empty(subcarriers)
     found = solve(
         form.snr_per_w, ask_of(form, program), users if users <= SMALL else CANDIDATES, effort.restarts, effort.seed,
-        warm, log_price, log_mu, given, owner, power_w,
+        warm, log_price, log_mu, given, sets, power_w,
     )  # fmt: skip
     prices = Prices(log_rate=log_price, log_power=found.log_mu)
     return Search(
         program=program,
-        owner=owners_with_power(form, owner, power_w),
+        owner=owners_with_power(form, sets, power_w),
         power_w=power_w,
         score=float(found.score),
         kept=found.score > WORST and bool(np.isfinite(power_w).all()),

@@ -343,7 +343,7 @@ def best_change(
                 best, new_owner, in_return = gain, j, other
     if new_owner < 0:
         sets.checked[group] = sets.clock[0]
-    return best, new_owner, in_return
+    return float(best), new_owner, in_return
 
 
 @kernel

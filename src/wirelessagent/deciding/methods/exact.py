@@ -144,8 +144,8 @@ def _decision(
 
 def _is_resolved(form: NormalForm) -> bool:
     """Whether levels, which are logarithms, tell the powers apart: not where all SNRs or promised rates are tiny."""
-    promised = form.promised_nats[form.promised_nats > 0]
-    return form.budget_w * float(form.snr_per_w.max()) > _TINY and bool(np.all(promised > _TINY))
+    limits = np.concatenate([form.promised_nats, form.most_nats])
+    return form.budget_w * float(form.snr_per_w.max()) > _TINY and bool(np.all(limits[limits > 0] > _TINY))
 
 
 def _is_sound(form: NormalForm, decision: Decision, first: Decision) -> bool:

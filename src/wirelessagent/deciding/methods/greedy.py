@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.deciding.core.closed_form import closed_decision, is_closed
+from wirelessagent.deciding.core.dual_search import Effort, search_objective
 from wirelessagent.deciding.core.greedy_search import search_greedily, search_objective_greedily
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, Program
@@ -24,6 +25,8 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.problem import Problem
+
+_NO_RESTARTS = Effort(restarts=0, seed=0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,6 +72,9 @@ class Greedy(Method):
             nobody = np.full(form.cap_w.size, -1, dtype=np.int64), np.zeros(form.cap_w.size)
             owner, power_w = (least.owner, least.power_w) if least is not None else nobody
             found = dataclasses.replace(found, owner=owner, power_w=power_w)
-        if is_closed(form, program):
-            found = dataclasses.replace(found, bound=closed_decision(form, program).bound)
+        closed = is_closed(served, program)
+        bound = (
+            closed_decision(served, program).bound if closed else search_objective(served, program, _NO_RESTARTS).bound
+        )
+        found = dataclasses.replace(found, bound=bound)  # the dual's: its prices fit its own sets, too
         return decision_of(form, found, least, unserved)
