@@ -82,7 +82,9 @@ def search(
     log_price = after.log_rate.copy() if after is not None and warm else np.zeros(users)
     log_mu = float(after.log_power) if after is not None and warm else 0.0
     given = owner is not None
-    sets: IntArray = np.full(subcarriers, -1) if owner is None else owner.copy()
+    sets = np.full(subcarriers, -1, dtype=np.int64)
+    if owner is not None:
+        sets[:] = owner
     power_w = np.empty(subcarriers)
     found = solve(
         form.snr_per_w, ask_of(form, program), users if users <= SMALL else CANDIDATES, effort.restarts, effort.seed,
