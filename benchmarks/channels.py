@@ -16,6 +16,7 @@ import wirelessagent as wa
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.testing.channels import known
 
 FIRST_SEED = 1000
 RMS_DELAY_SPREAD_S = 300e-9
@@ -43,18 +44,6 @@ def gains(num_users: int, num_subcarriers: int, seed: int, *, num_slots: int = 1
     )
     assert scene.truth is not None
     return np.asarray(scene.truth).reshape(num_slots, num_users, num_subcarriers)
-
-
-def known(gain: FloatArray) -> ChannelEstimate:
-    """The estimate of somebody who knows the gains (user, subcarrier)."""
-    return ChannelEstimate(
-        gain=gain,
-        gain_variance=np.zeros(gain.shape),
-        repaired=np.zeros(gain.shape, dtype=bool),
-        unobserved_users=np.zeros(len(gain), dtype=bool),
-        user_names=tuple(f"user {k + 1}" for k in range(len(gain))),
-        method="known",
-    )
 
 
 def draws(num_users: int, num_subcarriers: int, count: int) -> Iterator[ChannelEstimate]:

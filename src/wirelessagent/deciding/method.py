@@ -13,6 +13,19 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.problem import Problem
 
+WHOLE_PROBLEM = frozenset(
+    {
+        "weights",
+        "min_rate_bps",
+        "max_rate_bps",
+        "subcarrier_max_power_w",
+        "forbidden",
+        "users",
+        "resource_block_group_size",
+    }
+)
+"""The constraints that a method honours which solves whatever can be said of one known channel."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Method(ABC):

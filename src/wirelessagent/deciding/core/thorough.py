@@ -12,11 +12,14 @@ import numpy as np
 
 from wirelessagent.deciding.core.column_prices import start_prices
 from wirelessagent.deciding.core.dual_search import Search, owners_with_power, tighter
-from wirelessagent.deciding.core.exact_search import search
+from wirelessagent.deciding.core.exact_search import Optimum, search
 from wirelessagent.deciding.core.exact_start import goal_of, is_met_everywhere, shown
+from wirelessagent.deciding.core.goals import Goal
 from wirelessagent.deciding.core.market import Sets
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY
+from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program
+from wirelessagent.model.arrays import IntArray
+from wirelessagent.model.decision import Prices
 
 _FARTHEST = 80.0
 """Of ln μ at the start; a price beyond is that of power to spare."""
@@ -30,13 +33,7 @@ def tightened(form: NormalForm, found: Search, deadline: float) -> Search:
     if not found.kept or (program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0):
         return found
     goal = goal_of(form, program)
-    owner = np.maximum.reduceat(found.owner, form.start[:-1])
-    fixed = program.goal in (LEAST_POWER, HIGHEST_LEVEL)
-    log_mu = 0.0 if fixed else min(max(float(found.prices.log_power), -_FARTHEST), _FARTHEST)
-    price = start_prices(goal.market, found.prices.log_rate, log_mu)
-    optimum = search(
-        goal, Sets.of_owner(owner, form.weight.size), price, log_mu, deadline=deadline, most_sets=_SETS
-    )  # fmt: skip
+    optimum = search_from(form, program, goal, found.owner, found.prices, deadline=deadline, most_sets=_SETS)
     if is_met_everywhere(form, program):
         found = dataclasses.replace(found, bound=tighter(form, found.bound, shown(form, program, optimum.bound)))
     if optimum.x <= found.score:
@@ -45,3 +42,25 @@ def tightened(form: NormalForm, found: Search, deadline: float) -> Search:
     return dataclasses.replace(
         found, owner=owners_with_power(form, own, power_w), power_w=power_w, score=float(optimum.x)
     )  # fmt: skip
+
+
+def search_from(
+    form: NormalForm,
+    program: Program,
+    goal: Goal,
+    owner: IntArray,
+    prices: Prices,
+    *,
+    deadline: float,
+    most_sets: int,
+) -> Optimum:
+    """The exact search from the owners (subcarrier,) and the prices of rates that the dual has found."""
+    fixed = program.goal in (LEAST_POWER, HIGHEST_LEVEL)
+    log_mu = 0.0 if fixed else min(max(float(prices.log_power), -_FARTHEST), _FARTHEST)
+    price = start_prices(goal.market, prices.log_rate, log_mu)
+    return search(goal, sets_of(form, owner), price, log_mu, deadline=deadline, most_sets=most_sets)
+
+
+def sets_of(form: NormalForm, owner: IntArray) -> Sets:
+    """The users' sets of groups; a subcarrier without power may have no owner though its group has one."""
+    return Sets.of_owner(np.maximum.reduceat(owner, form.start[:-1]), form.weight.size)

@@ -22,7 +22,7 @@ from wirelessagent.deciding.core.search_decision import (
 )
 from wirelessagent.deciding.core.thorough import tightened
 from wirelessagent.deciding.core.unserved import without_unservable
-from wirelessagent.deciding.method import Method
+from wirelessagent.deciding.method import WHOLE_PROBLEM, Method
 from wirelessagent.model.arrays import positive, whole
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
@@ -54,17 +54,7 @@ class Dual(Method):
     """
 
     name = "dual"
-    constraints = frozenset(
-        {
-            "weights",
-            "min_rate_bps",
-            "max_rate_bps",
-            "subcarrier_max_power_w",
-            "forbidden",
-            "users",
-            "resource_block_group_size",
-        }
-    )
+    constraints = WHOLE_PROBLEM
     warm_starts: ClassVar[bool] = True
 
     effort: Literal["fast", "thorough"] = "fast"

@@ -9,16 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.deciding.core.certificate import Figures, certified, nothing
-from wirelessagent.deciding.core.column_prices import start_prices
 from wirelessagent.deciding.core.dual_prices import figures_of
 from wirelessagent.deciding.core.dual_search import Effort, search_objective, search_promises
-from wirelessagent.deciding.core.exact_search import Optimum, search
+from wirelessagent.deciding.core.exact_search import Optimum
 from wirelessagent.deciding.core.exact_start import carried_at_any_power, goal_of, is_met_everywhere, least_power, shown
 from wirelessagent.deciding.core.goals import Goal
-from wirelessagent.deciding.core.market import Sets
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program
-from wirelessagent.deciding.method import Method
+from wirelessagent.deciding.core.program import LEAST_POWER, MOST_EFFICIENCY, Program
+from wirelessagent.deciding.core.thorough import search_from, sets_of
+from wirelessagent.deciding.method import WHOLE_PROBLEM, Method
 from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.model.arrays import IntArray, positive, whole
 from wirelessagent.model.cell import Cell
@@ -27,8 +26,6 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.units import human
 
-_FARTHEST = 80.0
-"""Of ln μ at the start; a price beyond is that of power to spare."""
 _RESTARTS = 100
 _BUDGET_ROUNDING = 1e-10
 _PROOF_ROUNDING = 1e-9
@@ -54,7 +51,7 @@ class Exact(Method):
     """
 
     name = "exact"
-    constraints = Dual.constraints
+    constraints = WHOLE_PROBLEM
 
     deadline_s: float = 60.0
     max_sets: int = 100
@@ -94,17 +91,13 @@ class Exact(Method):
     def _search(
         self, form: NormalForm, program: Program, goal: Goal, owner: IntArray, prices: Prices, deadline: float
     ) -> Optimum:
-        known = _sets(form, owner)
-        log_mu = 0.0 if program.goal in (LEAST_POWER, HIGHEST_LEVEL) else float(prices.log_power)
-        log_mu = min(max(log_mu, -_FARTHEST), _FARTHEST)
-        price = start_prices(goal.market, prices.log_rate, log_mu)
-        return search(goal, known, price, log_mu, deadline=deadline, most_sets=self.max_sets)
+        return search_from(form, program, goal, owner, prices, deadline=deadline, most_sets=self.max_sets)
 
     def _carried(self, form: NormalForm, program: Program, first: Decision, deadline: float) -> Decision:
         """The decision where the dual method found none that keeps the promised rates."""
         goal = least_power(form)
         least = search_promises(form, Effort(restarts=_RESTARTS, seed=self.seed))
-        if goal.reached(_sets(form, least.owner), 0.0)[0] == -np.inf:
+        if goal.reached(sets_of(form, least.owner), 0.0)[0] == -np.inf:
             possible, carried = carried_at_any_power(goal.market, form.promised_nats, deadline)
             if carried is None:
                 return first if possible else _impossible(form, first, np.inf, np.inf)
@@ -124,11 +117,6 @@ class Exact(Method):
         owner, power_w = best.allocation(goal_of(form, start.program))
         start = dataclasses.replace(start, owner=owner, power_w=power_w)
         return _decision(form, start.program, best, figures_of(form, start, least), bound)
-
-
-def _sets(form: NormalForm, owner: IntArray) -> Sets:
-    """The users' sets of groups; a subcarrier without power may have no owner though its group has one."""
-    return Sets.of_owner(np.maximum.reduceat(owner, form.start[:-1]), form.weight.size)
 
 
 def _decision(

@@ -20,7 +20,7 @@ from wirelessagent.deciding.core.search_decision import (
     unservable_decision,
 )
 from wirelessagent.deciding.core.unserved import without_unservable
-from wirelessagent.deciding.method import Method
+from wirelessagent.deciding.method import WHOLE_PROBLEM, Method
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
@@ -39,17 +39,7 @@ class Greedy(Method):
     """
 
     name = "greedy"
-    constraints = frozenset(
-        {
-            "weights",
-            "min_rate_bps",
-            "max_rate_bps",
-            "subcarrier_max_power_w",
-            "forbidden",
-            "users",
-            "resource_block_group_size",
-        }
-    )
+    constraints = WHOLE_PROBLEM
 
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
         form = NormalForm.of(self, estimate, problem, cell)
