@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.dual_kernel import Ask, level_bound, solve
+from wirelessagent.deciding.core.best_prices_kernel import Ask, level_bound
+from wirelessagent.deciding.core.dual_kernel import solve
 from wirelessagent.deciding.core.terms_kernel import worth_of_groups
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
@@ -65,7 +66,7 @@ def worth_of_all(
 
 @kernel
 def level_bounds(share: FloatArray, log_price: FloatArray, worth_w: FloatArray, most: FloatArray) -> FloatArray:
-    """:func:`.dual_kernel.level_bound` for shares (batch, user, 3) and ln λ (batch, user); shape (batch,)."""
+    """:func:`.best_prices_kernel.level_bound` for shares (batch, user, 3) and ln λ (batch, user); shape (batch,)."""
     level = np.empty(worth_w.size)
     for b in range(level.size):
         level[b] = level_bound(share[b], log_price[b], worth_w[b], most[b])

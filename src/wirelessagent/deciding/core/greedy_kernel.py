@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from wirelessagent.deciding.core.best_prices_kernel import Ask, find_prices
 from wirelessagent.deciding.core.bundle_kernel import LOW, UNREACHABLE
-from wirelessagent.deciding.core.dual_kernel import Ask, Found, channel_of, find_prices
+from wirelessagent.deciding.core.dual_kernel import Found, channel_of
 from wirelessagent.deciding.core.least_power_kernel import least_power
 from wirelessagent.deciding.core.sets_kernel import (
     ROUNDING,
