@@ -2,7 +2,7 @@
 
 The kernels are those of one problem in a loop (:mod:`.core.batch_kernel`), and the rest is done for a whole chunk of
 problems at a time, so the answers are those of one by one. Problems that need more than one search (promised rates
-that were not kept, users who cannot all be served) are handed to the method one by one.
+that were not kept, users who cannot all be served, restarts in rounds) are handed to the method one by one.
 """
 
 from __future__ import annotations
@@ -101,11 +101,12 @@ def _decider(
 ) -> Callable[[slice], None]:
     """A function that decides on one chunk of the channels."""
     single = NormalForm.of(method, _estimate(np.zeros(gain.shape[1:])), problem, cell)
-    needy = needy_users(single, Program.of(single))
+    needy, effort = needy_users(single, Program.of(single)), method.effort_for(single)
+    in_rounds = method.restarts is not None and method.restarts > effort.restarts
 
     def decide(chunk: slice) -> None:
         form = single.on(gain[chunk])
-        found, doubtful = _solve(form, gain[chunk], method.effort_for(single), needy)
+        found, doubtful = _solve(form, gain[chunk], effort, needy, in_rounds=in_rounds)
         rate = user_rate_bps(gain[chunk], found.owner, found.power_w, cell)
         weight = problem.weights_of(single.weight.size)
         value = form.objective.values(rate, found.power_w.sum(axis=-1), cell, weight)
@@ -122,7 +123,9 @@ def _decider(
     return decide
 
 
-def _solve(form: NormalForm, gain: FloatArray, effort: Effort, needy: BoolArray) -> tuple[Searches, BoolArray]:
+def _solve(
+    form: NormalForm, gain: FloatArray, effort: Effort, needy: BoolArray, *, in_rounds: bool
+) -> tuple[Searches, BoolArray]:
     """What is found for each channel, and where one search is not enough, shape (batch,)."""
     batch, subcarriers = len(form.snr_per_w), form.snr_per_w.shape[-1]
     programs, promised = Programs.of(form), bool(form.promised_nats.any())
@@ -133,11 +136,11 @@ def _solve(form: NormalForm, gain: FloatArray, effort: Effort, needy: BoolArray)
     if programs.goal == LEAST_POWER and not promised:
         nobody = np.full((batch, subcarriers), -1, dtype=np.int64)
         return Searches.finished(nobody, np.zeros((batch, subcarriers)), np.zeros(batch)), certain
-    doubtful = certain
+    doubtful = np.full(batch, in_rounds)
     if promised:
         wanted = programs.goal == LEAST_POWER
         least = search_promises(form, effort if wanted else Effort(restarts=0, seed=0))
-        doubtful = ~least.fits(form)
+        doubtful = doubtful | ~least.fits(form)
         if wanted:
             return least, doubtful
     found = search_objectives(form, gain, programs, effort)

@@ -66,6 +66,8 @@ class Decision:
         needed_power_w: the power that the promised rates need, whatever the budget; None where none are promised.
         rate_scaling: the largest common factor on the promised rates that the budget carries; None likewise.
         iterations: outer iterations done by the method.
+        restarts: restarts of a local search done by the method: given to it as its option ``restarts``, they make the
+            same decision again where a deadline ended it.
         prices: where the search ended, for the next slot's to start from; None if the method does not search prices.
         method: registered name of the method.
         problem: the problem solved, with its objective resolved.
@@ -91,6 +93,7 @@ class Decision:
     needed_power_w: Bracket | None = None
     rate_scaling: Bracket | None = None
     iterations: int = 0
+    restarts: int = 0
     prices: Prices | None = None
 
     def __post_init__(self) -> None:

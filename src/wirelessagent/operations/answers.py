@@ -65,6 +65,7 @@ class DecisionAnswer(Record):
     needed_power_w: BracketAnswer | None
     rate_scaling: BracketAnswer | None
     iterations: int
+    restarts: int
     user_names: list[str]
 
     @classmethod
@@ -73,7 +74,7 @@ class DecisionAnswer(Record):
         objective = decision.problem.objective
         copied = (
             "method", "status", "reason", "value", "bound", "gap", "unit", "owner", "power_w", "rate_bps",
-            "total_power_w", "price_of_power", "price_of_rate", "iterations",
+            "total_power_w", "price_of_power", "price_of_rate", "iterations", "restarts",
         )  # fmt: skip
         return {
             **{name: getattr(decision, name) for name in copied},

@@ -26,6 +26,7 @@ class Figures(TypedDict, total=False):
     needed_power_w: Bracket | None
     rate_scaling: Bracket | None
     iterations: int
+    restarts: int
     prices: Prices | None
 
 

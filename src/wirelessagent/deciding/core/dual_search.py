@@ -51,6 +51,7 @@ class Search:
         bound: in the objective's unit.
         prices: of the dual; ln μ is in the program's utility per W.
         iterations: Newton steps.
+        restarts: of the local search.
     """
 
     program: Program
@@ -61,6 +62,7 @@ class Search:
     bound: float
     prices: Prices
     iterations: int
+    restarts: int = 0
 
     @property
     def spent_w(self) -> float:
@@ -100,6 +102,7 @@ def search(
         bound=bound_of(form, program, log_price, found.log_mu),
         prices=prices,
         iterations=int(found.iterations),
+        restarts=effort.restarts,
     )
 
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 
 from wirelessagent.deciding.core.certificate import Figures, certified
-from wirelessagent.deciding.core.dual_prices import carried_scaling, figures_of
-from wirelessagent.deciding.core.dual_search import Search
+from wirelessagent.deciding.core.dual_prices import figures_of
+from wirelessagent.deciding.core.dual_search import Effort, Search
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.promises import broken_decision
+from wirelessagent.deciding.core.scaling import searched_scaling
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.rates import user_rate_bps
@@ -27,21 +30,27 @@ def unpowered_decision(form: NormalForm) -> Decision:
     return certified(form, nobody, np.zeros(form.cap_w.size), 0.0, price_of_power=0.0)
 
 
-def unkept_decision(form: NormalForm, least: Search) -> Decision:
-    """The decision where the search for the least power of the promised rates found none within the budget."""
+def unkept_decision(form: NormalForm, least: Search, scaled_by: Effort) -> Decision:
+    """The decision where the search for the least power of the promised rates found none within the budget.
+
+    What part of them it carries is what there is to ask for instead, so that is searched for.
+    """
     price = np.where(form.promised_nats > 0, np.exp(least.prices.log_rate), 0.0)
-    if not least.kept:
-        return broken_decision(form, np.inf, least.bound, price, 0.0)
-    scaling = carried_scaling(form, least.owner, least.spent_w, 1.0)
-    return broken_decision(form, least.spent_w, least.bound, price, scaling)
+    scaling = searched_scaling(form, least, scaled_by).at_least
+    found_w = least.spent_w if least.kept else np.inf
+    decision = broken_decision(form, found_w, least.bound, price, scaling)
+    return dataclasses.replace(decision, restarts=least.restarts)
 
 
-def decision_of(form: NormalForm, found: Search, least: Search | None, unserved: IntArray) -> Decision:
+def decision_of(
+    form: NormalForm, found: Search, least: Search | None, unserved: IntArray, scaled_by: Effort | None = None
+) -> Decision:
     """The decision for what was found; ``least`` is the search for the least power of the promised rates, if any.
 
-    ``unserved`` are the users without whom the others are served (:mod:`.unserved`).
+    ``unserved`` are the users without whom the others are served (:mod:`.unserved`); for ``scaled_by`` see
+    :func:`.dual_prices.figures_of`.
     """
-    figures = figures_of(form, found, least)
+    figures = figures_of(form, found, least, scaled_by)
     if unserved.size == 0:
         return certified(form, found.owner, found.power_w, found.bound, **figures)
     return worthless_decision(form, found.owner, found.power_w, unserved, figures)

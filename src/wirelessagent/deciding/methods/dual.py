@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import sys
 import time
 from dataclasses import dataclass
 from typing import ClassVar, Literal
@@ -32,7 +33,7 @@ from wirelessagent.model.problem import Problem
 
 _SMALL = 400
 """Up to so many users × groups a search is restarted by default."""
-_RESTARTS, _THOROUGH_RESTARTS, _CHUNK = 30, 400, 20
+_RESTARTS, _THOROUGH_RESTARTS, _ROUND = 30, 400, 20
 _THOROUGH_S = 5.0
 
 
@@ -48,8 +49,10 @@ class Dual(Method):
     Attributes:
         effort: "fast" for a scheduler's slot; "thorough" goes on with prices of subcarriers, which prove more and find
             better sets, for some seconds at most, and often to the proven optimum.
-        deadline_ms: time after which nothing new begins; a fast search is restarted until then.
-        restarts: number of restarts instead of that of the effort, to do again what a deadline has cut short.
+        deadline_ms: time until which a fast search is restarted, and after which a thorough one begins nothing new; the
+            first search is done in any case.
+        restarts: number of restarts instead of that of the effort. A fast decision under a deadline says how many it
+            did, and so many without one make the same decision again.
         seed: of the restarts.
     """
 
@@ -81,6 +84,7 @@ class Dual(Method):
             return closed_decision(form, program)
         earlier = after.prices if after is not None else None
         effort = self.effort_for(form)
+        scaled_by = effort if self.effort == "thorough" else None
         promised = bool(form.promised_nats.any())
         if program.goal == LEAST_POWER and not promised:
             return unpowered_decision(form)
@@ -89,11 +93,13 @@ class Dual(Method):
             wanted = program.goal == LEAST_POWER
             least = search_promises(form, effort if wanted else Effort(restarts=0, seed=0), earlier if wanted else None)
             if not fits(form, least):
-                least = search_promises(form, Effort(restarts=_THOROUGH_RESTARTS, seed=self.seed), least.prices)
+                again = search_promises(form, Effort(restarts=_THOROUGH_RESTARTS, seed=self.seed), least.prices)
+                least = dataclasses.replace(again, restarts=least.restarts)
             if not fits(form, least):
-                return unkept_decision(form, least)
+                return unkept_decision(form, least, effort)
         if least is not None and program.goal == LEAST_POWER:
-            return decision_of(form, self._go_on(form, least, started), least, np.empty(0, dtype=np.int64))
+            least = self._go_on(form, least, started)
+            return decision_of(form, least, least, np.empty(0, dtype=np.int64), scaled_by)
         served, unserved = without_unservable(form, program)
         if not served.weight.any():
             return unservable_decision(form, least, unserved)
@@ -107,27 +113,45 @@ class Dual(Method):
         else:
             nobody = np.full(form.cap_w.size, -1, dtype=np.int64)
             found = dataclasses.replace(found, owner=nobody, power_w=np.zeros(form.cap_w.size))
-        return decision_of(form, found, least, unserved)
+        return decision_of(form, found, least, unserved, scaled_by)
 
     def effort_for(self, form: NormalForm) -> Effort:
-        """How hard to search a problem of this size."""
+        """The first search for a problem of this size; restarts beyond it come in rounds."""
         small = form.weight.size * (form.start.size - 1) <= _SMALL
         restarts = _RESTARTS if small else 0
         if self.effort == "thorough" and small:
             restarts = _THOROUGH_RESTARTS
-        return Effort(restarts=restarts if self.restarts is None else self.restarts, seed=self.seed)
+        return Effort(restarts=restarts if self.restarts is None else min(self.restarts, restarts), seed=self.seed)
 
     def _go_on(self, form: NormalForm, found: Search, started: float) -> Search:
-        """Restart until the deadline, if there is one; thoroughly, go on with prices of subcarriers."""
-        if self.effort == "thorough":
-            allowed = _THOROUGH_S if self.deadline_ms is None else self.deadline_ms / 1e3
-            return tightened(form, found, started + allowed)
-        if self.deadline_ms is None:
+        """Restart in rounds; thoroughly, go on with prices of subcarriers."""
+        deadline = np.inf if self.deadline_ms is None else started + self.deadline_ms / 1e3
+        found = self._restarted(form, found, started, deadline)
+        if self.effort == "fast":
             return found
-        seed = self.seed
-        while time.perf_counter() - started < self.deadline_ms / 1e3:
+        return tightened(form, found, started + _THOROUGH_S if self.deadline_ms is None else deadline)
+
+    def _restarted(self, form: NormalForm, found: Search, started: float, deadline: float) -> Search:
+        """Rounds up to the restarts that were asked for, or while one as long as those before ends by the deadline.
+
+        A round depends on what was found and on its number alone, so that those of a deadline can be done again.
+        """
+        most = self.restarts
+        if most is None:
+            most = sys.maxsize if self.effort == "fast" and self.deadline_ms is not None else found.restarts
+        seed, now = self.seed, time.perf_counter()
+        longest = now - started
+        while found.restarts < most and now + longest <= deadline:
             seed += 1
-            again = search(form, found.program, Effort(restarts=_CHUNK, seed=seed), found.prices, found.owner)
-            if again.kept and again.score > found.score:
-                found = dataclasses.replace(again, bound=tighter(form, found.bound, again.bound))
+            size = min(_ROUND, most - found.restarts)
+            again = search(form, found.program, Effort(restarts=size, seed=seed), found.prices, found.owner)
+            better = again if again.kept and again.score > found.score else found
+            found = dataclasses.replace(
+                better,
+                bound=tighter(form, found.bound, again.bound),
+                iterations=found.iterations + again.iterations,
+                restarts=found.restarts + size,
+            )
+            begun, now = now, time.perf_counter()
+            longest = max(longest, now - begun)
         return found

@@ -46,7 +46,7 @@ class Greedy(Method):
         program = Program.of(form)
         least = search_greedily(form, Program.of_promises(form)) if form.promised_nats.any() else None
         if least is not None and not fits(form, least):
-            return unkept_decision(form, least)
+            return unkept_decision(form, least, _NO_RESTARTS)
         if program.goal == LEAST_POWER:
             if least is None:
                 return unpowered_decision(form)
