@@ -7,21 +7,21 @@ For prices π ≥ 0 of the columns and μ ≥ q of power no joint choice of sets
 the dual of the linear programme that gives every user a mixture of sets, no column more than once (Dantzig and Wolfe,
 1960). Its least value is at most the bound by prices of rates alone, which lets users mix on every single subcarrier.
 
-The programme is solved by column generation: the best sets at trial prices give D there, and enter the programme, whose
-duals are the next trial. Duals of a programme that does not know all sets are wild, so they are held in a box around
-the best prices so far, wider after a success and narrower after a failure (the box step, Marsten et al., 1975).
+D is convex and kinked. It is minimised by column generation with proximal steps (:mod:`.mixture_kernel`): the best sets
+at trial prices give D there and are known from then on; the next trial is the best for all known sets that is not far
+from the best prices so far. A few dozen trials do, where duals of the programme itself, which jump from corner to
+corner, take hundreds.
 """
 
 from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from wirelessagent.deciding.core.market import NOTHING, Market, Sets
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import FloatArray, IntArray
 
 _NODES = 200_000
 """Sets looked at for a user's best."""
@@ -29,19 +29,20 @@ _NEAR_NODES = 2_000
 """Sets looked at for those that are nearly as good, which may be missed."""
 _TIE = 1e-12
 """Of a user's part in the prices, by which a set must be better than another to be looked for."""
-_FIRST_SETS, _LATER_SETS = 12, 4
-"""Sets that enter the programme per user and round."""
-_NEAR = 0.3
-"""How far from a user's best, in units of the mean worth of a user, its sets enter the programme in the first round."""
-_BOX = 1.0
-"""Half-width of the box at first, in units of the mean price."""
-_BOX_MU, _BOX_MU_MOST = 0.3, 3.0
-"""The same of ln μ, at first and at most."""
+_NEAR, _NEAR_SETS = 0.3, 12
+"""How far from a user's best, in units of the mean worth of a user, sets are known from the beginning, and how many."""
+_STEP = 0.1
+"""Change of a price, in units of the mean price, where a column is taken once too often; at first."""
+_LONGER, _SHORTER, _WIDER = 1.5, 0.8, 10.0
+_SERIOUS, _WELL_FORETOLD = 0.1, 0.5
+"""Parts of the fall that was foretold from which on a trial is the new centre, and steps become longer."""
 _WIDENINGS = 2
-_MOST_SETS, _KEPT_SETS = 40, 20
-"""Sets in the programme per user before some are dropped, and after."""
-_POWER_PRICES = 3
-"""At how many prices of power the programme knows each set."""
+_EXACTNESS, _SWEEPS = 0.05, 300
+"""How exact a step is, in units of the fall that was foretold last, and how long it may take."""
+_CHEAPEST = np.exp(-3.0)
+"""Part of the price of power that a step leaves at least."""
+_MOST_SETS, _KEPT_SETS = 60, 30
+"""Known sets per user before some are dropped, and after."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -66,34 +67,109 @@ class ColumnPrices:
 
 
 @dataclass(kw_only=True, eq=False)
-class _Search:
-    """The best prices so far and the box around them."""
+class _Known:
+    """The sets that are known, sorted by user, what each is worth at the price of power where it was found, its weight.
+
+    Attributes:
+        sets: the sets; the same one may be there at several prices of power.
+        utility, power, weight: U, P in W and x, shape (set,).
+    """
+
+    sets: Sets
+    utility: FloatArray
+    power: FloatArray
+    weight: FloatArray
+
+    @classmethod
+    def at(cls, market: Market, sets: Sets, log_mu: float) -> _Known:
+        """The sets as they are at the price μ, those left out that cannot carry what they must."""
+        value, power = market.worths(sets, log_mu)
+        usable = np.flatnonzero(value > NOTHING)
+        return cls(
+            sets=sets.chosen(usable),
+            utility=value[usable] + np.exp(log_mu) * power[usable],
+            power=power[usable],
+            weight=np.zeros(usable.size),
+        )
+
+    def chosen(self, which: IntArray) -> _Known:
+        return _Known(
+            sets=self.sets.chosen(which),
+            utility=self.utility[which],
+            power=self.power[which],
+            weight=self.weight[which],
+        )
+
+    def with_others(self, others: _Known) -> _Known:
+        both = _Known(
+            sets=self.sets.joined(others.sets),
+            utility=np.concatenate([self.utility, others.utility]),
+            power=np.concatenate([self.power, others.power]),
+            weight=np.concatenate([self.weight, others.weight]),
+        )
+        return both.chosen(np.argsort(both.sets.user, kind="stable"))
+
+    def begins(self, users: int) -> IntArray:
+        """Where each user's sets begin, shape (user + 1,)."""
+        return np.searchsorted(self.sets.user, np.arange(users + 1))
+
+    def trimmed(self, users: int, price: FloatArray, mu: float) -> _Known:
+        """Those with weight and the best ones at some prices, where there are too many."""
+        if len(self.sets) <= _MOST_SETS * users:
+            return self
+        net = np.where(self.weight > 0.0, np.inf, self.sets.net(self.utility - mu * self.power, price))
+        order = np.lexsort((-net, self.sets.user))
+        rank = np.arange(order.size) - self.begins(users)[self.sets.user]
+        return self.chosen(np.sort(order[(rank < _KEPT_SETS) | (self.weight[order] > 0.0)]))
+
+    def begin_at(self, users: int, price: FloatArray, mu: float) -> bool:
+        """Give all weight to each user's best set; whether everybody has one."""
+        net = self.sets.net(self.utility - mu * self.power, price)
+        begin = self.begins(users)
+        if not (np.diff(begin) > 0).all():
+            return False
+        order = np.lexsort((-net, self.sets.user))
+        self.weight[:] = 0.0
+        self.weight[order[begin[:-1]]] = 1.0
+        return True
+
+    def merged(self) -> tuple[Sets, FloatArray]:
+        """Every set once, with its weight."""
+        _, where, which = np.unique(self.sets.digest(), return_index=True, return_inverse=True)
+        return self.sets.chosen(where), np.minimum(np.bincount(which, weights=self.weight), 1.0)
+
+
+@dataclass(kw_only=True, eq=False)
+class _Center:
+    """The best prices so far, and how far from them the next trial may be."""
 
     price: FloatArray
     log_mu: float
-    bound: float = np.inf
-    box: float = 0.0
-    box_mu: float = _BOX_MU
+    bound: float
+    step: float
 
-    def take(self, price: FloatArray, log_mu: float, bound: float, promised: float) -> None:
-        """Keep the prices of a smaller bound, and fit the box to how much of the ``promised`` fall came true.
+    def step_mu(self, market: Market) -> float:
+        """The step in μ, with which the price of power may change by as much of itself as that of a column."""
+        if np.isinf(market.budget_w):
+            return 0.0
+        mean_square = float(self.price @ self.price) / self.price.size or 1.0
+        return self.step * float(np.exp(2.0 * self.log_mu)) / mean_square
 
-        At a kink where many sets tie D hardly ever falls at once; there the box stays, and the sets come one by one.
-        """
+    def take(self, price: FloatArray, log_mu: float, bound: float, foretold: float) -> None:
+        """Move to the prices of a bound that is as much smaller as ``foretold``, more or less, or come nearer."""
         fall = self.bound - bound
-        if fall > 0.0:
+        if fall >= _SERIOUS * foretold:
             self.price, self.log_mu, self.bound = price, log_mu, bound
-        if np.isfinite(fall):
-            factor = 2.0 if fall > 0.5 * promised else 0.5 if fall < -3.0 * promised else 1.0
-            self.box *= factor
-            self.box_mu = min(self.box_mu * factor, _BOX_MU_MOST)
+            self.step *= _LONGER if fall > _WELL_FORETOLD * foretold else 1.0
+        elif -fall > foretold:
+            self.step *= _SHORTER
 
 
 def start_prices(market: Market, log_rate_price: FloatArray, log_mu: float) -> FloatArray:
     """Each column at the most that it adds for any user whose rate costs λ_k W per nat, shape (column,)."""
-    from wirelessagent.deciding.core.columns_kernel import dearest
+    from wirelessagent.deciding.core.columns_kernel import middle_terms
 
-    return np.exp(log_mu) * dearest(market.floor, market.inverse, market.ceiling, market.start, log_rate_price)
+    return np.exp(log_mu) * middle_terms(market.floor, market.inverse, market.ceiling, market.start, log_rate_price)
 
 
 def column_prices(
@@ -115,41 +191,64 @@ def column_prices(
         log_mu: ln μ to start from; ln q where there is no budget.
         known: sets to start with, such as those of an allocation; may be empty.
         value: of the best allocation known; the search ends where the bound reaches it.
-        accuracy: relative; the search also ends where the programme says that D falls by less.
+        accuracy: relative; the search also ends where D can hardly fall by more.
         deadline: in seconds on ``time.perf_counter``; at least one bound is worked out.
-        rounds: times that the programme is solved at most.
+        rounds: trials at most.
     """
-    search = _Search(price=price, log_mu=log_mu, box=_BOX * float(price.mean()))
-    sets, taken, promised = known, np.zeros(len(known)), np.inf
-    watched: list[float] = []
-    done = widened = 0
-    while True:
-        bound, found = _priced(market, price, log_mu, done == 0)
-        search.take(price, log_mu, bound, promised)
-        sets = sets.with_others(found)
-        close = accuracy * abs(search.bound)
-        if search.bound - value <= 1e-12 * abs(search.bound) or done >= rounds or time.perf_counter() >= deadline:
+    users = market.users.shape[0]
+    bound, found = _priced(market, price, log_mu)
+    center = _Center(price=price, log_mu=log_mu, bound=bound, step=_STEP * _typical(price, bound))
+    sets = _Known.at(market, known.with_others(found), log_mu)
+    sets = sets.chosen(np.argsort(sets.sets.user, kind="stable"))
+    everybody = sets.begin_at(users, price, float(np.exp(log_mu)))
+    foretold, done, widened = np.inf, 0, 0
+    while everybody and done < rounds and time.perf_counter() < deadline:
+        if center.bound - value <= 1e-12 * abs(center.bound):
             break
-        watched = _watched(watched, log_mu, search.log_mu)
-        solved = _solve(market, sets, watched, search)
-        if solved is None:
-            search.box *= 0.5
-            break
-        price, log_mu, least, taken, free = solved
-        done += 1
-        promised = search.bound - least
-        if promised <= close:  # nothing to gain in the box; D being convex, little outside
-            if free or widened == _WIDENINGS:
+        close = accuracy * abs(center.bound)
+        exactness = max(_EXACTNESS * min(foretold, center.bound - value), 0.1 * close)
+        price, log_mu, model, inexact = _proximal(market, sets, center, exactness)
+        foretold = center.bound - model
+        if foretold <= close:
+            if widened == _WIDENINGS or inexact > close:
                 break
             widened += 1
-            search.box *= 4.0
-            search.box_mu = min(4.0 * search.box_mu, _BOX_MU_MOST)
-        sets, taken = _trimmed(market, sets, taken, price, log_mu)
-    if taken.size < len(sets):
-        taken = np.concatenate([taken, np.zeros(len(sets) - taken.size)])
+            center.step *= _WIDER
+            continue
+        bound, best = priced_total(market, price, log_mu)
+        center.take(price, log_mu, bound, foretold)
+        sets = sets.trimmed(users, center.price, float(np.exp(center.log_mu)))
+        sets = sets.with_others(_Known.at(market, best, log_mu))
+        done += 1
+    merged, taken = sets.merged()
     return ColumnPrices(
-        price=search.price, log_mu=search.log_mu, bound=search.bound, sets=sets, taken=taken, rounds=done
-    )
+        price=center.price, log_mu=center.log_mu, bound=center.bound, sets=merged, taken=taken, rounds=done
+    )  # fmt: skip
+
+
+def _typical(price: FloatArray, bound: float) -> float:
+    """The mean price; where nothing costs anything, what a column may be worth."""
+    return float(price.mean()) or abs(bound) / price.size or 1.0
+
+
+def _proximal(
+    market: Market, known: _Known, center: _Center, exactness: float
+) -> tuple[FloatArray, float, float, float]:
+    """The next prices π and ln μ, the least that D may be there, and how exact that is."""
+    from wirelessagent.deciding.core.mixture_kernel import mix
+
+    price = np.empty(center.price.size)
+    center_mu = float(np.exp(center.log_mu))
+    least_mu = max(market.cost_per_w, _CHEAPEST * center_mu)
+    sets = known.sets
+    mu, model, inexact = mix(
+        known.begins(market.users.shape[0]), sets.first, sets.member, known.utility, known.power, center.price,
+        center_mu, center.step, center.step_mu(market), least_mu, market.budget_w, exactness, _SWEEPS, known.weight,
+        price,
+    )  # fmt: skip
+    if np.isfinite(market.budget_w):
+        model += (least_mu - market.cost_per_w) * market.budget_w
+    return price, float(np.log(mu)), model, inexact
 
 
 def priced_bounds(market: Market, price: FloatArray, log_mu: float, nodes: int = _NODES) -> tuple[FloatArray, Sets]:
@@ -170,109 +269,20 @@ def total_bound(market: Market, price: FloatArray, log_mu: float, bound: FloatAr
     return float(price.sum() + bound.sum()) + market.left_w(log_mu)
 
 
-def _priced(market: Market, price: FloatArray, log_mu: float, first_round: bool) -> tuple[float, Sets]:
-    """D at some prices, and the sets that are best there or nearly so."""
+def priced_total(market: Market, price: FloatArray, log_mu: float) -> tuple[float, Sets]:
+    """D at some prices, and the best sets there."""
+    bound, best = priced_bounds(market, price, log_mu)
+    return total_bound(market, price, log_mu, bound), best
+
+
+def _priced(market: Market, price: FloatArray, log_mu: float) -> tuple[float, Sets]:
+    """D at the first prices, and the sets that are best there or nearly so."""
     from wirelessagent.deciding.core.column_search_kernel import bundles_within
 
     bound, best = priced_bounds(market, price, log_mu)
     typical = (float(np.abs(bound).sum()) + float(price.sum())) / bound.size
-    near = _NEAR * typical * (1.0 if first_round else 0.25)
     _, user, first, member = bundles_within(
-        market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu, bound - near,
-        market.users, log_mu, np.inf, _NEAR_NODES, _FIRST_SETS if first_round else _LATER_SETS,
+        market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu,
+        bound - _NEAR * typical, market.users, log_mu, np.inf, _NEAR_NODES, _NEAR_SETS,
     )  # fmt: skip
     return total_bound(market, price, log_mu, bound), best.with_others(Sets(user=user, first=first, member=member))
-
-
-def _trimmed(
-    market: Market, sets: Sets, taken: FloatArray, price: FloatArray, log_mu: float
-) -> tuple[Sets, FloatArray]:
-    """The sets that are taken or best at the last prices, where there are too many."""
-    users = market.users.shape[0]
-    if len(sets) <= _MOST_SETS * users:
-        return sets, taken
-    net = np.where(taken > 0.0, np.inf, sets.net(market.worths(sets, log_mu)[0], price))
-    order = np.lexsort((-net, sets.user))
-    rank = np.arange(order.size) - np.searchsorted(sets.user[order], sets.user[order])
-    kept = np.sort(order[(rank < _KEPT_SETS) | (taken[order] > 0.0)])
-    return sets.chosen(kept), taken[kept]
-
-
-def _watched(before: list[float], trial: float, best: float) -> list[float]:
-    """The prices of power that the programme knows: the best, the last trial and the latest of the others."""
-    kept = [best]
-    for log_mu in (trial, *before):
-        if all(abs(log_mu - other) > 1e-12 for other in kept):
-            kept.append(log_mu)
-    return kept[:_POWER_PRICES]
-
-
-def _solve(
-    market: Market, sets: Sets, watched: list[float], search: _Search
-) -> tuple[FloatArray, float, float, FloatArray, bool] | None:
-    """The programme in the box: its prices π and ln μ, its value, the sets' shares, and whether the box did not bind.
-
-    A column, or power, may also be bought at the upper end of its box and sold at the lower one.
-    """
-    from scipy.sparse import block_array, coo_array, csc_array, eye_array
-
-    users, columns, count = len(market.users), market.columns, len(sets)
-    top = bottom = 0.0
-    budgeted = bool(np.isfinite(market.budget_w))
-    worths = [market.worths(sets, log_mu) for log_mu in watched]
-    mus = np.exp(np.repeat(watched, count))
-    value = np.concatenate([worth for worth, _ in worths])
-    power = np.concatenate([watts for _, watts in worths])
-    usable = np.flatnonzero(value > NOTHING)
-    value, power = value[usable], power[usable]
-    gain = value + (mus[usable] - market.cost_per_w) * power
-    scale = max(float(np.abs(value).mean()), float(search.price.mean())) or 1.0
-    incidence = csc_array((np.ones(sets.member.size), sets.member, sets.first), shape=(columns, count))
-    packing = csc_array(incidence[:, usable % count])
-    each = coo_array(
-        (np.ones(usable.size), (sets.user[usable % count], np.arange(usable.size))), shape=(users, usable.size)
-    )
-    dear, cheap = search.price + search.box, np.maximum(search.price - search.box, 0.0)
-    costs = [-gain, dear, -cheap]
-    unit = eye_array(columns, format="csc")
-    rows: list[list[Any]] = [[packing, -unit, unit]]
-    limits = np.ones(columns)
-    if budgeted:
-        mu = np.exp(search.log_mu)
-        top = max(mu * np.exp(search.box_mu), market.cost_per_w) - market.cost_per_w
-        bottom = max(mu * np.exp(-search.box_mu), market.cost_per_w) - market.cost_per_w
-        costs.append(market.budget_w * np.array([top, -bottom]))
-        used = csc_array(power[np.newaxis] / market.budget_w)
-        rows = [[packing, -unit, unit, None], [used, None, None, csc_array(np.array([[-1.0, 1.0]]))]]
-        limits = np.ones(columns + 1)
-    cost = np.concatenate(costs) / scale
-    equal: Any = block_array([[each, coo_array((users, cost.size - usable.size))]], format="csc")
-    at_most: Any = block_array(rows, format="csc")
-    solution = _minimised(cost, at_most, limits, equal, users)
-    if solution is None:
-        return None
-    least, amount, dual = solution[0] * scale, solution[1], solution[2] * scale
-    price = np.clip(dual[:columns], cheap, dear)
-    log_mu = search.log_mu
-    if budgeted:
-        mu = np.clip(dual[columns] / market.budget_w, bottom, top) + market.cost_per_w
-        log_mu = float(np.log(mu)) if mu > 0.0 else log_mu
-    share = np.minimum(np.bincount(usable % count, weights=amount[: usable.size], minlength=count), 1.0)
-    traded = float(amount[usable.size :].sum())
-    return price, log_mu, -least, share, traded <= 1e-7
-
-
-def _minimised(
-    cost: FloatArray, at_most: object, limits: FloatArray, equal: object, users: int
-) -> tuple[float, FloatArray, FloatArray] | None:
-    """The least cost of a linear programme, its amounts ≥ 0, and the prices of its limits; None if it fails."""
-    from scipy.optimize import linprog
-
-    solver: Any = linprog  # its types know no sparse arrays
-    result: Any = solver(
-        cost, A_ub=at_most, b_ub=limits, A_eq=equal, b_eq=np.ones(users), bounds=(0, None), method="highs-ds"
-    )  # fmt: skip
-    if result.status != 0:
-        return None
-    amounts = np.asarray(result.x, dtype=np.float64)
-    return float(result.fun), amounts, -np.asarray(result.ineqlin.marginals, dtype=np.float64)

@@ -97,6 +97,22 @@ def excess(
 
 
 @kernel
+def is_straight(user: FloatArray) -> bool:
+    """Whether the user's utility is its rate."""
+    return bool(user[SLOPE] > 0.0 and user[CURVATURE] == 0.0)
+
+
+@kernel
+def kink(user: FloatArray, log_mu: float) -> float:
+    """The level at which a nat costs what a straight utility pays for it, or just above."""
+    level = np.log(user[SLOPE]) - log_mu
+    level += 1e-15 * (1.0 + abs(level) + abs(log_mu))
+    while np.exp(log_mu) * np.exp(level) < user[SLOPE]:
+        level += 1e-15 * (1.0 + abs(level) + abs(log_mu))
+    return level
+
+
+@kernel
 def relaxed_level(
     user: FloatArray,
     floor: FloatArray,
@@ -120,11 +136,8 @@ def relaxed_level(
     if lowest == np.inf:
         return 0.0
     least = lowest
-    if user[SLOPE] > 0.0 and user[CURVATURE] == 0.0 and user[HIGH] == np.inf:
-        least = np.log(user[SLOPE]) - log_mu  # below it the conjugate is infinite
-        least += 1e-15 * (1.0 + abs(least) + abs(log_mu))
-        while np.exp(log_mu) * np.exp(least) < user[SLOPE]:
-            least += 1e-15 * (1.0 + abs(least) + abs(log_mu))
+    if is_straight(user) and user[HIGH] == np.inf:  # below it the conjugate is infinite
+        least = kink(user, log_mu)
         if excess(user, floor, inverse, ceiling, start, price, log_mu, least) >= 0.0:
             return least
     low = max(least, lowest)
@@ -163,11 +176,14 @@ def decoupled(
     mu = np.exp(log_mu)
     base = np.empty(levels)
     used = np.empty(levels)
+    straight = is_straight(user)
     least = -np.inf
-    if user[SLOPE] > 0.0 and user[CURVATURE] == 0.0 and user[HIGH] == np.inf:
-        least = root  # below it the conjugate may be infinite
+    if straight and user[HIGH] == np.inf:
+        least = kink(user, log_mu)  # below it the conjugate is infinite
     for g in range(levels):
         used[g] = max(root + OFFSETS[g], least)
+        if straight and g == levels - 1:  # the best level once the promised rate is carried
+            used[g] = kink(user, log_mu)
         base[g] = conjugate(user, mu * np.exp(used[g]))[0]
     usable = np.empty(columns, dtype=np.int64)
     worth = np.empty(columns)
@@ -226,19 +242,23 @@ def worths(
 
 
 @kernel
-def dearest(
+def middle_terms(
     floor: FloatArray, inverse: FloatArray, ceiling: FloatArray, start: IntArray, log_rate_price: FloatArray
 ) -> FloatArray:
-    """The largest t_j/μ of any user for each column, (column,), where a nat of user k costs e^``log_rate_price`` W."""
+    """Half way between the largest t_j/μ of any user and the next, (column,), a nat of user k costing e^λ_k W."""
     price = np.zeros(start.size - 1)
+    next_price = np.zeros(start.size - 1)
     for k in range(floor.shape[0]):
         top = np.exp(log_rate_price[k])
         for j in range(price.size):
             term, _ = column_term(
                 floor[k], inverse[k], ceiling[k], start[j], start[j + 1], log_rate_price[k], top
             )  # fmt: skip
-            price[j] = max(price[j], term)
-    return price
+            if term > price[j]:
+                price[j], next_price[j] = term, price[j]
+            elif term > next_price[j]:
+                next_price[j] = term
+    return 0.5 * (price + next_price)
 
 
 @kernel

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wirelessagent.deciding.core.column_prices import ColumnPrices, column_prices, priced_bounds, total_bound
+from wirelessagent.deciding.core.column_prices import ColumnPrices, column_prices, priced_bounds
 from wirelessagent.deciding.core.goals import Goal
 from wirelessagent.deciding.core.market import Market, Sets
 from wirelessagent.deciding.core.set_packing import pack
@@ -31,11 +31,6 @@ _PRICE_ACCURACY = 1e-6
 _ROUNDS = 30
 _NODES = 300_000
 _FRACTION = 1e-6
-_LOOSE = 0.05
-"""Part of the gap that central prices may cost."""
-_DEARER = (8.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25)
-"""Steps in ln μ."""
-_HALVINGS = 6
 _PACKED_FROM = 0.3
 """Share of the time left that a search among the sets met may take."""
 
@@ -167,10 +162,9 @@ def _look(goal: Goal, node: _Node, best: _Best, deadline: float, most_sets: int)
         limit = goal.no_more_than(x, market, price, log_mu, priced.bound)
         if now >= deadline:
             return priced, limit
-        central = _central(market, priced, priced.bound - target, now + _PACKED_FROM * (deadline - now))
-        near = _near(market, central, central.bound - target)
+        near = _near(market, priced, priced.bound - target)
         until = now + _PACKED_FROM * (deadline - now)
-        packed = pack(market, near, central.log_mu, scale=scale, least=target, deadline=until)
+        packed = pack(market, near, priced.log_mu, scale=scale, least=target, deadline=until)
         if not (packed.sets is not None and best.offer(goal, packed.sets, packed.log_mu)):
             break
         if goal.at(best.x) is goal.at(x):  # a sum: the prices hold for the better allocation, too
@@ -178,10 +172,10 @@ def _look(goal: Goal, node: _Node, best: _Best, deadline: float, most_sets: int)
             if priced.bound - target <= _ACCURACY * scale:
                 return priced, best.x
             break
-    gap = central.bound - target + _ROUNDING * scale
-    complete, listed = _listed(goal, market, central, gap, limit, most_sets)
+    gap = priced.bound - target + _ROUNDING * scale
+    complete, listed = _listed(goal, market, priced, gap, limit, most_sets)
     left = _settled(goal, node, listed, best, scale, deadline) if complete else limit
-    return replace(priced, price=central.price, log_mu=central.log_mu), left
+    return priced, left
 
 
 def _settled(goal: Goal, node: _Node, listed: Sets, best: _Best, scale: float, deadline: float) -> float:
@@ -233,37 +227,6 @@ def _listed(
         bound - gap, np.ascontiguousarray(wettest), market.least_log_mu, market.budget_w, _NODES, most_sets,
     )  # fmt: skip
     return complete, Sets(user=user, first=first, member=member)
-
-
-def _central(market: Market, priced: ColumnPrices, gap: float, until: float) -> ColumnPrices:
-    """Prices of nearly the same bound that are away from the ends of their ranges.
-
-    Where a utility is straight, a price that is just what its user would pay makes all subsets equally good, and where
-    power is worth little all its uses are. So power is made as dear, and each column half as much cheaper, as D allows.
-    """
-    price, log_mu, bound = priced.price.copy(), priced.log_mu, priced.bound
-
-    def worth(trial: FloatArray, log_mu: float) -> float:
-        return total_bound(market, trial, log_mu, priced_bounds(market, trial, log_mu)[0])
-
-    for step in _DEARER if np.isfinite(market.budget_w) else ():
-        dearer = worth(price, log_mu + step)
-        if dearer <= priced.bound + _LOOSE * gap:
-            log_mu, bound = log_mu + step, dearer
-    allowed = (bound - priced.bound + _LOOSE * gap) / price.size
-    for column in np.flatnonzero(price > 0.0):
-        if time.perf_counter() >= until:
-            break
-        trial, low, high = price.copy(), 0.0, float(price[column])
-        for _ in range(_HALVINGS):
-            trial[column] = 0.5 * (low + high)
-            if worth(trial, log_mu) <= bound + allowed:
-                high = trial[column]
-            else:
-                low = trial[column]
-        price[column] = 0.5 * (high + price[column])
-        bound = worth(price, log_mu)
-    return replace(priced, price=price, log_mu=log_mu, bound=bound)
 
 
 def _children(node: _Node, priced: ColumnPrices, limit: float) -> list[_Node]:

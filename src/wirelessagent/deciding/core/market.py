@@ -61,13 +61,17 @@ class Sets:
         place = np.arange(int(first[-1])) - np.repeat(first[:-1] - self.first[which], size)
         return Sets(user=self.user[which], first=first, member=self.member[place])
 
-    def with_others(self, others: Sets) -> Sets:
-        """These and those that are not yet among them."""
-        both = Sets(
+    def joined(self, others: Sets) -> Sets:
+        """These and then those."""
+        return Sets(
             user=np.concatenate([self.user, others.user]),
             first=np.concatenate([self.first, self.first[-1] + others.first[1:]]),
             member=np.concatenate([self.member, others.member]),
         )
+
+    def with_others(self, others: Sets) -> Sets:
+        """These and those that are not yet among them."""
+        both = self.joined(others)
         _, where = np.unique(both.digest(), return_index=True)
         return both.chosen(np.sort(where))
 
