@@ -84,10 +84,9 @@ def lowest_floors(market: Market) -> FloatArray:
 @pytest.mark.parametrize("seed", range(12))
 def test_no_set_of_priced_columns_is_better(kind: str, seed: int) -> None:
     market, price, log_mu = random_market(kind, seed)
-    bound = np.empty(1)
-    worth, _, member = best_bundles(
-        market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu, 0.0, 10**6, bound
-    )  # fmt: skip
+    bound, nothing = np.empty(1), np.full(1, -np.inf)
+    arguments = (market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu)
+    worth, _, member = best_bundles(*arguments, nothing, 0.0, 10**6, bound)
     every = all_sets(market, price, log_mu)
     best = max(value for value, _ in every.values())
     if best < -1e190:
@@ -96,6 +95,13 @@ def test_no_set_of_priced_columns_is_better(kind: str, seed: int) -> None:
     assert worth[0] == pytest.approx(best, rel=1e-9, abs=1e-12)
     assert every[tuple(sorted(member.tolist()))][0] == pytest.approx(best, rel=1e-9, abs=1e-12)
     assert bound[0] >= best - 1e-12 * abs(best)
+    nearly = best - 1e-6 * abs(best)
+    worth, _, member = best_bundles(*arguments, np.full(1, nearly), 0.0, 10**6, bound)
+    assert every[tuple(sorted(member.tolist()))][0] == pytest.approx(best, rel=1e-9, abs=1e-12)
+    worth, _, member = best_bundles(*arguments, np.full(1, best), 1e-9 * abs(best), 10**6, bound)
+    assert worth[0] < -1e199
+    assert member.size == 0
+    assert bound[0] == pytest.approx(best, rel=2e-9)
 
 
 @pytest.mark.parametrize("kind", UTILITIES)

@@ -122,6 +122,11 @@ class _Known:
         rank = np.arange(order.size) - self.begins(users)[self.sets.user]
         return self.chosen(np.sort(order[(rank < _KEPT_SETS) | (self.weight[order] > 0.0)]))
 
+    def worths(self, users: int, price: FloatArray, mu: float) -> FloatArray:
+        """What each user's best set is worth at some prices at least, shape (user,)."""
+        net = self.sets.net(self.utility - mu * self.power, price)
+        return np.maximum.reduceat(net, self.begins(users)[:-1])
+
     def begin_at(self, users: int, price: FloatArray, mu: float) -> bool:
         """Give all weight to each user's best set; whether everybody has one."""
         net = self.sets.net(self.utility - mu * self.power, price)
@@ -196,8 +201,8 @@ def column_prices(
         rounds: trials at most.
     """
     users = market.users.shape[0]
-    bound, found = _priced(market, price, log_mu)
-    center = _Center(price=price, log_mu=log_mu, bound=bound, step=_STEP * _typical(price, bound))
+    first_bound, found = _priced(market, price, log_mu)
+    center = _Center(price=price, log_mu=log_mu, bound=first_bound, step=_STEP * _typical(price, first_bound))
     sets = _Known.at(market, known.with_others(found), log_mu)
     sets = sets.chosen(np.argsort(sets.sets.user, kind="stable"))
     everybody = sets.begin_at(users, price, float(np.exp(log_mu)))
@@ -215,8 +220,8 @@ def column_prices(
             widened += 1
             center.step *= _WIDER
             continue
-        bound, best = priced_total(market, price, log_mu)
-        center.take(price, log_mu, bound, foretold)
+        bound, best = priced_bounds(market, price, log_mu, sets.worths(users, price, float(np.exp(log_mu))))
+        center.take(price, log_mu, total_bound(market, price, log_mu, bound), foretold)
         sets = sets.trimmed(users, center.price, float(np.exp(center.log_mu)))
         sets = sets.with_others(_Known.at(market, best, log_mu))
         done += 1
@@ -251,28 +256,31 @@ def _proximal(
     return price, float(np.log(mu)), model, inexact
 
 
-def priced_bounds(market: Market, price: FloatArray, log_mu: float, nodes: int = _NODES) -> tuple[FloatArray, Sets]:
-    """A bound on V_k(S; μ) − π(S) for each user, (user,), and a best set of each that has any."""
+def priced_bounds(
+    market: Market, price: FloatArray, log_mu: float, least: FloatArray | None = None
+) -> tuple[FloatArray, Sets]:
+    """A bound on V_k(S; μ) − π(S) for each user, (user,), and a best set of each that has any.
+
+    With ``least`` (user,), the worth of sets that are known, only better ones are looked for.
+    """
     from wirelessagent.deciding.core.column_search_kernel import best_bundles
 
-    bound = np.empty(market.users.shape[0])
-    tolerance = _TIE * (float(price.sum()) + abs(market.left_w(log_mu))) / bound.size
+    users = market.users.shape[0]
+    bound = np.empty(users)
+    tolerance = _TIE * (float(price.sum()) + abs(market.left_w(log_mu))) / users
+    sought = np.empty(users)
+    sought[:] = 4.0 * NOTHING if least is None else least
     worth, first, member = best_bundles(
-        market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu, tolerance, nodes, bound
+        market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu,
+        sought, tolerance, _NODES, bound,
     )  # fmt: skip
-    sets = Sets(user=np.arange(worth.size), first=first, member=member)
+    sets = Sets(user=np.arange(users, dtype=np.int64), first=first, member=member)
     return bound, sets.chosen(np.flatnonzero(worth > NOTHING))
 
 
 def total_bound(market: Market, price: FloatArray, log_mu: float, bound: FloatArray) -> float:
     """D from the users' bounds."""
     return float(price.sum() + bound.sum()) + market.left_w(log_mu)
-
-
-def priced_total(market: Market, price: FloatArray, log_mu: float) -> tuple[float, Sets]:
-    """D at some prices, and the best sets there."""
-    bound, best = priced_bounds(market, price, log_mu)
-    return total_bound(market, price, log_mu, bound), best
 
 
 def _priced(market: Market, price: FloatArray, log_mu: float) -> tuple[float, Sets]:

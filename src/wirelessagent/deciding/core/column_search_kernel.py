@@ -5,6 +5,8 @@ The bounds are those of :mod:`.columns_kernel`: no set is worth more than the sm
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from wirelessagent.deciding.core.bundle_kernel import HIGH, best_level, bundle, fill_level
@@ -74,6 +76,78 @@ def is_full(floor: FloatArray, ceiling: FloatArray, size: int, level: float) -> 
     return full
 
 
+class Path(NamedTuple):
+    """The columns taken on the way to a node, and what is known at each depth; all of shape (column + 1,) at least.
+
+    Attributes:
+        position: the next column to try.
+        chosen: the column taken last.
+        size: subcarriers held.
+        spent: π of the columns taken.
+        wet, driest: the level that the set never exceeds, and the highest floor in it.
+        gained: Σ (t − π) over the columns taken and U*, shape (column + 1, level).
+    """
+
+    position: IntArray
+    chosen: IntArray
+    size: IntArray
+    spent: FloatArray
+    wet: FloatArray
+    driest: FloatArray
+    gained: FloatArray
+
+
+@kernel
+def path_from(base: FloatArray, columns: int) -> Path:
+    """The path before anything is taken; ``base`` is U* of each level."""
+    gained = np.empty((columns + 1, base.size))
+    gained[0] = base
+    return Path(
+        np.zeros(columns + 1, dtype=np.int64),
+        np.empty(columns + 1, dtype=np.int64),
+        np.zeros(columns + 1, dtype=np.int64),
+        np.zeros(columns + 1),
+        np.full(columns + 1, np.inf),
+        np.full(columns + 1, -np.inf),
+        gained,
+    )
+
+
+@kernel
+def bottoms(floor: FloatArray, ceiling: FloatArray, start: IntArray, order: IntArray) -> FloatArray:
+    """The lowest usable floor of each column in ``order``."""
+    bottom = np.full(order.size, np.inf)
+    for i in range(order.size):
+        for n in range(start[order[i]], start[order[i] + 1]):
+            if ceiling[n] > 0.0:
+                bottom[i] = min(bottom[i], floor[n])
+    return bottom
+
+
+@kernel
+def least_sum(one: FloatArray, other: FloatArray) -> float:
+    """The smallest of the sums of two rows."""
+    least = np.inf
+    for g in range(one.size):
+        least = min(least, one[g] + other[g])
+    return least
+
+
+@kernel
+def listed(
+    first: IntArray, member: IntArray, sets: int, order: IntArray, chosen: IntArray, depth: int
+) -> tuple[IntArray, IntArray]:
+    """The list of sets with one more at place ``sets``, grown where it must be."""
+    if sets + 2 > first.size:
+        first = np.concatenate((first, np.empty(first.size, dtype=np.int64)))
+    while first[sets] + depth > member.size:
+        member = np.concatenate((member, np.empty(member.size, dtype=np.int64)))
+    for i in range(depth):
+        member[first[sets] + i] = order[chosen[i]]
+    first[sets + 1] = first[sets] + depth
+    return first, member
+
+
 @kernel
 def explore(
     user: FloatArray,
@@ -97,73 +171,47 @@ def explore(
     one is the answer; with a negative one all that reach ``least`` are. Returns the best value, a bound on all values,
     how many sets there are (−1 − that where it gave up), and the sets: where each begins, and their columns.
     """
-    first = np.zeros(17, dtype=np.int64)
-    member = np.empty(64, dtype=np.int64)
-    sets = 0
+    first, member = np.zeros(17, dtype=np.int64), np.empty(64, dtype=np.int64)
+    sets, nodes, depth = 0, 0, 0
     best = least
     root = relaxed_level(user, floor, inverse, ceiling, start, price, log_mu)
     if root == np.inf:
         return NOTHING, NOTHING, 0, first, member
-    order, gain, left, base = decoupled(user, floor, inverse, ceiling, start, price, log_mu, root)
-    subcarriers = floor.size
-    columns = order.size
-    levels = base.size
-    set_floor, set_inverse, set_ceiling = np.empty(subcarriers), np.empty(subcarriers), np.empty(subcarriers)
-    scratch, scratch_cap = np.empty(subcarriers), np.empty(subcarriers)
-    bottom = np.full(columns, np.inf)
-    for i in range(columns):
-        for n in range(start[order[i]], start[order[i] + 1]):
-            if ceiling[n] > 0.0:
-                bottom[i] = min(bottom[i], floor[n])
-    position = np.zeros(columns + 1, dtype=np.int64)
-    size = np.zeros(columns + 1, dtype=np.int64)
-    chosen = np.empty(columns + 1, dtype=np.int64)
-    spent = np.zeros(columns + 1)
-    wet = np.full(columns + 1, np.inf)
-    driest = np.full(columns + 1, -np.inf)
-    gained = np.empty((columns + 1, levels))
-    gained[0] = base
-    depth = 0
-    nodes = 0
+    order, gain, left, base = decoupled(user, floor, inverse, ceiling, start, price, log_mu, root, least)
+    bottom = bottoms(floor, ceiling, start, order)
+    path = path_from(base, order.size)
+    set_floor, set_inverse, set_ceiling = np.empty(floor.size), np.empty(floor.size), np.empty(floor.size)
+    scratch, scratch_cap = np.empty(floor.size), np.empty(floor.size)
     value = bundle(user, set_floor, set_inverse, set_ceiling, 0, log_mu, scratch, scratch_cap)[0]
     fresh = True
     while True:
-        net = value - spent[depth]
+        net = value - path.spent[depth]
         if fresh and net > NOTHING and (net > best + tolerance if tolerance >= 0.0 else net >= least):
             best = max(best, net)
             if tolerance >= 0.0:
                 sets = 0
             if sets == most_sets:
-                return best, (base + left[0]).min(), -1 - sets, first, member
-            if sets + 2 > first.size:
-                first = np.concatenate((first, np.empty(first.size, dtype=np.int64)))
-            while first[sets] + depth > member.size:
-                member = np.concatenate((member, np.empty(member.size, dtype=np.int64)))
-            for i in range(depth):
-                member[first[sets] + i] = order[chosen[i]]
-            first[sets + 1] = first[sets] + depth
+                break
+            first, member = listed(first, member, sets, order, path.chosen, depth)
             sets += 1
-        i = position[depth]
+        fresh = False
+        i = path.position[depth]
         reachable = False
-        if i < columns:
-            bound = np.inf
-            for g in range(levels):
-                bound = min(bound, gained[depth, g] + left[i, g])
+        if i < order.size:
+            bound = least_sum(path.gained[depth], left[i])
             reachable = bound > best + tolerance if tolerance >= 0.0 else bound >= least
         if not reachable:
             if depth == 0:
-                break
+                return best, max(best, least) + max(tolerance, 0.0), sets, first, member
             depth -= 1
-            fresh = False
             continue
-        position[depth] = i + 1
-        fresh = False
-        if bottom[i] >= wet[depth]:
+        path.position[depth] = i + 1
+        if bottom[i] >= path.wet[depth]:
             continue  # here and in all larger sets it would get no power
         nodes += 1
         if nodes > most_nodes:
-            return best, (base + left[0]).min(), -1 - sets, first, member
-        filled = size[depth]
+            break
+        filled = path.size[depth]
         for n in range(start[order[i]], start[order[i] + 1]):
             if ceiling[n] > 0.0:
                 set_floor[filled], set_inverse[filled], set_ceiling[filled] = floor[n], inverse[n], ceiling[n]
@@ -177,19 +225,18 @@ def explore(
             )  # fmt: skip
         if value <= NOTHING or is_full(set_floor, set_ceiling, filled, level):
             level = np.inf  # more columns are of use however high their floors
-        if max(driest[depth], bottom[i]) >= level:
+        driest = max(path.driest[depth], bottom[i])
+        if driest >= level:
             continue
-        chosen[depth] = i
+        path.chosen[depth] = i
         depth += 1
-        driest[depth] = max(driest[depth - 1], bottom[i])
-        wet[depth] = level
-        spent[depth] = spent[depth - 1] + price[order[i]]
-        size[depth] = filled
-        position[depth] = i + 1
-        for g in range(levels):
-            gained[depth, g] = gained[depth - 1, g] + gain[i, g]
+        path.position[depth], path.size[depth] = i + 1, filled
+        path.driest[depth], path.wet[depth] = driest, level
+        path.spent[depth] = path.spent[depth - 1] + price[order[i]]
+        for g in range(base.size):
+            path.gained[depth, g] = path.gained[depth - 1, g] + gain[i, g]
         fresh = True
-    return best, max(best, least) + max(tolerance, 0.0), sets, first, member
+    return best, (base + left[0]).min(), -1 - sets, first, member
 
 
 @kernel
@@ -201,6 +248,7 @@ def best_bundles(
     start: IntArray,
     price: FloatArray,
     log_mu: float,
+    least: FloatArray,
     tolerance: float,
     most_nodes: int,
     bound: FloatArray,
@@ -214,12 +262,14 @@ def best_bundles(
         start: where each column begins, and the number of subcarriers, shape (column + 1,).
         price: π ≥ 0, shape (column,).
         log_mu: ln μ.
+        least: shape (user,); sets that are worth no more than that are of no interest.
         tolerance: at least 0.
         most_nodes: sets to look at per user at most; where that is not enough the bound is weaker.
         bound: written, shape (user,): no set is worth more.
 
     Returns:
-        What the sets are worth (user,); where each set begins in the list of their columns (user + 1,); that list.
+        What the sets are worth (user,), less than ``NOTHING`` where there is none of interest; where each set begins in
+        the list of their columns (user + 1,); that list.
     """
     number = users.shape[0]
     worth = np.empty(number)
@@ -227,10 +277,12 @@ def best_bundles(
     member = np.empty(4 * number, dtype=np.int64)
     for k in range(number):
         worth[k], bound[k], count, begin, found = explore(
-            users[k], floor[k], inverse[k], ceiling[k], start, price, log_mu, 4.0 * NOTHING, tolerance,
+            users[k], floor[k], inverse[k], ceiling[k], start, price, log_mu, least[k], tolerance,
             users[k], log_mu, np.inf, most_nodes, 1,
         )  # fmt: skip
-        held = 0 if count == 0 else begin[1]
+        held = begin[1]
+        if count == 0 or count == -1:
+            held, worth[k] = 0, 4.0 * NOTHING
         while first[k] + held > member.size:
             member = np.concatenate((member, np.empty(member.size, dtype=np.int64)))
         member[first[k] : first[k] + held] = found[:held]

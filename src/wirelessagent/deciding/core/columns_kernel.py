@@ -31,8 +31,10 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 
 OFFSETS = (0.0, -0.1, 0.1, -0.25, 0.25, -0.5, 0.5, -1.0, 1.0, -2.0, 2.0, -4.0, 4.0)
 """The levels of the bounds, from the best before anything is decided."""
-HALVINGS = 30
+HALVINGS = 16
+"""Of a bracket about 1 wide: any level gives a bound, and one so near the best gives nearly the best."""
 HIGHEST_LEVEL = 600.0
+ROUNDING = 1e-12
 NOTHING = -0.5 * UNREACHABLE
 """Values below are those of sets that cannot carry what they must."""
 
@@ -157,6 +159,58 @@ def relaxed_level(
 
 
 @kernel
+def levels_around(user: FloatArray, log_mu: float, root: float) -> FloatArray:
+    """The levels of the bounds, shape (level,), the best before anything is decided first."""
+    levels = np.empty(len(OFFSETS))
+    least = -np.inf
+    if is_straight(user) and user[HIGH] == np.inf:
+        least = kink(user, log_mu)  # below it the conjugate is infinite
+    for g in range(levels.size):
+        levels[g] = max(root + OFFSETS[g], least)
+    if is_straight(user):
+        levels[-1] = kink(user, log_mu)  # the best once the promised rate is carried
+    return levels
+
+
+@kernel
+def promising(
+    floor: FloatArray,
+    inverse: FloatArray,
+    ceiling: FloatArray,
+    start: IntArray,
+    price: FloatArray,
+    mu: float,
+    level: float,
+    base: float,
+    least: float,
+) -> IntArray:
+    """The usable columns that a set worth ``least`` may hold, most worthwhile at the level z first; ``base`` is U*."""
+    columns = start.size - 1
+    top = np.exp(level)
+    usable = np.empty(columns, dtype=np.int64)
+    loss = np.empty(columns)
+    count = 0
+    bound = base
+    for j in range(columns):
+        able = False
+        for n in range(start[j], start[j + 1]):
+            able = able or ceiling[n] > 0.0
+        if able:
+            term, _ = column_term(floor, inverse, ceiling, start[j], start[j + 1], level, top)
+            loss[count] = price[j] - mu * term
+            bound += max(-loss[count], 0.0)
+            usable[count] = j
+            count += 1
+    most = bound - least + ROUNDING * (abs(bound) + abs(least))
+    kept = 0
+    for i in range(count):
+        if not loss[i] > most:
+            usable[kept], loss[kept] = usable[i], loss[i]
+            kept += 1
+    return usable[np.argsort(loss[:kept])]
+
+
+@kernel
 def decoupled(
     user: FloatArray,
     floor: FloatArray,
@@ -166,44 +220,26 @@ def decoupled(
     price: FloatArray,
     log_mu: float,
     root: float,
+    least: float,
 ) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
-    """The usable columns, most worthwhile first; their t − π (column, level); what is left; U*(λ) of each level.
+    """The columns that matter, most worthwhile first; their t − π (column, level); what is left; U*(λ) of each level.
 
-    What is left at a column is Σ (t − π)⁺ over it and those after it, shape (column + 1, level).
+    Those matter that a set worth ``least`` may hold. What is left at a column is Σ (t − π)⁺ over it and those after it,
+    shape (column + 1, level).
     """
-    columns = start.size - 1
-    levels = len(OFFSETS)
     mu = np.exp(log_mu)
-    base = np.empty(levels)
-    used = np.empty(levels)
-    straight = is_straight(user)
-    least = -np.inf
-    if straight and user[HIGH] == np.inf:
-        least = kink(user, log_mu)  # below it the conjugate is infinite
-    for g in range(levels):
-        used[g] = max(root + OFFSETS[g], least)
-        if straight and g == levels - 1:  # the best level once the promised rate is carried
-            used[g] = kink(user, log_mu)
-        base[g] = conjugate(user, mu * np.exp(used[g]))[0]
-    usable = np.empty(columns, dtype=np.int64)
-    worth = np.empty(columns)
-    count = 0
-    for j in range(columns):
-        able = False
-        for n in range(start[j], start[j + 1]):
-            able = able or ceiling[n] > 0.0
-        if able:
-            usable[count] = j
-            term, _ = column_term(floor, inverse, ceiling, start[j], start[j + 1], used[0], np.exp(used[0]))
-            worth[count] = price[j] - mu * term
-            count += 1
-    order = usable[np.argsort(worth[:count])]
-    gain = np.empty((count, levels))
-    left = np.zeros((count + 1, levels))
-    for i in range(count - 1, -1, -1):
+    levels = levels_around(user, log_mu, root)
+    top = np.exp(levels)
+    base = np.empty(levels.size)
+    for g in range(levels.size):
+        base[g] = conjugate(user, mu * top[g])[0]
+    order = promising(floor, inverse, ceiling, start, price, mu, levels[0], base[0], least)
+    gain = np.empty((order.size, levels.size))
+    left = np.zeros((order.size + 1, levels.size))
+    for i in range(order.size - 1, -1, -1):
         j = int(order[i])
-        for g in range(levels):
-            term, _ = column_term(floor, inverse, ceiling, start[j], start[j + 1], used[g], np.exp(used[g]))
+        for g in range(levels.size):
+            term, _ = column_term(floor, inverse, ceiling, start[j], start[j + 1], levels[g], top[g])
             gain[i, g] = mu * term - price[j]
             left[i, g] = left[i + 1, g] + max(gain[i, g], 0.0)
     return order, gain, left, base

@@ -220,7 +220,7 @@ def _listed(
     """All sets whose reduced cost is within ``gap``, and whether they are all."""
     from wirelessagent.deciding.core.column_search_kernel import bundles_within
 
-    bound, _ = priced_bounds(market, priced.price, priced.log_mu, _NODES)
+    bound, _ = priced_bounds(market, priced.price, priced.log_mu)
     wettest = goal.at(limit).users if np.isfinite(limit) else market.users
     complete, user, first, member = bundles_within(
         market.users, market.floor, market.inverse, market.ceiling, market.start, priced.price, priced.log_mu,
