@@ -36,7 +36,7 @@ _STEP = 0.1
 _LONGER, _SHORTER, _WIDER = 1.5, 0.8, 10.0
 _SERIOUS, _WELL_FORETOLD = 0.1, 0.5
 """Parts of the fall that was foretold from which on a trial is the new centre, and steps become longer."""
-_WIDENINGS = 2
+_AGAIN = 3
 _EXACTNESS, _SWEEPS = 0.05, 300
 """How exact a step is, in units of the fall that was foretold last, and how long it may take."""
 _CHEAPEST = np.exp(-3.0)
@@ -206,7 +206,7 @@ def column_prices(
     sets = _Known.at(market, known.with_others(found), log_mu)
     sets = sets.chosen(np.argsort(sets.sets.user, kind="stable"))
     everybody = sets.begin_at(users, price, float(np.exp(log_mu)))
-    foretold, done, widened = np.inf, 0, 0
+    foretold, done, again = abs(first_bound), 0, 0
     while everybody and done < rounds and time.perf_counter() < deadline:
         if center.bound - value <= 1e-12 * abs(center.bound):
             break
@@ -214,12 +214,14 @@ def column_prices(
         exactness = max(_EXACTNESS * min(foretold, center.bound - value), 0.1 * close)
         price, log_mu, model, inexact = _proximal(market, sets, center, exactness)
         foretold = center.bound - model
-        if foretold <= close:
-            if widened == _WIDENINGS or inexact > close:
+        if foretold <= close:  # nothing to gain near by: look more closely, then farther, and then it is done
+            again += 1
+            if again > _AGAIN:
                 break
-            widened += 1
-            center.step *= _WIDER
+            if inexact <= close:
+                center.step *= _WIDER
             continue
+        again = 0
         bound, best = priced_bounds(market, price, log_mu, sets.worths(users, price, float(np.exp(log_mu))))
         center.take(price, log_mu, total_bound(market, price, log_mu, bound), foretold)
         sets = sets.trimmed(users, center.price, float(np.exp(center.log_mu)))
