@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from wirelessagent.deciding.core.batch_search import Searches, search_objectives, search_promises
 from wirelessagent.deciding.core.certificate import judged
-from wirelessagent.deciding.core.closed_form import closed_allocations, is_closed
+from wirelessagent.deciding.core.closed_form import closed_allocations, nats_worth
 from wirelessagent.deciding.core.dual_search import Effort
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, Program, Programs
@@ -128,11 +128,11 @@ def _solve(
 ) -> tuple[Searches, BoolArray]:
     """What is found for each channel, and where one search is not enough, shape (batch,)."""
     batch, subcarriers = len(form.snr_per_w), form.snr_per_w.shape[-1]
-    programs, promised = Programs.of(form), bool(form.promised_nats.any())
-    certain = np.zeros(batch, dtype=bool)
-    if is_closed(form, programs):
-        closed = closed_allocations(form, programs)
+    certain, worth = np.zeros(batch, dtype=bool), nats_worth(form)
+    if worth is not None:
+        closed = closed_allocations(form, worth)
         return Searches.finished(closed.owner, closed.power_w, closed.bound), certain
+    programs, promised = Programs.of(form), bool(form.promised_nats.any())
     if programs.goal == LEAST_POWER and not promised:
         nobody = np.full((batch, subcarriers), -1, dtype=np.int64)
         return Searches.finished(nobody, np.zeros((batch, subcarriers)), np.zeros(batch)), certain

@@ -84,7 +84,7 @@ class Cell:
     @property
     def snr_gap(self) -> float:
         """The coding gap Γ as a ratio."""
-        return float(np.power(10.0, self.snr_gap_db / 10.0))
+        return 10.0 ** (self.snr_gap_db / 10.0)
 
     @property
     def max_spectral_efficiency(self) -> float:

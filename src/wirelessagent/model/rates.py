@@ -36,12 +36,14 @@ def subcarrier_rate_bps(gain: FloatArray, power_w: FloatArray, cell: Cell) -> Fl
     >>> float(subcarrier_rate_bps(np.array(3.0), np.array(1.0), cell))
     2.0
     """
-    bits = np.log1p(power_w * normalised_gain(gain, cell)) / np.log(2.0)
+    bits = np.log1p(power_w * normalised_gain(gain, cell)) / math.log(2.0)
     return cell.data_bandwidth_hz * np.minimum(bits, cell.max_spectral_efficiency)
 
 
 def owned_gain(gain: FloatArray, owner: IntArray) -> FloatArray:
     """The gain of each subcarrier to its owner, shape (…, subcarrier); 0 where nobody owns it."""
+    if gain.ndim == 2:
+        return np.where(owner >= 0, gain[owner, np.arange(owner.size)], 0.0)
     users, size = int(gain.shape[-2]), int(gain.shape[-1])
     rows: IntArray = np.maximum(owner, 0)
     index = (rows + _numbered(owner.shape[:-1]) * users) * size + np.arange(size)
@@ -51,7 +53,9 @@ def owned_gain(gain: FloatArray, owner: IntArray) -> FloatArray:
 def user_rate_bps(gain: FloatArray, owner: IntArray, power_w: FloatArray, cell: Cell) -> FloatArray:
     """Each user's rate in bit/s, shape (…, user), for a gain (…, user, subcarrier) and one owner per subcarrier."""
     rate = subcarrier_rate_bps(owned_gain(gain, owner), power_w, cell)
-    leading, users = gain.shape[:-2], gain.shape[-2]
+    leading, users = gain.shape[:-2], int(gain.shape[-2])
+    if not leading:
+        return np.bincount(owner + 1, weights=rate, minlength=users + 1).astype(np.float64, copy=False)[1:]
     place = owner + 1 + _numbered(owner.shape[:-1]) * (users + 1)  # the first place of each problem is nobody's
     places = math.prod(leading) * (users + 1)
     total = np.bincount(place.reshape(-1), weights=rate.reshape(-1), minlength=places)

@@ -8,14 +8,13 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.deciding.core.surplus import surplus
 from wirelessagent.model.arrays import FloatArray
 
 _STEP = 4e-16
 
 
 def rate_bound_nats(form: NormalForm, price: float | FloatArray) -> FloatArray:
-    """The most nats that the budget can carry: Φ(1, μ) + μ P_max, the Lagrangian dual of P1; elementwise, (…)."""
+    """The most nats that the budget can carry: Φ(μ) + μ P_max, the Lagrangian dual of P1; elementwise, (…)."""
     return _best_surplus(form, price) + price * form.budget_w
 
 
@@ -23,8 +22,8 @@ def efficiency_bound_nats_per_j(form: NormalForm, price: float | FloatArray) -> 
     """The most nats per joule, R/(P + ξ P_c), from a price of power near the right one; elementwise, (…).
 
     An efficiency q cannot be reached if R − q (P + C) < 0 for all allocations, which a price μ ≥ q proves where
-    Φ(1, μ) + μ P_max − q (P_max + C) < 0. That holds above q = (Φ(1, μ) + μ P_max)/(P_max + C), and this q is at most μ
-    just where Φ(1, μ) ≤ μ C. So the price is raised by as little as makes that true.
+    Φ(μ) + μ P_max − q (P_max + C) < 0. That holds above q = (Φ(μ) + μ P_max)/(P_max + C), and this q is at most μ
+    just where Φ(μ) ≤ μ C. So the price is raised by as little as makes that true.
     """
     step = _STEP
     value = _best_surplus(form, price)
@@ -63,6 +62,10 @@ def known_bound(form: NormalForm) -> float:
 
 
 def _best_surplus(form: NormalForm, price: float | FloatArray) -> FloatArray:
-    """Φ(1, μ), shape (…): at equal weights the user with the best gain is worth most, whatever the price."""
-    best = form.best_snr_per_w[..., np.newaxis, :]
-    return surplus(best, form.caps_w(best), np.ones(1), price)
+    """Φ(μ), shape (…): the user with the best gain is worth most, whatever the price."""
+    from wirelessagent.deciding.core.surplus_kernel import surplus
+
+    leading = form.snr_per_w.shape[:-2]
+    each = np.ascontiguousarray(np.broadcast_to(price, leading)).reshape(-1)
+    snr_per_w = form.snr_per_w.reshape(-1, *form.snr_per_w.shape[-2:])
+    return surplus(snr_per_w, form.cap_w, form.max_snr, each).reshape(leading)

@@ -47,10 +47,12 @@ def relative_gap(value: float, bound: float) -> float:
 def certified(
     form: NormalForm, owner: IntArray, power_w: FloatArray, bound: float, **figures: Unpack[Figures]
 ) -> Decision:
-    """The decision for an allocation that keeps every constraint; ``bound`` in the objective's unit, NaN for none."""
+    """The decision for an allocation that keeps every constraint; ``bound`` in the objective's unit, NaN for none.
+
+    The value counts the users of the form's weights, so the form is that of the whole problem (see :mod:`.unserved`).
+    """
     rate_bps = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
-    weight = form.problem.weights_of(form.estimate.num_users)  # the form's own may leave out who cannot be served
-    value = form.objective.value(rate_bps, float(power_w.sum()), form.cell, weight)
+    value = form.objective.value(rate_bps, float(power_w.sum()), form.cell, form.weight)
     bound, gap, status = judged(form.objective, value, bound)
     return _decision(form, owner, power_w, rate_bps, status, value, bound, gap, figures)
 

@@ -11,6 +11,7 @@ from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST
 from wirelessagent.deciding.core.scaling import scaling_at_hand, searched_scaling
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Bracket
+from wirelessagent.model.rates import user_rate_bps
 
 _ROUNDING = 1e-9
 
@@ -88,14 +89,12 @@ def _price_of_rate(form: NormalForm, found: Search) -> FloatArray:
 
 def _figure_slope(form: NormalForm, found: Search) -> float:
     """dfigure/dU at the bound that the search found, by central difference."""
-    from wirelessagent.model.rates import user_rate_bps
-
     rate = user_rate_bps(form.estimate.gain, found.owner, found.power_w, form.cell)
     counts = form.weight > 0
-    joint = float((form.weight[counts] * form.objective.utility(rate)[counts]).sum())
+    worth = form.weight[counts] * form.objective.utility(rate)[counts]
+    joint, magnitude = float(worth.sum()), float(np.abs(worth).sum())
     if not np.isfinite(joint):
         return 0.0
-    magnitude = float((form.weight[counts] * np.abs(form.objective.utility(rate)[counts])).sum())
     total, step = float(form.weight.sum()), 1e-6 * (magnitude if magnitude > 0 else 1e-9)
     rise = form.objective.figure(joint + step, total) - form.objective.figure(joint - step, total)
     return rise / (2.0 * step)

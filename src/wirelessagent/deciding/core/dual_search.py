@@ -144,6 +144,8 @@ def rates_of(form: NormalForm, found: Search) -> FloatArray:
 
 def owners_with_power(form: NormalForm, owner: IntArray, power_w: FloatArray) -> IntArray:
     """The owners (…, subcarrier) of groups that carry power, −1 elsewhere: a group is owned as a whole."""
+    if form.start.size > power_w.shape[-1]:  # each group is a subcarrier
+        return np.where(power_w > 0, owner, -1)
     used = np.add.reduceat(power_w, form.start[:-1], axis=-1) > 0
     return np.where(np.repeat(used, np.diff(form.start), axis=-1), owner, -1)
 

@@ -75,11 +75,14 @@ class NormalForm:
             InputError: a constraint does not fit the estimate's shape, or the gains leave the range of numbers.
         """
         objective = method.objective_of(problem)
-        subcarriers = estimate.num_subcarriers
+        users, subcarriers = estimate.num_users, estimate.num_subcarriers
         cap_w = _caps_w(problem, subcarriers)
-        served = problem.serves(estimate.num_users)
         bps_per_nat = cell.data_bandwidth_hz / math.log(2.0)
-        promised, group = problem.min_rates_bps(estimate.num_users), problem.resource_block_group_size
+        promised, most = problem.min_rates_bps(users), problem.max_rates_bps(users)
+        if problem.users is not None:
+            served = problem.serves(users)
+            promised, most = np.where(served, promised, 0.0), np.where(served, most, 0.0)
+        group = problem.resource_block_group_size
         return cls(
             method=method.name,
             objective=objective,
@@ -90,9 +93,9 @@ class NormalForm:
             budget_w=problem.budget_w(cell),
             cap_w=cap_w,
             max_nats=cell.max_spectral_efficiency * math.log(2.0),
-            promised_nats=np.where(served, promised, 0.0) / bps_per_nat,
-            most_nats=np.where(served, problem.max_rates_bps(estimate.num_users), 0.0) / bps_per_nat,
-            weight=problem.weights_of(estimate.num_users),
+            promised_nats=promised / bps_per_nat,
+            most_nats=most / bps_per_nat,
+            weight=problem.weights_of(users),
             start=np.minimum(np.arange(0, subcarriers + group, group), subcarriers),
             bps_per_nat=bps_per_nat,
         )
@@ -127,18 +130,20 @@ def _snr_per_w(gain: FloatArray, problem: Problem, cell: Cell, cap_w: FloatArray
     """a for ``gain`` (…, user, subcarrier), 0 where a pair may not be used."""
     with np.errstate(over="ignore"):
         snr_per_w = normalised_gain(gain, cell)
-    if np.any(snr_per_w > _MOST_SNR):
+    if snr_per_w.size and snr_per_w.max() > _MOST_SNR:
         raise InputError(
             f"gains up to {gain.max():g} over a noise of {cell.noise_power_w:g} W are out of range: "
             "a power gain is about 1 at most; check its unit"
         )
     users, subcarriers = gain.shape[-2:]
-    usable = (snr_per_w > _LEAST_SNR) & (cap_w > 0)
+    usable = snr_per_w > _LEAST_SNR
+    if problem.subcarrier_max_power_w is not None:
+        usable &= cap_w > 0
     if problem.users is not None:
         usable &= problem.serves(users)[:, np.newaxis]
     if problem.forbidden is not None:
         usable &= problem.allows((users, subcarriers))
-    return np.where(usable, snr_per_w, 0.0)
+    return snr_per_w if usable.all() else np.where(usable, snr_per_w, 0.0)
 
 
 def _caps_w(problem: Problem, num_subcarriers: int) -> FloatArray:

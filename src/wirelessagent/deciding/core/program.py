@@ -46,6 +46,8 @@ class Program:
     @classmethod
     def of(cls, form: NormalForm, reference: FloatArray | None = None) -> Program:
         """The program of a problem; ``reference`` (user,) are the rates in nats around which utilities are met."""
+        if form.objective.measure == "power":
+            return cls.of_promises(form)
         asked = Programs.of(form, reference)
         most_level, scale = float(asked.most_level), float(asked.scale)
         return cls(goal=asked.goal, rows=asked.rows, share=asked.share, most_level=most_level, scale=scale)
@@ -79,8 +81,8 @@ class Programs:
     @classmethod
     def of(cls, form: NormalForm, reference: FloatArray | None = None) -> Programs:
         """The programs of problems; ``reference`` (…, user) as in :meth:`Program.of`."""
-        low, high = form.promised_nats, np.minimum(form.most_nats, _reach(form))
-        high = np.maximum(low, high)
+        low, reach = form.promised_nats, _reach(form)
+        high = np.maximum(low, np.minimum(form.most_nats, np.minimum(reach, form.cap_w.size * form.max_nats)))
         share, one, zero = _columns(form.weight, low, high), np.ones(high.shape[:-1]), np.zeros(high.shape[:-1])
         if form.objective.joined == "min" and form.objective.measure == "utility":
             counts = form.weight > 0
@@ -89,7 +91,7 @@ class Programs:
         if form.objective.measure == "power":
             return cls(goal=LEAST_POWER, rows=promises(low), share=share, most_level=zero, scale=one)
         if reference is None:
-            reference = _even_split(form)
+            reference = reach / form.weight.size  # of users who each get their share of subcarriers and power
         reference = np.clip(reference, np.maximum(low, _LEAST_REFERENCE), np.maximum(high, _LEAST_REFERENCE))
         slope, curvature, base = _power_law(form, reference)
         scale = slope.max(axis=-1)
@@ -127,7 +129,10 @@ class Programs:
 
 def promises(nats: FloatArray) -> FloatArray:
     """Rows of users who want just ``nats``, shape (user, 6)."""
-    return _columns(nats, nats, np.maximum(nats, _LEAST_REFERENCE), 0.0, 0.0, 0.0)
+    rows = np.zeros((nats.size, 6))
+    rows[:, 0] = rows[:, 1] = nats
+    rows[:, 2] = np.maximum(nats, _LEAST_REFERENCE)
+    return rows
 
 
 def _columns(*columns: FloatArray | float) -> FloatArray:
@@ -140,16 +145,9 @@ def _columns(*columns: FloatArray | float) -> FloatArray:
 
 
 def _reach(form: NormalForm) -> FloatArray:
-    """A rate in nats that no user exceeds alone, shape (…, user): N ln(1 + P max a/N), the caps aside."""
-    size = form.snr_per_w.shape[-1]
-    most = size * np.log1p(form.budget_w / size * form.snr_per_w.max(axis=-1))
-    return np.minimum(most, size * form.max_nats) if np.isfinite(form.max_nats) else most
-
-
-def _even_split(form: NormalForm) -> FloatArray:
-    """Rates of users who each get their share of subcarriers and power, in nats, shape (…, user)."""
-    users, size = form.snr_per_w.shape[-2:]
-    return size / users * np.log1p(form.budget_w / size * form.snr_per_w.max(axis=-1))
+    """A rate in nats that no user exceeds alone, shape (…, user): N ln(1 + P max a/N), all caps aside."""
+    size = form.cap_w.size
+    return size * np.log1p(form.budget_w / size * form.snr_per_w.max(axis=-1))
 
 
 def _power_law(form: NormalForm, reference: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -18,12 +18,13 @@ from wirelessagent.model.arrays import BoolArray, IntArray
 
 def without_unservable(form: NormalForm, program: Program) -> tuple[NormalForm, IntArray]:
     """The problem with weight 0 for users who cannot get a subcarrier beside the others, and who they are."""
+    from wirelessagent.deciding.core.batch_kernel import all_servable
+
     needy = needy_users(form, program)
-    nobody = np.empty(0, dtype=np.int64)
-    if not needy.any():
+    nobody, wanting = np.empty(0, dtype=np.int64), needy | (form.promised_nats > 0)
+    if not needy.any() or all_servable(form.snr_per_w[np.newaxis], form.start, wanting)[0]:
         return form, nobody
     usable = usable_groups(form)
-    wanting = needy | (form.promised_nats > 0)
     if np.all(one_each(usable & wanting[:, np.newaxis])[wanting] >= 0):
         return form, nobody
     served = form.promised_nats > 0

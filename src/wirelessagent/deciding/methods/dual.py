@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from wirelessagent.deciding.core.closed_form import closed_decision, is_closed
+from wirelessagent.deciding.core.closed_form import closed_decision, nats_worth
 from wirelessagent.deciding.core.dual_search import Effort, Search, search, search_objective, search_promises, tighter
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, Program
@@ -79,9 +79,10 @@ class Dual(Method):
     ) -> Decision:
         started = time.perf_counter()
         form = NormalForm.of(self, estimate, problem, cell)
+        worth = nats_worth(form)
+        if worth is not None:
+            return closed_decision(form, worth)
         program = Program.of(form)
-        if is_closed(form, program):
-            return closed_decision(form, program)
         earlier = after.prices if after is not None else None
         effort = self.effort_for(form)
         scaled_by = effort if self.effort == "thorough" else None

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.deciding.core.closed_form import closed_decision, is_closed
+from wirelessagent.deciding.core.closed_form import closed_decision, nats_worth
 from wirelessagent.deciding.core.dual_search import Effort, search_objective
 from wirelessagent.deciding.core.greedy_search import search_greedily, search_objective_greedily
 from wirelessagent.deciding.core.normal_form import NormalForm
@@ -62,9 +62,7 @@ class Greedy(Method):
             nobody = np.full(form.cap_w.size, -1, dtype=np.int64), np.zeros(form.cap_w.size)
             owner, power_w = (least.owner, least.power_w) if least is not None else nobody
             found = dataclasses.replace(found, owner=owner, power_w=power_w)
-        closed = is_closed(served, program)
-        bound = (
-            closed_decision(served, program).bound if closed else search_objective(served, program, _NO_RESTARTS).bound
-        )
-        found = dataclasses.replace(found, bound=bound)  # the dual's: its prices fit its own sets, too
+        worth = nats_worth(served)
+        dual = search_objective(served, program, _NO_RESTARTS) if worth is None else closed_decision(served, worth)
+        found = dataclasses.replace(found, bound=dual.bound)  # whose prices fit its own sets, too
         return decision_of(form, found, least, unserved)
