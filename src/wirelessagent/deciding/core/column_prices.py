@@ -41,6 +41,8 @@ _EXACTNESS, _SWEEPS = 0.05, 300
 """How exact a step is, in units of the fall that was foretold last, and how long it may take."""
 _CHEAPEST = np.exp(-3.0)
 """Part of the price of power that a step leaves at least."""
+_MOST_RATIO = 1e100
+"""Of the price of power to that of a column, so that products stay within the range of numbers."""
 _MOST_SETS, _KEPT_SETS = 60, 30
 """Known sets per user before some are dropped, and after."""
 
@@ -157,8 +159,8 @@ class _Center:
         """The step in μ, with which the price of power may change by as much of itself as that of a column."""
         if np.isinf(market.budget_w):
             return 0.0
-        mean_square = float(self.price @ self.price) / self.price.size or 1.0
-        return self.step * float(np.exp(2.0 * self.log_mu)) / mean_square
+        typical = float(self.price.mean()) or 1.0
+        return self.step * min(float(np.exp(self.log_mu)) / typical, _MOST_RATIO) ** 2
 
     def take(self, price: FloatArray, log_mu: float, bound: float, foretold: float) -> None:
         """Move to the prices of a bound that is as much smaller as ``foretold``, more or less, or come nearer."""
