@@ -87,8 +87,20 @@ def test_simulate_repair_solve_compare_pass_files_on(tmp_path: Path, capsys: pyt
     assert decided["total_power_w"] == pytest.approx(10, rel=1e-9)
     assert json.loads(allocation.read_text())["owner"] == decided["owner"]
 
-    compared = answer(capsys, "compare", repaired, "--objective", "max_rate", "--methods", "dual", "--methods", "paper")
+    picture = tmp_path / "compared.png"
+    compared = answer(
+        capsys,
+        "compare",
+        repaired,
+        "--objective",
+        "max_rate",
+        *("--methods=dual", "--methods=paper"),
+        "--plot",
+        picture,
+    )
     assert [one["method"] for one in compared["answers"]] == ["dual", "paper"]
+    assert compared["plot"] == str(picture)
+    assert picture.read_bytes().startswith(b"\x89PNG")
     assert all(one["decision"]["gap"] < 1e-3 for one in compared["answers"])
     against = answer(
         capsys, "compare", repaired, "--objective", "PF", *("--methods=round_robin", "--methods=paper_scan")
@@ -214,6 +226,7 @@ def test_an_unclear_sentence_gets_a_question_back(capsys: pytest.CaptureFixture[
         (["simulate", "--num-users", "0"], "num_users"),
         (["simulate", "--cell-preset", "lte"], "lte"),
         (["ask", "maximum rate", "--plot", "run.gif"], "run.gif"),
+        (["compare", EXAMPLE, "--objective", "max_rate", "--plot", "run.gif"], "run.gif"),
         (["reproduce", "everything"], "everything"),
         (["reproduce", "--draws", "0"], "draws"),
         (["plugins", "--kind", "solver"], "solver"),

@@ -41,6 +41,15 @@ def dbm_to_w(value_dbm: float) -> float:
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
+def prefixed(largest: float, unit: str) -> tuple[float, str]:
+    """What to divide figures up to ``largest`` by for an axis, a power of 1000, and the unit with its SI prefix.
+
+    >>> prefixed(2.5e7, "bit/s"), prefixed(0.02, "W"), prefixed(0.0, "W")
+    ((1000000.0, 'Mbit/s'), (0.001, 'mW'), (1.0, 'W'))
+    """
+    return next(((scale, prefix + unit) for scale, prefix in _PREFIXES if largest >= scale), (1.0, unit))
+
+
 def human(value: float, unit: str) -> str:
     """A figure as people read it: three significant digits and an SI prefix.
 

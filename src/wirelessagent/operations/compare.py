@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from pydantic import Field
 
 from wirelessagent import chain
@@ -11,12 +13,14 @@ from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human
 from wirelessagent.operations.answers import DecisionAnswer, percent
 from wirelessagent.operations.operation import Operation, Progress
+from wirelessagent.operations.outputs import check_picture, draw_comparison
 from wirelessagent.operations.record import Block, Record, Table
 from wirelessagent.operations.solve import ProblemOnFile
 
 
 class CompareRequest(ProblemOnFile):
     methods: list[str] | None = Field(None, description="methods; all that solve the problem if not given")
+    plot: Path | None = Field(None, description="picture of the comparison: PNG, SVG or PDF")
 
 
 class MethodAnswer(Record):
@@ -34,13 +38,14 @@ class CompareRecord(Record):
     objective: str
     facts: dict[str, str]
     answers: list[MethodAnswer]
+    plot: Path | None
 
     def blocks(self) -> list[Block]:
         rows = tuple(_row(answer) for answer in self.answers)
         columns = ("method", "status", "value", "bound", "gap", "power", "time")
         table = Table(title=f"Methods for {self.objective}, the best first", columns=columns, rows=rows)
         refusals = [f"{answer.method}: {answer.refusal}" for answer in self.answers if answer.refusal]
-        return [table, *self._why(), *refusals]
+        return [table, *self._why(), *refusals, *([f"written to {self.plot}"] if self.plot else [])]
 
     def _why(self) -> list[str]:
         """Why there is no allocation, in the words of the first method that has none, if no method has one."""
@@ -66,7 +71,9 @@ def _row(answer: MethodAnswer) -> tuple[str, ...]:
 
 
 def _place(one: Comparison) -> tuple[int, float, float]:
-    """Where a method stands: the best value first, then those without an allocation, then those that refuse."""
+    """Where a method stands: the best value first, of equal ones the fastest, then those without an allocation, then
+    those that refuse.
+    """
     decision = one.decision
     if decision is None:
         return 3, 0.0, 0.0
@@ -74,12 +81,14 @@ def _place(one: Comparison) -> tuple[int, float, float]:
         return (1 if decision.status == "infeasible" else 2), 0.0, one.time_s
     objective = decision.problem.objective
     assert isinstance(objective, Objective)
-    return 0, decision.value if objective.direction == "min" else -decision.value, one.time_s
+    value = float(f"{decision.value:.9e}")  # what differs by rounding is equal
+    return 0, value if objective.direction == "min" else -value, one.time_s
 
 
 def run(request: CompareRequest, progress: Progress) -> CompareRecord:
+    check_picture(request.plot)
     scene, estimate, problem = request.posed(progress)
-    found = chain.compare(estimate, problem, scene.cell, request.methods)
+    found = sorted(chain.compare(estimate, problem, scene.cell, request.methods), key=_place)
     if not found:
         raise UnsupportedProblemError(f"no registered method solves {request.objective!r} with these constraints")
     answers = [
@@ -89,9 +98,11 @@ def run(request: CompareRequest, progress: Progress) -> CompareRecord:
             time_s=one.time_s,
             decision=None if one.decision is None else DecisionAnswer.of(one.decision),
         )
-        for one in sorted(found, key=_place)
+        for one in found
     ]
-    return CompareRecord(objective=request.objective, facts=dict(scene.facts), answers=answers)
+    if request.plot is not None:
+        draw_comparison(request.plot, found)
+    return CompareRecord(objective=request.objective, facts=dict(scene.facts), answers=answers, plot=request.plot)
 
 
 COMPARE = Operation(

@@ -1,15 +1,17 @@
 """Output files: checked before the work starts, so that a mistyped name costs nothing.
 
-Also the metadata beside gains in a file of ours, and the picture of a run.
+Also the metadata beside gains in a file of ours, and the pictures.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from wirelessagent import __version__
 from wirelessagent.acting.file import allocation_writer
+from wirelessagent.chain import Comparison
 from wirelessagent.model.atomic import writable_target
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
@@ -52,6 +54,13 @@ def draw_run(
     from wirelessagent.pictures.chain_picture import draw_chain
 
     draw_chain(observation=observation, estimate=estimate, decision=decision, outcome=outcome, path=path)
+
+
+def draw_comparison(path: Path, found: Sequence[Comparison]) -> None:
+    """Draw methods side by side; the drawing library is loaded only here."""
+    from wirelessagent.pictures import compare_picture
+
+    compare_picture.draw_comparison(found, path)
 
 
 def channel_meta(cell: Cell, *, axes: str, maker: str = "") -> dict[str, Any]:

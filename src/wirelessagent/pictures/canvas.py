@@ -34,6 +34,8 @@ GREY = "#8A8A8A"
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 _LINES = ("-", "--", "-.", ":", "--", "-.", "-", ":")
 _DOTS_PER_INCH = 150
+_PLAIN = {"boxstyle": "square,pad=0.03", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}
+"""Ground for words that lines may cross."""
 
 
 def check_suffix(path: Path) -> str:
@@ -78,6 +80,13 @@ class Canvas:
 
     def title(self, *lines: str) -> None:
         self.figure.suptitle("\n".join(lines), fontsize=12 if len(lines) == 1 else 11)
+
+    def legend_below(self, panel: Panel, *, columns: int) -> None:
+        """What is labelled in ``panel``, in one legend below all panels."""
+        handles, labels = panel.axes.get_legend_handles_labels()
+        self.figure.legend(
+            handles, labels, fontsize=9, ncols=columns, loc="outside lower center", frameon=False, columnspacing=1.6
+        )
 
     def save(self, path: Path) -> None:
         """Write the picture as PNG, SVG or PDF by its suffix, whole or not at all."""
@@ -215,6 +224,32 @@ class Panel:
     def level(self, y: float, *, label: str, colour: str = "black") -> None:
         """A dashed line across the panel."""
         self.axes.axhline(y, color=colour, linestyle="--", linewidth=1.3, label=label)
+
+    def upright(self, x: float, *, label: str) -> None:
+        """A dashed line from bottom to top."""
+        self.axes.axvline(x, color="black", linestyle="--", linewidth=1.3, label=label)
+
+    def span(self, x_from: float, x_to: float, y: float, *, colour: str, label: str | None) -> None:
+        """A line at the height ``y`` with a stroke across its end ``x_to``."""
+        self.axes.plot([x_from, x_to], [y, y], color=colour, linewidth=2.0, label=label)
+        self.axes.plot([x_to], [y], color=colour, marker="|", markersize=11, markeredgewidth=2.0)
+
+    def tag(self, x: float, y: float, text: str) -> None:
+        """A few words above a mark, to that side of it where there is room."""
+        at = self.axes.transAxes.inverted().transform(self.axes.transData.transform((x, y)))[0]
+        side: Literal["left", "center", "right"] = "left" if at < 0.15 else "right" if at > 0.85 else "center"
+        offset = {"left": -4, "center": 0, "right": 4}[side]
+        self.axes.annotate(
+            text, (x, y), xytext=(offset, 7.5), textcoords="offset points", ha=side, va="bottom", fontsize=8.5,
+            bbox=_PLAIN,
+        )  # fmt: skip
+
+    def caption(self, y: float, text: str) -> None:
+        """A few words at the height ``y`` instead of a mark."""
+        self.axes.text(
+            0.02, y, text, transform=self.axes.get_yaxis_transform(), ha="left", va="center", fontsize=8.5,
+            color="#555555", style="italic", bbox=_PLAIN,
+        )  # fmt: skip
 
     def band(self, low: float, high: float, *, label: str) -> None:
         """A shaded band across the panel."""

@@ -14,7 +14,7 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.rates import normalised_gain, owned_gain
-from wirelessagent.model.units import db, human
+from wirelessagent.model.units import db, human, prefixed
 from wirelessagent.pictures.canvas import GREY, PALETTE, Canvas, Panel, can_show, check_suffix
 
 _MOST_NAMED = 16
@@ -24,8 +24,6 @@ _PREDICTED, _ACHIEVED = "#C4C4C4", "#5A5A5A"
 """Greys, because the colours beside are the users'."""
 
 _ZERO_DB = -4000.0
-
-_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 _SMALLEST_DOTTED_CELL_PT = 5.0
 
@@ -159,7 +157,7 @@ def _draw_allocation(panel: Panel, estimate: ChannelEstimate, decision: Decision
     title = f"Decided by {decision.method}: {verdict}"
     level = _water_level_w(estimate, decision)
     tallest = max(float(decision.power_w.max()), level or 0.0)
-    scale, unit = _scale(tallest, "W")
+    scale, unit = prefixed(tallest, "W")
     panel.describe(title, "Subcarrier (strip: its owner)", f"Power ({unit})")
     if not decision.is_usable or tallest == 0:
         reason = f"{decision.status}: {decision.reason}" if not decision.is_usable else "No power is radiated"
@@ -215,7 +213,7 @@ def _draw_rates(panel: Panel, decision: Decision, outcome: Outcome | None, names
     wanted = decision.problem.min_rates_bps(len(names))
     known = [decision.rate_bps, wanted] + ([] if achieved is None else [achieved.user_rate_bps])
     tallest = np.max(known, axis=0)
-    scale, unit = _scale(float(tallest.max()), "bit/s")
+    scale, unit = prefixed(float(tallest.max()), "bit/s")
     if not decision.is_usable:
         title = "Rates asked for; nothing is allocated"
     else:
@@ -244,8 +242,3 @@ def _draw_rate_bars(panel: Panel, decision: Decision, outcome: Outcome | None, s
     panel.bars(users - offset, decision.rate_bps / scale, width=width, colour=_PREDICTED, label="predicted")
     if achieved is not None:
         panel.bars(users + offset, achieved.user_rate_bps / scale, width=width, colour=_ACHIEVED, label="achieved")
-
-
-def _scale(largest: float, unit: str) -> tuple[float, str]:
-    """The power of 1000 to divide an axis of values up to ``largest`` by, and the unit with its SI prefix."""
-    return next(((scale, prefix + unit) for scale, prefix in _PREFIXES if largest >= scale), (1.0, unit))

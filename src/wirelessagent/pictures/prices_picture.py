@@ -15,6 +15,7 @@ from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision, Prices
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.units import prefixed
 from wirelessagent.pictures.canvas import PALETTE, Canvas, Panel, can_show, check_suffix
 
 _FLOOR = "#DEDEDE"
@@ -116,7 +117,7 @@ def _draw_worths(panel: Panel, form: NormalForm, decision: Decision, price: Floa
     worth = priced_worth_w(form, price)
     centre = 0.5 * (form.start[:-1] + form.start[1:] - 1) + 1.0
     owner = np.maximum.reduceat(decision.owner, form.start[:-1])
-    scale, unit = _scale(float(np.nanmax(worth)))
+    scale, unit = prefixed(float(np.nanmax(worth)), "W")
     for user in range(form.weight.size):
         panel.path(centre, worth[user] / scale, colour=PALETTE[user])
         own = owner == user
@@ -144,7 +145,7 @@ def _draw_bounds(panel: Panel, form: NormalForm, decision: Decision, prices: Pri
     bounds = np.array(
         [bound_of(form, program, prices.log_rate - step, prices.log_power + step * moving) for step in steps.tolist()]
     )
-    scale, prefix = _scale(max(abs(decision.bound), abs(decision.value)))
+    scale, unit = prefixed(max(abs(decision.bound), abs(decision.value)), decision.unit)
     side = "above" if form.objective.direction == "max" else "below"
     ends = decision.value / scale, decision.bound / scale
     panel.path(np.exp(steps), bounds / scale, colour="black", label="bound by other prices of power")
@@ -155,14 +156,6 @@ def _draw_bounds(panel: Panel, form: NormalForm, decision: Decision, prices: Pri
     panel.describe(
         f"Proof: no allocation is {side} the curve; the gap is {100 * decision.gap:.2g} %",
         "Price of power, 1 for the one found",
-        f"Value ({prefix.removesuffix('W')}{decision.unit})",
+        f"Value ({unit})",
     )
     panel.legend()
-
-
-def _scale(largest: float) -> tuple[float, str]:
-    """A power of 1000 for an axis up to ``largest`` W, and what W is called with it."""
-    for scale, unit in ((1e9, "GW"), (1e6, "MW"), (1e3, "kW"), (1.0, "W"), (1e-3, "mW")):
-        if largest >= scale:
-            return scale, unit
-    return 1e-6, "µW"

@@ -17,11 +17,17 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.rates import user_rate_bps
 
 BUDGET_ROUNDING = 1e-10
+PROOF_ROUNDING = 1e-9
 
 
 def fits(form: NormalForm, found: Search) -> bool:
     """Whether what was found keeps every limit, the budget too."""
     return found.kept and found.spent_w <= form.budget_w * (1.0 + BUDGET_ROUNDING)
+
+
+def is_proven_too_much(form: NormalForm, least: Search) -> bool:
+    """Whether what carries the promised rates was found, and proven to need more than the budget."""
+    return least.kept and least.bound > form.budget_w * (1.0 + PROOF_ROUNDING)
 
 
 def unpowered_decision(form: NormalForm) -> Decision:

@@ -17,6 +17,7 @@ from wirelessagent.deciding.core.program import LEAST_POWER, Program
 from wirelessagent.deciding.core.search_decision import (
     decision_of,
     fits,
+    is_proven_too_much,
     unkept_decision,
     unpowered_decision,
     unservable_decision,
@@ -93,7 +94,7 @@ class Dual(Method):
         if promised:
             wanted = program.goal == LEAST_POWER
             least = search_promises(form, effort if wanted else Effort(restarts=0, seed=0), earlier if wanted else None)
-            if not fits(form, least):
+            if not fits(form, least) and not is_proven_too_much(form, least):
                 again = search_promises(form, Effort(restarts=_THOROUGH_RESTARTS, seed=self.seed), least.prices)
                 least = dataclasses.replace(again, restarts=least.restarts)
             if not fits(form, least):
