@@ -13,7 +13,7 @@ import numpy as np
 from wirelessagent.deciding.core.column_prices import start_prices
 from wirelessagent.deciding.core.dual_search import Search, owners_with_power, tighter
 from wirelessagent.deciding.core.exact_search import Optimum, search
-from wirelessagent.deciding.core.exact_start import goal_of, is_met_everywhere, shown
+from wirelessagent.deciding.core.exact_start import carried_at_any_power, goal_of, is_met_everywhere, least_power, shown
 from wirelessagent.deciding.core.goals import Goal
 from wirelessagent.deciding.core.market import Sets
 from wirelessagent.deciding.core.normal_form import NormalForm
@@ -23,17 +23,17 @@ from wirelessagent.model.decision import Prices
 
 _FARTHEST = 80.0
 """Of ln μ at the start; a price beyond is that of power to spare."""
-_SETS = 100
+MOST_SETS = 2000
 """Sets listed for one user before a problem is divided."""
 
 
-def tightened(form: NormalForm, found: Search, deadline: float) -> Search:
+def tightened(form: NormalForm, found: Search, deadline: float, most_sets: int = MOST_SETS) -> Search:
     """``found``, or better sets, with the better bound; ``deadline`` in seconds on ``time.perf_counter``."""
     program = found.program
     if not found.kept or (program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0):
         return found
     goal = goal_of(form, program)
-    optimum = search_from(form, program, goal, found.owner, found.prices, deadline=deadline, most_sets=_SETS)
+    optimum = search_from(form, program, goal, found.owner, found.prices, deadline=deadline, most_sets=most_sets)
     if is_met_everywhere(form, program):
         found = dataclasses.replace(found, bound=tighter(form, found.bound, shown(form, program, optimum.bound)))
     if optimum.x <= found.score:
@@ -42,6 +42,21 @@ def tightened(form: NormalForm, found: Search, deadline: float) -> Search:
     return dataclasses.replace(
         found, owner=owners_with_power(form, own, power_w), power_w=power_w, score=float(optimum.x)
     )  # fmt: skip
+
+
+def carried(form: NormalForm, least: Search, deadline: float, most_sets: int = MOST_SETS) -> Search:
+    """The search for the least power of the promised rates, gone on with where it found nothing within the budget.
+
+    Where it found no sets at all, integer programming does; the bound is infinite if there are none.
+    """
+    goal = least_power(form)
+    if not least.kept:
+        possible, sets = carried_at_any_power(goal.market, form.promised_nats, deadline)
+        if sets is None:
+            return least if possible else dataclasses.replace(least, bound=np.inf)
+        columns = sets.owner(goal.market.columns)
+        least = dataclasses.replace(least, kept=True, owner=np.repeat(columns, np.diff(form.start)), score=-np.inf)
+    return tightened(form, least, deadline, most_sets)
 
 
 def search_from(

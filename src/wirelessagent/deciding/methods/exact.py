@@ -12,11 +12,12 @@ from wirelessagent.deciding.core.certificate import Figures, certified, nothing
 from wirelessagent.deciding.core.dual_prices import figures_of
 from wirelessagent.deciding.core.dual_search import Effort, search_objective, search_promises
 from wirelessagent.deciding.core.exact_search import Optimum
-from wirelessagent.deciding.core.exact_start import carried_at_any_power, goal_of, is_met_everywhere, least_power, shown
+from wirelessagent.deciding.core.exact_start import goal_of, is_met_everywhere, shown
 from wirelessagent.deciding.core.goals import Goal
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, MOST_EFFICIENCY, Program
-from wirelessagent.deciding.core.thorough import search_from, sets_of
+from wirelessagent.deciding.core.search_decision import PROOF_ROUNDING, fits
+from wirelessagent.deciding.core.thorough import MOST_SETS, carried, search_from
 from wirelessagent.deciding.method import WHOLE_PROBLEM, Method
 from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.model.arrays import IntArray, positive, whole
@@ -27,15 +28,14 @@ from wirelessagent.model.problem import Problem
 from wirelessagent.model.units import human
 
 _RESTARTS = 100
-_BUDGET_ROUNDING = 1e-10
-_PROOF_ROUNDING = 1e-9
 _TINY = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
 class Exact(Method):
-    """Any objective with any constraints, to the proven optimum: about a second for 8 users and 20 subcarriers.
+    """Any objective with any constraints, to the proven optimum.
 
+    It takes some ten milliseconds for 8 users and 20 subcarriers, and mostly less than a second for 64 users and 273.
     It starts from the dual method's decision. Prices of subcarriers, by column generation, then bound what any
     allocation can reach and leave few sets of subcarriers that a user may hold at the optimum; an integer programme
     (HiGHS) chooses among them, and where they are many the problem is divided.
@@ -54,7 +54,7 @@ class Exact(Method):
     constraints = WHOLE_PROBLEM
 
     deadline_s: float = 60.0
-    max_sets: int = 100
+    max_sets: int = MOST_SETS
     seed: int = 0
 
     def __post_init__(self) -> None:
@@ -95,23 +95,15 @@ class Exact(Method):
 
     def _carried(self, form: NormalForm, program: Program, first: Decision, deadline: float) -> Decision:
         """The decision where the dual method found none that keeps the promised rates."""
-        goal = least_power(form)
-        least = search_promises(form, Effort(restarts=_RESTARTS, seed=self.seed))
-        if goal.reached(sets_of(form, least.owner), 0.0)[0] == -np.inf:
-            possible, carried = carried_at_any_power(goal.market, form.promised_nats, deadline)
-            if carried is None:
-                return first if possible else _impossible(form, first, np.inf, np.inf)
-            columns = carried.owner(goal.market.columns)
-            least = dataclasses.replace(least, owner=np.repeat(columns, np.diff(form.start)))
-        found = self._search(form, least.program, goal, least.owner, least.prices, deadline)
-        if -found.x > form.budget_w * (1.0 + _BUDGET_ROUNDING):
-            return _impossible(form, first, -found.bound, -found.x)
-        owner, power_w = found.allocation(goal)
-        least = dataclasses.replace(least, owner=owner, power_w=power_w, bound=-found.bound, kept=True)
+        least = carried(
+            form, search_promises(form, Effort(restarts=_RESTARTS, seed=self.seed)), deadline, self.max_sets
+        )  # fmt: skip
+        if not fits(form, least):
+            return _impossible(form, first, least.bound, least.spent_w if least.kept else np.inf)
         if program.goal == LEAST_POWER:
-            return _decision(form, program, found, figures_of(form, least, least))
-        start = search_objective(form, program, Effort(restarts=0, seed=self.seed), None, owner)
-        known = start.owner if start.kept else owner
+            return certified(form, least.owner, least.power_w, least.bound, **figures_of(form, least, least))
+        start = search_objective(form, program, Effort(restarts=0, seed=self.seed), None, least.owner)
+        known = start.owner if start.kept else least.owner
         best = self._search(form, start.program, goal_of(form, start.program), known, start.prices, deadline)
         bound = None if is_met_everywhere(form, start.program) else start.bound
         owner, power_w = best.allocation(goal_of(form, start.program))
@@ -142,20 +134,20 @@ def _is_sound(form: NormalForm, decision: Decision, first: Decision) -> bool:
     Over gains that lie far apart the sets' levels lose the digits of tiny powers.
     """
     sign = 1.0 if form.objective.direction == "max" else -1.0
-    slack = _PROOF_ROUNDING * abs(first.value)
+    slack = PROOF_ROUNDING * abs(first.value)
     promised = form.promised_nats * form.bps_per_nat
     return bool(
         sign * (decision.value - first.value) >= -slack
         and sign * (decision.bound - first.value) >= -slack
         and np.isfinite(decision.bound)
-        and np.all(decision.rate_bps >= promised * (1.0 - _PROOF_ROUNDING))
+        and np.all(decision.rate_bps >= promised * (1.0 - PROOF_ROUNDING))
     )
 
 
 def _impossible(form: NormalForm, first: Decision, at_least: float, at_most: float) -> Decision:
     """Infeasible where the power needed is proven to be beyond the budget; else ``first``, with what is known of it."""
     needed = Bracket(at_least=at_least, at_most=at_most)
-    if at_least <= form.budget_w * (1.0 + _PROOF_ROUNDING):
+    if at_least <= form.budget_w * (1.0 + PROOF_ROUNDING):
         return dataclasses.replace(first, needed_power_w=needed)
     reason = (
         "no assignment of the subcarriers carries the promised rates at any power"
