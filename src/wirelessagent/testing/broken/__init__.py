@@ -1,1 +1,1 @@
-"""Deliberately broken plug-ins, one file per kind. Each names in ``caught_by`` the one check that must reject it."""
+"""Deliberately broken plug-ins by kind. Each names in ``caught_by`` the one check that must reject it."""
