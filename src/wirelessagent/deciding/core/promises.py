@@ -61,6 +61,8 @@ def broken_decision(form: NormalForm, found_w: float, needed_w: float, price: Fl
     figures = _figures(form, proof)
     figures["needed_power_w"] = _needed(proof, reason, found_w)
     at_most = min(proof.max_scaling, most)
+    if proof.needed_w > form.budget_w * (1.0 + _PROOF_ROUNDING):
+        at_most = min(at_most, 1.0)
     figures["rate_scaling"] = Bracket(at_least=min(scaling, at_most), at_most=at_most)
     tried = f"what was found needs {_told(found_w)}" if np.isfinite(found_w) else "no sets that carry them were found"
     return _not_kept(form, proof, reason, tried, figures)
@@ -108,6 +110,9 @@ def _not_kept(
     figures["price_of_power"] = np.nan
     if shortage:
         figures["reason"] = shortage
+        return nothing(form, "infeasible", bound, **figures)
+    if np.isinf(least):
+        figures["reason"] = "no assignment of the subcarriers carries the promised rates at any power"
         return nothing(form, "infeasible", bound, **figures)
     if least > form.budget_w * (1.0 + _PROOF_ROUNDING):
         needed = _told(least) if least > _MOST_TOLD_W else f"at least {_told(least)}"

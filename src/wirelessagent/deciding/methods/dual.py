@@ -22,7 +22,7 @@ from wirelessagent.deciding.core.search_decision import (
     unpowered_decision,
     unservable_decision,
 )
-from wirelessagent.deciding.core.thorough import tightened
+from wirelessagent.deciding.core.thorough import carried, tightened
 from wirelessagent.deciding.core.unserved import without_unservable
 from wirelessagent.deciding.method import WHOLE_PROBLEM, Method
 from wirelessagent.model.arrays import positive, whole
@@ -34,8 +34,9 @@ from wirelessagent.model.problem import Problem
 
 _SMALL = 400
 """Up to so many users × groups a search is restarted by default."""
-_RESTARTS, _THOROUGH_RESTARTS, _ROUND = 30, 400, 20
-_THOROUGH_S = 5.0
+_RESTARTS, _ROUND = 30, 20
+_SETTLED_S, _THOROUGH_S = 1.0, 5.0
+"""Time for promised rates that were not found within the budget, and for a thorough search, where none is given."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,8 +96,7 @@ class Dual(Method):
             wanted = program.goal == LEAST_POWER
             least = search_promises(form, effort if wanted else Effort(restarts=0, seed=0), earlier if wanted else None)
             if not fits(form, least) and not is_proven_too_much(form, least):
-                again = search_promises(form, Effort(restarts=_THOROUGH_RESTARTS, seed=self.seed), least.prices)
-                least = dataclasses.replace(again, restarts=least.restarts)
+                least = carried(form, least, self._until(started, _SETTLED_S))
             if not fits(form, least):
                 return unkept_decision(form, least, effort)
         if least is not None and program.goal == LEAST_POWER:
@@ -119,10 +119,7 @@ class Dual(Method):
 
     def effort_for(self, form: NormalForm) -> Effort:
         """The first search for a problem of this size; restarts beyond it come in rounds."""
-        small = form.weight.size * (form.start.size - 1) <= _SMALL
-        restarts = _RESTARTS if small else 0
-        if self.effort == "thorough" and small:
-            restarts = _THOROUGH_RESTARTS
+        restarts = _RESTARTS if form.weight.size * (form.start.size - 1) <= _SMALL else 0
         return Effort(restarts=restarts if self.restarts is None else min(self.restarts, restarts), seed=self.seed)
 
     def _go_on(self, form: NormalForm, found: Search, started: float) -> Search:
@@ -131,7 +128,12 @@ class Dual(Method):
         found = self._restarted(form, found, started, deadline)
         if self.effort == "fast":
             return found
-        return tightened(form, found, started + _THOROUGH_S if self.deadline_ms is None else deadline)
+        return tightened(form, found, self._until(started, _THOROUGH_S))
+
+    def _until(self, started: float, otherwise_s: float) -> float:
+        """When nothing new begins any more, on ``time.perf_counter``."""
+        allowed_s = otherwise_s if self.deadline_ms is None else self.deadline_ms / 1e3
+        return started + allowed_s
 
     def _restarted(self, form: NormalForm, found: Search, started: float, deadline: float) -> Search:
         """Rounds up to the restarts that were asked for, or while one as long as those before ends by the deadline.
