@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.best_prices_kernel import Ask, level_bound
+from wirelessagent.deciding.core.ask_kernel import Ask
+from wirelessagent.deciding.core.best_prices_kernel import level_bound
 from wirelessagent.deciding.core.dual_kernel import solve
 from wirelessagent.deciding.core.terms_kernel import worth_of_groups
 from wirelessagent.kernels import kernel

@@ -92,8 +92,8 @@ def search_objectives(form: NormalForm, gain: FloatArray, programs: Programs, ef
 
 def _search(form: NormalForm, programs: Programs, effort: Effort, after: Searches | None = None) -> Searches:
     """Prices, sets and powers for each channel, from those of earlier searches, if any."""
+    from wirelessagent.deciding.core.ask_kernel import Ask
     from wirelessagent.deciding.core.batch_kernel import solve_all
-    from wirelessagent.deciding.core.best_prices_kernel import Ask
 
     batch, users, subcarriers = form.snr_per_w.shape
     warm = np.full(batch, fill_value=False)

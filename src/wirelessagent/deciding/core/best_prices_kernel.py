@@ -7,17 +7,16 @@ the circuits take.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
+from wirelessagent.deciding.core.ask_kernel import EFFICIENCY, LEVEL, POWER, SUM, Ask
 from wirelessagent.deciding.core.bundle_kernel import CURVATURE, HIGH, LOW, SLOPE
 from wirelessagent.deciding.core.prices_kernel import FARTHEST, climb, price_terms
 from wirelessagent.deciding.core.sets_kernel import Channel
-from wirelessagent.deciding.core.settle_kernel import EFFICIENCY, LEVEL, POWER, SUM, set_level
+from wirelessagent.deciding.core.settle_kernel import set_level
 from wirelessagent.deciding.core.start_kernel import equal_price, even_split, typical_snr
 from wirelessagent.kernels import kernel
-from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.arrays import FloatArray
 
 COLD = np.array([0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3])
 PROMISED = np.array([0.1, 0.02, 5e-3, 1.5e-3])
@@ -26,30 +25,6 @@ LAST = np.array([1e-3])
 """Temperatures of a climb from afar, from a start for promises alone, from the slot before, and from near prices."""
 ROUNDS = 20
 SETTLED = 1e-7
-
-
-class Ask(NamedTuple):
-    """What is wanted of a problem, beside its channel.
-
-    Attributes:
-        goal: one of :mod:`.settle_kernel`'s.
-        cap_w, max_nats: most power of each subcarrier, shape (subcarrier,), and most nats; infinite for none.
-        start: first subcarrier of each group, shape (group + 1,).
-        rows: one row of six per user (:mod:`.bundle_kernel`), shape (user, 6).
-        share: for the highest common level each user's share and limits, shape (user, 3).
-        most_level: the level beyond which nothing is gained.
-        budget_w, circuit_w: P and C.
-    """
-
-    goal: int
-    cap_w: FloatArray
-    max_nats: float
-    start: IntArray
-    rows: FloatArray
-    share: FloatArray
-    most_level: float
-    budget_w: float
-    circuit_w: float
 
 
 @kernel

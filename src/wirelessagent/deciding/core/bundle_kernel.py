@@ -224,28 +224,22 @@ def bundle(
 
 
 @kernel
-def wet_worth(
-    low: float,
-    high: float,
-    reference: float,
-    slope: float,
-    curvature: float,
-    base: float,
-    size: int,
+def wet_bundle(
+    user: FloatArray,
+    size: float,
     floors: float,
     inverses: float,
-    highest: float,
     lowest: float,
-    ceiling: float,
+    highest: float,
     log_mu: float,
-) -> float:
-    """V(S; μ) from sums over the set alone, where all its subcarriers carry something and none is full; NaN elsewhere.
+    mu: float,
+) -> tuple[float, float, float, float]:
+    """:func:`bundle` from sums over the set alone, where all its subcarriers carry something and none is full.
 
-    ``floors`` and ``inverses`` are Σ −ln a and Σ 1/a over the ``size`` subcarriers, ``highest`` and ``lowest`` the
-    extreme floors, ``ceiling`` the least ceiling. Then r = |S| z − Σ floors, and the power is |S| e^z − Σ 1/a.
+    ``floors`` and ``inverses`` are Σ −ln a and Σ 1/a over the ``size`` subcarriers; then r = |S| z − Σ floors, and the
+    power is |S| e^z − Σ 1/a. The worth is NaN where z is not between ``lowest`` and ``highest``.
     """
-    if size == 0:
-        return np.nan
+    low, high, reference, slope, curvature = user[LOW], user[HIGH], user[REFERENCE], user[SLOPE], user[CURVATURE]
     if slope <= 0.0 or low >= high:
         rate = low
     elif curvature == 0.0:
@@ -261,12 +255,12 @@ def wet_worth(
                 break
     rate = min(max(rate, low), high)
     level = (rate + floors) / size
-    if not (highest < level <= lowest + ceiling and rate > 0.0 and level > lowest + SHALLOW):
-        return np.nan
+    if not (lowest < level <= highest and rate > 0.0):
+        return np.nan, 0.0, 0.0, 0.0
     power = size * np.exp(level) - inverses
     if not power < MOST_POWER:
-        return np.nan
-    worth = base
+        return np.nan, 0.0, 0.0, 0.0
+    worth = user[BASE]
     if slope > 0.0:
         exponent = 1.0 - curvature
         if curvature == 0.0:
@@ -276,6 +270,6 @@ def wet_worth(
         else:
             logarithm = np.log(rate / reference)
             if abs(exponent * logarithm) < 1e-8:
-                return np.nan
+                return np.nan, 0.0, 0.0, 0.0
             worth += slope * reference * np.expm1(exponent * logarithm) / exponent
-    return worth - np.exp(log_mu) * power
+    return worth - mu * power, rate, power, level

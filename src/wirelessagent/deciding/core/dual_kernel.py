@@ -9,23 +9,39 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wirelessagent.deciding.core.best_prices_kernel import Ask, find_prices, level_bound
+from wirelessagent.deciding.core.ask_kernel import LEVEL, POWER, SUM, Ask
+from wirelessagent.deciding.core.best_prices_kernel import find_prices, level_bound
 from wirelessagent.deciding.core.bundle_kernel import HIGH, LOW, SLOPE
 from wirelessagent.deciding.core.least_power_kernel import least_power
+from wirelessagent.deciding.core.moves_kernel import serve_all
 from wirelessagent.deciding.core.prices_kernel import FARTHEST, conjugate
-from wirelessagent.deciding.core.search_kernel import choose_candidates, polish, restart, serve_all
-from wirelessagent.deciding.core.sets_kernel import Channel, assign, empty_sets, no_group, set_bundle, value_all
-from wirelessagent.deciding.core.settle_kernel import LEVEL, OVERSPENT, POWER, SUM, set_level
+from wirelessagent.deciding.core.search_kernel import choose_candidates, polish, price_of, restart
+from wirelessagent.deciding.core.sets_kernel import (
+    CEILING,
+    FLOOR,
+    FULL,
+    INVERSE,
+    LOG_BEST,
+    RATE,
+    SPENT,
+    WATER,
+    Channel,
+    Sets,
+    assign,
+    copy_owners,
+    empty_sets,
+    none,
+    value_all,
+)
+from wirelessagent.deciding.core.settle_kernel import OVERSPENT, set_level
 from wirelessagent.deciding.core.terms_kernel import worth_of_groups
 from wirelessagent.kernels import kernel
-from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 
 MARGIN = 1e-6
-NEAR, FAR = 0.2, 0.6
-"""By how much, in units of a group's mean term, a candidate's term may fall short at first, and later."""
-MANY, TINY = 100, 64
-"""From so many restarts on, or up to so many users × groups, all candidates are tried that the dual does not exclude;
-so they are where utilities, not promises, say what is near."""
+NEAR = 0.2
+"""By how much, in units of a group's mean term, a candidate's term may fall short at first: sets near the prices fit
+each other, and are a better start for the search among all candidates than what all of them lead to at once."""
 LOWER = (0.7, 0.3, 1e-2, 1e-6)
 """Shares of a level at which users who cannot reach it are given subcarriers first."""
 
@@ -54,32 +70,45 @@ class Found(NamedTuple):
 def channel_of(snr_per_w: FloatArray, ask: Ask) -> Channel:
     """The channel as the kernels read it, from a (user, subcarrier) in 1/W; 0 where a pair may not be used."""
     users, subcarriers = snr_per_w.shape
-    floor = np.full((users, subcarriers), np.inf)
-    inverse = np.zeros((users, subcarriers))
-    ceiling = np.zeros((users, subcarriers))
-    log_best = np.zeros(users)
-    usable = np.zeros((ask.start.size - 1, users), dtype=np.bool_)
-    least = np.inf
+    log_best = np.empty(users)
+    pair = np.empty((5, users, subcarriers))
+    cap_w, max_nats = ask.cap_w, ask.max_nats
     for k in range(users):
-        best = snr_per_w[k].max()
-        if best <= 0.0:
+        best = 0.0
+        for n in range(subcarriers):
+            best = max(best, snr_per_w[k, n])
+        log_best[k] = np.log(best) if best > 0.0 else 0.0
+        for n in range(subcarriers):
+            snr = snr_per_w[k, n]
+            floor, inverse, ceiling, full = np.inf, 0.0, 0.0, 0.0
+            if snr > 0.0:
+                floor, inverse, ceiling, full = -np.log(snr / best), best / snr, max_nats, np.inf
+                if cap_w[n] < np.inf:
+                    ceiling = min(np.log1p(cap_w[n] * snr), max_nats)
+                if ceiling < np.inf:
+                    full = np.expm1(ceiling) * inverse
+            pair[FLOOR, k, n], pair[INVERSE, k, n], pair[CEILING, k, n], pair[FULL, k, n] = (
+                floor,
+                inverse,
+                ceiling,
+                full,
+            )
+    return Channel(pair[FLOOR], pair[INVERSE], pair[CEILING], log_best, pair)
+
+
+@kernel
+def usable_groups(ceiling: FloatArray, start: IntArray, rows: FloatArray) -> BoolArray:
+    """Which users can and would use any subcarrier of a group, shape (group, user)."""
+    groups, users = start.size - 1, rows.shape[0]
+    usable = np.zeros((groups, users), dtype=np.bool_)
+    for k in range(users):
+        if rows[k, HIGH] <= 0.0 or (rows[k, LOW] <= 0.0 and rows[k, SLOPE] <= 0.0):
             continue
-        log_best[k] = np.log(best)
-        for g in range(ask.start.size - 1):
-            for n in range(ask.start[g], ask.start[g + 1]):
-                snr = snr_per_w[k, n]
-                if snr <= 0.0:
-                    continue
-                floor[k, n] = -np.log(snr / best)
-                inverse[k, n] = best / snr
-                ceiling[k, n] = ask.max_nats
-                if ask.cap_w[n] < np.inf:
-                    ceiling[k, n] = min(np.log1p(ask.cap_w[n] * snr), ask.max_nats)
-                least = min(least, ceiling[k, n])
-                usable[g, k] = True
-    if ask.start.size - 1 < subcarriers:
-        least = np.nan
-    return Channel(floor, inverse, ceiling, log_best, ask.start, usable, least)
+        for g in range(groups):
+            for n in range(start[g], start[g + 1]):
+                if ceiling[k, n] > 0.0:
+                    usable[g, k] = True
+    return usable
 
 
 @kernel
@@ -87,7 +116,10 @@ def mean_term(term: FloatArray) -> float:
     """Mean over the groups of the largest term."""
     total = 0.0
     for g in range(term.shape[0]):
-        total += max(term[g].max(), 0.0)
+        highest = 0.0
+        for k in range(term.shape[1]):
+            highest = max(highest, term[g, k])
+        total += highest
     return total / term.shape[0]
 
 
@@ -176,89 +208,118 @@ def solve(
         given: whether ``owner`` holds sets to start from as well.
         owner, power_w: written, shape (subcarrier,).
     """  # fmt: skip
-    users, subcarriers = snr_per_w.shape
+    users = snr_per_w.shape[0]
     groups = ask.start.size - 1
     channel = channel_of(snr_per_w, ask)
     rows = ask.rows.copy()
     term = np.empty((groups, users))
     dual, log_mu, iterations = find_prices(snr_per_w, channel, ask, rows, log_price, log_mu, warm, term)
-    usable = channel.usable.copy()
-    for k in range(users):
-        if rows[k, HIGH] <= 0.0 or (rows[k, LOW] <= 0.0 and rows[k, SLOPE] <= 0.0):
-            usable[:, k] = False
+    sets = empty_sets(channel, ask.start, rows)
+    usable = usable_groups(channel.ceiling, ask.start, rows)
     candidates = np.empty((groups, min(choices, users)), dtype=np.int64)
-    wanted = np.empty((groups, users), dtype=np.bool_)
-    mean = mean_term(term)
-    choose_candidates(term, usable, NEAR * mean, candidates, wanted)
-    sets = empty_sets(users, groups, subcarriers)
+    choose_candidates(term, usable, NEAR * mean_term(term), candidates)
     best_owner = np.empty(groups, dtype=np.int64)
     for g in range(groups):
-        k = candidates[g, 0]
-        best_owner[g] = k if k >= 0 and term[g, k] > 0.0 else -1
+        best_owner[g] = owner[ask.start[g]] if given else likeliest(term, candidates, g)
+    at, missing = start_sets(ask, sets, log_mu, best_owner)
+    score, at = polish(ask, sets, candidates, at, best_owner)
+    if given:
+        score, at, missing = polish_priced(ask, sets, candidates, term, log_mu, score, at, missing, best_owner)
+    slack = slack_of(ask, rows, log_price, log_mu, term, dual, score, at)
+    if slack > 0.0:
+        choose_candidates(term, usable, slack, candidates)
+        score, at = polish(ask, sets, candidates, at, best_owner)
+        score, at = restart(ask, sets, candidates, score, at, best_owner, slack, restarts, seed)
     assign(sets, best_owner)
+    value_all(sets, price_of(ask, at))
+    for g in range(groups):
+        owner[ask.start[g] : ask.start[g + 1]] = best_owner[g]
+    nats, spare = np.empty(users), np.empty(users)
+    log_mu = write_figures(snr_per_w, ask, sets, score, at, log_price, log_mu, nats)
+    least_power(snr_per_w, channel.ceiling, nats, owner, power_w, spare)
+    return Found(score, at, dual, log_mu, missing, iterations)
+
+
+@kernel
+def likeliest(term: FloatArray, candidates: IntArray, g: int) -> int:
+    """The user with the largest term for a group, −1 where none gains by it."""
+    k = candidates[g, 0]
+    return k if k >= 0 and term[g, k] > 0.0 else none()
+
+
+@kernel
+def polish_priced(
+    ask: Ask,
+    sets: Sets,
+    candidates: IntArray,
+    term: FloatArray,
+    log_mu: float,
+    score: float,
+    at: float,
+    missing: int,
+    best_owner: IntArray,
+) -> tuple[float, float, int]:
+    """:func:`.polish` from the sets that the prices give, unless the best sets so far score as much."""
+    owner = best_owner.copy()
+    for g in range(owner.size):
+        owner[g] = likeliest(term, candidates, g)
+    other_at, other_missing = start_sets(ask, sets, log_mu, owner)
+    other, other_at = polish(ask, sets, candidates, other_at, owner)
+    if other > score:
+        copy_owners(owner, best_owner)
+        return other, other_at, other_missing
+    assign(sets, best_owner)
+    if ask.goal == LEVEL:
+        set_level(sets.user, ask.share, np.exp(at))
+    return score, at, missing
+
+
+@kernel
+def write_figures(
+    snr_per_w: FloatArray,
+    ask: Ask,
+    sets: Sets,
+    score: float,
+    at: float,
+    log_price: FloatArray,
+    log_mu: float,
+    nats: FloatArray,
+) -> float:
+    """Write the users' rates in nats (user,), and ln λ (user,) of the sets where it proves more; ln μ."""
+    user = sets.user
+    own_price: FloatArray = log_price.copy()
+    for k in range(nats.size):
+        nats[k] = 0.0
+        if user[k, RATE] > 0.0:  # levels lose digits of tiny rates
+            nats[k] = min(max(user[k, RATE], user[k, LOW]), user[k, HIGH])
+        level = user[k, WATER] - user[k, LOG_BEST]
+        if user[k, SPENT] > 0.0 and abs(level) < FARTHEST:
+            own_price[k] = level
+    if not score > -OVERSPENT * 1e-9:
+        return log_mu
+    own_mu = log_mu if ask.goal == LEVEL else at
+    own_dual = dual_at(snr_per_w, ask, sets.user, own_price, price_of(ask, at))
+    if own_dual < dual_at(snr_per_w, ask, sets.user, log_price, log_mu):
+        log_price[:] = own_price
+        return own_mu
+    return log_mu
+
+
+@kernel
+def start_sets(ask: Ask, sets: Sets, log_mu: float, owner: IntArray) -> tuple[float, int]:
+    """Take over the owners (group,) and serve who lacks a rate; ln μ (or ln level) and how many still lack one."""
     at = log_mu
-    price = 0.0 if ask.goal == LEVEL else log_mu
-    value_all(channel, rows, price, sets)
-    missing = serve_all(channel, rows, price, sets)
+    if ask.goal == LEVEL:
+        set_level(sets.user, ask.share, np.exp(at))
+    assign(sets, owner)
+    value_all(sets, price_of(ask, at))
+    missing = serve_all(sets)
     if ask.goal == LEVEL:
         for share_of_level in LOWER:
             if missing == 0:
                 break
             at = log_mu + np.log(share_of_level)
-            set_level(rows, ask.share, np.exp(at))
-            value_all(channel, rows, price, sets)
-            missing = serve_all(channel, rows, price, sets)
-    score, at = polish(
-        ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets, at,
-        best_owner,
-    )  # fmt: skip
-    if given:
-        first_owner = best_owner.copy()
-        for g in range(groups):
-            best_owner[g] = owner[ask.start[g]]
-        assign(sets, best_owner)
-        other, other_at = polish(
-            ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets,
-            at, best_owner,
-        )  # fmt: skip
-        if other > score:
-            score, at = other, other_at
-        else:
-            best_owner[:] = first_owner
-            assign(sets, best_owner)
-            if ask.goal == LEVEL:
-                set_level(rows, ask.share, np.exp(at))
-    slack = slack_of(ask, rows, log_price, log_mu, term, dual, score, at)
-    promised = ask.goal == POWER or ask.goal == LEVEL
-    reach = FAR * mean if promised and restarts < MANY and users * groups > TINY else np.inf
-    if slack > 0.0:
-        choose_candidates(term, usable, min(slack, reach), candidates, wanted)
-        score, at = polish(
-            ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets,
-            at, best_owner,
-        )  # fmt: skip
-        state = np.array([seed * 2654435761 + 88172645463325252])
-        score, at = restart(
-            ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, candidates, wanted, sets,
-            score, at, best_owner, restarts, state,
-        )  # fmt: skip
-    assign(sets, best_owner)
-    nats = np.zeros(users)
-    price = 0.0 if ask.goal == LEVEL else at
-    own_price = log_price.copy()
-    for k in range(users):
-        _, nats[k], spent, level = set_bundle(channel, rows, price, sets, k, no_group(), no_group())
-        if nats[k] > 0.0:
-            nats[k] = min(max(nats[k], rows[k, LOW]), rows[k, HIGH])  # levels lose digits of tiny rates
-        if spent > 0.0 and abs(level) < FARTHEST:
-            own_price[k] = level
-    if score > -OVERSPENT * 1e-9:
-        own_dual = dual_at(snr_per_w, ask, rows, own_price, price)
-        if own_dual < dual_at(snr_per_w, ask, rows, log_price, log_mu):
-            log_price[:] = own_price
-            log_mu = log_mu if ask.goal == LEVEL else price
-    for g in range(groups):
-        owner[ask.start[g] : ask.start[g + 1]] = best_owner[g]
-    spare = np.empty(users)
-    least_power(snr_per_w, channel.ceiling, nats, owner, power_w, spare)
-    return Found(score, at, dual, log_mu, missing, iterations)
+            set_level(sets.user, ask.share, np.exp(at))
+            value_all(sets, 0.0)
+            missing = serve_all(sets)
+    return at, missing

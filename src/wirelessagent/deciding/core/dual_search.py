@@ -16,7 +16,7 @@ from wirelessagent.model.decision import Prices
 from wirelessagent.model.rates import user_rate_bps
 
 if TYPE_CHECKING:
-    from wirelessagent.deciding.core.best_prices_kernel import Ask
+    from wirelessagent.deciding.core.ask_kernel import Ask
 
 SMALL = 12
 """Up to so many users every one is a candidate for every group, beyond it the best few."""
@@ -129,7 +129,7 @@ def search_promises(form: NormalForm, effort: Effort, after: Prices | None = Non
 
 def ask_of(form: NormalForm, program: Program) -> Ask:
     """The program as the kernels read it."""
-    from wirelessagent.deciding.core.best_prices_kernel import Ask
+    from wirelessagent.deciding.core.ask_kernel import Ask
 
     return Ask(
         program.goal, form.cap_w, float(form.max_nats), form.start, program.rows, program.share,

@@ -9,89 +9,88 @@ from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.best_prices_kernel import Ask, find_prices
+from wirelessagent.deciding.core.ask_kernel import Ask
+from wirelessagent.deciding.core.best_prices_kernel import find_prices
 from wirelessagent.deciding.core.bundle_kernel import LOW, UNREACHABLE
 from wirelessagent.deciding.core.dual_kernel import Found, channel_of
 from wirelessagent.deciding.core.least_power_kernel import least_power
+from wirelessagent.deciding.core.moves_kernel import ROUNDING, change
+from wirelessagent.deciding.core.search_kernel import price_of
 from wirelessagent.deciding.core.sets_kernel import (
-    ROUNDING,
-    Channel,
+    FLOOR,
+    LOG_BEST,
+    OWNER,
+    RATE,
+    START,
+    WORTH,
     Sets,
     assign,
-    change,
-    changed_worth,
+    copy_owners,
     empty_sets,
-    no_group,
-    set_bundle,
+    none,
     value_all,
     worth_of,
 )
-from wirelessagent.deciding.core.settle_kernel import LEVEL, settle
+from wirelessagent.deciding.core.settle_kernel import settle
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
-NONE, UNKNOWN = -1, -2
+UNKNOWN = -2
 
 
 @kernel
-def best_free(
-    channel: Channel, rows: FloatArray, log_mu: float, log_mus: FloatArray, sets: Sets, user: int, alike: bool
-) -> tuple[int, float]:
+def best_free(sets: Sets, k: int, alike: bool) -> tuple[int, float]:
     """The free group that is worth most to a user and what it gains by it; −1 if none is of use.
 
     The gain of a user who has no set that carries what it must have is its need: ln of the power that the whole rate
-    takes, roughly, on the best subcarrier of the group. ``log_mus`` is ln μ less ln â of each user; groups are
-    ``alike`` if nothing but the gain tells them apart.
-    """  # fmt: skip
-    now = sets.worth[user]
-    best, chosen = now + ROUNDING * abs(now), NONE
-    first, last = 0, sets.owner.size
+    takes, roughly, on the best subcarrier of the group. Groups are ``alike`` if nothing but the gain tells them apart.
+    """
+    pair, user, group = sets.pair, sets.user, sets.group
+    now = user[k, WORTH]
+    best, chosen = now + ROUNDING * abs(now), none()
+    first, last = none() + 1, group.shape[1] - 1
     if alike:
         lowest = np.inf
-        for g in range(sets.owner.size):
-            if sets.owner[g] < 0 and channel.floor[user, g] < lowest:
-                lowest, first = channel.floor[user, g], g
+        for g in range(last):
+            if group[OWNER, g] < 0 and pair[FLOOR, k, g] < lowest:
+                lowest, first = pair[FLOOR, k, g], g
         last = first + 1
     for g in range(first, last):
-        if sets.owner[g] >= 0 or not channel.usable[g, user]:
-            continue
-        worth = changed_worth(
-            rows, sets.sums, channel.floor, channel.inverse, channel.least_ceiling, log_mus, user, no_group(), g
-        )  # fmt: skip
-        if np.isnan(worth):
-            worth = worth_of(channel, rows, log_mu, sets, user, no_group(), g)
-        if worth > best:
-            best, chosen = worth, g
-    if chosen == NONE or now > -UNREACHABLE:
+        if group[OWNER, g] < 0:
+            worth = worth_of(sets, k, none(), g)
+            if worth > best:
+                best, chosen = worth, g
+    if chosen < 0 or now > -UNREACHABLE:
         return chosen, best - now
-    lowest = channel.floor[user, channel.start[chosen] : channel.start[chosen + 1]].min()
-    return chosen, rows[user, LOW] + lowest - channel.log_best[user]
+    lowest = np.inf
+    for n in range(group[START, chosen], group[START, chosen + 1]):
+        lowest = min(lowest, pair[FLOOR, k, n])
+    return chosen, user[k, LOW] + lowest - user[k, LOG_BEST]
 
 
 @kernel
-def hand_out(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, alike: bool) -> None:
+def hand_out(sets: Sets, alike: bool) -> None:
     """Give free groups away, one by one, to the user who needs one most or, where nobody needs any, gains most.
 
     ``alike`` as in :func:`best_free`.
     """
-    users = sets.size.size
+    users = sets.user.shape[0]
     choice = np.full(users, UNKNOWN)
     gain = np.empty(users)
-    log_mus = log_mu - channel.log_best
     while True:
-        chosen = -1
+        chosen = none()
         urgent = False
         for k in range(users):
-            if choice[k] == UNKNOWN or (choice[k] != NONE and sets.owner[choice[k]] >= 0):
-                choice[k], gain[k] = best_free(channel, rows, log_mu, log_mus, sets, k, alike)
-            if choice[k] == NONE:
+            if choice[k] == UNKNOWN or (choice[k] >= 0 and sets.group[OWNER, choice[k]] >= 0):
+                choice[k], gain[k] = best_free(sets, k, alike)
+            if choice[k] < 0:
                 continue
-            needy = sets.worth[k] <= -UNREACHABLE
+            needy = sets.user[k, WORTH] <= -UNREACHABLE
             if chosen < 0 or (needy and not urgent) or (needy == urgent and gain[k] > gain[chosen]):
                 chosen, urgent = k, needy
         if chosen < 0:
             return
-        change(channel, rows, log_mu, sets, choice[chosen], chosen, no_group())
+        change(sets, choice[chosen], chosen, none())
         choice[chosen] = UNKNOWN
 
 
@@ -113,26 +112,22 @@ def solve_greedily(
     rows = ask.rows.copy()
     term = np.empty((groups, users))
     dual, log_mu, iterations = find_prices(snr_per_w, channel, ask, rows, log_price, 0.0, False, term)
-    sets = empty_sets(users, groups, subcarriers)
+    sets = empty_sets(channel, ask.start, rows)
     owners = np.empty(groups, dtype=np.int64)
     for g in range(groups):
         owners[g] = owner[ask.start[g]]
     assign(sets, owners)
-    price = 0.0 if ask.goal == LEVEL else log_mu
-    value_all(channel, rows, price, sets)
-    hand_out(channel, rows, price, sets, groups == subcarriers and ask.cap_w.min() == np.inf)
+    value_all(sets, price_of(ask, log_mu))
+    hand_out(sets, groups == subcarriers and ask.cap_w.min() == np.inf)
     missing = 0
     for k in range(users):
-        if sets.worth[k] <= -UNREACHABLE:
+        if sets.user[k, WORTH] <= -UNREACHABLE:
             missing += 1
-    score, at, _ = settle(
-        ask.goal, channel, rows, ask.share, ask.budget_w, ask.circuit_w, ask.most_level, log_mu, sets
-    )  # fmt: skip
-    nats = np.zeros(users)
-    price = 0.0 if ask.goal == LEVEL else at
-    for k in range(users):
-        nats[k] = set_bundle(channel, rows, price, sets, k, no_group(), no_group())[1]
+    score, at, _ = settle(ask, sets, log_mu)
+    value_all(sets, price_of(ask, at))
+    nats = sets.user[:, RATE].copy()
+    copy_owners(sets.group[OWNER], owners)
     for g in range(groups):
-        owner[ask.start[g] : ask.start[g + 1]] = sets.owner[g]
+        owner[ask.start[g] : ask.start[g + 1]] = owners[g]
     least_power(snr_per_w, channel.ceiling, nats, owner, power_w, np.empty(users))
     return Found(score, at, dual, log_mu, missing, iterations)

@@ -11,23 +11,29 @@ from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.bundle_kernel import UNREACHABLE
-from wirelessagent.deciding.core.sets_kernel import (
+from wirelessagent.deciding.core.ask_kernel import LEVEL, POWER, Ask
+from wirelessagent.deciding.core.moves_kernel import (
     ROUNDING,
-    Channel,
+    change,
+    find_change,
+    improve,
+    serve_all,
+    some_wanting,
+    take_back,
+)
+from wirelessagent.deciding.core.sets_kernel import (
+    CHECKED,
+    OWNER,
     Sets,
     assign,
-    best_change,
-    change,
+    copy_owners,
     hand_over,
-    improve,
-    no_group,
-    undo,
+    none,
+    total_worth,
     value_all,
-    value_set,
-    worth_of,
+    value_changed,
 )
-from wirelessagent.deciding.core.settle_kernel import LEVEL, POWER, set_level, settle
+from wirelessagent.deciding.core.settle_kernel import set_level, settle
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 
@@ -37,14 +43,12 @@ GAIN = 1e-12
 MOST_KICKED = 3
 SLACK_SHARE = 1e-9
 LIFT = 1e-6
-CHECKED = 400
+SINGLE = 400
 """Up to this many groups × candidates every change is settled before it is taken where a whole round did not score."""
 
 
 @kernel
-def choose_candidates(
-    term: FloatArray, usable: BoolArray, regret: float, candidates: IntArray, wanted: BoolArray
-) -> None:
+def choose_candidates(term: FloatArray, usable: BoolArray, regret: float, candidates: IntArray) -> None:
     """Write the users with the largest terms for each group, shape (group, choice), −1 where there are no more.
 
     None is listed whose term is smaller than the largest by more than ``regret``. Where sets are known that fall short
@@ -52,7 +56,6 @@ def choose_candidates(
     """
     groups, users = term.shape
     choices = candidates.shape[1]
-    wanted[:] = False
     for g in range(groups):
         size = 0
         highest = 0.0
@@ -69,34 +72,8 @@ def choose_candidates(
                 at -= 1
             candidates[g, at] = k
             size = min(size + 1, choices)
-        for c in range(size):
-            wanted[g, candidates[g, c]] = True
         for c in range(size, choices):
             candidates[g, c] = -1
-
-
-@kernel
-def serve_all(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets) -> int:
-    """Give groups to users who lack a rate that they must have, whatever that costs others; how many still lack one."""
-    users = sets.size.size
-    missing = 0
-    for k in range(users):
-        while sets.worth[k] <= -UNREACHABLE:
-            best, chosen = 0.0, no_group()
-            for g in range(sets.owner.size):
-                if not channel.usable[g, k] or sets.owner[g] == k:
-                    continue
-                gain = worth_of(channel, rows, log_mu, sets, k, no_group(), g) - sets.worth[k]
-                if sets.owner[g] >= 0:
-                    holder = sets.owner[g]
-                    gain += worth_of(channel, rows, log_mu, sets, holder, g, no_group()) - sets.worth[holder]
-                if gain > best:
-                    best, chosen = gain, g
-            if chosen < 0:
-                missing += 1
-                break
-            change(channel, rows, log_mu, sets, chosen, k, no_group())
-    return missing
 
 
 @kernel
@@ -124,192 +101,154 @@ def contested_groups(candidates: IntArray, owner: IntArray, contested: IntArray)
 
 
 @kernel
-def kick(
-    channel: Channel,
-    rows: FloatArray,
-    log_mu: float,
-    candidates: IntArray,
-    contested: IntArray,
-    size: int,
-    sets: Sets,
-    state: IntArray,
-) -> None:
+def kick(sets: Sets, candidates: IntArray, contested: IntArray, size: int, state: IntArray) -> None:
     """Give one to three of the first ``size`` contested groups to random candidates."""
+    since = sets.group[CHECKED, candidates.shape[0]]
     for _ in range(1 + random(state, MOST_KICKED * size) % MOST_KICKED):
         g = contested[random(state, size)]
         choices = 0
         while choices < candidates.shape[1] and candidates[g, choices] >= 0:
             choices += 1
-        j = int(candidates[g, random(state, choices)])
-        k = int(sets.owner[g])
-        if j == k:
-            continue
-        hand_over(sets, g, j)
-        value_set(channel, rows, log_mu, sets, j)
-        if k >= 0:
-            value_set(channel, rows, log_mu, sets, k)
+        hand_over(sets.member, sets.group, g, int(candidates[g, random(state, choices)]))
+    value_changed(sets, since)
 
 
 @kernel
-def polish(
-    goal: int,
-    channel: Channel,
-    rows: FloatArray,
-    share: FloatArray,
-    budget_w: float,
-    circuit_w: float,
-    most: float,
-    candidates: IntArray,
-    wanted: BoolArray,
-    sets: Sets,
-    at: float,
-    best_owner: IntArray,
-) -> tuple[float, float]:
+def polish(ask: Ask, sets: Sets, candidates: IntArray, at: float, best_owner: IntArray) -> tuple[float, float]:
     """Improve, settle, and improve at the settled price again, for as long as the score rises.
 
     Returns the best score and its ln μ (or ln level); ``best_owner`` and ``sets`` then hold the best sets. Where sets
     improved at one price score less at their own, changes are tried one by one.
     """  # fmt: skip
-    score, at, spent = settle(goal, channel, rows, share, budget_w, circuit_w, most, at, sets)
-    best_owner[:] = sets.owner
+    score, at, spent = settle(ask, sets, at)
+    copy_owners(sets.group[OWNER], best_owner)
     for _ in range(ROUNDS):
-        log_mu = 0.0 if goal == LEVEL else at
-        if goal == LEVEL:
-            set_level(rows, share, np.exp(at))
-            if spent < budget_w * (1.0 - SLACK_SHARE):  # no power lifts the level: somebody's subcarriers are full
-                set_level(rows, share, min(np.exp(at) * (1.0 + LIFT), most))
-        before = value_all(channel, rows, log_mu, sets)
-        if goal == LEVEL and sets.worth.min() <= -UNREACHABLE:
-            serve_all(channel, rows, log_mu, sets)
-            improve(channel, rows, log_mu, candidates, wanted, sets)
-        elif improve(channel, rows, log_mu, candidates, wanted, sets) == 0:
+        if ask.goal == LEVEL:
+            set_level(sets.user, ask.share, np.exp(at))
+            if spent < ask.budget_w * (1.0 - SLACK_SHARE):  # no power lifts the level: somebody's subcarriers are full
+                set_level(sets.user, ask.share, min(np.exp(at) * (1.0 + LIFT), ask.most_level))
+        before = value_all(sets, price_of(ask, at))
+        served = ask.goal == LEVEL and some_wanting(sets.user)
+        if served:
+            serve_all(sets)
+        if improve(sets, candidates) == 0 and not served:
             break
-        after = sets.worth.sum()
+        after = total_worth(sets.user)
         if after <= before + GAIN * abs(before):
             break
-        found, found_at, found_w = settle(goal, channel, rows, share, budget_w, circuit_w, most, at, sets)
+        found, found_at, found_w = settle(ask, sets, at)
         if found > score + GAIN * abs(score):
             score, at, spent = found, found_at, found_w
-            best_owner[:] = sets.owner
-            if goal == POWER:
+            copy_owners(sets.group[OWNER], best_owner)
+            if ask.goal == POWER:
                 break
             continue
         assign(sets, best_owner)
-        if sets.owner.size * candidates.shape[1] > CHECKED:
+        if candidates.size > SINGLE:
             break
-        found, found_at = single_changes(
-            goal, channel, rows, share, budget_w, circuit_w, most, candidates, wanted, sets, score, at
-        )  # fmt: skip
+        found, found_at = single_changes(ask, sets, candidates, score, at)
         if found <= score + GAIN * abs(score):
             break
         score, at = found, found_at
-        best_owner[:] = sets.owner
+        copy_owners(sets.group[OWNER], best_owner)
     assign(sets, best_owner)
-    if goal == LEVEL:
-        set_level(rows, share, np.exp(at))
+    if ask.goal == LEVEL:
+        set_level(sets.user, ask.share, np.exp(at))
     return score, at
 
 
 @kernel
-def single_changes(
-    goal: int,
-    channel: Channel,
-    rows: FloatArray,
-    share: FloatArray,
-    budget_w: float,
-    circuit_w: float,
-    most: float,
-    candidates: IntArray,
-    wanted: BoolArray,
-    sets: Sets,
-    score: float,
-    at: float,
-) -> tuple[float, float]:
+def price_of(ask: Ask, at: float) -> float:
+    """ln of the price of power at ln μ (or ln level) ``at``."""
+    return 0.0 if ask.goal == LEVEL else at
+
+
+@kernel
+def single_changes(ask: Ask, sets: Sets, candidates: IntArray, score: float, at: float) -> tuple[float, float]:
     """Take the best change of the first group whose best change scores; the new score and its ln μ (or ln level)."""
-    log_mu = 0.0 if goal == LEVEL else at
-    if goal == LEVEL:
-        set_level(rows, share, np.exp(at))
-    value_all(channel, rows, log_mu, sets)
-    for g in range(sets.owner.size):
-        gain, new_owner, in_return = best_change(channel, rows, log_mu, candidates, wanted, sets, g)
-        if gain <= 0.0:
-            continue
-        k = sets.owner[g]
-        change(channel, rows, log_mu, sets, g, new_owner, in_return)
-        found, found_at, _ = settle(goal, channel, rows, share, budget_w, circuit_w, most, at, sets)
+    if ask.goal == LEVEL:
+        set_level(sets.user, ask.share, np.exp(at))
+    value_all(sets, price_of(ask, at))
+    first = none()
+    while True:
+        g, new_owner, in_return = find_change(sets, candidates, first + 1)
+        if g <= first:  # none, or round again
+            return score, at
+        k = int(sets.group[OWNER, g])
+        change(sets, g, new_owner, in_return)
+        found, found_at, _ = settle(ask, sets, at)
         if found > score + GAIN * abs(score):
             return found, found_at
-        if goal == LEVEL:
-            set_level(rows, share, np.exp(at))
-        undo(channel, rows, log_mu, sets, g, k, new_owner, in_return)
-    return score, at
+        if ask.goal == LEVEL:
+            set_level(sets.user, ask.share, np.exp(at))
+        take_back(sets, g, k, in_return)
+        value_all(sets, price_of(ask, at))
+        first = g
+        if first + 1 == candidates.shape[0]:
+            return score, at
 
 
 @kernel
 def restart(
-    goal: int,
-    channel: Channel,
-    rows: FloatArray,
-    share: FloatArray,
-    budget_w: float,
-    circuit_w: float,
-    most: float,
-    candidates: IntArray,
-    wanted: BoolArray,
+    ask: Ask,
     sets: Sets,
+    candidates: IntArray,
     score: float,
     at: float,
     best_owner: IntArray,
+    slack: float,
     restarts: int,
-    state: IntArray,
+    seed: int,
 ) -> tuple[float, float]:
-    """Restart so many times from the best sets; the best score and its ln μ (or ln level), as :func:`polish`."""
-    log_mu = 0.0 if goal == LEVEL else at
-    standard = value_all(channel, rows, log_mu, sets)
+    """Restart so many times; the best score and its ln μ (or ln level), as :func:`polish`.
+
+    The next restart is from where the last one ended if that is worth less than before by no more than a share of
+    ``slack`` (in W) that falls to nothing (threshold accepting), so that the search leaves wide valleys.
+    """
+    standard = value_all(sets, price_of(ask, at))
+    here = standard
+    leeway = slack * np.exp(price_of(ask, at)) if slack < np.inf else 0.0
     base, trial_owner, contested = best_owner.copy(), best_owner.copy(), best_owner.copy()
     size = contested_groups(candidates, base, contested)
     if size == 0:
         return score, at
-    for _ in range(restarts):
-        kick(channel, rows, log_mu, candidates, contested, size, sets, state)
-        if sets.worth.min() <= -UNREACHABLE:
-            serve_all(channel, rows, log_mu, sets)
-        improve(channel, rows, log_mu, candidates, wanted, sets)
-        gained = sets.worth.sum()
-        if gained > standard + ROUNDING * abs(standard):
-            found, found_at = polish(
-                goal, channel, rows, share, budget_w, circuit_w, most, candidates, wanted, sets, at, trial_owner
-            )  # fmt: skip
+    state = np.array([seed * 2654435761 + 88172645463325252])
+    for i in range(restarts):
+        kick(sets, candidates, contested, size, state)
+        if some_wanting(sets.user):
+            serve_all(sets)
+        improve(sets, candidates)
+        gained = total_worth(sets.user)
+        rounding = ROUNDING * abs(standard)
+        if gained > standard + rounding:
+            found, found_at = polish(ask, sets, candidates, at, trial_owner)
             if found > score + GAIN * abs(score):
                 score, at = found, found_at
-                best_owner[:] = trial_owner
-                base[:] = trial_owner
-                log_mu = 0.0 if goal == LEVEL else at
-                standard = value_all(channel, rows, log_mu, sets)
+                copy_owners(trial_owner, best_owner)
+                copy_owners(trial_owner, base)
+                standard = value_all(sets, price_of(ask, at))
+                here = standard
                 continue
-            if goal == LEVEL:
-                set_level(rows, share, np.exp(at))
+            if ask.goal == LEVEL:
+                set_level(sets.user, ask.share, np.exp(at))
             assign(sets, base)
-            value_all(channel, rows, log_mu, sets)
-        elif gained >= standard - ROUNDING * abs(standard):
-            base[:] = sets.owner  # as good: go on from there, to cross plateaus
+            here = value_all(sets, price_of(ask, at))
+        elif gained >= here - rounding - leeway * (1.0 - i / restarts):
+            copy_owners(sets.group[OWNER], base)
+            here = gained
         else:
-            go_back(channel, rows, log_mu, sets, base)
+            go_back(sets, base)
     return score, at
 
 
 @kernel
-def go_back(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets, owner: IntArray) -> None:
+def go_back(sets: Sets, owner: IntArray) -> None:
     """Return to the owners (group,), which no change improves, valuing only the sets that differ."""
-    changed = np.zeros(sets.size.size, dtype=np.bool_)
+    group = sets.group
+    since = group[CHECKED, owner.size]
     for g in range(owner.size):
-        if sets.owner[g] != owner[g]:
-            if sets.owner[g] >= 0:
-                changed[sets.owner[g]] = True
-            if owner[g] >= 0:
-                changed[owner[g]] = True
-            hand_over(sets, g, owner[g])
-    for k in range(changed.size):
-        if changed[k]:
-            value_set(channel, rows, log_mu, sets, k)
-    sets.checked[:] = sets.clock[0]
+        if group[OWNER, g] != owner[g]:
+            hand_over(sets.member, group, g, owner[g])
+    value_changed(sets, since)
+    for g in range(owner.size):
+        group[CHECKED, g] = group[CHECKED, owner.size]

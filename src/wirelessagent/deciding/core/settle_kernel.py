@@ -15,13 +15,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from wirelessagent.deciding.core.ask_kernel import EFFICIENCY, POWER, SUM, Ask
 from wirelessagent.deciding.core.bundle_kernel import HIGH, LOW, REFERENCE, UNREACHABLE, utility
-from wirelessagent.deciding.core.sets_kernel import Channel, Sets, no_group, set_bundle
+from wirelessagent.deciding.core.sets_kernel import RATE, SCALE, SPENT, WORTH, Sets, evaluate, set_price
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray
-
-POWER, SUM, EFFICIENCY, LEVEL = 0, 1, 2, 3
-"""The goals."""
 
 HIGHEST_LOG_PRICE = 90.0
 """ln μ lies within ±90 of the utility's slopes, so that no priced power exceeds the cost of what is unreachable."""
@@ -33,23 +31,23 @@ LEAST_LEVEL = 1e-250
 
 
 @kernel
-def totals(channel: Channel, rows: FloatArray, log_mu: float, sets: Sets) -> tuple[float, float, int]:
+def totals(sets: Sets, log_mu: float) -> tuple[float, float, int]:
     """Σ U, Σ P and the number of users without a rate that they must have, at the price e^``log_mu``."""
+    user = sets.user
+    set_price(user, log_mu)
     joint, power, missing = 0.0, 0.0, 0
-    for k in range(sets.size.size):
-        worth, rate, spent, _ = set_bundle(channel, rows, log_mu, sets, k, no_group(), no_group())
-        if worth <= -UNREACHABLE:
+    for k in range(user.shape[0]):
+        evaluate(sets, k)
+        if user[k, WORTH] <= -UNREACHABLE:
             missing += 1
         else:
-            joint += utility(rows[k], rate)
-            power += spent
+            joint += utility(user[k], user[k, RATE])
+            power += user[k, SPENT] * user[k, SCALE]
     return joint, power, missing
 
 
 @kernel
-def settle_budget(
-    channel: Channel, rows: FloatArray, budget_w: float, log_mu: float, sets: Sets
-) -> tuple[float, float, float]:
+def settle_budget(sets: Sets, budget_w: float, log_mu: float) -> tuple[float, float, float]:
     """Σ U, ln μ and Σ P at the price of power that spends the budget, from a first guess of ln μ.
 
     Where the promised rates alone exceed the budget the price is the highest and Σ U is minus the excess.
@@ -57,7 +55,7 @@ def settle_budget(
     low, high = -HIGHEST_LOG_PRICE, HIGHEST_LOG_PRICE  # power exceeds the budget at low, and does not at high
     log_mu = min(max(log_mu, low), high)
     low_excess, high_excess = np.nan, np.nan
-    joint, power, missing = totals(channel, rows, log_mu, sets)
+    joint, power, missing = totals(sets, log_mu)
     reach = 0.25
     stuck = 0
     for _ in range(STEPS):
@@ -86,10 +84,10 @@ def settle_budget(
             trial = high + (low - high) * high_excess / (high_excess - low_excess)
             trial = min(max(trial, low + 1e-3 * (high - low)), high - 1e-3 * (high - low))
         log_mu = trial
-        joint, power, missing = totals(channel, rows, log_mu, sets)
+        joint, power, missing = totals(sets, log_mu)
     if power > budget_w * (1.0 + 1e-12) and log_mu < high:
         log_mu = high
-        joint, power, missing = totals(channel, rows, log_mu, sets)
+        joint, power, missing = totals(sets, log_mu)
     if missing > 0:
         return -UNREACHABLE * missing, log_mu, power
     if power > budget_w * (1.0 + 1e-9):
@@ -98,24 +96,22 @@ def settle_budget(
 
 
 @kernel
-def settle_efficiency(
-    channel: Channel, rows: FloatArray, budget_w: float, circuit_w: float, log_mu: float, sets: Sets
-) -> tuple[float, float, float]:
+def settle_efficiency(sets: Sets, budget_w: float, circuit_w: float, log_mu: float) -> tuple[float, float, float]:
     """The efficiency, ln of the price of power and Σ P: Dinkelbach's method, within the budget."""
     spending = np.nan  # ln μ of the whole budget
     efficiency = 0.0
     power = 0.0
     for _ in range(STEPS):
-        joint, power, missing = totals(channel, rows, log_mu, sets)
+        joint, power, missing = totals(sets, log_mu)
         if missing > 0:
             return -UNREACHABLE * missing, log_mu, power
         if power > budget_w:
             if np.isnan(spending):
-                joint, spending, power = settle_budget(channel, rows, budget_w, log_mu, sets)
+                joint, spending, power = settle_budget(sets, budget_w, log_mu)
                 if joint <= -OVERSPENT * 1e-9:
                     return joint, spending, power
             log_mu = max(log_mu, spending)
-            joint, power, missing = totals(channel, rows, log_mu, sets)
+            joint, power, missing = totals(sets, log_mu)
         better = joint / (power + circuit_w) if power + circuit_w > 0.0 else 0.0
         if better <= 0.0:
             return 0.0, log_mu, power
@@ -142,7 +138,7 @@ def set_level(rows: FloatArray, share: FloatArray, level: float) -> None:
 
 @kernel
 def settle_level(
-    channel: Channel, rows: FloatArray, share: FloatArray, budget_w: float, most: float, level: float, sets: Sets
+    sets: Sets, share: FloatArray, budget_w: float, most: float, level: float
 ) -> tuple[float, float, float]:
     """The level, its logarithm and Σ P: the highest common level, at most ``most``; ``rows`` then promise it."""
     low, high = -np.inf, np.log(most)
@@ -153,8 +149,8 @@ def settle_level(
     missing = 0
     stuck = 0
     for _ in range(STEPS):
-        set_level(rows, share, np.exp(log_level))
-        _, power, missing = totals(channel, rows, 0.0, sets)
+        set_level(sets.user, share, np.exp(log_level))
+        _, power, missing = totals(sets, 0.0)
         excess = np.log(max(power, 1e-300) / budget_w) if missing == 0 else np.inf
         if excess > 0.0:
             high, high_slack = log_level, excess
@@ -182,29 +178,19 @@ def settle_level(
     if np.isinf(low):
         score = -UNREACHABLE * missing if missing > 0 else -OVERSPENT * max(power / budget_w - 1.0, 1e-9)
         return score, np.log(max(level, LEAST_LEVEL)), power
-    set_level(rows, share, np.exp(low))
-    _, power, missing = totals(channel, rows, 0.0, sets)
+    set_level(sets.user, share, np.exp(low))
+    _, power, missing = totals(sets, 0.0)
     return np.exp(low), low, power
 
 
 @kernel
-def settle(
-    goal: int,
-    channel: Channel,
-    rows: FloatArray,
-    share: FloatArray,
-    budget_w: float,
-    circuit_w: float,
-    most: float,
-    at: float,
-    sets: Sets,
-) -> tuple[float, float, float]:
+def settle(ask: Ask, sets: Sets, at: float) -> tuple[float, float, float]:
     """Score, ln μ (of the level for that goal) and Σ P on given sets, from a guess ``at`` of the second."""
-    if goal == SUM:
-        return settle_budget(channel, rows, budget_w, at, sets)
-    if goal == EFFICIENCY:
-        return settle_efficiency(channel, rows, budget_w, circuit_w, at, sets)
-    if goal == LEVEL:
-        return settle_level(channel, rows, share, budget_w, most, np.exp(at), sets)
-    _, power, missing = totals(channel, rows, 0.0, sets)
-    return (-UNREACHABLE * missing if missing > 0 else -power), 0.0, power
+    if ask.goal == POWER:
+        _, power, missing = totals(sets, 0.0)
+        return (-UNREACHABLE * missing if missing > 0 else -power), 0.0, power
+    if ask.goal == SUM:
+        return settle_budget(sets, ask.budget_w, at)
+    if ask.goal == EFFICIENCY:
+        return settle_efficiency(sets, ask.budget_w, ask.circuit_w, at)
+    return settle_level(sets, ask.share, ask.budget_w, ask.most_level, np.exp(at))
