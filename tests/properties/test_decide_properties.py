@@ -27,20 +27,6 @@ SEARCHED = 1e-6
 
 quick = settings(max_examples=40, deadline=None, derandomize=True)
 every_objective = pytest.mark.parametrize("objective", OBJECTIVES)
-but_for_efficiency = pytest.mark.parametrize(
-    "objective",
-    [
-        pytest.param(
-            name,
-            marks=[
-                pytest.mark.xfail(reason="with further limits the dual of efficiency is not always climbed to its end")
-            ]
-            if name == "max_energy_efficiency"
-            else [],
-        )
-        for name in OBJECTIVES
-    ],
-)
 
 
 @st.composite
@@ -117,10 +103,11 @@ def test_methods_do_not_contradict_each_other(objective: str, seed: tuple[int, i
                 assert one.value == pytest.approx(other.value, rel=2 * ROUNDING), pair
 
 
-@but_for_efficiency
+@every_objective
 @given(seed=seeds(), order=st.integers(0, 99))
 @quick
 def test_bounds_do_not_depend_on_order(objective: str, seed: tuple[int, int, int], order: int) -> None:
+    """Nor whether promises can be kept. A heuristic may find nothing in one order and then has no bound to compare."""
     case = problem_of(seed, objective)
     rng = np.random.default_rng(order)
     users, subcarriers = rng.permutation(seed[1]), rng.permutation(seed[2])
@@ -129,7 +116,8 @@ def test_bounds_do_not_depend_on_order(objective: str, seed: tuple[int, int, int
     for first, second in decisions(case, permuted(case, users, subcarriers)):
         if first.method == "round_robin":  # the turn of a user depends on its place
             continue
-        assert first.bound == pytest.approx(second.bound, rel=SEARCHED, nan_ok=True), first.method
+        if "undecided" not in (first.status, second.status):
+            assert first.bound == pytest.approx(second.bound, rel=SEARCHED, nan_ok=True), first.method
         assert {first.status, second.status} not in ({"infeasible", "feasible"}, {"infeasible", "optimal"})
         if first.status == second.status == "optimal":
             assert first.value == pytest.approx(second.value, rel=2 * ROUNDING), first.method
@@ -148,7 +136,7 @@ def test_gains_and_noise_together_change_nothing(objective: str, seed: tuple[int
         assert first.status == second.status, first.method
 
 
-@but_for_efficiency
+@every_objective
 @given(seed=seeds(), factor=st.floats(1.0, 100.0))
 @quick
 def test_bounds_never_fall_with_budget(objective: str, seed: tuple[int, int, int], factor: float) -> None:

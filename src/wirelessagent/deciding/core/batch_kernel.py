@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.deciding.core.ask_kernel import Ask
-from wirelessagent.deciding.core.best_prices_kernel import level_bound
+from wirelessagent.deciding.core.demand_kernel import level_bound
 from wirelessagent.deciding.core.dual_kernel import solve
 from wirelessagent.deciding.core.terms_kernel import worth_of_groups
 from wirelessagent.kernels import kernel
@@ -67,7 +67,7 @@ def worth_of_all(
 
 @kernel
 def level_bounds(share: FloatArray, log_price: FloatArray, worth_w: FloatArray, most: FloatArray) -> FloatArray:
-    """:func:`.best_prices_kernel.level_bound` for shares (batch, user, 3) and ln λ (batch, user); shape (batch,)."""
+    """:func:`.demand_kernel.level_bound` for shares (batch, user, 3) and ln λ (batch, user); shape (batch,)."""
     level = np.empty(worth_w.size)
     for b in range(level.size):
         level[b] = level_bound(share[b], log_price[b], worth_w[b], most[b])

@@ -32,9 +32,8 @@ def bound_of(form: NormalForm, program: Program, log_price: FloatArray, log_mu: 
 
 def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArray, log_mu: FloatArray) -> FloatArray:
     """:func:`bound_of` for the form's channels, shape (…), from ln λ (…, user) and ln μ (…)."""
-    with np.errstate(over="ignore"):
-        price = np.exp(log_price)
-        price = np.minimum(price, _DEAREST)
+    log_price = np.minimum(log_price, np.log(_DEAREST))
+    price = np.exp(log_price)
     worth_w = _groups_worth_w(form, price)
     if program.goal == LEAST_POWER:
         return np.maximum(price @ form.promised_nats - worth_w, _first_nats_w(form))

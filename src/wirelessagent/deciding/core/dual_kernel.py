@@ -10,11 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from wirelessagent.deciding.core.ask_kernel import LEVEL, POWER, SUM, Ask
-from wirelessagent.deciding.core.best_prices_kernel import find_prices, level_bound
+from wirelessagent.deciding.core.best_prices_kernel import find_prices
 from wirelessagent.deciding.core.bundle_kernel import HIGH, LOW, SLOPE
+from wirelessagent.deciding.core.climb_point_kernel import FARTHEST
+from wirelessagent.deciding.core.demand_kernel import conjugate, level_bound
 from wirelessagent.deciding.core.least_power_kernel import least_power
 from wirelessagent.deciding.core.moves_kernel import serve_all
-from wirelessagent.deciding.core.prices_kernel import FARTHEST, conjugate
 from wirelessagent.deciding.core.search_kernel import choose_candidates, polish, price_of, restart
 from wirelessagent.deciding.core.sets_kernel import (
     CEILING,

@@ -17,13 +17,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.deciding.core.program import promises
+from wirelessagent.deciding.core.program import LEAST_POWER, promises
 from wirelessagent.deciding.core.rate_relaxations import Relaxations, largest_scaling, relaxations
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.units import human
 
 _ROUNDS = 4
-_TEMPERATURES = np.array([0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3])
 _SETTLED = 1e-2
 _ROUNDING = 1e-9
 _HIGHEST_LOG_PRICE = 500.0
@@ -176,19 +175,14 @@ def _too_few(form: NormalForm, users: IntArray, served: int) -> str:
 
 def _climb(form: NormalForm, snr: FloatArray, nats: FloatArray) -> tuple[FloatArray, int]:
     """ln λ (user,) near the dual's maximum for ``nats``, and the Newton steps done."""
-    from wirelessagent.deciding.core.prices_kernel import climb
-    from wirelessagent.deciding.core.start_kernel import equal_price, typical_snr
+    from wirelessagent.deciding.core.best_prices_kernel import find_prices
+    from wirelessagent.deciding.core.climb_point_kernel import Ask
+    from wirelessagent.deciding.core.dual_kernel import channel_of
 
-    users, subcarriers = nats.size, form.cap_w.size
-    rows, typical, log_price = promises(nats), np.empty(users), np.empty(users)
-    typical_snr(snr, typical)
-    equal_price(rows, typical, subcarriers, log_price)
-    with np.errstate(divide="ignore", over="ignore"):
-        inverse = np.where(snr > 0, 1.0 / snr, 0.0)
-    rate, term, rising = np.empty((3, form.start.size - 1, users))
-    _, _, steps = climb(
-        np.ascontiguousarray(log_snr(snr).T), np.ascontiguousarray(inverse.T),
-        np.ascontiguousarray(ceilings(form, snr).T), np.ascontiguousarray(form.caps_w(snr).T), form.start, rows, 0.0,
-        False, _TEMPERATURES, log_price, 0.0, rate, term, rising, np.empty(users),
+    rows, log_price, no_share = promises(nats), np.empty(nats.size), np.zeros((nats.size, 3))
+    ask = Ask(
+        LEAST_POWER, form.cap_w, float(form.max_nats), form.start, rows, no_share, 0.0, float(form.budget_w), 0.0
     )  # fmt: skip
+    term = np.empty((form.start.size - 1, nats.size))
+    _, _, steps = find_prices(snr, channel_of(snr, ask), ask, rows, log_price, 0.0, False, term)
     return log_price, steps
