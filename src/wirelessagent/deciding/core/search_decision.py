@@ -26,8 +26,8 @@ def fits(form: NormalForm, found: Search) -> bool:
 
 
 def is_proven_too_much(form: NormalForm, least: Search) -> bool:
-    """Whether what carries the promised rates was found, and proven to need more than the budget."""
-    return least.kept and least.bound > form.budget_w * (1.0 + PROOF_ROUNDING)
+    """Whether the promised rates are proven to need more than the budget."""
+    return least.bound > form.budget_w * (1.0 + PROOF_ROUNDING)
 
 
 def unpowered_decision(form: NormalForm) -> Decision:
