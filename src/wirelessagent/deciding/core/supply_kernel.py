@@ -18,9 +18,9 @@ from wirelessagent.deciding.core.sets_kernel import Channel
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
-LOG_NEGLIGIBLE = np.log(1e-7)
+LOG_NEGLIGIBLE = np.log(1e-5)
 """Logarithm of the share below which a user counts for nothing in a group."""
-SMALL = 0.3
+SMALL = 1.0
 """A share, times the relative temperature, up to which a user competes with the strongest only in the Hessian: dense
 pairs would cost most of the time, and what is left out weighs more the lower the temperature."""
 
