@@ -117,7 +117,7 @@ def test_groups_are_said_to_cost_what_the_bound_without_them_proves() -> None:
         grouped = replace(problem, resource_block_group_size=4)
         decision = wa.decide(estimate, grouped)
         bound = wa.decide(estimate, problem).bound
-        cost = 100 * abs(1 - decision.value / bound)
+        cost = round(100 * abs(1 - decision.value / bound), 9)
         said = [part for part in explain(estimate, wa.report(decision)) if "groups of 4" in part]
         assert len(said) == 1
         assert f"at most {cost:.2g} %" in said[0]

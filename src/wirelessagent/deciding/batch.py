@@ -136,14 +136,15 @@ def _solve(
     if programs.goal == LEAST_POWER and not promised:
         nobody = np.full((batch, subcarriers), -1, dtype=np.int64)
         return Searches.finished(nobody, np.zeros((batch, subcarriers)), np.zeros(batch)), certain
-    doubtful = np.full(batch, in_rounds)
+    doubtful, known = np.full(batch, in_rounds), None
     if promised:
         wanted = programs.goal == LEAST_POWER
         least = search_promises(form, effort if wanted else Effort(restarts=0, seed=0))
         doubtful = doubtful | ~least.fits(form)
         if wanted:
             return least, doubtful
-    found = search_objectives(form, gain, programs, effort)
+        known = least.owner
+    found = search_objectives(form, gain, programs, effort, known)
     doubtful = doubtful | ~found.kept
     if needy.any():
         from wirelessagent.deciding.core.batch_kernel import all_servable

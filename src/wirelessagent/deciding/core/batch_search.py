@@ -67,12 +67,15 @@ def search_promises(form: NormalForm, effort: Effort) -> Searches:
     return _search(form, Programs.of_promises(form), effort)
 
 
-def search_objectives(form: NormalForm, gain: FloatArray, programs: Programs, effort: Effort) -> Searches:
+def search_objectives(
+    form: NormalForm, gain: FloatArray, programs: Programs, effort: Effort, owner: IntArray | None = None
+) -> Searches:
     """The problem's objective on ``gain``, its utility asked for again around the rates found wherever it does not fit.
 
-    The form's channels are those of ``gain`` (batch, user, subcarrier).
+    The form's channels are those of ``gain`` (batch, user, subcarrier); ``owner`` (batch, subcarrier) is where the
+    search starts, beside the prices.
     """
-    best = _search(form, programs, effort)
+    best = _search(form, programs, effort, owner=owner)
     left = np.flatnonzero(best.kept)
     programs = programs.at(left)
     for _ in range(REFITS):
@@ -90,15 +93,23 @@ def search_objectives(form: NormalForm, gain: FloatArray, programs: Programs, ef
     return best
 
 
-def _search(form: NormalForm, programs: Programs, effort: Effort, after: Searches | None = None) -> Searches:
-    """Prices, sets and powers for each channel, from those of earlier searches, if any."""
+def _search(
+    form: NormalForm,
+    programs: Programs,
+    effort: Effort,
+    after: Searches | None = None,
+    owner: IntArray | None = None,
+) -> Searches:
+    """Prices, sets and powers for each channel, from those of earlier searches or from ``owner``, if any."""
     from wirelessagent.deciding.core.ask_kernel import Ask
     from wirelessagent.deciding.core.batch_kernel import solve_all
 
     batch, users, subcarriers = form.snr_per_w.shape
     warm = np.full(batch, fill_value=False)
     log_price, log_mu = np.zeros((batch, users)), np.zeros(batch)
-    owner, power_w = np.full((batch, subcarriers), -1, dtype=np.int64), np.empty((batch, subcarriers))
+    given = owner is not None or after is not None
+    owner = np.full((batch, subcarriers), -1, dtype=np.int64) if owner is None else owner.copy()
+    power_w = np.empty((batch, subcarriers))
     if after is not None:
         warm[:] = np.isfinite(after.log_price).all(axis=-1)
         log_price[warm], log_mu[warm], owner = after.log_price[warm], after.log_mu[warm], after.owner.copy()
@@ -112,7 +123,7 @@ def _search(form: NormalForm, programs: Programs, effort: Effort, after: Searche
     choices = users if users <= SMALL else CANDIDATES
     solve_all(
         form.snr_per_w, ask, rows, share, programs.most_level, choices, effort.restarts, effort.seed, warm,
-        after is not None, log_price, log_mu, owner, power_w, score,
+        given, log_price, log_mu, owner, power_w, score,
     )  # fmt: skip
     return Searches(
         owner=owners_with_power(form, owner, power_w),

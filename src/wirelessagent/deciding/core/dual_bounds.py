@@ -49,7 +49,7 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
     for steps in (_COARSE, _FINE):  # λ and Φ(λ) are the costly part: with them given the best μ is soon found
         tried = center[..., np.newaxis] + steps
         with np.errstate(over="ignore"):
-            mu = np.minimum(np.exp(tried), _DEAREST) * program.scale
+            mu = np.minimum(np.exp(tried), _DEAREST) * np.asarray(program.scale)[..., np.newaxis]
         joint = _conjugate(form, program, price[..., np.newaxis, :] * mu[..., np.newaxis] / form.bps_per_nat)
         if program.goal == MOST_EFFICIENCY:
             bounds = _efficiency(form, joint + mu * worth_w[..., np.newaxis], mu)

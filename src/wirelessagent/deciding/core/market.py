@@ -78,7 +78,9 @@ class Sets:
     def digest(self) -> IntArray:
         """A number for each set, which is the same for the same user and columns in any order, shape (set,)."""
         columns = int(self.member.max(initial=0)) + 1
-        number = np.random.default_rng(_HASH_SEED).integers(0, 2**63, (2, max(columns, int(self.user.max(initial=0)) + 1)))
+        number = np.random.default_rng(_HASH_SEED).integers(
+            0, 2**63, (2, max(columns, int(self.user.max(initial=0)) + 1))
+        )
         total = np.concatenate([[0], np.cumsum(number[0][self.member])])  # wraps around
         return total[self.first[1:]] - total[self.first[:-1]] + number[1][self.user]
 

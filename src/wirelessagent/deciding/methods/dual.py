@@ -105,9 +105,8 @@ class Dual(Method):
         served, unserved = without_unservable(form, program)
         if not served.weight.any():
             return unservable_decision(form, least, unserved)
-        found = search_objective(served, Program.of(served) if unserved.size else program, effort, earlier)
-        if least is not None and not found.kept:
-            found = search_objective(served, found.program, effort, found.prices, least.owner)
+        known = None if least is None else least.owner
+        found = search_objective(served, Program.of(served) if unserved.size else program, effort, earlier, known)
         if found.kept:
             found = self._go_on(served, found, started)
         elif least is not None:  # the promised rates are kept, if nothing else
