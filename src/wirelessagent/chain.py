@@ -158,7 +158,7 @@ def _check(problem: Problem, method: type[Method]) -> None:
     refusal = _refusal(problem, method)
     if refusal:
         able = [one.name for one in plugins.plugins("method") if one.cls and not _refusal(problem, one.cls)]
-        raise UnsupportedProblemError(f"{refusal} ({', '.join(able) or 'none is installed'})")
+        raise UnsupportedProblemError(f"{refusal} ({', '.join(able) or 'no installed method does'})")
 
 
 def _refusal(problem: Problem, method: type[Method]) -> str:

@@ -92,7 +92,7 @@ class _Results:
         )
 
     def of_shape(self, leading: tuple[int, ...], unit: str, problem: Problem, cell: Cell) -> BatchDecision:
-        shaped = {name: part.reshape(*leading, *part.shape[1:]) for name, part in vars(self).items()}
+        shaped = {name: part.reshape((*leading, *part.shape[1:])) for name, part in vars(self).items()}
         return BatchDecision(**shaped, unit=unit, problem=problem, cell=cell)
 
 

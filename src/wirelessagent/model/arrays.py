@@ -17,6 +17,9 @@ FloatArray: TypeAlias = NDArray[np.float64]
 IntArray: TypeAlias = NDArray[np.int64]
 BoolArray: TypeAlias = NDArray[np.bool_]
 
+_TOO_LARGE = 2**63
+"""Whole numbers from here on do not fit the arrays and kernels that they go to."""
+
 
 def frozen(array: NDArray[Any]) -> NDArray[Any]:
     """A read-only array with the same content; copies only what someone else could still write to."""
@@ -65,6 +68,8 @@ def whole(name: str, value: int, *, smallest: int = 1) -> int:
         raise InputError(f"{name} must be a whole number; got {value!r}") from error
     if number < smallest:
         raise InputError(f"{name} must be {smallest} or more; got {value!r}")
+    if number >= _TOO_LARGE:
+        raise InputError(f"{name} must be below 2^63; got {value!r}")
     return number
 
 

@@ -14,6 +14,9 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.objective import Objective
 
+_WIDEST = 1e12
+"""How far apart weights may lie; sums of rates so weighted would lose the digits of the smaller ones."""
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -165,6 +168,11 @@ class Problem:
     def _check_weights(self, weights: FloatArray) -> None:
         if not weights.any():
             raise InputError(f"weights are all 0; got {self.weights!r:.80}: give a user one above 0")
+        if weights.max() > _WIDEST * weights[weights > 0].min():
+            raise InputError(
+                f"weights lie more than {_WIDEST:g} times apart; got {self.weights!r:.80}: "
+                "leave users out that count for nothing, or give them 0"
+            )
         if isinstance(self.objective, Objective) and self.objective.measure == "power":
             raise InputError(
                 f"weights mean nothing to {self.objective.name!r}, which counts power alone; got {self.weights!r:.80}: "

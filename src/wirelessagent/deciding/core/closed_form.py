@@ -23,7 +23,7 @@ _LOW = 1e-6
 """Part of the highest rate at which a utility is asked for."""
 _STRAIGHT = 1e-9
 _LEAST_NATS = 1e-9
-_APPROACHED = (
+APPROACHED = (
     "without circuit power less power is always more efficient: the best efficiency is only approached "
     "as the power goes to 0, here to 1e-12 of it"
 )
@@ -67,7 +67,7 @@ def closed_decision(form: NormalForm, worth: float) -> Decision:
         owner,
         power_w,
         bound,
-        reason=_APPROACHED if form.circuit_w == 0.0 and power_w.any() else "",
+        reason=APPROACHED if form.circuit_w == 0.0 and power_w.any() else "",
         price_of_power=surplus,
         iterations=int(found.steps[0]),
     )

@@ -21,6 +21,8 @@ from wirelessagent.model.arrays import FloatArray
 _COARSE = np.append(0.0, np.arange(-8.0, 8.25, 0.5))
 _FINE = np.arange(-0.5, 0.51, 0.05)
 """Steps in ln μ at which the bound is worked out; the first is the price that was found."""
+_ROUNDING = 1e-15
+"""Share of its terms that a difference may be off by; a bound is on the safe side of it."""
 _DEAREST = 1e130
 """No price is higher, so that products stay within the range of numbers."""
 
@@ -36,7 +38,8 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
     price = np.exp(log_price)
     worth_w = _groups_worth_w(form, price)
     if program.goal == LEAST_POWER:
-        return np.maximum(price @ form.promised_nats - worth_w, _first_nats_w(form))
+        with np.errstate(invalid="ignore"):  # ∞ − ∞ proves nothing
+            return np.fmax(price @ form.promised_nats - worth_w, _first_nats_w(form))
     weight = float(form.weight.sum())
     if program.goal == HIGHEST_LEVEL:
         level = _highest_level(program, log_price, worth_w + form.budget_w) * form.bps_per_nat
@@ -52,7 +55,9 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
             mu = np.minimum(np.exp(tried), _DEAREST) * np.asarray(program.scale)[..., np.newaxis]
         joint = _conjugate(form, program, price[..., np.newaxis, :] * mu[..., np.newaxis] / form.bps_per_nat)
         if program.goal == MOST_EFFICIENCY:
-            bounds = _efficiency(form, joint + mu * worth_w[..., np.newaxis], mu)
+            paid = mu * worth_w[..., np.newaxis]
+            rounding = _ROUNDING * (np.abs(joint) + paid + mu * form.circuit_w)
+            bounds = _efficiency(form, joint + paid + rounding, mu)
         else:
             bounds = joint + mu * (worth_w + form.budget_w)[..., np.newaxis]
         at = bounds.argmin(axis=-1)[..., np.newaxis]

@@ -14,7 +14,7 @@ from wirelessagent.deciding.core.best_prices_kernel import find_prices
 from wirelessagent.deciding.core.bundle_kernel import HIGH, LOW, SLOPE
 from wirelessagent.deciding.core.climb_point_kernel import FARTHEST
 from wirelessagent.deciding.core.demand_kernel import conjugate, level_bound
-from wirelessagent.deciding.core.least_power_kernel import least_power
+from wirelessagent.deciding.core.least_power_kernel import keep_budget, least_power
 from wirelessagent.deciding.core.moves_kernel import serve_all
 from wirelessagent.deciding.core.search_kernel import choose_candidates, polish, price_of, restart
 from wirelessagent.deciding.core.sets_kernel import (
@@ -34,7 +34,7 @@ from wirelessagent.deciding.core.sets_kernel import (
     none,
     value_all,
 )
-from wirelessagent.deciding.core.settle_kernel import OVERSPENT, set_level
+from wirelessagent.deciding.core.settle_kernel import OVERSPENT, set_level, settle
 from wirelessagent.deciding.core.terms_kernel import worth_of_groups
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
@@ -238,6 +238,8 @@ def solve(
     nats, spare = np.empty(users), np.empty(users)
     log_mu = write_figures(snr_per_w, ask, sets, score, at, log_price, log_mu, nats)
     least_power(snr_per_w, channel.ceiling, nats, owner, power_w, spare)
+    if ask.goal != POWER and not ask.rows[:, LOW].max() > 0.0:
+        keep_budget(ask.budget_w, power_w)
     return Found(score, at, dual, log_mu, missing, iterations)
 
 
@@ -308,11 +310,17 @@ def write_figures(
 
 @kernel
 def start_sets(ask: Ask, sets: Sets, log_mu: float, owner: IntArray) -> tuple[float, int]:
-    """Take over the owners (group,) and serve who lacks a rate; ln μ (or ln level) and how many still lack one."""
+    """Take over the owners (group,) and serve who lacks a rate; ln μ (or ln level) and how many still lack one.
+
+    Owners that keep every limit are left as they are.
+    """
+    assign(sets, owner)
+    score, at, _ = settle(ask, sets, log_mu)
+    if score > -OVERSPENT * 1e-9:
+        return at, 0
     at = log_mu
     if ask.goal == LEVEL:
         set_level(sets.user, ask.share, np.exp(at))
-    assign(sets, owner)
     value_all(sets, price_of(ask, at))
     missing = serve_all(sets)
     if ask.goal == LEVEL:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.ask_kernel import Ask
+from wirelessagent.deciding.core.ask_kernel import POWER, Ask
 from wirelessagent.deciding.core.best_prices_kernel import find_prices
 from wirelessagent.deciding.core.bundle_kernel import LOW, UNREACHABLE
 from wirelessagent.deciding.core.dual_kernel import Found, channel_of
-from wirelessagent.deciding.core.least_power_kernel import least_power
+from wirelessagent.deciding.core.least_power_kernel import keep_budget, least_power
 from wirelessagent.deciding.core.moves_kernel import ROUNDING, change
 from wirelessagent.deciding.core.search_kernel import price_of
 from wirelessagent.deciding.core.sets_kernel import (
@@ -130,4 +130,6 @@ def solve_greedily(
     for g in range(groups):
         owner[ask.start[g] : ask.start[g + 1]] = owners[g]
     least_power(snr_per_w, channel.ceiling, nats, owner, power_w, np.empty(users))
+    if ask.goal != POWER and not ask.rows[:, LOW].max() > 0.0:
+        keep_budget(ask.budget_w, power_w)
     return Found(score, at, dual, log_mu, missing, iterations)

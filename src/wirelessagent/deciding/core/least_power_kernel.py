@@ -71,6 +71,14 @@ def log_ratio(snr_per_w: FloatArray, log_snr: FloatArray, top: int, n: int) -> f
 
 
 @kernel
+def keep_budget(budget_w: float, power_w: FloatArray) -> None:
+    """Scale powers down to the budget that they exceed: levels, which are logarithms, lose the digits of tiny rates."""
+    spent_w = power_w.sum()
+    if budget_w < spent_w < np.inf:
+        power_w *= budget_w / spent_w
+
+
+@kernel
 def least_power(
     snr_per_w: FloatArray,
     ceiling: FloatArray,

@@ -7,9 +7,12 @@ import dataclasses
 import numpy as np
 
 from wirelessagent.deciding.core.certificate import Figures, certified
+from wirelessagent.deciding.core.closed_form import APPROACHED
+from wirelessagent.deciding.core.dual_bounds import bound_of
 from wirelessagent.deciding.core.dual_prices import figures_of
 from wirelessagent.deciding.core.dual_search import Effort, Search
 from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.program import MOST_EFFICIENCY, Program
 from wirelessagent.deciding.core.promises import broken_decision
 from wirelessagent.deciding.core.scaling import searched_scaling
 from wirelessagent.model.arrays import FloatArray, IntArray
@@ -18,6 +21,10 @@ from wirelessagent.model.rates import user_rate_bps
 
 BUDGET_ROUNDING = 1e-10
 PROOF_ROUNDING = 1e-9
+_CURVATURE = 4
+"""Column of a program's rows."""
+_FIRST_NATS = 1e-12
+"""So few that they cost as little as the first."""
 
 
 def fits(form: NormalForm, found: Search) -> bool:
@@ -34,6 +41,26 @@ def unpowered_decision(form: NormalForm) -> Decision:
     """The least power where nothing is promised: none, for nobody."""
     nobody = np.full(form.cap_w.size, -1, dtype=np.int64)
     return certified(form, nobody, np.zeros(form.cap_w.size), 0.0, price_of_power=0.0)
+
+
+def is_approached(form: NormalForm, program: Program) -> bool:
+    """Whether less power is always more efficient, so that the best efficiency is only approached."""
+    straight = not program.rows[:, _CURVATURE].any()
+    return program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0 and straight and not form.promised_nats.any()
+
+
+def approached_decision(form: NormalForm, program: Program) -> Decision:
+    """Next to no power, for the pair whose first nats are worth the most per joule."""
+    owner, power_w = np.full(form.cap_w.size, -1, dtype=np.int64), np.zeros(form.cap_w.size)
+    worth = form.weight[:, np.newaxis] * form.snr_per_w
+    user, subcarrier = np.unravel_index(int(worth.argmax()), worth.shape)
+    if worth[user, subcarrier] > 0.0:
+        group = int(np.searchsorted(form.start, subcarrier, side="right")) - 1
+        owner[form.start[group] : form.start[group + 1]] = user
+        first_w = min(_FIRST_NATS, float(form.most_nats[user])) / float(form.snr_per_w[user, subcarrier])
+        power_w[subcarrier] = min(first_w, form.budget_w, float(form.cap_w[subcarrier]))
+    bound = bound_of(form, program, np.zeros(form.weight.size), 0.0)
+    return certified(form, owner, power_w, bound, reason=APPROACHED, price_of_power=0.0)
 
 
 def unkept_decision(form: NormalForm, least: Search, scaled_by: Effort) -> Decision:

@@ -15,8 +15,10 @@ from wirelessagent.deciding.core.dual_search import Effort, Search, search, sear
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, Program
 from wirelessagent.deciding.core.search_decision import (
+    approached_decision,
     decision_of,
     fits,
+    is_approached,
     is_proven_too_much,
     unkept_decision,
     unpowered_decision,
@@ -91,6 +93,8 @@ class Dual(Method):
         promised = bool(form.promised_nats.any())
         if program.goal == LEAST_POWER and not promised:
             return unpowered_decision(form)
+        if is_approached(form, program):
+            return approached_decision(form, program)
         least: Search | None = None
         if promised:
             wanted = program.goal == LEAST_POWER

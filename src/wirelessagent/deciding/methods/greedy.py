@@ -13,8 +13,10 @@ from wirelessagent.deciding.core.greedy_search import search_greedily, search_ob
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, Program
 from wirelessagent.deciding.core.search_decision import (
+    approached_decision,
     decision_of,
     fits,
+    is_approached,
     unkept_decision,
     unpowered_decision,
     unservable_decision,
@@ -51,6 +53,8 @@ class Greedy(Method):
             if least is None:
                 return unpowered_decision(form)
             return decision_of(form, least, least, np.empty(0, dtype=np.int64))
+        if is_approached(form, program):
+            return approached_decision(form, program)
         served, unserved = without_unservable(form, program)
         if not served.weight.any():
             return unservable_decision(form, least, unserved)
