@@ -35,6 +35,7 @@ _config: Any = config
 _FunctionCache: Any = caching.FunctionCache
 
 _log = logging.getLogger(__name__)
+_compiling = logging.getLogger(f"{__name__}.compiling")
 _lock = threading.Lock()
 
 
@@ -64,18 +65,27 @@ class _Cache(_FunctionCache):
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         try:
-            return _FunctionCache.load_overload(self, sig, target_context)
+            loaded = _FunctionCache.load_overload(self, sig, target_context)
         except Exception as error:  # noqa: BLE001  # a pickle that a crash cut short fails in any way
             _log.info("the kernel cache %s cannot be read and is made anew: %r", self.cache_path, error)
             with contextlib.suppress(OSError):
                 self.flush()
-            return None
+            loaded = None
+        if loaded is None:
+            _say_compiling()
+        return loaded
 
     def save_overload(self, sig: Any, data: Any) -> None:
         try:
             _FunctionCache.save_overload(self, sig, data)
         except OSError as error:
             _log.info("the kernel cache %s cannot be written: %r", self.cache_path, error)
+
+
+@functools.cache
+def _say_compiling() -> None:
+    """Log, once in a process, that what comes now takes its time."""
+    _compiling.info("compiling for this machine, which is done once and may take a minute")
 
 
 def _cache_in(folder: Path, function: Callable[..., object]) -> _Cache | None:

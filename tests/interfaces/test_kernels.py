@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import errno
+import functools
 import itertools
 import json
 import os
@@ -237,3 +238,16 @@ def test_nothing_else_opens_a_door_to_numba() -> None:
         if any(name.split(".")[0] == "numba" for name in imports_of(source))
     }
     assert doors == {"kernels.py"}
+
+
+def test_the_first_compilation_is_told_of_once(
+    cache_home: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(kernels, "_say_compiling", functools.cache(kernels._say_compiling.__wrapped__))
+    with caplog.at_level("INFO", logger="wirelessagent.kernels.compiling"):
+        for one in (kernels.kernel(double), kernels.kernel(double)):
+            one(1.0)
+            one(1)
+    assert [record.getMessage() for record in caplog.records if "compiling" in record.name] == [
+        "compiling for this machine, which is done once and may take a minute"
+    ]

@@ -6,6 +6,7 @@ Errors are one line on stderr. Exit codes: 0 done, 1 failed, 2 bad input or a qu
 from __future__ import annotations
 
 import io
+import logging
 import os
 import sys
 from collections.abc import Callable
@@ -27,6 +28,7 @@ def run(arguments: list[str]) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a terminal without Chinese must not stop the work
+    _tell_of_compiling()
     command = typer.main.get_command(_app(arguments))
     try:
         code = command.main(args=arguments, prog_name="wirelessagent", standalone_mode=False)
@@ -54,6 +56,21 @@ def run(arguments: list[str]) -> int:
             f"internal error, please report it: {type(error).__name__}: {error} (WIRELESSAGENT_DEBUG=1 shows where)", 1
         )
     return code if isinstance(code, int) else 0
+
+
+class _Notes(logging.Handler):
+    """Prints log records to stderr, one line each."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        print(f"wirelessagent: {record.getMessage()}", file=sys.stderr)  # noqa: T201
+
+
+def _tell_of_compiling() -> None:
+    """Have the wait of the first decision on a machine explained."""
+    log = logging.getLogger("wirelessagent.kernels.compiling")
+    log.setLevel(logging.INFO)
+    log.propagate = False
+    log.handlers = [_Notes()]
 
 
 def _give_up_output() -> None:
