@@ -7,17 +7,18 @@ subcarriers (:mod:`.column_prices`) do not, and their search ends at the optimum
 from __future__ import annotations
 
 import dataclasses
+import functools
 
 import numpy as np
 
-from wirelessagent.deciding.core.column_prices import start_prices
+from wirelessagent.deciding.core.column_prices import column_prices, start_prices
 from wirelessagent.deciding.core.dual_search import Search, owners_with_power, tighter
 from wirelessagent.deciding.core.exact_search import Optimum, search
 from wirelessagent.deciding.core.exact_start import carried_at_any_power, goal_of, is_met_everywhere, least_power, shown
-from wirelessagent.deciding.core.goals import Goal
-from wirelessagent.deciding.core.market import Sets
+from wirelessagent.deciding.core.goals import Goal, Most
+from wirelessagent.deciding.core.market import Market, Sets
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program
+from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program, promises
 from wirelessagent.model.arrays import IntArray
 from wirelessagent.model.decision import Prices
 
@@ -25,6 +26,17 @@ _FARTHEST = 80.0
 """Of ln μ at the start; a price beyond is that of power to spare."""
 MOST_SETS = 2000
 """Sets listed for one user before a problem is divided."""
+
+
+@functools.cache
+def make_ready() -> None:
+    """Have all that the search needs compiled, once in a process, so that its time is spent on searching."""
+    rows, owner = promises(np.ones(2)), np.array([0, 1])
+    market = Market.of(rows, np.ones((2, 2)), np.ones((2, 2)), np.arange(3), cost_per_w=1.0, budget_w=np.inf)
+    known = Sets.of_owner(owner, 2)
+    priced = column_prices(market, start_prices(market, np.zeros(2), 0.0), 0.0, known, rounds=2)
+    goal = Most(market=market)
+    search(goal, known, priced.price, 0.0, deadline=np.inf, most_sets=2).allocation(goal)
 
 
 def tightened(form: NormalForm, found: Search, deadline: float, most_sets: int = MOST_SETS) -> Search:

@@ -24,7 +24,7 @@ from wirelessagent.deciding.core.search_decision import (
     unpowered_decision,
     unservable_decision,
 )
-from wirelessagent.deciding.core.thorough import carried, tightened
+from wirelessagent.deciding.core.thorough import carried, make_ready, tightened
 from wirelessagent.deciding.core.unserved import without_unservable
 from wirelessagent.deciding.method import WHOLE_PROBLEM, Method
 from wirelessagent.model.arrays import positive, whole
@@ -135,8 +135,8 @@ class Dual(Method):
 
     def _until(self, started: float, otherwise_s: float) -> float:
         """When nothing new begins any more, on ``time.perf_counter``."""
-        allowed_s = otherwise_s if self.deadline_ms is None else self.deadline_ms / 1e3
-        return started + allowed_s
+        make_ready()
+        return time.perf_counter() + otherwise_s if self.deadline_ms is None else started + self.deadline_ms / 1e3
 
     def _restarted(self, form: NormalForm, found: Search, started: float, deadline: float) -> Search:
         """Rounds up to the restarts that were asked for, or while one as long as those before ends by the deadline.

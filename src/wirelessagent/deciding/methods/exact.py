@@ -17,7 +17,7 @@ from wirelessagent.deciding.core.goals import Goal
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, MOST_EFFICIENCY, Program
 from wirelessagent.deciding.core.search_decision import PROOF_ROUNDING, fits
-from wirelessagent.deciding.core.thorough import MOST_SETS, carried, search_from
+from wirelessagent.deciding.core.thorough import MOST_SETS, carried, make_ready, search_from
 from wirelessagent.deciding.method import WHOLE_PROBLEM, Method
 from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.model.arrays import IntArray, positive, whole
@@ -63,12 +63,13 @@ class Exact(Method):
         whole("seed", self.seed, smallest=0)
 
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
-        deadline = time.perf_counter() + self.deadline_s
         form = NormalForm.of(self, estimate, problem, cell)
         first = dataclasses.replace(Dual(seed=self.seed).solve(estimate, problem, cell), method=self.name)
         if first.status in ("optimal", "infeasible") or not _is_resolved(form):
             return first
         program = Program.of(form)
+        make_ready()
+        deadline = time.perf_counter() + self.deadline_s
         if not first.is_usable or first.prices is None:
             return self._carried(form, program, first, deadline)
         if program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0:
