@@ -28,7 +28,7 @@ def run(arguments: list[str]) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a terminal without Chinese must not stop the work
-    _tell_of_compiling()
+    _tell_of_compiling(wanted="--json" not in arguments)
     command = typer.main.get_command(_app(arguments))
     try:
         code = command.main(args=arguments, prog_name="wirelessagent", standalone_mode=False)
@@ -65,12 +65,12 @@ class _Notes(logging.Handler):
         print(f"wirelessagent: {record.getMessage()}", file=sys.stderr)  # noqa: T201
 
 
-def _tell_of_compiling() -> None:
-    """Have the wait of the first decision on a machine explained."""
+def _tell_of_compiling(*, wanted: bool) -> None:
+    """Have the wait of the first decision on a machine explained, where somebody reads along."""
     log = logging.getLogger("wirelessagent.kernels.compiling")
     log.setLevel(logging.INFO)
     log.propagate = False
-    log.handlers = [_Notes()]
+    log.handlers = [_Notes()] if wanted else [logging.NullHandler()]
 
 
 def _give_up_output() -> None:
