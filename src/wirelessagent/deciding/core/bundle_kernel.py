@@ -6,8 +6,8 @@ A user whose utility is U(r) for low ≤ r ≤ high gets from the set S, where a
 
 with r_n = min(max(z + ln a_n, 0), c_n) at one level z (water-filling). At the best rate U′(r) = μ dP/dr = μ e^z.
 
-A user is a row of six numbers (see :mod:`.worth`): low, high, reference rate r₀ > 0, slope s = U′(r₀), curvature α and
-base U(r₀), which stand for U(r) = U(r₀) + s r₀ ((r/r₀)^(1−α) − 1)/(1−α), a power law: α = 0 is the rate itself and
+A user is a row of six numbers (see :mod:`.program`): low, high, reference rate r₀ > 0, slope s = U′(r₀), curvature α
+and base U(r₀), which stand for U(r) = U(r₀) + s r₀ ((r/r₀)^(1−α) − 1)/(1−α), a power law: α = 0 is the rate itself and
 α = 1 its logarithm. With s = 0 and low = high it is a promise, and V is minus what the promise costs.
 """
 
@@ -260,16 +260,4 @@ def wet_bundle(
     power = size * np.exp(level) - inverses
     if not power < MOST_POWER:
         return np.nan, 0.0, 0.0, 0.0
-    worth = user[BASE]
-    if slope > 0.0:
-        exponent = 1.0 - curvature
-        if curvature == 0.0:
-            worth += slope * (rate - reference)
-        elif curvature == 1.0:
-            worth += slope * reference * np.log(rate / reference)
-        else:
-            logarithm = np.log(rate / reference)
-            if abs(exponent * logarithm) < 1e-8:
-                return np.nan, 0.0, 0.0, 0.0
-            worth += slope * reference * np.expm1(exponent * logarithm) / exponent
-    return worth - mu * power, rate, power, level
+    return utility(user, rate) - mu * power, rate, power, level

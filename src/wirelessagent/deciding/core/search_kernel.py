@@ -1,10 +1,11 @@
 """From prices to sets, and from sets to better ones: a local search that never gets worse, with restarts.
 
-Sets are improved at their own price of power until none of the moves and swaps of :mod:`.sets_kernel` gains. That is a
+Sets are improved at their own price of power until none of the moves and swaps of :mod:`.moves_kernel` gains. That is a
 true local optimum: with μ the price that settles the sets S, value(S) = Σ V_k(S_k; μ) + μ P, and no other sets S' can
 be worth more than Σ V_k(S'_k; μ) + μ P, because their own price makes that smallest. So a change can be an improvement
 only if the worths at the present price add up to more. Then it is settled afresh, and kept if the score is higher.
-A restart gives a few groups away at random, improves, and goes back unless that scored, or was worth just as much.
+A restart gives a few groups away at random, improves, and goes back unless that is worth nearly as much; the best sets
+are kept.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.deciding.core.certificate import Figures, certified, nothing
+from wirelessagent.deciding.core.certificate import Figures, certified
 from wirelessagent.deciding.core.dual_prices import figures_of
 from wirelessagent.deciding.core.dual_search import Effort, search_objective, search_promises
 from wirelessagent.deciding.core.exact_search import Optimum
@@ -16,7 +16,7 @@ from wirelessagent.deciding.core.exact_start import goal_of, is_met_everywhere, 
 from wirelessagent.deciding.core.goals import Goal
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, MOST_EFFICIENCY, Program
-from wirelessagent.deciding.core.search_decision import PROOF_ROUNDING, fits
+from wirelessagent.deciding.core.search_decision import PROOF_ROUNDING, fits, unkept_decision
 from wirelessagent.deciding.core.thorough import MOST_SETS, carried, make_ready, search_from
 from wirelessagent.deciding.method import WHOLE_PROBLEM, Method
 from wirelessagent.deciding.methods.dual import Dual
@@ -25,7 +25,6 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Bracket, Decision, Prices
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.problem import Problem
-from wirelessagent.model.units import human
 
 _RESTARTS = 100
 _TINY = 1e-3
@@ -71,7 +70,7 @@ class Exact(Method):
         make_ready()
         deadline = time.perf_counter() + self.deadline_s
         if not first.is_usable or first.prices is None:
-            return self._carried(form, program, first, deadline)
+            return self._carried(form, program, deadline)
         if program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0:
             return first  # the best efficiency is that of no power
         met = is_met_everywhere(form, program)
@@ -94,13 +93,13 @@ class Exact(Method):
     ) -> Optimum:
         return search_from(form, program, goal, owner, prices, deadline=deadline, most_sets=self.max_sets)
 
-    def _carried(self, form: NormalForm, program: Program, first: Decision, deadline: float) -> Decision:
+    def _carried(self, form: NormalForm, program: Program, deadline: float) -> Decision:
         """The decision where the dual method found none that keeps the promised rates."""
         least = carried(
             form, search_promises(form, Effort(restarts=_RESTARTS, seed=self.seed)), deadline, self.max_sets
         )  # fmt: skip
         if not fits(form, least):
-            return _impossible(form, first, least.bound, least.spent_w if least.kept else np.inf)
+            return unkept_decision(form, least, Effort(restarts=0, seed=self.seed))
         if program.goal == LEAST_POWER:
             return certified(form, least.owner, least.power_w, least.bound, **figures_of(form, least, least))
         start = search_objective(form, program, Effort(restarts=0, seed=self.seed), None, least.owner)
@@ -142,29 +141,4 @@ def _is_sound(form: NormalForm, decision: Decision, first: Decision) -> bool:
         and sign * (decision.bound - first.value) >= -slack
         and np.isfinite(decision.bound)
         and np.all(decision.rate_bps >= promised * (1.0 - PROOF_ROUNDING))
-    )
-
-
-def _impossible(form: NormalForm, first: Decision, at_least: float, at_most: float) -> Decision:
-    """Infeasible where the power needed is proven to be beyond the budget; else ``first``, with what is known of it."""
-    needed = Bracket(at_least=at_least, at_most=at_most)
-    if at_least <= form.budget_w * (1.0 + PROOF_ROUNDING):
-        return dataclasses.replace(first, needed_power_w=needed)
-    reason = (
-        "no assignment of the subcarriers carries the promised rates at any power"
-        if np.isinf(at_least)
-        else f"the promised rates need at least {human(at_least, 'W')} on this channel, "
-        f"more than the budget of {human(form.budget_w, 'W')}"
-    )
-    bound = at_least if form.objective.measure == "power" else np.nan
-    return nothing(
-        form,
-        "infeasible",
-        bound,
-        reason=reason,
-        needed_power_w=needed,
-        rate_scaling=first.rate_scaling,
-        price_of_rate=first.price_of_rate,
-        price_of_power=np.nan,
-        iterations=first.iterations,
     )
