@@ -1,0 +1,119 @@
+"""What is known of faded gains: Rician powers, whose errors may be correlated over frequency.
+
+A coefficient h of which a part is known is complex Gaussian about it: h = ν + e with e ~ CN(0, c). Its power |h|² has
+the mean m = ν² + c and the variance v = 2mc − c², so that mean and variance say all: c = m − √(m² − v). Certainty is
+c = 0, Rayleigh fading of known level c = m. A variance above m² says that the level itself is uncertain: an
+exponential gain whose level is inverse-gamma distributed is Lomax distributed, P(g > x) = (1 + x/(m(α − 1)))^−α with
+α = 2v/(v − m²). The two meet at v = m².
+
+Simon and Alouini, *Digital Communication over Fading Channels* (2005), section 2.2.1.3 (Rician power); Johnson, Kotz
+and Balakrishnan, *Continuous Univariate Distributions* (1994), section 20.12 (Lomax).
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.posterior import Posterior
+
+_NODES = 513
+"""Nodes of a quantile's table over √(c/m)."""
+_SHARP = 1e-4
+"""c/m below which the amplitude is normal to four digits and more."""
+_RULE = 24
+"""Quantiles from which expectations are taken."""
+
+
+@dataclass(frozen=True)
+class FadingPosterior(Posterior):
+    """Powers of partly known coefficients.
+
+    Attributes:
+        mean, variance: of the true gains, shape (user, subcarrier).
+        error_root: from no arguments to R with R Rᵀ the correlation of the errors e over frequency, shape
+            (user, subcarrier, subcarrier); None for independent errors. It is asked once, when samples are drawn.
+    """
+
+    mean: FloatArray
+    variance: FloatArray
+    error_root: Callable[[], FloatArray] | None = field(default=None, repr=False, compare=False)
+
+    def quantile(self, probability: float) -> FloatArray:
+        mean = self.mean
+        below = np.interp(np.sqrt(self._unknown), np.linspace(0.0, 1.0, _NODES), _rician_quantiles(probability))
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            alpha = self._alpha
+            beyond = (alpha - 1.0) * np.expm1(-np.log1p(-probability) / alpha)
+        return mean * np.where(self._spread > 1.0, beyond, below)
+
+    def samples(self, num_samples: int, *, seed: int) -> FloatArray:
+        rng = np.random.default_rng(seed)
+        users, subcarriers = self.mean.shape
+        error: FloatArray = rng.standard_normal((2, num_samples, users, subcarriers))
+        if self._root is not None:
+            error = np.matmul(self._root, error[..., np.newaxis])[..., 0]
+        unknown = self.mean * self._unknown
+        known = np.sqrt(np.maximum(self.mean - unknown, 0.0))
+        root = np.sqrt(unknown / 2.0)
+        drawn: FloatArray = (known + root * error[0]) ** 2 + (root * error[1]) ** 2
+        wide = self._spread > 1.0
+        if wide.any():
+            alpha = np.where(wide, self._alpha, np.inf)
+            level: FloatArray = rng.standard_gamma(np.where(wide, alpha, 1.0), size=drawn.shape)
+            drawn = np.where(wide, drawn * (np.where(wide, alpha, 2.0) - 1.0) / level, drawn)
+        return np.where(self.variance > 0, drawn, self.mean)
+
+    def expected_log1p(self, scale: FloatArray) -> FloatArray:
+        rule = _quantile_rule()
+        return np.sum([weight * np.log1p(scale * self.quantile(at)) for at, weight in rule], axis=0)
+
+    @functools.cached_property
+    def _spread(self) -> FloatArray:
+        """v/m²; 0 where nothing is uncertain."""
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            ratio = self.variance / self.mean / self.mean
+        return np.where((self.variance > 0) & (self.mean > 0), ratio, 0.0)
+
+    @functools.cached_property
+    def _unknown(self) -> FloatArray:
+        """c/m, without cancellation where it is small."""
+        spread = np.minimum(self._spread, 1.0)
+        return spread / (1.0 + np.sqrt(1.0 - spread))
+
+    @functools.cached_property
+    def _alpha(self) -> FloatArray:
+        """Lomax shape where the spread is above 1."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return 2.0 / (1.0 - 1.0 / np.maximum(self._spread, 1.0 + 1e-12))
+
+    @functools.cached_property
+    def _root(self) -> FloatArray | None:
+        return None if self.error_root is None else self.error_root()
+
+
+@functools.lru_cache(maxsize=256)
+def _rician_quantiles(probability: float) -> FloatArray:
+    """Quantile of the power of mean 1 for √(c/m) from 0 to 1, shape (node,)."""
+    from scipy.special import chndtrix, ndtri
+
+    unknown = np.linspace(0.0, 1.0, _NODES) ** 2
+    known = 1.0 - unknown
+    sharp = np.maximum(np.sqrt(known) + ndtri(probability) * np.sqrt(unknown / 2.0), 0.0) ** 2
+    wide = unknown > _SHARP
+    exact = np.where(wide, unknown, 1.0)
+    return np.where(wide, exact / 2.0 * chndtrix(probability, 2.0, np.where(wide, 2.0 * known / exact, 0.0)), sharp)
+
+
+@functools.lru_cache(maxsize=1)
+def _quantile_rule() -> tuple[tuple[float, float], ...]:
+    """Probabilities u = t² and weights, by Gauss and Legendre's rule in t: the logarithm of a gain in a deep fade,
+    ln u, is mild in t."""
+    from numpy.polynomial.legendre import leggauss
+
+    node, weight = leggauss(_RULE)
+    return tuple((float(t * t), float(w * t)) for t, w in zip((node + 1.0) / 2.0, weight, strict=True))

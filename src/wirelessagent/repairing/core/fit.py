@@ -1,0 +1,143 @@
+"""What kriging learns from a slot, and what it makes of it: hypotheses weighed, gains estimated, variances tested."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.repairing.core.hypotheses import Hypotheses
+
+PRIOR_ENTRIES = 8.0
+"""Weight of the users' common factor of the variances in each user's, in observed entries."""
+TAIL = 4.0
+"""Entries taken off: the variance to be expected of a normal error is larger than its likeliest value by n/(n − 2), and
+about half of the entries say something new."""
+LARGEST_SURPRISE = 5.0
+"""Deviations from the estimate, in standard deviations, beyond which an entry counts no more for the correlation."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Relative:
+    """A slot in units of the users' levels; see :mod:`.relative_kernel`."""
+
+    gain: FloatArray
+    known: BoolArray
+    noise: FloatArray
+    level: FloatArray
+    noise_share: FloatArray
+    seen: IntArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Learnt:
+    """Parameters of a slot, which may be held for the next.
+
+    Attributes:
+        candidates: the hypotheses.
+        chance: how likely each is, shape (user, hypothesis).
+        forms: what each says of the user's level, shape (user, 5, hypothesis).
+    """
+
+    candidates: Hypotheses
+    chance: FloatArray
+    forms: FloatArray
+
+
+def relative(observation: ChannelObservation) -> Relative:
+    """The current slot of an observation."""
+    from wirelessagent.repairing.core import relative_kernel
+
+    gain = observation.current
+    users = observation.num_users
+    result = Relative(
+        gain=np.empty(gain.shape),
+        known=np.empty(gain.shape, dtype=np.bool_),
+        noise=np.empty(gain.shape),
+        level=np.empty(users),
+        noise_share=np.empty(users),
+        seen=np.empty(users, dtype=np.int64),
+    )
+    unknown = observation.noise_variance is None
+    noise = np.full(gain.shape, np.nan) if unknown else observation.current_noise_variance
+    relative_kernel.relate(
+        gain, noise, result.gain, result.known, result.noise, result.level, result.noise_share, result.seen
+    )
+    return result
+
+
+def learn(slot: Relative, candidates: Hypotheses) -> Learnt:
+    """The weights of the hypotheses."""
+    from wirelessagent.repairing.core import evidence_kernel, pooling_kernel
+
+    forms = np.empty((slot.level.size, 5, candidates.noise.size))
+    delays = candidates.log_prior.size
+    log_likelihood = evidence_kernel.weigh_users(
+        slot.gain, slot.known, candidates.place, candidates.table, candidates.noise, slot.noise_share, delays, forms
+    )
+    chance = pooling_kernel.pooled_weights(
+        log_likelihood, candidates.families, candidates.log_step, candidates.log_prior
+    )
+    return Learnt(candidates=candidates, chance=chance, forms=forms)
+
+
+def estimate(slot: Relative, learnt: Learnt, *, tested: bool) -> FloatArray:
+    """Mean, variance from fading and other variance of the missing entries, shape (user, subcarrier, 3).
+
+    If ``tested``, of observed ones as well, from the others (on long bands of a part of them); 0 elsewhere.
+    """
+    from wirelessagent.repairing.core import kriging_kernel, windows_kernel
+
+    candidates = learnt.candidates
+    windows = windows_kernel.lay_windows(slot.known)
+    lanes = windows_kernel.lay_lanes(windows, candidates.noise, slot.noise_share, learnt.forms, learnt.chance)
+    found = np.zeros((*slot.gain.shape, 3))
+    kriging_kernel.krige(
+        slot.gain, slot.known, slot.noise, candidates.place, candidates.table, windows, lanes,
+        windows.tested if tested else 0, found,
+    )  # fmt: skip
+    return found
+
+
+def factors(slot: Relative, found: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """By what the variances from fading are multiplied for each user, shape (user,), and the surprises that say so.
+
+    The squared errors of the observed entries in units of those expected have a mean that is a user's own, drawn
+    towards the users' common one where the user has shown little. Surprises are errors in standard deviations, shape
+    (user, subcarrier), 0 where nothing was tested.
+    """
+    compared = slot.known & (found[..., 0] > 0.0)
+    noise = np.nan_to_num(slot.noise)
+    expected = np.where(compared, found[..., 1] + found[..., 2] + noise, 1.0)
+    surprise = np.where(compared, slot.gain - found[..., 0], 0.0) / np.sqrt(expected)
+    squares, count = (surprise**2).sum(axis=1), compared.sum(axis=1)
+    pool = (squares.sum() + TAIL) / (count.sum() + TAIL)
+    return (squares + PRIOR_ENTRIES * pool) / (count + PRIOR_ENTRIES - TAIL), surprise
+
+
+def mean_hypothesis(slot: Relative, learnt: Learnt) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Each user's correlation at each distance (user, distance), η and level (user,), averaged over the hypotheses."""
+    candidates = learnt.candidates
+    noise = np.where(np.isnan(candidates.noise), slot.noise_share[:, np.newaxis], candidates.noise)
+    return (
+        np.ascontiguousarray(learnt.chance @ candidates.table.T),
+        (learnt.chance * noise).sum(axis=1),
+        (learnt.chance * learnt.forms[:, 4]).sum(axis=1),
+    )
+
+
+def with_partners(slot: Relative, learnt: Learnt, surprise: FloatArray, found: FloatArray) -> None:
+    """Overwrite the estimates of users whose surprises prove a correlation with others'."""
+    from wirelessagent.repairing.core import partners_kernel, users
+
+    tested = surprise != 0.0
+    clipped = np.clip(surprise, -LARGEST_SURPRISE, LARGEST_SURPRISE)
+    correlation = users.correlation_beyond_chance(clipped, tested)
+    if not correlation.any():
+        return
+    table, noise, level = mean_hypothesis(slot, learnt)
+    partners_kernel.krige_with_partners(
+        slot.gain, slot.known, slot.seen, slot.noise, learnt.candidates.place, table, noise, level, correlation, found
+    )

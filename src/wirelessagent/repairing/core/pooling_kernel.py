@@ -1,0 +1,104 @@
+"""Which hypotheses hold for which user: one user says little, all users together say more.
+
+Users of a cell share surroundings, so their delay spreads lie about a common value: ln τ_k ~ N(m, s²), with m anywhere
+on the grid and s one of ``SPREADS``, from "the same" to "anything". The pairs (m, s) are weighed by how well they
+explain all users, and so are averaged over, not chosen. The kinds of profile have shares in the cell, found by
+expectation and maximisation from equal ones.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wirelessagent.kernels import kernel
+from wirelessagent.model.arrays import FloatArray
+
+SPREADS = np.array([0.05, 0.25, 0.7, 2.0])
+ROUNDS = 4
+FLOOR = 1e-12
+PSEUDO_USERS = 1.0
+"""Users that stand for equal shares of the kinds."""
+
+
+@kernel
+def delay_priors(delays: int, log_step: float) -> FloatArray:
+    """The distribution of a user's delay spread for each (m, s), shape (spread · delay, delay)."""
+    priors = np.empty((SPREADS.size * delays, delays))
+    for s in range(SPREADS.size):
+        for m in range(delays):
+            row = priors[s * delays + m]
+            total = 0.0
+            for t in range(delays):
+                row[t] = np.exp(-0.5 * ((t - m) * log_step / SPREADS[s]) ** 2) + FLOOR
+                total += row[t]
+            row[:] /= total
+    return priors
+
+
+@kernel
+def posterior_of_delays(likelihood: FloatArray, priors: FloatArray, log_prior: FloatArray) -> FloatArray:
+    """Factors that turn the likelihood (user, delay) into the pooled posterior, up to each user's total; same shape.
+
+    ``log_prior`` (delay,) is that of m.
+    """
+    users, delays = likelihood.shape
+    log_evidence = np.empty(priors.shape[0])
+    for p in range(priors.shape[0]):
+        log_evidence[p] = log_prior[p % delays]
+    evidence = np.empty((priors.shape[0], users))
+    for p in range(priors.shape[0]):
+        for k in range(users):
+            total = 0.0
+            for t in range(delays):
+                total += priors[p, t] * likelihood[k, t]
+            evidence[p, k] = max(total, 1e-300)
+            log_evidence[p] += np.log(evidence[p, k])
+    weight = np.exp(log_evidence - log_evidence.max())
+    factor = np.zeros((users, delays))
+    for p in range(priors.shape[0]):
+        if weight[p] > FLOOR:
+            for k in range(users):
+                scale = weight[p] / evidence[p, k]
+                for t in range(delays):
+                    factor[k, t] += scale * priors[p, t]
+    return factor
+
+
+@kernel
+def pooled_weights(log_likelihood: FloatArray, families: int, log_step: float, log_prior: FloatArray) -> FloatArray:
+    """The posterior probability of each hypothesis for each user, same shape (user, hypothesis).
+
+    Args:
+        log_likelihood: ln L, shape (user, families × delays); zeros for users without observation.
+        families: kinds of profile.
+        log_step: ln of the ratio of neighbouring delay spreads.
+        log_prior: of the delay about which the users' lie, shape (delay,).
+    """
+    users, count = log_likelihood.shape
+    delays = count // families
+    priors = delay_priors(delays, log_step)
+    likelihood = np.empty((users, count))
+    for k in range(users):
+        likelihood[k] = np.exp(log_likelihood[k] - log_likelihood[k].max())
+    share = np.full(families, 1.0 / families)
+    weight = np.empty((users, count))
+    for _ in range(ROUNDS):
+        mixed = np.zeros((users, delays))
+        for k in range(users):
+            for f in range(families):
+                for t in range(delays):
+                    mixed[k, t] += share[f] * likelihood[k, f * delays + t]
+        factor = posterior_of_delays(mixed, priors, log_prior)
+        found = np.full(families, PSEUDO_USERS / families)
+        for k in range(users):
+            total = 0.0
+            for f in range(families):
+                for t in range(delays):
+                    weight[k, f * delays + t] = share[f] * likelihood[k, f * delays + t] * factor[k, t]
+                    total += weight[k, f * delays + t]
+            for f in range(families):
+                for t in range(delays):
+                    weight[k, f * delays + t] /= total
+                    found[f] += weight[k, f * delays + t]
+        share = found / found.sum()
+    return weight

@@ -1,0 +1,104 @@
+"""Kriging: the best linear estimate of each gain, under correlations that the observation itself weighs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.errors import InputError
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.fading_posterior import FadingPosterior
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.repairing.core import fit
+from wirelessagent.repairing.core.error_correlation import ErrorRoots
+from wirelessagent.repairing.core.hypotheses import hypotheses
+from wirelessagent.repairing.core.levels import SMALLEST_VARIANCE, user_levels
+from wirelessagent.repairing.repairer import Repairer
+
+FEW = 8
+"""Observed entries below which a user's level is in doubt."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kriging(Repairer):
+    """Best linear estimate of the gain over frequency, and over users where they are correlated.
+
+    The gain is estimated itself, not its logarithm, which for Rayleigh fading is the best that can be done within
+    noise. How far gains are correlated is not assumed but weighed: delay spreads of all sizes and three kinds of
+    power-delay profile (:mod:`wirelessagent.repairing.core.hypotheses`) are compared by the likelihood of what was
+    observed (:mod:`wirelessagent.repairing.core.evidence_kernel`), users are pooled
+    (:mod:`wirelessagent.repairing.core.pooling_kernel`), and the likely ones averaged
+    (:mod:`wirelessagent.repairing.core.kriging_kernel`). Measurement noise is the observation's, or weighed as well.
+    Variances are those of partly known fading coefficients, multiplied by what the observed entries, each left out and
+    estimated, say they should be; the posterior is :class:`wirelessagent.model.fading_posterior.FadingPosterior`.
+    """
+
+    name: ClassVar[str] = "kriging"
+
+    def repair(self, observation: ChannelObservation, *, at_s: float | None = None) -> ChannelEstimate:
+        slot = fit.relative(observation)
+        learnt = fit.learn(slot, hypotheses(observation))
+        found = fit.estimate(slot, learnt, tested=True)
+        factor, surprise = fit.factors(slot, found)
+        if slot.level.size > 1:
+            fit.with_partners(slot, learnt, surprise, found)
+        return _completed(observation, slot, learnt, found, factor)
+
+    def hold(self, observation: ChannelObservation) -> HeldKriging:
+        """A repairer that holds what this slot says of delay spreads, noise and variances for later slots.
+
+        It repairs several times faster. Take it anew when users have moved on; users and subcarriers must stay.
+        """
+        slot = fit.relative(observation)
+        learnt = fit.learn(slot, hypotheses(observation))
+        factor, _ = fit.factors(slot, fit.estimate(slot, learnt, tested=True))
+        return HeldKriging(learnt=learnt, factor=factor)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeldKriging(Repairer):
+    """Kriging with parameters held; see :meth:`Kriging.hold`."""
+
+    name: ClassVar[str] = "kriging"
+    learnt: fit.Learnt = field(repr=False)
+    factor: FloatArray = field(repr=False)
+
+    def repair(self, observation: ChannelObservation, *, at_s: float | None = None) -> ChannelEstimate:
+        wanted = len(self.factor), len(self.learnt.candidates.place)
+        if observation.current.shape != wanted:
+            raise InputError(
+                f"parameters are held for {wanted[0]} users and {wanted[1]} subcarriers; got "
+                f"{observation.num_users} and {observation.num_subcarriers}: take them anew by Kriging().hold()"
+            )
+        slot = fit.relative(observation)
+        found = fit.estimate(slot, self.learnt, tested=False)
+        return _completed(observation, slot, self.learnt, found, self.factor)
+
+
+def _completed(
+    observation: ChannelObservation, slot: fit.Relative, learnt: fit.Learnt, found: FloatArray, factor: FloatArray
+) -> ChannelEstimate:
+    level = slot.level[:, np.newaxis]
+    gain = level * found[..., 0]
+    if slot.seen.min() < FEW:
+        levels = user_levels(observation)
+        factor = factor * levels.doubt
+        unseen = (slot.seen == 0)[:, np.newaxis]
+        gain = np.where(unseen, levels.level[:, np.newaxis], gain)
+        variance = level * (level * (factor[:, np.newaxis] * found[..., 1] + found[..., 2]))
+        variance = np.where(unseen, levels.variance[:, np.newaxis], variance)
+    else:
+        variance = level * (level * (factor[:, np.newaxis] * found[..., 1] + found[..., 2]))
+    missing = observation.missing
+    gain = np.where(missing, gain, observation.current)
+    variance = np.where(missing, np.maximum(variance, SMALLEST_VARIANCE), observation.current_noise_variance)
+    return ChannelEstimate.completing(
+        observation,
+        gain=gain,
+        gain_variance=variance,
+        method="kriging",
+        joint_posterior=FadingPosterior(gain, variance, ErrorRoots(slot, learnt)),
+    )
