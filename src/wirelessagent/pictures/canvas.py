@@ -148,10 +148,11 @@ class Panel:
         marked: bool = True,
         joined: bool = True,
     ) -> None:
-        """A curve in the palette's colour and marker number ``style``.
+        """A curve in the palette's colour and marker number ``style``; beyond the palette, colours meet other markers.
 
         Error bars reach ± ``half_width``, or are ``between`` a lower and an upper value of each point.
         """
+        turn = style // len(PALETTE)
         error = None if half_width is None else np.asarray(half_width, dtype=float)
         if between is not None:
             error = np.stack([np.asarray(y, dtype=float) - between[0], between[1] - np.asarray(y, dtype=float)])
@@ -161,8 +162,8 @@ class Panel:
             yerr=error,
             label=label,
             color=PALETTE[style % len(PALETTE)],
-            linestyle=_LINES[style % len(_LINES)] if joined else "none",
-            marker=_MARKERS[style % len(_MARKERS)] if marked else "none",
+            linestyle=_LINES[(style + turn) % len(_LINES)] if joined else "none",
+            marker=_MARKERS[(style + 3 * turn) % len(_MARKERS)] if marked else "none",
             markersize=5,
             linewidth=1.6,
             capsize=2.5,
@@ -254,6 +255,13 @@ class Panel:
     def band(self, low: float, high: float, *, label: str) -> None:
         """A shaded band across the panel."""
         self.axes.axhspan(low, high, color="#F6D9C4", linewidth=0.0, label=label, zorder=0.5)
+
+    def ribbon(self, x: ArrayLike, low: ArrayLike, high: ArrayLike, *, colour: str, label: str) -> None:
+        """A shaded area between two curves."""
+        self.axes.fill_between(
+            np.asarray(x, dtype=float), np.asarray(low, dtype=float), np.asarray(high, dtype=float),
+            color=colour, alpha=0.25, linewidth=0.0, label=label,
+        )  # fmt: skip
 
     def guide(self, x: ArrayLike, y: ArrayLike, *, label: str) -> None:
         """A thin dashed curve to compare others with."""

@@ -93,6 +93,26 @@ class File(ChannelSource):
             raise InputError(f"drop counts from 0; got {self.drop}")
         positive("max_bytes", self.max_bytes)
 
+    def num_drops(self) -> int:
+        """How many independent drops the file holds, 1 where it has no such axis.
+
+        Raises:
+            FileFormatError: the file cannot be read or does not hold gains; the message begins with its path.
+        """
+        try:
+            data = read_bounded(self.path, self.max_bytes)
+            contents = recognise(data, self.path.suffix).read(data, max_bytes=self.max_bytes)
+            entry, _ = choose(contents, self.key)
+            axes = self._axes(contents, entry)
+        except InputError as error:
+            raise FileFormatError(f"{self.path}: {error}") from error
+        return entry.shape[axes.names.index("drop")] if "drop" in axes.names else 1
+
+    def _axes(self, contents: Contents, entry: Entry) -> Axes:
+        """The axes of the gains: as given, else as the file has them."""
+        given = None if self.axes is None else Axes.parse(self.axes, "as given")
+        return Axes.of(entry, given, metadata_of(contents).get("axes"))
+
     def observe(self, cell: Cell, *, seed: int = 0) -> Scene:
         """The gains in the file as measured; bandwidth and noise of ``cell`` give way to what the file states.
 
@@ -112,8 +132,7 @@ class File(ChannelSource):
         contents = form.read(data, max_bytes=self.max_bytes)
         metadata = metadata_of(contents)
         entry, reason = choose(contents, self.key)
-        given = None if self.axes is None else Axes.parse(self.axes, "as given")
-        axes = Axes.of(entry, given, metadata.get("axes"))
+        axes = self._axes(contents, entry)
         values = entry.read()
         stated_unit = entry.units or str(metadata.get("units", ""))
         scale = Scale.of(values, self.unit, stated_unit, self.missing_value)

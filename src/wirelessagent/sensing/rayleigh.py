@@ -119,11 +119,9 @@ class Rayleigh(ChannelSource):
         The users of a seed stay the same when more are asked for. With ``snr_db`` set, ``sensed`` holds what
         :func:`measured` makes of the true coefficients.
         """
-        place, shadow, fade, common, noise = streams(seed, 5)
-        inner, outer = self.inner_radius_m, self.outer_radius_m
-        distance_m = np.sqrt(inner**2 + place.random(self.num_users) * (outer**2 - inner**2))
-        shadowing_db = self.shadowing_std_db * shadow.standard_normal(self.num_users)
-        mean_gain = from_db(-path_loss_db(distance_m) - shadowing_db)[:, np.newaxis, np.newaxis]
+        _, _, fade, common, noise = streams(seed, 5)
+        distance_m, shadowing_db = self._placed(seed)
+        mean_gain = self.mean_gain(seed=seed)[:, np.newaxis, np.newaxis]
         fading = self._fading(cell, fade, common)
         truth = mean_gain * (fading.real**2 + fading.imag**2)
         gain, variance = truth, None
@@ -139,6 +137,18 @@ class Rayleigh(ChannelSource):
         )
         facts = self._facts(distance_m, shadowing_db)
         return Scene(cell=cell, sensed=sensed, truth=self._as_observed(truth), facts=facts)
+
+    def mean_gain(self, *, seed: int = 0) -> FloatArray:
+        """Each user's mean over the fading in the scene of this seed: path loss and shadowing, shape (user,)."""
+        distance_m, shadowing_db = self._placed(seed)
+        return from_db(-path_loss_db(distance_m) - shadowing_db)
+
+    def _placed(self, seed: int) -> tuple[FloatArray, FloatArray]:
+        """Distance in m and shadowing in dB of each user, shape (user,) each."""
+        place, shadow = streams(seed, 2)
+        inner, outer = self.inner_radius_m, self.outer_radius_m
+        distance_m = np.sqrt(inner**2 + place.random(self.num_users) * (outer**2 - inner**2))
+        return distance_m, self.shadowing_std_db * shadow.standard_normal(self.num_users)
 
     def _fading(self, cell: Cell, fade: np.random.Generator, common: np.random.Generator) -> ComplexArray:
         """Unit-power coefficients with the users' correlation, shape (user, slot, subcarrier)."""
