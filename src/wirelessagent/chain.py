@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any, TypeGuard, TypeVar, cast
 
 import numpy as np
 
@@ -15,15 +15,17 @@ from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.batch_decision import BatchDecision
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
-from wirelessagent.model.errors import InputError, UnsupportedProblemError
+from wirelessagent.model.errors import InputError, UnknownNameError, UnsupportedProblemError
 from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.given import given_cell, given_estimate, given_observation, given_problem
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.scene import Scene
+from wirelessagent.plugin_options import options_of
 from wirelessagent.repairing.repairer import Repairer
 from wirelessagent.sensing.source import ChannelSource
 
-DEFAULT_REPAIRER = "nncf"
+DEFAULT_REPAIRER = "kriging"
 
 
 def simulate(source: str | ChannelSource, cell: Cell | None = None, *, seed: int = 0, **options: Any) -> Scene:
@@ -43,6 +45,7 @@ def repair(
 
     The method is "earlier repair" where the observation is complete because gains were repaired before.
     """
+    observation = given_observation(observation)
     if not observation.missing.any() and at_s is None:
         return ChannelEstimate.completing(
             observation,
@@ -50,8 +53,8 @@ def repair(
             gain_variance=observation.current_noise_variance,
             method="none" if observation.measured[-1].all() else "earlier repair",
         )
-    chosen = plugins.create("repairer", method, options) if isinstance(method, str) else method
-    return cast(Repairer, chosen).repair(observation, at_s=at_s)
+    chosen = _chosen("repairer", method, options, Repairer)
+    return chosen.repair(observation, at_s=at_s)
 
 
 def perfect(scene: Scene) -> ChannelEstimate:
@@ -71,6 +74,7 @@ def perfect(scene: Scene) -> ChannelEstimate:
 
 def resolve(problem: Problem) -> Problem:
     """The problem with its objective looked up, if it was only named."""
+    problem = given_problem(problem)
     if isinstance(problem.objective, str):
         return problem.resolved(plugins.objective(problem.objective))
     return problem
@@ -94,21 +98,29 @@ def decide(
 ) -> Decision:
     """The allocation for ``problem`` on the estimated channel, with its certificate.
 
-    ``after`` is an earlier decision, such as the previous slot's, whose prices the search starts from.
+    ``after`` is an earlier decision for the same users, such as the previous slot's, whose prices the search starts
+    from. It changes nothing where nothing is searched (the most rate or efficiency without further limits is a closed
+    form) or where the earlier one found no prices (``after.prices`` is None).
 
     Raises:
         UnsupportedProblemError: the method does not solve such problems; the message names those that do.
-        InputError: the method does not start from earlier decisions, or a constraint does not fit the channel.
+        InputError: the method does not start from earlier decisions, ``after`` is for other users, a constraint does
+            not fit the channel, or an argument is not of its type.
     """
-    resolved = resolve(problem)
-    name = default_method(resolved) if method is None else method
-    chosen = cast(Method, plugins.create("method", name, options) if isinstance(name, str) else name)
+    estimate, cell = given_estimate(estimate), given_cell(cell)
+    resolved = resolve(problem).for_users(estimate.user_names)
+    chosen = _chosen("method", default_method(resolved) if method is None else method, options, Method)
     _check(resolved, type(chosen))
     if after is None:
-        return chosen.solve(estimate, resolved, cell or Cell())
+        return chosen.solve(estimate, resolved, cell)
     if not chosen.warm_starts:
         raise InputError(f"method {chosen.name!r} does not start from an earlier decision: leave out after=…")
-    return cast(Decision, cast(Any, chosen).solve(estimate, resolved, cell or Cell(), after=after))
+    if after.rate_bps.size != estimate.num_users:
+        raise InputError(
+            f"after=… is a decision for {after.rate_bps.size} users, and the estimate has {estimate.num_users}: "
+            "prices of other users are no start, leave it out"
+        )
+    return cast(Decision, cast(Any, chosen).solve(estimate, resolved, cell, after=after))
 
 
 def decide_batch(
@@ -140,7 +152,26 @@ def decide_batch(
 
     resolved = resolve(problem)
     _check(resolved, Dual)
-    return decide_all(Dual(restarts=restarts, seed=seed), gain, resolved, cell or Cell(), workers=workers)
+    return decide_all(Dual(restarts=restarts, seed=seed), gain, resolved, given_cell(cell), workers=workers)
+
+
+_Tool = TypeVar("_Tool", Method, Repairer)
+
+
+def _chosen(kind: plugins.Kind, named: str | _Tool, options: Mapping[str, Any], base: type[_Tool]) -> _Tool:
+    """A plug-in by its name with its options, or itself.
+
+    Raises:
+        InputError: it is neither, or options were given to one that is made already.
+    """
+    if isinstance(named, str):
+        return cast("_Tool", plugins.create(kind, named, options))
+    if not isinstance(cast(object, named), base):
+        how = f"a {kind} of your own is given as {named.__name__}(…)" if isinstance(named, type) else "name one"
+        raise InputError(f"{kind} must be a registered name or a wa.{base.__name__}; got {named!r:.80}: {how}")
+    if options:
+        raise InputError(f"options go to a {kind} by name; {type(named).__name__}({', '.join(options)}=…) has its own")
+    return named
 
 
 def check_solvable(problem: Problem, method: str | None = None) -> None:
@@ -184,24 +215,49 @@ def compare(
     estimate: ChannelEstimate,
     problem: Problem,
     cell: Cell | None = None,
-    methods: Iterable[str] | None = None,
+    methods: Iterable[str | Method] | None = None,
+    **options: Any,
 ) -> list[Comparison]:
     """Each method's decision on the same problem; all methods that solve it if none are named.
 
-    The time is the second call's, so that compiling is not counted. A method that was named and does not solve the
-    problem is listed with its refusal; one that was not named is left out.
+    An option goes to every method by name that has it; methods of your own making, as in Dual(effort="thorough"), have
+    their options already. The time is the second call's, so that compiling is not counted. A method that was named
+    and does not solve the problem is listed with its refusal; one that was not named is left out.
+
+    Raises:
+        UnknownNameError: none of the methods has an option of this name.
     """
     resolved = resolve(problem)
+    named = list(methods) if methods is not None else [one.name for one in plugins.plugins("method") if one.cls]
+    known = {name: {one.name for one in options_of(plugins.load("method", name))} for name in named if _is_name(name)}
+    surplus = options.keys() - set[str]().union(*known.values())
+    if surplus:
+        of = f"the methods {', '.join(map(_label, named))}"
+        raise UnknownNameError("option", min(surplus), set[str]().union(*known.values()), of=of)
     found: list[Comparison] = []
-    for name in plugins.names("method") if methods is None else methods:
+    for method in named:
+        own = {name: value for name, value in options.items() if _is_name(method) and name in known[method]}
         try:
-            decide(estimate, resolved, cell, name)
+            decide(estimate, resolved, cell, method, **own)
         except UnsupportedProblemError as refusal:
             if methods is not None:
-                found.append(Comparison(method=name, decision=None, refusal=str(refusal), time_s=np.nan))
+                found.append(Comparison(method=_label(method), decision=None, refusal=str(refusal), time_s=np.nan))
             continue
         start = time.perf_counter()
-        decision = decide(estimate, resolved, cell, name)
+        decision = decide(estimate, resolved, cell, method, **own)
         elapsed = time.perf_counter() - start
-        found.append(Comparison(method=name, decision=decision, refusal="", time_s=elapsed))
+        found.append(Comparison(method=_label(method), decision=decision, refusal="", time_s=elapsed))
     return found
+
+
+def _is_name(method: str | Method) -> TypeGuard[str]:
+    return isinstance(method, str)
+
+
+def _label(method: str | Method) -> str:
+    """A method's name, with the options that are not at their defaults: "dual (effort=thorough)"."""
+    if isinstance(method, str):
+        return method
+    values = {one.name: (getattr(method, one.name), one.default) for one in options_of(type(method))}
+    set_apart = [f"{name}={value}" for name, (value, default) in values.items() if value != default]
+    return f"{method.name} ({', '.join(set_apart)})" if set_apart else method.name

@@ -1,6 +1,6 @@
 """How likely the observed gains of a user are under each hypothesis of their correlation.
 
-For gains x of one user, in units of about its level, a hypothesis is a covariance C = β|ρ|² + η·1 in units of the
+For gains x of one user, in units of about its level, a hypothesis is a covariance C = |ρ|² + η·1 in units of the
 unknown level a squared: x has mean a and covariance a²C. With A = 1ᵀC⁻¹1, B = 1ᵀC⁻¹x, Q = xᵀC⁻¹x and n entries, the
 Gaussian likelihood is largest at the level 1/u, u = (B + √(B² + 4nQ))/2Q, where
 
@@ -91,40 +91,38 @@ def add_forms(low: FloatArray, gain: FloatArray, one: FloatArray, seen: FloatArr
 
 
 @kernel
-def bessel(z: float) -> float:
-    """I₀(z) e^−z √max(z, 3.75) to 1e-7 (Abramowitz and Stegun, 9.8.1 and 9.8.2)."""
-    t = 3.75 / z if z > 3.75 else z * z / 14.0625
-    if z > 3.75:
-        high = 0.00916281 + t * (-0.02057706 + t * (0.02635537 + t * (-0.01647633 + t * 0.00392377)))
-        return 0.39894228 + t * (0.01328592 + t * (0.00225319 + t * (-0.00157565 + t * high)))
-    high = 1.2067492 + t * (0.2659732 + t * (0.0360768 + t * 0.0045813))
-    return (1.0 + t * (3.5156229 + t * (3.0899424 + t * high))) * np.exp(-z) * 1.9364916731037085
+def bump(t: float) -> float:
+    """I₀(z) e^−z √(1 + 2πz) for t = z/(1 + z), to 3e-4: a polynomial, since it is 1 at both ends (fitted at the roots
+    of a Chebyshev polynomial in t)."""
+    high = 23.260764614522017 + t * (
+        -75.04966537383113 + t * (113.03524321926469 + t * (-80.00695897366538 + t * 21.52127575650344))
+    )
+    return 1.0002358451008324 + t * (
+        2.1033567425941992 + t * (-4.165205258845457 + t * (-0.6990560569156764 + t * high))
+    )
 
 
 @kernel
-def add_pairs(
-    place: IntArray,
-    gain: FloatArray,
-    table: FloatArray,
-    noise: FloatArray,
-    first: int,
-    last: int,
-    log_pairs: FloatArray,
-) -> None:
-    """Add ln f(y|x)/f(y) of neighbours, of mean gain 1, to ``log_pairs`` of the hypotheses from first to last.
+def add_pairs(place: IntArray, gain: FloatArray, table: FloatArray, noise: FloatArray, log_pairs: FloatArray) -> None:
+    """Add ln f(y|x)/f(y) of neighbours, of mean gain 1, to ``log_pairs`` (hypothesis,).
 
     Logarithms are taken of the product, once.
     """
-    for h in range(first, last):
-        product, total = 1.0, 0.0
-        for i in range(gain.size - 1):
-            x, y = gain[i], gain[i + 1]
-            r = min(table[place[i + 1] - place[i], h] / (1.0 + noise[h]), NEAREST)
+    count = log_pairs.size
+    kept, product = np.empty(count), np.ones(count)
+    for h in range(count):
+        kept[h] = 1.0 / (1.0 + noise[h])
+    for i in range(gain.size - 1):
+        row = table[place[i + 1] - place[i]]
+        both, root = gain[i] + gain[i + 1], 2.0 * np.sqrt(gain[i] * gain[i + 1])
+        for h in range(count):
+            r = min(row[h] * kept[h], NEAREST)
             scale = 1.0 / (1.0 - r)
-            z = 2.0 * np.sqrt(r * x * y) * scale
-            product *= bessel(z) * scale / np.sqrt(max(z, 3.75))
-            total += z - r * (x + y) * scale
-        log_pairs[h] += total + np.log(product)
+            z = root * np.sqrt(r) * scale
+            product[h] *= bump(z / (1.0 + z)) * scale / np.sqrt(1.0 + 6.283185307179586 * z)
+            log_pairs[h] += z - r * both * scale
+    for h in range(count):
+        log_pairs[h] += np.log(product[h])
 
 
 @kernel
@@ -134,7 +132,6 @@ def weigh(
     place: IntArray,
     table: FloatArray,
     noise: FloatArray,
-    scattered: int,
     forms: FloatArray,
 ) -> FloatArray:
     """ln L of each hypothesis for one user, shape (hypothesis,), up to a constant.
@@ -142,7 +139,6 @@ def weigh(
     Args:
         gain, known: of a user in units of about its level, shape (subcarrier,).
         place, table, noise: see :mod:`.hypotheses`, none of the noise NaN.
-        scattered: hypotheses of a kind, which pairs tell apart; kinds with less scattered power take them over.
         forms: written, A, B, Q, −ln|C| and the level 1/u, shape (5, hypothesis).
     """
     seen = np.flatnonzero(known)
@@ -166,10 +162,7 @@ def weigh(
         factorise(here, table, noise, nothing, low)
         add_forms(low, values, one, values_of, forms)
         if mean > 0.0:
-            for h in range(0, count, 3 * scattered):
-                last = h + 2 * scattered
-                add_pairs(here, values / mean, table, noise, h, last, log_pairs)
-                log_pairs[last : last + scattered] = log_pairs[h : h + scattered]
+            add_pairs(here, values / mean, table, noise, log_pairs)
     entries = float(blocks * length)
     result = np.empty(count)
     for h in range(count):
@@ -189,7 +182,6 @@ def weigh_users(
     table: FloatArray,
     noise: FloatArray,
     noise_share: FloatArray,
-    delays: int,
     forms: FloatArray,
 ) -> FloatArray:
     """ln L of each hypothesis for each user, (user, hypothesis).
@@ -202,5 +194,5 @@ def weigh_users(
     for k in range(users):
         for h in range(count):
             own[h] = noise_share[k] if np.isnan(noise[h]) else noise[h]
-        result[k] = weigh(gain[k], known[k], place, table, own, delays, forms[k])
+        result[k] = weigh(gain[k], known[k], place, table, own, forms[k])
     return result

@@ -73,9 +73,8 @@ def learn(slot: Relative, candidates: Hypotheses) -> Learnt:
     from wirelessagent.repairing.core import evidence_kernel, pooling_kernel
 
     forms = np.empty((slot.level.size, 5, candidates.noise.size))
-    delays = candidates.log_prior.size
     log_likelihood = evidence_kernel.weigh_users(
-        slot.gain, slot.known, candidates.place, candidates.table, candidates.noise, slot.noise_share, delays, forms
+        slot.gain, slot.known, candidates.place, candidates.table, candidates.noise, slot.noise_share, forms
     )
     chance = pooling_kernel.pooled_weights(
         log_likelihood, candidates.families, candidates.log_step, candidates.log_prior

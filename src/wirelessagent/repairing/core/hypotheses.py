@@ -1,14 +1,15 @@
 """What the gain's correlation over frequency may be: a dictionary of power-delay profiles, weighed by evidence.
 
 A scattered channel with power-delay profile P(t) has the complex correlation ρ(Δf) = ∫ P(t) e^(−j2πΔft) dt, and its
-power gain |h|² the correlation |ρ|². Two shapes of profile span what is met:
+power gain |h|² the correlation |ρ|². Three kinds of profile span what is met, with x = 2πΔfτ and τ the rms delay
+spread:
 
 - exponential, |ρ|² = 1/(1 + x²): the usual model, rough over frequency since it starts with a step;
-- a gamma profile of order 4, |ρ|² = 1/(1 + x²/4)⁴: power that rises and falls, smooth over frequency,
+- a gamma profile of order 4, |ρ|² = 1/(1 + x²/4)⁴: power that rises and falls, smooth over frequency;
+- two exponentials, |ρ|² = |w/(1 + jxs) + (1 − w)/(1 + jxs′)|²: near scatterers with most of the power and far ones,
+  which leave a correlation over distances where the others have none.
 
-with x = 2πΔfτ and τ the rms delay spread (of the gamma profile as well). A line of sight with the share b of the power
-leaves the scattered part β = 1 − b² of the gain's variance; it is given the shape of the profile. Delay spreads lie on
-a grid from what bends the whole band by a hair to what makes neighbouring subcarriers independent.
+Delay spreads lie on a grid from what bends the whole band by a hair to what makes neighbouring subcarriers independent.
 """
 
 from __future__ import annotations
@@ -25,8 +26,10 @@ DELAYS = 20
 """Delay spreads on the grid."""
 FLATTEST, ROUGHEST = 0.03 / (2.0 * np.pi), 0.9
 """The smallest delay spread times the band, and the largest times the smallest spacing."""
-KINDS = ((1.0, 1.0), (4.0, 1.0), (1.0, 0.3))
-"""Order of the gamma profile, 1 for the exponential, and share β of the gain's variance."""
+ORDER = 4.0
+"""Order of the gamma profile."""
+NEAR_POWER, NEAR_SPREAD = 0.8, 0.3
+"""Share w of the power that comes from near, and s, its mean delay in units of τ."""
 UNKNOWN_NOISE = (1e-8, 2e-4, 2e-3, 2e-2, 2e-1)
 """Variances of the measurement error, in units of the level squared, where the observation does not say."""
 LONGEST_RASTER = 1 << 14
@@ -45,7 +48,7 @@ class Hypotheses:
 
     Attributes:
         place: of each subcarrier on a raster of frequencies, shape (subcarrier,).
-        table: β|ρ|² at each distance on the raster, shape (distance, hypothesis).
+        table: |ρ|² at each distance on the raster, shape (distance, hypothesis).
         noise: variance of the measurement error in units of the level squared, shape (hypothesis,); NaN where it is
             the observation's to say.
         families: how many kinds there are; hypotheses of one kind follow each other.
@@ -107,11 +110,11 @@ def _on_raster(place: tuple[int, ...], step_hz: float, known_noise: bool) -> Hyp
     distance = np.arange(width + 1, dtype=np.float64)
     smallest = int(np.diff(places).min()) if width else 1
     delays = np.geomspace(FLATTEST / max(width, 1), ROUGHEST / smallest, DELAYS)
-    squared = (2.0 * np.pi * np.multiply.outer(distance, delays)) ** 2
+    x = 2.0 * np.pi * np.multiply.outer(distance, delays)
     kinds = [
-        (share / (1.0 + squared / order) ** order, noise)
+        (correlation, noise)
         for noise in ((np.nan,) if known_noise else UNKNOWN_NOISE)
-        for order, share in KINDS
+        for correlation in (1.0 / (1.0 + x**2), (1.0 + x**2 / ORDER) ** -ORDER, _near_and_far(x))
     ]
     return Hypotheses(
         place=places,
@@ -121,3 +124,11 @@ def _on_raster(place: tuple[int, ...], step_hz: float, known_noise: bool) -> Hyp
         log_step=float(np.log(delays[1] / delays[0])),
         log_prior=-0.5 * (np.log(delays / step_hz / NOMINAL_DELAY_SPREAD_S) / np.log(NOMINAL_FACTOR)) ** 2,
     )
+
+
+def _near_and_far(x: FloatArray) -> FloatArray:
+    """|ρ|² of two exponentials whose common rms delay spread is 1."""
+    w, s = NEAR_POWER, NEAR_SPREAD
+    a, b, c = 1.0 - w**2, w * s * (1.0 - w), w * s**2 * (2.0 - w) - 1.0
+    far = (b + np.sqrt(b**2 - a * c)) / a  # of 2(ws² + (1 − w)s′²) − (ws + (1 − w)s′)² = 1
+    return np.abs(w / (1.0 + 1j * x * s) + (1.0 - w) / (1.0 + 1j * x * far)) ** 2

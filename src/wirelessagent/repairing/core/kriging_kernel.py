@@ -7,10 +7,11 @@ observed is estimated as
 
     ĝ = o + wᵀ(x − o),    w = M⁻¹(k + s),
 
-with the expected squared error β + s − wᵀ(k + s), a part of which, Σ w²η, is measurement noise. Noise is taken
+with the expected squared error 1 + s − wᵀ(k + s), a part of which, Σ w²η, is measurement noise. Noise is taken
 as it was where each entry was measured, since it grows with the gain. The rest, V in units of the level squared, comes
 from fading: of the complex coefficient the share c = 1 − √(1 − V) is unknown, and a gain whose mean is m has the
-variance 2mc − c² then (a Rician power). It is small in a fade, and no estimate is below c.
+variance 2mc − c² then (a Rician power). It is small in a fade, and no estimate is below c. What V exceeds 1 by is due
+to the level, which is unknown as well.
 
 Hypotheses are averaged: means by their weights, variances with the disagreement of the means. Entries that were
 observed are estimated from the others as well, which tells how good all this is.
@@ -194,13 +195,14 @@ def combine(
             estimate += w * (gain[n] - offset)
             own += w * w
             known += w * w * (noise * level * gain[n] if np.isnan(noise_variance[n]) else noise_variance[n])
-        unknown = (1.0 - np.sqrt(1.0 - min(max(error[c] - noise * own, LEAST), 1.0))) * level
+        left = max(error[c] - noise * own, LEAST)
+        unknown = (1.0 - np.sqrt(1.0 - min(left, 1.0))) * level
         estimate = max(estimate, unknown)
         total += chance
         before = estimate - mean
         mean += before * chance / total
         other += chance * (before * (estimate - mean) + known)
-        fading += chance * (2.0 * estimate * unknown - unknown * unknown)
+        fading += chance * (2.0 * estimate * unknown - unknown * unknown + max(left - 1.0, 0.0) * level * level)
     found[0], found[1], found[2] = mean, fading, other
 
 

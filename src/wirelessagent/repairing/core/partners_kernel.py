@@ -92,7 +92,7 @@ def krige_with_partners(
     Args:
         gain, known, seen, noise_variance: see :mod:`.relative_kernel`, the latter NaN where unknown.
         place: of each subcarrier, shape (subcarrier,).
-        table, noise, level: β|ρ|² at each distance, η and the level, the means of a user's hypotheses, shapes
+        table, noise, level: |ρ|² at each distance, η and the level, the means of a user's hypotheses, shapes
             (user, distance), (user,) and (user,).
         correlation: of the gains of each two users, shape (user, user).
         found: shape (user, subcarrier, 3).
@@ -130,8 +130,9 @@ def krige_with_partners(
                 estimate += side[i] * gain[a, at]
                 error -= side[i] * (towards[i] + noise[a] * side[i])
                 known_part += side[i] * side[i] * own
-            unknown = (1.0 - np.sqrt(1.0 - min(max(error, 1e-13), 1.0))) * level[k]
+            error = max(error, 1e-13)
+            unknown = (1.0 - np.sqrt(1.0 - min(error, 1.0))) * level[k]
             estimate = max(estimate, unknown)
             found[k, n, 0] = estimate
-            found[k, n, 1] = 2.0 * estimate * unknown - unknown * unknown
+            found[k, n, 1] = 2.0 * estimate * unknown - unknown * unknown + max(error - 1.0, 0.0) * level[k] * level[k]
             found[k, n, 2] = known_part

@@ -21,7 +21,7 @@ TESTED = 4
 """Of so many windows of a long band one tests the estimates."""
 LANES, LONG_LANES = 8, 4
 """Most hypotheses kept for a user with a short band, and with a long one."""
-ENOUGH = 0.995
+ENOUGH = 0.95
 """Probability at which the hypotheses kept are enough."""
 
 
