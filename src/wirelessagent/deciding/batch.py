@@ -29,6 +29,7 @@ from wirelessagent.model.batch_decision import BatchDecision
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.given import given_gains
 from wirelessagent.model.observation import check_gain
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.rates import user_rate_bps
@@ -45,9 +46,8 @@ def decide_all(
     Raises:
         UnsupportedProblemError, InputError: as for one problem.
     """
-    gain = np.asarray(gain, dtype=np.float64)
-    if gain.ndim < 2 or 0 in gain.shape[-2:]:
-        raise InputError(f"gain must have the shape (…, user, subcarrier); got {gain.shape}")
+    gain = given_gains(gain)
+    problem = problem.for_users(_names(gain.shape[-2]))
     leading = gain.shape[:-2]
     flat = np.ascontiguousarray(gain.reshape(math.prod(leading), *gain.shape[-2:]))
     check_gain(flat)
@@ -112,8 +112,9 @@ def _decider(
         value = form.objective.values(rate, found.power_w.sum(axis=-1), cell, weight)
         results.owner[chunk], results.power_w[chunk], results.rate_bps[chunk] = found.owner, found.power_w, rate
         results.value[chunk] = value
-        for number, (worth, bound) in enumerate(zip(value, found.bound, strict=True), start=chunk.start):
-            verdict = judged(form.objective, float(worth), float(bound))
+        for row in np.flatnonzero(~doubtful):
+            verdict = judged(form.objective, float(value[row]), float(found.bound[row]), method.name)
+            number = row + chunk.start
             results.bound[number], results.gap[number], results.status[number] = verdict
         for number in np.flatnonzero(doubtful) + chunk.start:
             decision = method.solve(_estimate(gain[number]), problem, cell)
@@ -161,6 +162,11 @@ def _estimate(gain: FloatArray) -> ChannelEstimate:
         gain_variance=np.zeros(gain.shape),
         repaired=np.zeros(gain.shape, dtype=bool),
         unobserved_users=np.zeros(users, dtype=bool),
-        user_names=tuple(f"user {user + 1}" for user in range(users)),
+        user_names=_names(users),
         method="none",
     )
+
+
+def _names(num_users: int) -> tuple[str, ...]:
+    """What users are called who have no names."""
+    return tuple(f"user {user + 1}" for user in range(num_users))

@@ -6,7 +6,7 @@ Arrays inside the model are read-only: a frozen dataclass whose arrays could be 
 from __future__ import annotations
 
 import operator
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +19,7 @@ BoolArray: TypeAlias = NDArray[np.bool_]
 
 _TOO_LARGE = 2**63
 """Whole numbers from here on do not fit the arrays and kernels that they go to."""
+_LONGEST_SHOWN = 80
 
 
 def frozen(array: NDArray[Any]) -> NDArray[Any]:
@@ -29,23 +30,51 @@ def frozen(array: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
+def shown(value: object) -> str:
+    """A value as a message shows it: as people write it, and not too long.
+
+    >>> shown(np.zeros(3)), shown(np.float64(2.0)), shown(np.array(1.5))
+    ('[0.0, 0.0, 0.0]', '2.0', '1.5')
+    """
+    plain: object = cast("Any", value).tolist() if isinstance(value, np.ndarray | np.generic) else value
+    text = repr(plain)
+    return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]} …"
+
+
+def real_array(name: str, value: ArrayLike) -> FloatArray:
+    """``value`` as a float64 array, or an error that names it. Complex numbers are refused, even without imaginary
+    part: nobody means the real part of a channel coefficient.
+    """
+    try:
+        is_complex = np.iscomplexobj(value)
+        array = None if is_complex else np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} must be numbers; got {shown(value)}") from error
+    if array is None:
+        hint = ": the power gain of a channel coefficient h is |h|², np.abs(h) ** 2" if "gain" in name else ""
+        raise InputError(f"{name} must be real; got complex numbers{hint or ': give real ones'}")
+    return array
+
+
 def float_array(name: str, value: ArrayLike) -> FloatArray:
     """``value`` as a read-only float64 array, or an error that names it."""
-    try:
-        return frozen(np.asarray(value, dtype=np.float64))
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name} must be numbers; got {value!r:.80}") from error
+    return frozen(real_array(name, value))
 
 
 def per_user(name: str, value: ArrayLike, num_users: int) -> FloatArray:
     """A scalar or one value per user, as a read-only array of shape (user,)."""
     array = float_array(name, value)
     if array.ndim > 1 or (array.ndim == 1 and array.size not in (1, num_users)):
-        raise InputError(f"{name} must be one value or one per user ({num_users}); got shape {array.shape}")
+        raise InputError(f"{name} must be one value or one per user ({num_users}); got {_size(array)}")
     filled = np.empty(num_users)
     filled[:] = array
     filled.flags.writeable = False
     return filled
+
+
+def _size(array: FloatArray) -> str:
+    """How many values an array holds, in words."""
+    return f"{array.size} values" if array.ndim == 1 else f"an array of shape {array.shape}"
 
 
 def positive(name: str, value: float, *, zero: bool = False, infinite: bool = False) -> float:

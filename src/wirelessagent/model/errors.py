@@ -33,11 +33,12 @@ class FileFormatError(InputError):
 class UnknownNameError(InputError):
     """A name that nothing is registered under."""
 
-    def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
+    def __init__(self, kind: str, name: str, known: Iterable[str], *, of: str = "") -> None:
         names = sorted(known)
         close = get_close_matches(name, names, n=1)
         hint = f"did you mean {close[0]!r}? " if close else ""
-        super().__init__(f"unknown {kind} {name!r}: {hint}known are {', '.join(names) or 'none'}")
+        told = f"known are {', '.join(names)}" if names else f"{of or 'it'} has none"
+        super().__init__(f"unknown {kind} {name!r}{f' of {of}' if of else ''}: {hint}{told}")
 
 
 class UnsupportedProblemError(InputError):

@@ -9,10 +9,11 @@ from dataclasses import KW_ONLY, dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen, per_user, positive, whole
+from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen, per_user, positive, shown, whole
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.objective import Objective
+from wirelessagent.model.units import human
 
 _WIDEST = 1e12
 """How far apart weights may lie; sums of rates so weighted would lose the digits of the smaller ones."""
@@ -30,9 +31,9 @@ class Problem:
         max_rate_bps: rate beyond which a user has nothing to send, one value or (user,), in bit/s; inf = full buffer.
         max_power_w: radiated power budget in W; at most the cell's.
         subcarrier_max_power_w: power cap per subcarrier in W, one value or (subcarrier,).
-        forbidden: True where a user may not use a subcarrier, shape (user, subcarrier); that bars it from the
+        forbidden: True where a user may not use a subcarrier, bool, shape (user, subcarrier); that bars it from the
             subcarrier's whole group.
-        users: the users to serve, counted from 0; None serves all.
+        users: the users to serve, by name ("user 3") or number from 0; None serves all.
         resource_block_group_size: number of adjacent subcarriers that are assigned together.
         outage_probability: accepted probability that a user's true rate stays below the promised one.
     """
@@ -45,7 +46,7 @@ class Problem:
     max_power_w: float | None = None
     subcarrier_max_power_w: ArrayLike | None = None
     forbidden: BoolArray | None = None
-    users: tuple[int, ...] | None = None
+    users: tuple[int | str, ...] | None = None
     resource_block_group_size: int = 1
     outage_probability: float | None = None
 
@@ -57,14 +58,14 @@ class Problem:
             array = float_array(name, value)
             finite = np.all(np.isfinite(array)) or name in ("max_rate_bps", "subcarrier_max_power_w")
             if np.isnan(array).any() or np.any(array < 0) or not finite:
-                raise InputError(f"{name} must be zero or more{'' if finite else ' and finite'}; got {value!r:.80}")
+                raise InputError(f"{name} must be zero or more{'' if finite else ' and finite'}; got {shown(value)}")
             object.__setattr__(self, name, array)
         if self.max_power_w is not None:
             object.__setattr__(self, "max_power_w", positive("max_power_w", self.max_power_w))
         if self.forbidden is not None:
-            object.__setattr__(self, "forbidden", frozen(np.asarray(self.forbidden, dtype=bool)))
+            object.__setattr__(self, "forbidden", _switches(self.forbidden))
         if self.users is not None:
-            object.__setattr__(self, "users", _user_numbers(self.users))
+            object.__setattr__(self, "users", _different_users(self.users))
         group = whole("resource_block_group_size", self.resource_block_group_size)
         object.__setattr__(self, "resource_block_group_size", group)
         if self.outage_probability is not None and positive("outage_probability", self.outage_probability) >= 1:
@@ -79,6 +80,28 @@ class Problem:
         found = object.__new__(type(self))
         found.__dict__.update(self.__dict__, objective=objective)
         return found
+
+    @property
+    def promises_rates(self) -> bool:
+        """Whether anybody must get a rate; else the rates of a decision are only what it commits itself to."""
+        return self.min_rate_bps is not None and bool(np.any(np.asarray(self.min_rate_bps) > 0))
+
+    def for_users(self, names: tuple[str, ...]) -> Problem:
+        """The same problem on a channel whose users have these names, with ``users`` as numbers.
+
+        Raises:
+            InputError: nobody has a name in ``users``, one is meant twice, or a user must get more than it can use.
+        """
+        problem = self
+        if self.users is not None and any(isinstance(user, str) for user in self.users):
+            unknown = [user for user in self.users if isinstance(user, str) and user not in names]
+            if unknown:
+                raise InputError(f"no user is called {unknown[0]!r}; the channel has {', '.join(names)}")
+            numbers = tuple(names.index(user) if isinstance(user, str) else user for user in self.users)
+            problem = dataclasses.replace(self, users=numbers)
+        if self.max_rate_bps is not None:
+            problem.max_rates_bps(len(names), names)
+        return problem
 
     def budget_w(self, cell: Cell) -> float:
         """The power budget in W; an error where the problem asks for more than the cell may radiate."""
@@ -95,9 +118,19 @@ class Problem:
         """True for the users to serve, shape (user,)."""
         if self.users is None:
             return np.ones(num_users, dtype=bool)
-        if max(self.users) >= num_users:
-            raise InputError(f"users {self.users} go beyond the {num_users} of the channel, counted from 0")
-        return np.isin(np.arange(num_users), self.users)
+        names = [user for user in self.users if isinstance(user, str)]
+        if names:
+            raise InputError(
+                f"users are named ({names[0]!r}), and only the channel knows who that is: call wirelessagent.decide(), "
+                "or Problem.for_users(names), or give numbers from 0"
+            )
+        numbers = np.array(self.users, dtype=np.int64)
+        if numbers.max() >= num_users:
+            raise InputError(
+                f"there is no user number {numbers.max()}: the channel has {num_users} users, counted from 0; "
+                "give numbers or names of those"
+            )
+        return np.isin(np.arange(num_users), numbers)
 
     def allows(self, shape: tuple[int, int]) -> BoolArray:
         """True where a user may use a subcarrier, ``shape`` (user, subcarrier).
@@ -111,7 +144,8 @@ class Problem:
             return np.ones(shape, dtype=bool)
         if self.forbidden.shape != shape:
             raise InputError(
-                f"forbidden must have the channel's shape (user, subcarrier) = {shape}; got {self.forbidden.shape}"
+                "forbidden must be True where a user may not use a subcarrier, with the channel's shape "
+                f"(user, subcarrier) = {shape}; got shape {self.forbidden.shape}"
             )
         start = np.arange(0, shape[1], self.resource_block_group_size)
         barred = np.logical_or.reduceat(self.forbidden, start, axis=1)
@@ -127,15 +161,17 @@ class Problem:
         if self.users is not None:
             weight = frozen(np.where(self.serves(num_users), weight, 0.0))
         if not weight.any():
-            raise InputError(f"weights are 0 for every user to serve; got {self.weights!r:.80}: give one more than 0")
+            raise InputError(f"weights are 0 for every user to serve; got {shown(self.weights)}: give one more than 0")
         return weight
 
     def min_rates_bps(self, num_users: int) -> FloatArray:
         """The rate each user must get, shape (user,), 0 where there is no promise."""
         return per_user("min_rate_bps", 0.0 if self.min_rate_bps is None else self.min_rate_bps, num_users)
 
-    def max_rates_bps(self, num_users: int) -> FloatArray:
+    def max_rates_bps(self, num_users: int, names: tuple[str, ...] = ()) -> FloatArray:
         """The rate beyond which each user has nothing to send, shape (user,), inf where there is none.
+
+        ``names`` are the users' in messages; "user 1" … if not given.
 
         Raises:
             InputError: a user must get more than it can use.
@@ -146,10 +182,14 @@ class Problem:
         least = self.min_rates_bps(num_users)
         crossed = np.flatnonzero((least > most) & self.serves(num_users))
         if crossed.size:
-            pairs = ", ".join(f"user {user}: {least[user]:g} above {most[user]:g}" for user in crossed[:5])
+            called = names or tuple(f"user {user + 1}" for user in range(num_users))
+            pairs = ", ".join(
+                f"{called[user]}: {human(float(least[user]), 'bit/s')} above {human(float(most[user]), 'bit/s')}"
+                for user in crossed[:5]
+            )
             more = f" and {crossed.size - 5} more" if crossed.size > 5 else ""
             raise InputError(
-                f"min_rate_bps is above max_rate_bps for {crossed.size} of {num_users} users, counted from 0 "
+                f"min_rate_bps is above max_rate_bps for {crossed.size} of {num_users} users "
                 f"({pairs}{more}): lower the one or raise the other"
             )
         return most
@@ -167,21 +207,34 @@ class Problem:
 
     def _check_weights(self, weights: FloatArray) -> None:
         if not weights.any():
-            raise InputError(f"weights are all 0; got {self.weights!r:.80}: give a user one above 0")
+            raise InputError(f"weights are all 0; got {shown(self.weights)}: give a user one above 0")
         if weights.max() > _WIDEST * weights[weights > 0].min():
             raise InputError(
-                f"weights lie more than {_WIDEST:g} times apart; got {self.weights!r:.80}: "
+                f"weights lie more than {_WIDEST:g} times apart; got {shown(self.weights)}: "
                 "leave users out that count for nothing, or give them 0"
             )
         if isinstance(self.objective, Objective) and self.objective.measure == "power":
             raise InputError(
-                f"weights mean nothing to {self.objective.name!r}, which counts power alone; got {self.weights!r:.80}: "
-                "leave them out"
+                f"weights mean nothing to {self.objective.name!r}, which counts power alone; "
+                f"got {shown(self.weights)}: leave them out"
             )
 
 
-def _user_numbers(users: Iterable[int]) -> tuple[int, ...]:
-    numbers = tuple(whole("a number in users", user, smallest=0) for user in users)
-    if not numbers or len(set(numbers)) != len(numbers):
-        raise InputError(f"users must be different user numbers from 0; got {users!r}")
-    return numbers
+def _different_users(users: Iterable[int | str]) -> tuple[int | str, ...]:
+    if isinstance(users, str):
+        raise InputError(f"users must be several, as in users=({users!r},); got {users!r}")
+    found = tuple(user if isinstance(user, str) else whole("a number in users", user, smallest=0) for user in users)
+    if not found or len(set(found)) != len(found):
+        raise InputError(f"users must be different users, by name or by number from 0; got {users!r}")
+    return found
+
+
+def _switches(forbidden: ArrayLike) -> BoolArray:
+    """The mask as a read-only array; numbers other than 0 and 1 are pairs of indices, most likely."""
+    mask = np.asarray(forbidden)
+    if mask.ndim != 2 or (mask.dtype != np.bool_ and not np.isin(mask, (0, 1)).all()):
+        raise InputError(
+            "forbidden must be an array of shape (user, subcarrier) that is True where a user may not use a "
+            f"subcarrier; got {shown(forbidden)}: start from np.zeros(gain.shape, dtype=bool)"
+        )
+    return frozen(mask.astype(bool))

@@ -38,6 +38,9 @@ def dbm_to_w(value_dbm: float) -> float:
     return float(10.0 ** ((value_dbm - 30.0) / 10.0))
 
 
+_NOUGHT = 1e-9
+"""Shares up to this are rounding: constraints are kept that well, and a gap of no more is none."""
+
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
@@ -48,6 +51,19 @@ def prefixed(largest: float, unit: str) -> tuple[float, str]:
     ((1000000.0, 'Mbit/s'), (0.001, 'mW'), (1.0, 'W'))
     """
     return next(((scale, prefix + unit) for scale, prefix in _PREFIXES if largest >= scale), (1.0, unit))
+
+
+def percent(share: float) -> str:
+    """A share in percent, with as many digits as people read; 0 where it is rounding.
+
+    >>> percent(0.1234), percent(130.0), percent(2e-3), percent(7e-14)
+    ('12 %', '13,000 %', '0.2 %', '0 %')
+    """
+    if not np.isfinite(share):
+        return "–"
+    if abs(share) <= _NOUGHT:
+        return "0 %"
+    return f"{100 * share:,.0f} %" if abs(share) >= 0.1 else f"{100 * share:.2g} %"
 
 
 def human(value: float, unit: str) -> str:

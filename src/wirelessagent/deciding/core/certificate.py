@@ -10,11 +10,20 @@ import numpy as np
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Bracket, Decision, Prices, Status
+from wirelessagent.model.errors import PluginError, WirelessAgentError
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.rates import user_rate_bps
 
 _ROUNDING = 1e-12
 """Value and bound are sums of many terms; up to this a value on the wrong side of its bound is on the bound."""
+_BEATEN = 1e-6
+"""From here on a value beyond its bound is no rounding. Constraints are kept within 1e-9, and power answers a change of
+the rates with as many times that as a subcarrier carries nats, some dozens; a sum must cancel to 1e-10 of its terms for
+its rounding to show.
+"""
+_TRIED_BPS = np.logspace(2, 10, 33)
+_STEP = 1e-4
+"""Relative, of a rate, for the slope of a utility."""
 
 
 class Figures(TypedDict, total=False):
@@ -53,17 +62,64 @@ def certified(
     """
     rate_bps = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
     value = form.objective.value(rate_bps, float(power_w.sum()), form.cell, form.weight)
-    bound, gap, status = judged(form.objective, value, bound)
+    bound, gap, status = judged(form.objective, value, bound, form.method)
     return _decision(form, owner, power_w, rate_bps, status, value, bound, gap, figures)
 
 
-def judged(objective: Objective, value: float, bound: float) -> tuple[float, float, Status]:
-    """The bound, which a value beyond it by rounding alone replaces, the gap and the status of a usable allocation."""
+def judged(objective: Objective, value: float, bound: float, method: str) -> tuple[float, float, Status]:
+    """The bound, which a value beyond it by rounding alone replaces, the gap and the status of a usable allocation.
+
+    Raises:
+        PluginError: the value is better than the bound proves possible, so the objective or the method is wrong.
+        WirelessAgentError: the same, with an objective of this package.
+    """
     beyond = value - bound if objective.direction == "max" else bound - value
     if 0.0 < beyond <= _ROUNDING * abs(bound):
         bound = value
+    elif beyond > _BEATEN * max(abs(value), abs(bound)):
+        raise _beaten(objective, value, bound, method)
     gap = relative_gap(value, bound)
     return bound, gap, "optimal" if gap <= OPTIMAL_GAP else "feasible"
+
+
+def _beaten(objective: Objective, value: float, bound: float, method: str) -> WirelessAgentError:
+    """What to tell where an allocation is better than proven possible: whose fault it is, and what shows it."""
+    side = "above" if objective.direction == "max" else "below"
+    told = (
+        f"with the objective {objective.name!r} an allocation has the value {value:.6g}, {side} the bound "
+        f"{bound:.6g} of the method {method!r}, which nothing can be"
+    )
+    if type(objective).__module__.split(".")[0] == __name__.split(".")[0]:
+        return WirelessAgentError(f"{told}. The bound of {method!r} is wrong: please report it, with the input")
+    shown = _wrong_conjugate(objective)
+    blamed = (
+        f"The conjugate of the objective {objective.name!r} is wrong: {shown}"
+        if shown
+        else (
+            f"Either the conjugate of the objective {objective.name!r} is too small somewhere, "
+            f"or its utility is not concave, or the bound of {method!r} is wrong"
+        )
+    )
+    return PluginError(f"{told}. {blamed}; wa.testing.ObjectiveContract checks an objective")
+
+
+def _wrong_conjugate(objective: Objective) -> str:
+    """A rate that is worth more at its own price than the conjugate says that any is there; empty if none was found."""
+    rate = _TRIED_BPS
+    with np.errstate(all="ignore"):
+        utility = objective.utility(rate)
+        rise = objective.utility(rate * (1.0 + _STEP)) - objective.utility(rate * (1.0 - _STEP))
+        price = np.maximum(rise / (2.0 * _STEP * rate), 0.0)
+        left = utility - price * rate
+        most = objective.conjugate(price, np.zeros(rate.shape), np.full(rate.shape, np.inf))[0]
+        short = (left - most) / (np.abs(utility) + price * rate)
+    worst = int(np.argmax(np.nan_to_num(short, nan=0.0, posinf=0.0, neginf=0.0)))
+    if not short[worst] > _BEATEN:
+        return ""
+    return (
+        f"at the price {price[worst]:.4g} it says that no rate is worth more than {most[worst]:.6g}, "
+        f"but u(r) − price · r is {left[worst]:.6g} at r = {rate[worst]:.4g} bit/s"
+    )
 
 
 def nothing(form: NormalForm, status: Status, bound: float, **figures: Unpack[Figures]) -> Decision:
