@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import functools
 import importlib
+import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import metadata
@@ -110,7 +111,7 @@ def create(kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *
     known = {option.name: option for option in options_of(cls)}
     for key in given:
         if key not in known:
-            raise UnknownNameError(f"option of the {kind.replace('_', ' ')} {name!r}", key, known)
+            raise UnknownNameError("option", key, known, of=f"the {kind.replace('_', ' ')} {name!r}")
     missing = [option.name for option in known.values() if option.required and option.name not in given]
     if missing:
         raise InputError(f"the {kind.replace('_', ' ')} {name!r} needs {', '.join(missing)}")
@@ -170,7 +171,7 @@ def _load(kind: Kind, entry: metadata.EntryPoint) -> Plugin:
         cls = entry.load()
         _check(kind, entry.name, cls)
     except (Exception, SystemExit) as error:  # noqa: BLE001  # a stranger's code must not take the rest down
-        reason = f"{type(error).__name__}: {error}"
+        reason = str(error) if isinstance(error, PluginError) else f"{type(error).__name__}: {error}"
         return known(cls=None, error=f"the {kind} {entry.name!r} of {package} cannot be loaded: {reason}")
     return known(cls=cls)
 
@@ -180,6 +181,9 @@ def _check(kind: Kind, name: str, cls: object) -> None:
     base: type[Any] = getattr(importlib.import_module(module), attribute)
     if not (isinstance(cls, type) and issubclass(cls, base)):
         raise PluginError(f"{cls!r} is not a subclass of {base.__name__}")
+    if inspect.isabstract(cls):
+        lacking = ", ".join(sorted(cast("Any", cls).__abstractmethods__))
+        raise PluginError(f"{cls.__name__} is abstract: it must define {lacking}, as wa.{base.__name__} describes")
     if "__dataclass_params__" not in vars(cls):  # the base is a dataclass, so is_dataclass() is true of every subclass
         raise PluginError(f"{cls.__name__} is not a dataclass: decorate it with @dataclass(frozen=True, kw_only=True)")
     if getattr(cls, "name", None) != name:

@@ -238,9 +238,8 @@ def test_every_option_of_a_built_in_plugin_is_explained(kind: Any) -> None:
 
 
 def test_help_shows_what_an_option_is_whose_and_its_choices(site: Site, capsys: pytest.CaptureFixture[str]) -> None:
-    site.install(
-        "paper-play", "paper_play", ALPHA.replace("Objective", "Repairer"), {"alpha": "paper_play:Alpha"}, "repairer"
-    )
+    code = ALPHA.replace("Objective", "Repairer").replace("def utility(self", "def repair(self, observation")
+    site.install("paper-play", "paper_play", code, {"alpha": "paper_play:Alpha"}, "repairer")
     assert run(["repair", "--help"]) == 0
     shown = " ".join(capsys.readouterr().out.replace("│", " ").split())
     assert "how fair, e.g. 1 for proportional fairness [of alpha; default 2.0]" in shown
@@ -328,8 +327,19 @@ def test_a_value_that_is_no_choice_is_refused_with_the_choices(alpha: Any, name:
     assert repr(given) in str(caught.value)
 
 
+def test_an_abstract_plugin_is_listed_with_what_it_lacks(site: Site) -> None:
+    code = ALPHA.replace("def conjugate", "def conjugated")
+    site.install("half-play", "half_play", code, {"alpha": "half_play:Alpha"})
+    found = plugins.plugin("objective", "alpha")
+    assert found.cls is None
+    for part in ("'alpha' of half-play", "Alpha is abstract: it must define conjugate"):
+        assert part in found.error
+    with pytest.raises(PluginError, match="must define conjugate"):
+        plugins.create("objective", "alpha")
+
+
 def test_an_option_that_it_does_not_have_is_refused_with_a_hint(alpha: Any) -> None:
-    with pytest.raises(UnknownNameError, match=r"option of the objective 'alpha' 'alfa': did you mean 'alpha'\?"):
+    with pytest.raises(UnknownNameError, match=r"option 'alfa' of the objective 'alpha': did you mean 'alpha'\?"):
         alpha(alfa=2)
 
 
