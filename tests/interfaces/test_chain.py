@@ -9,7 +9,9 @@ import pytest
 
 import wirelessagent as wa
 from wirelessagent import chain, plugins
-from wirelessagent.model.errors import UnsupportedProblemError
+from wirelessagent.deciding.methods.dual import Dual
+from wirelessagent.model.errors import UnknownNameError, UnsupportedProblemError
+from wirelessagent.operations.compare import _place
 from wirelessagent.plugins import Plugin
 
 
@@ -63,6 +65,33 @@ def test_only_methods_that_can_are_given_an_earlier_decision() -> None:
     assert wa.decide(estimate, wa.Problem("max_rate"), method=Warm(), after=first).reason == "warm from -2"
     with pytest.raises(wa.InputError, match="'equal_power' does not start from an earlier decision"):
         wa.decide(estimate, wa.Problem("max_rate"), method="equal_power", after=first)
+
+
+def test_methods_are_compared_with_their_options() -> None:
+    estimate = wa.perfect(wa.simulate("rayleigh", num_users=3, num_subcarriers=8, seed=1))
+    problem = wa.Problem("max_min_rate", max_power_w=1)
+    found = wa.compare(estimate, problem, methods=["dual", Dual(effort="thorough"), "greedy"], restarts=2)
+    assert [one.method for one in found] == ["dual", "dual (effort=thorough)", "greedy"]
+    assert found[0].decision is not None
+    assert found[0].decision.restarts == 2
+    assert found[1].decision is not None
+    assert found[1].decision.restarts != 2
+    with pytest.raises(UnknownNameError, match="unknown option 'depth' of the methods greedy"):
+        wa.compare(estimate, problem, methods=["greedy"], depth=1)
+
+
+def test_of_equal_values_what_proves_more_stands_first_and_what_refuses_last() -> None:
+    estimate = wa.perfect(wa.simulate("rayleigh", num_users=3, num_subcarriers=8, seed=1))
+    one = wa.compare(estimate, wa.Problem("max_rate"), methods=["equal_power"])[0]
+    assert one.decision is not None
+    loose = replace(one, method="loose", decision=replace(one.decision, gap=0.01, status="feasible"), time_s=1e-6)
+    tight = replace(one, method="tight", decision=replace(one.decision, gap=0.001, status="feasible"), time_s=1e-3)
+    proven = replace(one, method="proven", decision=replace(one.decision, gap=0.0, status="optimal"), time_s=1.0)
+    without = replace(one, method="without", decision=replace(one.decision, gap=np.nan, status="feasible"))
+    worse = replace(one, method="worse", decision=replace(one.decision, value=one.decision.value / 2, gap=0.0))
+    refused = replace(one, method="refused", decision=None)
+    placed = sorted([refused, worse, without, loose, proven, tight], key=_place)
+    assert [one.method for one in placed] == ["proven", "tight", "loose", "without", "worse", "refused"]
 
 
 def test_prices_are_read_only() -> None:

@@ -11,6 +11,7 @@ import pytest
 import wirelessagent as wa
 from wirelessagent.chain import Comparison
 from wirelessagent.model.decision import Decision
+from wirelessagent.model.units import human
 from wirelessagent.pictures.canvas import Canvas
 from wirelessagent.pictures.compare_picture import comparison_canvas, draw_comparison
 from wirelessagent.testing.channels import known, rayleigh_gain
@@ -61,11 +62,22 @@ def test_marks_are_at_value_gap_and_time() -> None:
 
 
 def test_who_has_no_allocation_or_no_bound_is_said_to() -> None:
-    canvas = comparison_canvas(compared("min_power", ["dual", "round_robin", "paper_scan"], min_rate_bps=9e6))
-    assert texts(canvas.panels[0]) == ["infeasible", "infeasible", "refused"]
+    canvas = comparison_canvas(compared("min_power", ["dual", "round_robin", "paper_scan"], min_rate_bps=1.5e6))
+    assert texts(canvas.panels[0])[-2:] == ["undecided", "refused"]
     assert "no allocation" in legend(canvas)
     fair = comparison_canvas(compared("proportional_fairness", ["dual", "equal_power"]))
     assert texts(fair.panels[1])[-1] == "no bound"
+
+
+def test_where_nothing_is_feasible_the_picture_says_why_and_what_it_would_take() -> None:
+    found = compared("min_power", ["dual", "greedy", "paper_scan"], min_rate_bps=9e6)
+    canvas = comparison_canvas(found)
+    (said,) = (" ".join(text.split()) for text in texts(canvas.panels[0]))
+    decision = found[0].decision
+    assert decision.reason in said
+    assert f"need at least {human(decision.needed_power_w.at_least, 'W')}" in said
+    assert "times as much can be had" in said
+    assert "dual: infeasible; greedy: infeasible; paper_scan: refused" in said
 
 
 @pytest.mark.parametrize("objective", ["max_rate", "min_power", "max_energy_efficiency", "max_min_rate"])

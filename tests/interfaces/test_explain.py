@@ -14,6 +14,7 @@ from wirelessagent.deciding.objectives.proportional_fairness import Proportional
 from wirelessagent.explain.words import explain
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human
+from wirelessagent.operations.answers import certificate_line
 
 SCENE = wa.simulate("rayleigh", num_users=4, seed=1)
 ESTIMATE = wa.perfect(SCENE)
@@ -122,3 +123,30 @@ def test_groups_are_said_to_cost_what_the_bound_without_them_proves() -> None:
         assert len(said) == 1
         assert f"at most {cost:.2g} %" in said[0]
         assert not [part for part in explain(estimate, wa.report(wa.decide(estimate, problem))) if "groups" in part]
+
+
+def test_rounding_is_no_gap_and_many_times_the_bound_is_a_factor() -> None:
+    plain = decided("max_rate")
+    near = replace(plain, status="feasible", gap=7.4e-14, bound=plain.value)
+    assert "within 0 % of that" in told(near)
+    assert "(gap 0 %;" in certificate_line(near)
+    power = wa.decide(ESTIMATE, wa.Problem("min_power", min_rate_bps=1e5), SCENE.cell, method="round_robin")
+    far = replace(power, bound=power.value / 14.0, gap=13.0, status="feasible")
+    assert "this decision is 14 times that" in told(far)
+    assert "14 倍" in told(far, "zh")
+
+
+def test_rates_are_promised_where_some_were_asked_for_and_committed_elsewhere() -> None:
+    assert "every committed rate was kept" in told(decided("max_rate"))
+    assert "所有预定速率都已兑现" in told(decided("max_rate"), "zh")
+    assert "every promised rate was kept" in told(decided("max_rate", min_rate_bps=1e3))
+
+
+def test_fairness_is_among_those_to_be_served() -> None:
+    decision = decided("max_rate", users=(1, 3))
+    decision = replace(decision, rate_bps=np.array([0.0, 2e6, 0.0, 2e6]))
+    report = wa.report(decision, wa.SimulatedBaseStation(SCENE).apply(decided("max_rate")))
+    assert report.predicted.jain_index == 1.0
+    assert report.achieved is not None
+    rate = report.achieved.user_rate_bps[[1, 3]]
+    assert report.achieved.jain_index == pytest.approx(rate.sum() ** 2 / (2 * np.square(rate).sum()))

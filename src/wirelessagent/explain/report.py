@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
 
 from wirelessagent.model.decision import Decision
-from wirelessagent.model.metrics import LinkMetrics, metrics_of_rates
+from wirelessagent.model.metrics import LinkMetrics, jain_index, metrics_of_rates
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.phrases import phrases
@@ -69,7 +70,8 @@ class Report:
         lines = [f"{label:22} {before:>16} {after:>16}" for label, before, after in rows]
         if self.achieved is not None:
             served = int(np.count_nonzero(self.decision.rate_bps > 0))
-            lines.append(f"{len(self.missed_users)} of {served} served users missed their promised rate")
+            rate = "promised" if self.decision.problem.promises_rates else "committed"
+            lines.append(f"{len(self.missed_users)} of {served} served users missed their {rate} rate")
         return "\n".join(lines)
 
 
@@ -78,9 +80,24 @@ def report(decision: Decision, outcome: Outcome | None = None) -> Report:
     return Report(
         decision=decision,
         predicted=predicted_metrics(decision),
-        achieved=None if outcome is None else outcome.achieved,
+        achieved=None if outcome is None else _among_served(outcome.achieved, decision),
         missed_users=() if outcome is None else tuple(int(user) for user in np.flatnonzero(outcome.missed)),
     )
+
+
+def cannot_be_served(decision: Decision) -> str:
+    """One sentence on users without any rate, where that makes the decision worthless; empty where it does not."""
+    objective = decision.problem.objective
+    if decision.value != 0 or not isinstance(objective, Objective) or objective.measure == "power":
+        return ""
+    counts = decision.problem.weights_of(decision.rate_bps.size) > 0
+    starved = np.flatnonzero(counts & (decision.rate_bps <= 0))
+    if not starved.size:
+        return ""
+    left = f"{starved.size} user{'s' if starved.size > 1 else ''} cannot be served"
+    served, size = int(np.count_nonzero(counts)), decision.problem.resource_block_group_size
+    places, kind = -(-decision.owner.size // size), "subcarriers" if size == 1 else "resource-block groups"
+    return f"{left}: there are {places} {kind} for {served} users" if places < served else left
 
 
 def name_of_figure(decision: Decision, language: str = "en") -> str:
@@ -92,10 +109,21 @@ def name_of_figure(decision: Decision, language: str = "en") -> str:
 
 def predicted_metrics(decision: Decision) -> LinkMetrics:
     """The decision's metrics on the channel that it was made for."""
-    return metrics_of_rates(
+    metrics = metrics_of_rates(
         decision.rate_bps,
         goodput_bps=float(decision.rate_bps.sum()),
         power_w=decision.total_power_w,
         num_subcarriers=decision.owner.size,
         cell=decision.cell,
     )
+    served = _among_served(metrics, decision)
+    assert served is not None
+    return served
+
+
+def _among_served(metrics: LinkMetrics | None, decision: Decision) -> LinkMetrics | None:
+    """The metrics with the fairness of those users that are to be served: who is left out on purpose is not starved."""
+    if metrics is None or decision.problem.users is None:
+        return metrics
+    rate = metrics.user_rate_bps
+    return dataclasses.replace(metrics, jain_index=jain_index(rate[decision.problem.serves(rate.size)]))

@@ -13,12 +13,13 @@ from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
-from wirelessagent.model.units import db, human
+from wirelessagent.model.units import db, human, percent
 
 _ENGLISH: Mapping[str, str] = {
     "allocation": "{used} of {total} subcarriers serve {served} of {users} users with {power} of the {budget} allowed.",
     "optimal": "This is the optimum on the estimated channel: the bound proves that nothing does better.",
-    "gap": "Nothing on the estimated channel does better than {bound}; this decision is within {gap:.2g} % of that.",
+    "gap": "Nothing on the estimated channel does better than {bound}; this decision is within {gap} of that.",
+    "times": "Nothing on the estimated channel does better than {bound}; this decision is {times:.3g} times that.",
     "zero_bound": "A value of zero is not ruled out, so how far this is from the best is not known.",
     "no_bound": "The method {method} gives no bound, so how far this is from the best is not known.",
     "infeasible": "This cannot be done, and that is proven: {reason}",
@@ -34,7 +35,7 @@ _ENGLISH: Mapping[str, str] = {
     "rate_figure": "One more {step} promised to {user} would lower the {figure} by about {price} at the margin, "
     "the dearest of all.",
     "idle_one": "Nothing for {names}, who is {margin:.1f} dB behind the winner on its best subcarrier.",
-    "groups": "Assigning subcarriers in groups of {size} costs at most {cost:.2g} % of the {figure}: one by one, "
+    "groups": "Assigning subcarriers in groups of {size} costs at most {cost} of the {figure}: one by one, "
     "nothing does better than {bound}.",
     "idle": "Nothing for {names}; the closest, {closest}, is {margin:.1f} dB behind the winner on its best subcarrier.",
     "repaired": "Repaired by {method}: {missing} of {entries} gains; "
@@ -42,8 +43,10 @@ _ENGLISH: Mapping[str, str] = {
     "guessed": "No gain of {names} was observed: their level is a guess, and so is what is promised on it.",
     "no_promise": "No rate is promised to anybody, so nothing has to be sent; a minimum rate would change that.",
     "complete": "No gain was missing, so nothing was repaired.",
-    "kept": "On the true channel every promised rate was kept.",
-    "missed": "On the true channel {names} fell short of the promised rate, by up to {short:.2g} %.",
+    "kept": "On the true channel every {rate} rate was kept.",
+    "missed": "On the true channel {names} fell short of the {rate} rate, by up to {short}.",
+    "promised": "promised",
+    "committed": "committed",
     "value": "value",
     "comma": ", ",
 }
@@ -52,7 +55,8 @@ _CHINESE: Mapping[str, str] = {
     "allocation": "{total} 个子载波中使用了 {used} 个，"
     "服务 {users} 个用户中的 {served} 个，功率 {power}（上限 {budget}）。",
     "optimal": "这是估计信道上的最优解：对偶界证明没有更好的分配。",
-    "gap": "在估计信道上任何分配都不会优于 {bound}；本方案与该界相差不超过 {gap:.2g} %。",
+    "gap": "在估计信道上任何分配都不会优于 {bound}；本方案与该界相差不超过 {gap}。",
+    "times": "在估计信道上任何分配都不会优于 {bound}；本方案是该界的 {times:.3g} 倍。",
     "zero_bound": "尚不能排除零值，因此与最优解的差距未知。",
     "no_bound": "方法 {method} 不提供界，因此与最优解的差距未知。",
     "infeasible": "该要求无法满足，并且已被证明：{reason}",
@@ -66,15 +70,17 @@ _CHINESE: Mapping[str, str] = {
     "rate_price": "边际上给 {user} 再增加 {step} 约需 {price}，是所有用户中最贵的。",
     "rate_figure": "边际上向 {user} 多承诺 {step}，{figure}约降低 {price}，是所有用户中最贵的。",
     "idle_one": "{names} 没有分到子载波，在其最好的子载波上比胜者低 {margin:.1f} dB。",
-    "groups": "以 {size} 个子载波为一组分配，{figure}的损失最多为 {cost:.2g} %：逐个分配时任何方案都不会优于 {bound}。",
+    "groups": "以 {size} 个子载波为一组分配，{figure}的损失最多为 {cost}：逐个分配时任何方案都不会优于 {bound}。",
     "idle": "{names} 没有分到子载波；其中最接近的 {closest} 在其最好的子载波上仍比胜者低 {margin:.1f} dB。",
     "repaired": "{entries} 个增益中缺失 {missing} 个，由 {method} 修复；"
     "使用的 {used} 个子载波中有 {resting} 个依赖修复值。",
     "guessed": "没有观测到 {names} 的任何增益：其水平只是猜测，基于它的承诺也是。",
     "no_promise": "没有向任何用户承诺速率，因此无需发送；给出最低速率即可改变这一点。",
     "complete": "没有缺失的增益，因此无需修复。",
-    "kept": "在真实信道上，所有承诺的速率都已兑现。",
-    "missed": "在真实信道上 {names} 未达到承诺速率，最多少 {short:.2g} %。",
+    "kept": "在真实信道上，所有{rate}速率都已兑现。",
+    "missed": "在真实信道上 {names} 未达到{rate}速率，最多少 {short}。",
+    "promised": "承诺",
+    "committed": "预定",
     "value": "目标值",
     "comma": "、",
 }
@@ -121,7 +127,10 @@ def _certificate(words: Mapping[str, str], decision: Decision) -> str:
         return words["optimal"]
     if np.isinf(decision.gap):
         return words["zero_bound"].format(method=decision.method)
-    return words["gap"].format(bound=human(decision.bound, decision.unit), gap=100 * decision.gap)
+    bound = human(decision.bound, decision.unit)
+    if decision.gap > 1.0 and decision.value * decision.bound > 0:  # percents beyond 100 tell nothing
+        return words["times"].format(bound=bound, times=decision.value / decision.bound)
+    return words["gap"].format(bound=bound, gap=percent(decision.gap))
 
 
 def _groups(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate, figure: str) -> list[str]:
@@ -136,7 +145,7 @@ def _groups(words: Mapping[str, str], decision: Decision, estimate: ChannelEstim
     cost = max(decision.value / bound - 1.0 if _falls(decision) else 1.0 - decision.value / bound, 0.0)
     return [
         words["groups"].format(
-            size=size, cost=100 * cost, figure=figure or words["value"], bound=human(bound, decision.unit)
+            size=size, cost=percent(cost), figure=figure or words["value"], bound=human(bound, decision.unit)
         )
     ]
 
@@ -230,13 +239,15 @@ def _guesses(words: Mapping[str, str], decision: Decision, estimate: ChannelEsti
 def _outcome(words: Mapping[str, str], report: Report) -> list[str]:
     if report.achieved is None:
         return []
+    rate = words["promised" if report.decision.problem.promises_rates else "committed"]
     if not report.missed_users:
-        return [words["kept"]]
+        return [words["kept"].format(rate=rate)]
     missed = list(report.missed_users)
     promised, carried = report.decision.rate_bps[missed], report.achieved.user_rate_bps[missed]
     return [
         words["missed"].format(
             names=words["comma"].join(report.decision.user_names[user] for user in missed),
-            short=100 * float(np.max(1 - carried / promised)),
+            short=percent(float(np.max(1 - carried / promised))),
+            rate=rate,
         )
     ]

@@ -29,6 +29,8 @@ def run(arguments: list[str]) -> int:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a terminal without Chinese must not stop the work
     _tell_of_compiling(wanted="--json" not in arguments)
+    if not {"-h", "--help"}.isdisjoint(arguments):
+        _show_long_names_whole()
     command = typer.main.get_command(_app(arguments))
     try:
         code = command.main(args=arguments, prog_name="wirelessagent", standalone_mode=False)
@@ -82,6 +84,20 @@ def _fail(message: str, code: int) -> int:
     line = " ".join(message.split())
     print(f"wirelessagent: {line}", file=sys.stderr)  # noqa: T201
     return code
+
+
+def _show_long_names_whole() -> None:
+    """Have option names that are too long for their column go on in the next line; Typer cuts them off."""
+    from rich.text import Text
+    from typer import rich_utils
+
+    class Folding(type(rich_utils.highlighter)):
+        def __call__(self, text: str | Text) -> Text:
+            found = super().__call__(text)
+            found.overflow = "fold"
+            return found
+
+    rich_utils.highlighter = Folding()
 
 
 def _app(arguments: list[str]) -> typer.Typer:
@@ -147,4 +163,4 @@ def _request(operation: AnyOperation, values: dict[str, Any]) -> Any:
         field = str(first["loc"][0]) if first["loc"] else operation.name
         name = field if is_positional(operation.request, field) else as_flag(field)
         said = first["msg"].removeprefix("Value error, ").removeprefix("Input ")
-        raise InputError(f"{name}: {said}; got {first['input']!r}") from error
+        raise InputError(f"{name}: {said}; got {values.get(field, first['input'])!r}") from error

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from wirelessagent.explain.report import Report
+from wirelessagent.explain.report import Report, cannot_be_served
 from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.metrics import LinkMetrics
-from wirelessagent.model.units import human
+from wirelessagent.model.units import human, percent
 from wirelessagent.operations.record import Integers, Matrix, Record, SwitchMatrix, Table, Vector
 
 
@@ -129,21 +129,12 @@ def certificate_line(decision: Decision) -> str:
     value = human(decision.value, decision.unit)
     if np.isnan(decision.gap):
         return f"{decision.status}: {value} ({decision.method}; no bound)"
+    left_out = cannot_be_served(decision)
     return (
         f"{decision.status}: {value}; no allocation on this estimate does better than "
         f"{human(decision.bound, decision.unit)} (gap {percent(decision.gap)}; {decision.method})"
+        + (f". Note: {left_out}" if left_out else "")
     )
-
-
-def percent(share: float) -> str:
-    """A share in percent, with as many digits as people read.
-
-    >>> percent(0.1234), percent(130.0), percent(2e-12)
-    ('12 %', '13,000 %', '2e-10 %')
-    """
-    if not np.isfinite(share):
-        return "–"
-    return f"{100 * share:,.0f} %" if share >= 0.1 else f"{100 * share:.2g} %"
 
 
 def decision_tables(report: Report, estimate: ChannelEstimate) -> list[Table]:
@@ -189,7 +180,7 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None) -> Table
         row.append(human(float(decision.power_w[own].sum()), "W"))
         row.append(human(decision.rate_bps[user], "bit/s"))
         if report.achieved is not None:
-            missed = f" ({_shortfall(report, user):.2g} % short)" if user in report.missed_users else ""
+            missed = f" ({percent(_shortfall(report, user))} short)" if user in report.missed_users else ""
             row.append(human(report.achieved.user_rate_bps[user], "bit/s") + missed)
         rows.append(tuple(row))
     repaired = () if estimate is None else ("of them repaired",)
@@ -202,9 +193,9 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None) -> Table
 
 
 def _shortfall(report: Report, user: int) -> float:
-    """By how much a user's true rate falls short of the promised one, in %."""
+    """By how much a user's true rate falls short of the promised one, as a share."""
     assert report.achieved is not None
-    return 100 * float(1 - report.achieved.user_rate_bps[user] / report.decision.rate_bps[user])
+    return float(1 - report.achieved.user_rate_bps[user] / report.decision.rate_bps[user])
 
 
 def _bracket(bracket: Bracket | None) -> BracketAnswer | None:

@@ -15,7 +15,7 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
 from wirelessagent.operations.answers import DecisionAnswer, EstimateAnswer, ReportAnswer, decision_tables
 from wirelessagent.operations.cell_options import CellOptions
-from wirelessagent.operations.chain_run import Tools, act_on, understood_event
+from wirelessagent.operations.chain_run import Tools, act_on
 from wirelessagent.operations.channel_file import file_scene
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions, Positional
 from wirelessagent.operations.intent import IntentRecord
@@ -97,7 +97,6 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
     understood = IntentRecord.of(request.text, intent)
     if intent.kind != "allocate" or intent.objective is None:
         return AskRecord(intent=understood, seed=request.seed, version=__version__)
-    progress(understood_event(intent))
     scene = _scene(request, progress)
     default_loss = [] if request.csi else ["random:0.2"]
     losses = [parse_loss(text) for text in (default_loss if request.loss is None else request.loss)]

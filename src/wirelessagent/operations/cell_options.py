@@ -12,7 +12,7 @@ from wirelessagent.operations.operation import Request
 
 
 class CellOptions(Request):
-    """Options that describe the cell. What is not given comes from the channel file, else from the preset."""
+    """Options that describe the cell. What was given wins; the rest comes from the channel file, else the preset."""
 
     panel: ClassVar[str] = "Cell"
 
@@ -29,8 +29,8 @@ class CellOptions(Request):
     def cell(self, known: Cell | None = None, *, wanted_power_w: float | None = None) -> Cell:
         """The cell: the preset (or what is ``known``), with the options that were given.
 
-        Where the cell's own limit was not given, a budget that asks for more raises it: whoever brings a matrix and a
-        budget has no other limit.
+        Where the cell's own limit was not given, a budget that asks for more is the limit as well: whoever brings a
+        matrix and a budget has no other.
         """
         base = known or (Cell.nr() if self.cell_preset == "nr" else Cell())
         given = {

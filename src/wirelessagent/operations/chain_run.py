@@ -78,18 +78,20 @@ def ask(
     intent = recognise(text)
     if intent.kind != "allocate" or intent.objective is None:
         raise UnclearRequestError(intent.reply)
-    progress(understood_event(intent))
     return act_on(intent, scene, *losses, seed=seed, tools=tools or Tools(), progress=progress)
 
 
-def understood_event(intent: Intent) -> Event:
+def _understood(intent: Intent) -> Event:
     """What to tell the listener of an intent that is clear."""
     return Event(stage="understand", message=f"{intent.reply} ({intent.recogniser}, {intent.confidence:.0%} sure)")
 
 
 def act_on(intent: Intent, scene: Scene, *losses: Loss, seed: int, tools: Tools, progress: Progress = silent) -> Answer:
-    """Run the chain from sensing to explaining for an intent that is clear."""
+    """Run the chain for an intent that is clear: say what was understood and assumed, then sense to explain."""
+    progress(_understood(intent))
     problem, cell, notes = _pose(intent, scene.cell)
+    for note in notes:
+        progress(Event(stage="note", message=note))
     chain.check_solvable(problem, tools.method)
     scene = dataclasses.replace(scene, cell=cell)
     seen = scene.observe(*losses, seed=seed)
@@ -158,4 +160,5 @@ def _applied(decision: Decision, outcome: Outcome | None) -> str:
         return f"allocation written to {outcome.written_to}"
     kept = int(np.count_nonzero((decision.rate_bps > 0) & ~outcome.missed))
     served = int(np.count_nonzero(decision.rate_bps > 0))
-    return f"{outcome.base_station}: applied and read back; {kept} of {served} promised rates kept"
+    rates = "promised" if decision.problem.promises_rates else "committed"
+    return f"{outcome.base_station}: applied and read back; {kept} of {served} {rates} rates kept"

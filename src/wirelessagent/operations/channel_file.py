@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, cast
 
@@ -11,9 +11,11 @@ from pydantic import Field
 
 from wirelessagent import plugins
 from wirelessagent.model.scene import Scene
+from wirelessagent.model.units import human
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.fields import OptionsOf, PluginOptions, Positional
 from wirelessagent.operations.operation import Event, Progress
+from wirelessagent.sensing.file_metadata import FROM_FILE
 from wirelessagent.sensing.source import ChannelSource
 
 
@@ -46,10 +48,30 @@ def file_scene(
     *,
     wanted_power_w: float | None = None,
 ) -> Scene:
-    """The scene in a file; options of the cell that were given win over what the file states."""
+    """The scene in a file; options of the cell that were given win over what the file states, and the facts say so."""
     source = cast(ChannelSource, plugins.create("channel_source", "file", {**options, "path": path}))
     scene = source.observe(cell_options.cell())
-    scene = dataclasses.replace(scene, cell=cell_options.cell(scene.cell, wanted_power_w=wanted_power_w))
+    cell = cell_options.cell(scene.cell, wanted_power_w=wanted_power_w)
+    facts = {**scene.facts, **_given(cell_options, scene)}
+    if cell_options.cell_max_power_w is None and cell.max_power_w > scene.cell.max_power_w:
+        facts["power limit"] = f"{human(cell.max_power_w, 'W')} (the budget; --cell-max-power-w sets another)"
+    scene = dataclasses.replace(scene, cell=cell, facts=facts)
     understood = "; ".join(f"{label}: {text}" for label, text in scene.facts.items() if label not in _DETAILS)
-    progress(Event(stage="sense", message=f"{path}: {understood}"))
+    progress(Event(stage="read", message=f"{path}: {understood}"))
     return scene
+
+
+def _given(options: CellOptions, scene: Scene) -> dict[str, str]:
+    """The facts on bandwidth and noise that were given as options, beside what the file says of them."""
+    facts: dict[str, str] = {}
+    fields: tuple[tuple[str, str, Callable[[float], str]], ...] = (
+        ("bandwidth", "subcarrier_bandwidth_hz", lambda value: human(value, "Hz")),
+        ("noise", "noise_psd_w_per_hz", lambda value: f"{value:.4g} W/Hz"),
+    )
+    for label, name, shown in fields:
+        given = getattr(options, name)
+        if given is not None:
+            stated = scene.facts.get(label, "").endswith(f"({FROM_FILE})")
+            instead = f"; the file says {shown(getattr(scene.cell, name))}" if stated else ""
+            facts[label] = f"{shown(given)} (given{instead})"
+    return facts

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
+from typing import Annotated
 
 from pydantic import Field
 
@@ -10,8 +12,9 @@ from wirelessagent import chain
 from wirelessagent.chain import Comparison
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.objective import Objective
-from wirelessagent.model.units import human
-from wirelessagent.operations.answers import DecisionAnswer, percent
+from wirelessagent.model.units import human, percent
+from wirelessagent.operations.answers import DecisionAnswer
+from wirelessagent.operations.fields import Names, OptionsOf, PluginOptions
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.outputs import check_picture, draw_comparison
 from wirelessagent.operations.record import Block, Record, Table
@@ -19,7 +22,12 @@ from wirelessagent.operations.solve import ProblemOnFile
 
 
 class CompareRequest(ProblemOnFile):
-    methods: list[str] | None = Field(None, description="methods; all that solve the problem if not given")
+    methods: Names | None = Field(
+        None, description="methods, as dual,exact or one by one; all that solve the problem if not given"
+    )
+    method_options: Annotated[PluginOptions, OptionsOf("method")] = Field(
+        default_factory=dict, description="options of the methods; each goes to every method that has it"
+    )
     plot: Path | None = Field(None, description="picture of the comparison: PNG, SVG or PDF")
 
 
@@ -43,7 +51,9 @@ class CompareRecord(Record):
     def blocks(self) -> list[Block]:
         rows = tuple(_row(answer) for answer in self.answers)
         columns = ("method", "status", "value", "bound", "gap", "power", "time")
-        table = Table(title=f"Methods for {self.objective}, the best first", columns=columns, rows=rows)
+        usable = any(_is_usable(answer.decision) for answer in self.answers)
+        title = f"Methods for {self.objective}{', the best first' if usable else ': none has an allocation'}"
+        table = Table(title=title, columns=columns, rows=rows)
         refusals = [f"{answer.method}: {answer.refusal}" for answer in self.answers if answer.refusal]
         return [table, *self._why(), *refusals, *([f"written to {self.plot}"] if self.plot else [])]
 
@@ -51,8 +61,12 @@ class CompareRecord(Record):
         """Why there is no allocation, in the words of the first method that has none, if no method has one."""
         decisions = [answer.decision for answer in self.answers if answer.decision is not None]
         reasons = [decision.reason for decision in decisions if decision.reason]
-        usable = any(decision.status in ("optimal", "feasible") for decision in decisions)
+        usable = any(map(_is_usable, decisions))
         return [] if usable or not reasons else [f"{decisions[0].status}: {reasons[0]}"]
+
+
+def _is_usable(decision: DecisionAnswer | None) -> bool:
+    return decision is not None and decision.status in ("optimal", "feasible")
 
 
 def _row(answer: MethodAnswer) -> tuple[str, ...]:
@@ -70,25 +84,26 @@ def _row(answer: MethodAnswer) -> tuple[str, ...]:
     )
 
 
-def _place(one: Comparison) -> tuple[int, float, float]:
-    """Where a method stands: the best value first, of equal ones the fastest, then those without an allocation, then
-    those that refuse.
+def _place(one: Comparison) -> tuple[int, float, float, float]:
+    """Where a method stands: the best value first, of equal ones what proves the most, then the fastest; then those
+    without an allocation, then those that refuse.
     """
     decision = one.decision
     if decision is None:
-        return 3, 0.0, 0.0
+        return 3, 0.0, 0.0, 0.0
     if not decision.is_usable:
-        return (1 if decision.status == "infeasible" else 2), 0.0, one.time_s
+        return (1 if decision.status == "infeasible" else 2), 0.0, 0.0, one.time_s
     objective = decision.problem.objective
     assert isinstance(objective, Objective)
     value = float(f"{decision.value:.9e}")  # what differs by rounding is equal
-    return 0, value if objective.direction == "min" else -value, one.time_s
+    gap = 0.0 if decision.status == "optimal" else math.inf if math.isnan(decision.gap) else decision.gap
+    return 0, value if objective.direction == "min" else -value, gap, one.time_s
 
 
 def run(request: CompareRequest, progress: Progress) -> CompareRecord:
     check_picture(request.plot)
     scene, estimate, problem = request.posed(progress)
-    found = sorted(chain.compare(estimate, problem, scene.cell, request.methods), key=_place)
+    found = sorted(chain.compare(estimate, problem, scene.cell, request.methods, **request.method_options), key=_place)
     if not found:
         raise UnsupportedProblemError(f"no registered method solves {request.objective!r} with these constraints")
     answers = [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, TypeAlias, cast
 
 from pydantic import BeforeValidator
 
@@ -11,7 +11,7 @@ from wirelessagent.plugins import Kind, Option, plugin, plugins
 from wirelessagent.plugins import names as plugin_names
 
 __all__ = [
-    "Kind", "Option", "OptionsOf", "PerEntry", "PluginName", "PluginOptions", "Positional", "plugin_names",
+    "Kind", "Names", "Option", "OptionsOf", "PerEntry", "PluginName", "PluginOptions", "Positional", "plugin_names",
     "plugin_options",
 ]  # fmt: skip
 
@@ -48,11 +48,23 @@ def plugin_options(mark: OptionsOf) -> list[tuple[str, Option]]:
 
 
 def _several(value: Any) -> Any:
-    """Text such as "1e6, 2e6" as a list; anything else as it is."""
+    """Text such as "1e6, 2e6", in brackets or not, as a list; anything else as it is."""
     if isinstance(value, str) and "," in value:
-        return [part.strip() for part in value.split(",")]
+        return [part.strip() for part in value.strip().removeprefix("[").removesuffix("]").split(",")]
     return value
 
+
+def _listed(value: Any) -> Any:
+    """Text such as "dual, exact", or several of such, as one list; anything else as it is."""
+    given = cast("list[Any]", value if isinstance(value, list) else [value])
+    texts = [text for text in given if isinstance(text, str)]
+    if len(texts) < len(given):  # for the field's own check to refuse
+        return given
+    return [part.strip() for text in texts for part in text.split(",") if part.strip()]
+
+
+Names: TypeAlias = Annotated[list[str], BeforeValidator(_listed)]
+"""Several names; "dual,exact" or the option twice on a command line."""
 
 PerEntry: TypeAlias = Annotated[float | list[float], BeforeValidator(_several)]
 """One number for all, or one per user (or subcarrier); "1e6,2e6" on a command line."""

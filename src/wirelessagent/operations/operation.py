@@ -27,7 +27,7 @@ class Event:
     """Something that just happened in a running operation.
 
     Attributes:
-        stage: "understand", "sense", "repair", "decide", "act" or the name of a piece of long work.
+        stage: "read", "understand", "note", "sense", "repair", "decide", "act" or the name of a piece of long work.
         message: one sentence for the user.
         done, total: how far counted work has come; both 0 where nothing is counted.
     """

@@ -18,6 +18,7 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
+from wirelessagent.sensing.npz import check_npz
 
 
 def check_allocation(path: Path | None) -> None:
@@ -30,6 +31,7 @@ def check_allocation(path: Path | None) -> None:
 def check_gains(path: Path | None) -> None:
     """Raise an error where gains cannot be written to ``path``; None is fine."""
     if path is not None:
+        check_npz(path)
         writable_target(path)
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable, Iterable
 from typing import Annotated, ClassVar
 
+import numpy as np
 from pydantic import Field
 
 from wirelessagent import plugins
+from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.problem import Problem
 from wirelessagent.operations.fields import OptionsOf, PerEntry, PluginName, PluginOptions
@@ -27,27 +31,65 @@ class ProblemOptions(Request):
     weights: PerEntry | None = Field(None, description="worth of each user's rate, one value or one per user")
     min_rate_bps: PerEntry | None = Field(None, description="rate each user must get, bit/s, one value or one per user")
     max_rate_bps: PerEntry | None = Field(None, description="rate each user can use, bit/s, one value or one per user")
-    max_power_w: float | None = Field(None, description="radiated power budget, W; the cell's limit if not given")
+    max_power_w: float | None = Field(
+        None,
+        description="radiated power budget, W; the cell's limit if not given. A larger one is the cell's "
+        "limit as well, unless --cell-max-power-w is given",
+    )
     subcarrier_max_power_w: PerEntry | None = Field(None, description="power cap per subcarrier, W")
-    users: list[str] | None = Field(None, description="names of the users to serve, as 'user 3'; all if not given")
+    users: list[str] | None = Field(
+        None, description="names of the users to serve, as 'user 1,user 3' or one by one; all if not given"
+    )
+    forbidden: list[str] | None = Field(
+        None,
+        description="subcarriers that a user may not use, counted from 0, as 'user 2:5-9,user 3:0' or one by one",
+    )
     resource_block_group_size: int = Field(1, description="adjacent subcarriers that are assigned together")
     outage_probability: float | None = Field(
         None, description="accepted probability that a user's true rate stays below the promised one"
     )
 
-    def problem(self, user_names: tuple[str, ...]) -> Problem:
-        """The problem for a channel with these users, with its objective looked up."""
-        unknown = [user for user in self.users or () if user not in user_names]
-        if unknown:
-            raise InputError(f"no user is called {unknown[0]!r}; the channel has {', '.join(user_names)}")
-        return Problem(
+    def problem(self, user_names: tuple[str, ...], num_subcarriers: int) -> Problem:
+        """The problem for a channel with these users and so many subcarriers, with its objective looked up."""
+        users = None if self.users is None else tuple(_split(self.users, lambda text: text in user_names))
+        problem = Problem(
             plugins.objective(self.objective, self.objective_options),
             weights=self.weights,
             min_rate_bps=self.min_rate_bps,
             max_rate_bps=self.max_rate_bps,
             max_power_w=self.max_power_w,
             subcarrier_max_power_w=self.subcarrier_max_power_w,
-            users=None if self.users is None else tuple(user_names.index(user) for user in self.users),
+            forbidden=None if self.forbidden is None else _forbidden(self.forbidden, user_names, num_subcarriers),
+            users=users,
             resource_block_group_size=self.resource_block_group_size,
             outage_probability=self.outage_probability,
         )
+        return problem.for_users(user_names)
+
+
+def _split(texts: Iterable[str], is_whole: Callable[[str], bool]) -> list[str]:
+    """The parts between commas, except of texts that are whole as they are: a name may hold a comma."""
+    return [part.strip() for text in texts for part in ([text] if is_whole(text) else text.split(",")) if part.strip()]
+
+
+def _forbidden(pairs: Iterable[str], user_names: tuple[str, ...], num_subcarriers: int) -> BoolArray:
+    """The mask (user, subcarrier) of pairs such as "user 2:5-9".
+
+    Raises:
+        InputError: a text is not of this form, or names a user or a subcarrier that there is not.
+    """
+    mask = np.zeros((len(user_names), num_subcarriers), dtype=bool)
+    for text in _split(pairs, lambda text: text.rpartition(":")[0] in user_names):
+        name, _, where = text.rpartition(":")
+        found = re.fullmatch(r"(\d+)(?:-(\d+))?", where.strip())
+        if not name or found is None:
+            raise InputError(f"forbidden must be of the form 'user 2:5-9' or 'user 2:5'; got {text!r}")
+        if name not in user_names:
+            raise InputError(f"forbidden: no user is called {name!r}; the channel has {', '.join(user_names)}")
+        first, last = int(found[1]), int(found[2] or found[1])
+        if not first <= last < num_subcarriers:
+            raise InputError(
+                f"forbidden: subcarriers go from 0 to {num_subcarriers - 1}, the first before the last; got {text!r}"
+            )
+        mask[user_names.index(name), first : last + 1] = True
+    return mask

@@ -30,7 +30,7 @@ class ProblemOnFile(ProblemOptions, RepairerOptions, ChannelFile):
     def posed(self, progress: Progress) -> tuple[Scene, ChannelEstimate, Problem]:
         """The scene, its estimate and the problem on it."""
         scene = self.scene(progress, wanted_power_w=self.max_power_w)
-        problem = self.problem(scene.sensed.user_names)
+        problem = self.problem(scene.sensed.user_names, scene.sensed.num_subcarriers)
         estimate = chain.repair(scene.sensed, self.repairer, **self.repairer_options)
         if estimate.repaired.any():
             progress(

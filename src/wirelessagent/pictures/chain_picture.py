@@ -16,6 +16,7 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.rates import normalised_gain, owned_gain
 from wirelessagent.model.units import db, human, prefixed
 from wirelessagent.pictures.canvas import GREY, PALETTE, Canvas, Panel, can_show, check_suffix
+from wirelessagent.pictures.needed import needed_lines
 
 _MOST_NAMED = 16
 """Users up to which every one gets a tick with its name; more are counted."""
@@ -161,7 +162,7 @@ def _draw_allocation(panel: Panel, estimate: ChannelEstimate, decision: Decision
     panel.describe(title, "Subcarrier (strip: its owner)", f"Power ({unit})")
     if not decision.is_usable or tallest == 0:
         reason = f"{decision.status}: {decision.reason}" if not decision.is_usable else "No power is radiated"
-        panel.note(textwrap.fill(reason, 48))
+        panel.note("\n".join(textwrap.fill(line, 48) for line in [reason, *needed_lines([decision])]))
         return
     _subcarrier_ticks(panel, decision.owner.size)
     panel.limits(x=(-0.7, decision.owner.size - 0.3))

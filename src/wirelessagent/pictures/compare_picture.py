@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,8 +11,9 @@ from wirelessagent.chain import Comparison
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.objective import Objective
-from wirelessagent.model.units import human, prefixed
+from wirelessagent.model.units import human, percent, prefixed
 from wirelessagent.pictures.canvas import GREY, PALETTE, Canvas, Panel, can_show, check_suffix
+from wirelessagent.pictures.needed import needed_lines
 
 _NOTHING = "no allocation"
 _STATUSES = {"optimal": ("o", PALETTE[2]), "feasible": ("D", PALETTE[0]), _NOTHING: ("X", GREY)}
@@ -40,7 +42,8 @@ def comparison_canvas(found: Sequence[Comparison]) -> Canvas:
     """The picture of ``wa.compare(…)``: a row for each method in the order given, in three panels.
 
     The value of each allocation, with a line to the method's own bound and a dashed one at the tightest bound of all;
-    the gap; and the time. Methods without an allocation have their status instead.
+    the gap; and the time. Methods without an allocation have their status instead; where none has one, the picture
+    says why and what it would take.
 
     Raises:
         InputError: no method is given, or none was able to decide.
@@ -51,6 +54,8 @@ def comparison_canvas(found: Sequence[Comparison]) -> Canvas:
         raise InputError("there is no decision to draw: compare methods that solve the problem")
     objective = decisions[0].problem.objective
     assert isinstance(objective, Objective)
+    if not any(decision.is_usable for decision in decisions):
+        return _nothing_canvas(found, decisions, objective)
     canvas = Canvas(columns=3, width_in=11.0, height_in=1.8 + 0.5 * max(len(found), 3))
     value, gap, time = canvas.panels
     canvas.title(f"Methods for {objective.name}")
@@ -63,6 +68,17 @@ def comparison_canvas(found: Sequence[Comparison]) -> Canvas:
         panel.limits(y=(len(found) - 0.5, -0.8))
         panel.ticks("y", range(len(found)), names if panel is value else [""] * len(found))
     canvas.legend_below(value, columns=5)
+    return canvas
+
+
+def _nothing_canvas(found: Sequence[Comparison], decisions: Sequence[Decision], objective: Objective) -> Canvas:
+    """Why there is no allocation, in the words of the first method that has none, and who says what."""
+    verdicts = [f"{one.method}: {'refused' if one.decision is None else one.decision.status}" for one in found]
+    reason = next((f"{one.status}: {one.reason}" for one in decisions if one.reason), "")
+    said = [reason, *needed_lines(decisions), "; ".join(verdicts)]
+    canvas = Canvas(width_in=8.0, height_in=3.0)
+    canvas.title(f"Methods for {objective.name}: none has an allocation")
+    canvas.panels[0].note("\n\n".join(textwrap.fill(line, 84) for line in said if line))
     return canvas
 
 
@@ -112,7 +128,7 @@ def _draw_gaps(panel: Panel, found: Sequence[Comparison]) -> None:
         elif decision.gap <= OPTIMAL_GAP:
             _mark(panel, none, row, decision, "0 %")
         else:
-            _mark(panel, gap, row, decision, f"{gap:.2g} %" if gap < 100.0 else f"{gap:,.0f} %")
+            _mark(panel, gap, row, decision, percent(decision.gap))
 
 
 def _draw_times(panel: Panel, found: Sequence[Comparison]) -> None:

@@ -27,6 +27,9 @@ from wirelessagent.model.units import human
 from wirelessagent.sensing.formats.contents import Contents
 from wirelessagent.sensing.formats.json_format import parse
 
+FROM_FILE = "from the file"
+"""How a fact says that the file states it."""
+
 
 def metadata_of(contents: Contents) -> dict[str, Any]:
     """Everything that the file states by name; what stands in ``meta`` wins over what stands beside it."""
@@ -56,7 +59,7 @@ def stated_cell(cell: Cell, metadata: Mapping[str, Any], facts: dict[str, str]) 
     psd = _number(metadata, "noise_psd_w_per_hz") if noise_w is None else noise_w / cell.subcarrier_bandwidth_hz
     if psd is not None:
         cell = dataclasses.replace(cell, noise_psd_w_per_hz=psd)
-    origin = {True: "from the file", False: "the cell's; the file does not say"}
+    origin = {True: FROM_FILE, False: "the cell's; the file does not say"}
     facts["bandwidth"] = f"{human(cell.subcarrier_bandwidth_hz, 'Hz')} ({origin[bandwidth_hz is not None]})"
     facts["noise"] = f"{cell.noise_psd_w_per_hz:.4g} W/Hz ({origin[psd is not None]})"
     power_w = _number(metadata, "suggested_tx_power_w")

@@ -14,6 +14,14 @@ from wirelessagent.model.atomic import write_atomically
 from wirelessagent.model.errors import InputError
 
 
+def check_npz(path: Path) -> None:
+    """Raise an error where the name says that the file is not to be NPZ."""
+    if path.suffix.lower() != ".npz":
+        raise InputError(
+            f"gains are written as NPZ; call the file {path.with_suffix('.npz').name!r} instead of {path.name!r}"
+        )
+
+
 def write_npz(path: Path, arrays: Mapping[str, ArrayLike], meta: Mapping[str, Any] | None = None) -> None:
     """Write named arrays and, as a JSON text called ``meta``, what describes them.
 
@@ -24,10 +32,7 @@ def write_npz(path: Path, arrays: Mapping[str, ArrayLike], meta: Mapping[str, An
         InputError: the name does not end in .npz, the folder cannot be written to, or a value is not plain data.
     """
     path = Path(path)
-    if path.suffix.lower() != ".npz":
-        raise InputError(
-            f"gains are written as NPZ; call the file {path.with_suffix('.npz').name} instead of {path.name}"
-        )
+    check_npz(path)
     content = {name: np.asarray(value) for name, value in arrays.items()}
     for name, array in content.items():
         if array.dtype.hasobject or name == "meta":
