@@ -106,5 +106,11 @@ def test_the_mask_of_forbidden_pairs_is_explained() -> None:
 def test_messages_show_values_as_people_write_them() -> None:
     with pytest.raises(wa.InputError, match=r"got 0\.0: give a user"):
         wa.Problem("max_rate", weights=0)
+    with pytest.raises(wa.InputError, match=r"got -1\.0"):
+        wa.Cell(max_power_w=np.float64(-1.0))
+    with pytest.raises(
+        wa.InputError, match=r"unknown option 'depth' of the method 'paper_inversion': the method .* has none"
+    ):
+        wa.decide(ESTIMATE, PROBLEM, method="paper_inversion", depth=1)
     with pytest.raises(wa.InputError, match=r"one per user \(4\); got 3 values"):
         wa.decide(ESTIMATE, wa.Problem("max_rate", min_rate_bps=[1, 2, 3]))

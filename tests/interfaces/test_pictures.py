@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import subprocess
 import sys
 from pathlib import Path
@@ -11,7 +12,7 @@ import pytest
 
 from wirelessagent.deciding.objectives.max_rate import MaxRate
 from wirelessagent.model.cell import Cell
-from wirelessagent.model.decision import Decision
+from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.errors import InputError, MissingDependencyError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.metrics import link_metrics
@@ -197,6 +198,15 @@ def test_without_an_allocation_the_reason_stands_where_the_powers_would(status):
     assert "minimum" in shown
     assert "predicted" not in shown
     assert not rates.patches
+
+
+def test_without_an_allocation_the_picture_says_what_it_would_take():
+    run = a_run(status="infeasible", min_rate_bps=3e6)
+    needed, scaling = Bracket(at_least=43.2, at_most=np.nan), Bracket(at_least=0.4, at_most=0.5)
+    decision = dataclasses.replace(run["decision"], needed_power_w=needed, rate_scaling=scaling)
+    said = " ".join(" ".join(texts(chain_canvas(**{**run, "decision": decision}))).split())
+
+    assert "need at least 43.2 W. Of them 0.4 to 0.5 times as much" in said
 
 
 def test_without_an_allocation_or_a_wanted_rate_no_axis_is_drawn():

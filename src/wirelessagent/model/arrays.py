@@ -82,10 +82,10 @@ def positive(name: str, value: float, *, zero: bool = False, infinite: bool = Fa
     try:
         number = float(value)
     except (TypeError, ValueError) as error:
-        raise InputError(f"{name} must be a number; got {value!r}") from error
+        raise InputError(f"{name} must be a number; got {shown(value)}") from error
     wanted = "zero or more" if zero else "more than zero"
     if np.isnan(number) or number < 0 or (number == 0 and not zero) or (np.isinf(number) and not infinite):
-        raise InputError(f"{name} must be {wanted}{'' if infinite else ' and finite'}; got {value!r}")
+        raise InputError(f"{name} must be {wanted}{'' if infinite else ' and finite'}; got {shown(value)}")
     return number
 
 
@@ -94,11 +94,11 @@ def whole(name: str, value: int, *, smallest: int = 1) -> int:
     try:
         number = operator.index(value)
     except TypeError as error:
-        raise InputError(f"{name} must be a whole number; got {value!r}") from error
+        raise InputError(f"{name} must be a whole number; got {shown(value)}") from error
     if number < smallest:
-        raise InputError(f"{name} must be {smallest} or more; got {value!r}")
+        raise InputError(f"{name} must be {smallest} or more; got {shown(value)}")
     if number >= _TOO_LARGE:
-        raise InputError(f"{name} must be below 2^63; got {value!r}")
+        raise InputError(f"{name} must be below 2^63; got {shown(value)}")
     return number
 
 
@@ -107,7 +107,7 @@ def within(name: str, value: float, smallest: float, largest: float) -> float:
     try:
         number = float(value)
     except (TypeError, ValueError) as error:
-        raise InputError(f"{name} must be a number; got {value!r}") from error
+        raise InputError(f"{name} must be a number; got {shown(value)}") from error
     if not smallest <= number <= largest:
-        raise InputError(f"{name} must be from {smallest:g} to {largest:g}; got {value!r}")
+        raise InputError(f"{name} must be from {smallest:g} to {largest:g}; got {shown(value)}")
     return number

@@ -37,7 +37,8 @@ class UnknownNameError(InputError):
         names = sorted(known)
         close = get_close_matches(name, names, n=1)
         hint = f"did you mean {close[0]!r}? " if close else ""
-        told = f"known are {', '.join(names)}" if names else f"{of or 'it'} has none"
+        none = f"{of} has none" if of else "there is none"
+        told = f"known are {', '.join(names)}" if names else none
         super().__init__(f"unknown {kind} {name!r}{f' of {of}' if of else ''}: {hint}{told}")
 
 

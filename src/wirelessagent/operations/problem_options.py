@@ -29,7 +29,9 @@ class ProblemOptions(Request):
         default_factory=dict, description="options of the objective"
     )
     weights: PerEntry | None = Field(None, description="worth of each user's rate, one value or one per user")
-    min_rate_bps: PerEntry | None = Field(None, description="rate each user must get, bit/s, one value or one per user")
+    min_rate_bps: PerEntry | None = Field(
+        None, description="rate each user must get, bit/s, one value or one per user as 1e6,0,2e6"
+    )
     max_rate_bps: PerEntry | None = Field(None, description="rate each user can use, bit/s, one value or one per user")
     max_power_w: float | None = Field(
         None,
