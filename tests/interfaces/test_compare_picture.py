@@ -76,7 +76,7 @@ def test_where_nothing_is_feasible_the_picture_says_why_and_what_it_would_take()
     decision = found[0].decision
     assert decision.reason in said
     assert f"need at least {human(decision.needed_power_w.at_least, 'W')}" in said
-    assert "times as much can be had" in said
+    assert "times these rates" in said
     assert "dual: infeasible; greedy: infeasible; paper_scan: refused" in said
 
 

@@ -150,3 +150,13 @@ def test_fairness_is_among_those_to_be_served() -> None:
     assert report.achieved is not None
     rate = report.achieved.user_rate_bps[[1, 3]]
     assert report.achieved.jain_index == pytest.approx(rate.sum() ** 2 / (2 * np.square(rate).sum()))
+
+
+def test_who_cannot_be_served_is_said_once() -> None:
+    crowd = wa.perfect(wa.simulate("rayleigh", num_users=4, num_subcarriers=3, seed=1))
+    decision = wa.decide(crowd, wa.Problem("proportional_fairness"))
+    said = " ".join(explain(crowd, wa.report(decision)))
+    assert said.count("user 4") == 1
+    assert "1 user cannot be served: there are 3 subcarriers for 4 users" in certificate_line(decision)
+    grouped = wa.decide(crowd, wa.Problem("max_min_rate", resource_block_group_size=2, users=(0, 1, 2)))
+    assert "there are 2 resource-block groups for 3 users" in certificate_line(grouped)

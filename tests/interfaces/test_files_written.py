@@ -112,7 +112,7 @@ def test_the_same_content_gives_the_same_bytes(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "arrays", "meta", "words"),
     [
-        ("a.csv", {"gain": GAIN}, None, "call the file a.npz instead of a.csv"),
+        ("a.csv", {"gain": GAIN}, None, r"call the file .a\.npz. instead of .a\.csv."),
         ("a.npz", {"gain": np.array([None])}, None, "'gain' cannot be written"),
         ("a.npz", {"meta": GAIN}, None, "'meta' cannot be written"),
         ("a.npz", {"gain": GAIN}, {"x": np.nan}, "JSON"),

@@ -206,7 +206,7 @@ def test_without_an_allocation_the_picture_says_what_it_would_take():
     decision = dataclasses.replace(run["decision"], needed_power_w=needed, rate_scaling=scaling)
     said = " ".join(" ".join(texts(chain_canvas(**{**run, "decision": decision}))).split())
 
-    assert "need at least 43.2 W. Of them 0.4 to 0.5 times as much" in said
+    assert "need at least 43.2 W. The budget carries 0.4 to 0.5 times these rates" in said
 
 
 def test_without_an_allocation_or_a_wanted_rate_no_axis_is_drawn():

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from wirelessagent import chain
-from wirelessagent.explain.report import Report, name_of_figure
+from wirelessagent.explain.report import Report, cannot_be_served, name_of_figure
 from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
@@ -99,7 +99,7 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
     figure = name_of_figure(decision, language)
     said = [_allocation(words, decision), *_goal(words, decision, objective, figure), _certificate(words, decision)]
     said += _groups(words, decision, estimate, figure)
-    said += [decision.reason] if decision.reason else []
+    said += [decision.reason] if decision.reason and not cannot_be_served(decision) else []
     said += _prices(words, decision, objective, figure)
     said += _idle_users(words, decision, estimate)
     said.append(_repair(words, decision, estimate))

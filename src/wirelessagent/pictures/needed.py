@@ -21,7 +21,7 @@ def needed_lines(decisions: Iterable[Decision]) -> list[str]:
         most = f", at most {human(power.at_most, 'W')}" if math.isfinite(power.at_most) else ""
         lines.append(f"The promised rates need at least {human(power.at_least, 'W')}{most}.")
     if math.isfinite(scaling.at_most):
-        lines.append(f"Of them {scaling.at_least:.3g} to {scaling.at_most:.3g} times as much can be had.")
+        lines.append(f"The budget carries {scaling.at_least:.3g} to {scaling.at_most:.3g} times these rates.")
     return lines
 
 
