@@ -48,7 +48,7 @@ def refusal(capsys: pytest.CaptureFixture[str], *arguments: object, code: int = 
 
 @pytest.mark.parametrize("operation", OPERATIONS, ids=lambda operation: operation.name)
 def test_every_operation_is_a_command_with_help_and_json(operation: Any, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run([operation.name, "--help"]) == 0
+    assert run([*operation.name.split(), "--help"]) == 0
     shown = capsys.readouterr().out
     assert "--json" in shown
     assert operation.summary.split()[0] in shown

@@ -17,7 +17,7 @@ from pydantic import ValidationError
 
 from wirelessagent.interfaces.cli_options import Parameters, as_flag, is_positional
 from wirelessagent.interfaces.cli_output import Listener, show
-from wirelessagent.operations.catalogue import OPERATIONS
+from wirelessagent.operations.catalogue import GROUPS, OPERATIONS
 from wirelessagent.operations.operation import AnyOperation, InputError, WirelessAgentError, installed_version, silent
 
 _EPILOG = "Errors go to stderr; exit code 2 means bad input, 1 a failure."
@@ -111,10 +111,15 @@ def _app(arguments: list[str]) -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback(help="From an operator's words to a certified OFDMA allocation.")(_root)
-    wanted = next((word for word in arguments if not word.startswith("-")), "")
+    words = [word for word in arguments if not word.startswith("-")]
+    groups = {name: typer.Typer(no_args_is_help=True, rich_markup_mode="rich") for name in GROUPS}
     for operation in OPERATIONS:
-        parameters = Parameters(operation.request) if operation.name == wanted else None
-        app.command(name=operation.name, help=operation.summary + ".", epilog=_EPILOG)(_command(operation, parameters))
+        *group, name = path = operation.name.split()
+        parameters = Parameters(operation.request) if words[: len(path)] == path else None
+        owner = groups[group[0]] if group else app
+        owner.command(name=name, help=operation.summary + ".", epilog=_EPILOG)(_command(operation, parameters))
+    for name, group in groups.items():
+        app.add_typer(group, name=name, help=GROUPS[name] + ".", epilog=_EPILOG)
     return app
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from wirelessagent.operations.ask import ASK
 from wirelessagent.operations.compare import COMPARE
+from wirelessagent.operations.evaluate import EVALUATE_DECISION, EVALUATE_REPAIR
 from wirelessagent.operations.intent import INTENT
 from wirelessagent.operations.list_plugins import PLUGINS
 from wirelessagent.operations.operation import AnyOperation
@@ -12,4 +13,9 @@ from wirelessagent.operations.reproduce import REPRODUCE
 from wirelessagent.operations.simulate import SIMULATE
 from wirelessagent.operations.solve import SOLVE
 
-OPERATIONS: tuple[AnyOperation, ...] = (ASK, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, PLUGINS)
+OPERATIONS: tuple[AnyOperation, ...] = (
+    ASK, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, EVALUATE_REPAIR, EVALUATE_DECISION, PLUGINS,
+)  # fmt: skip
+
+GROUPS: dict[str, str] = {"evaluate": "Compare methods on many draws, with confidence intervals"}
+"""Summaries of the first words of names that have two."""

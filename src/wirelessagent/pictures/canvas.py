@@ -252,6 +252,13 @@ class Panel:
             color="#555555", style="italic", bbox=_PLAIN,
         )  # fmt: skip
 
+    def corner(self, text: str) -> None:
+        """A few words in the upper left corner."""
+        self.axes.text(
+            0.02, 0.98, text, transform=self.axes.transAxes, ha="left", va="top", fontsize=8.5, color="#555555",
+            style="italic", bbox=_PLAIN,
+        )  # fmt: skip
+
     def band(self, low: float, high: float, *, label: str) -> None:
         """A shaded band across the panel."""
         self.axes.axhspan(low, high, color="#F6D9C4", linewidth=0.0, label=label, zorder=0.5)
