@@ -37,7 +37,8 @@ def regret_canvas(table: Table, objectives: Sequence[str], caption: str) -> Canv
         name = objectives[place % len(objectives)]
         regret = _regret(_without(case, "perfect"), f"{name}_share")
         draw_sweep(panel, regret, "regret", style, percent=True)
-        low, high = (float(end) for end in 100.0 * np.quantile(regret.numbers("regret"), (0.0, 1.0)))
+        known = 100.0 * np.nan_to_num(regret.numbers("regret"), nan=1.0)
+        low, high = float(known.min()), float(known.max())
         if high > _WIDE * low:
             logarithmic(panel, 0.7 * low, 1.5 * high)
         else:
@@ -81,7 +82,7 @@ def promises_canvas(table: Table, outage_probability: float | None, caption: str
         elif outage_probability is not None:
             panel.level(100.0 * outage_probability, label=f"accepted: {100.0 * outage_probability:g} %")
         if misses:
-            highest = 100.0 * np.nanmax(case.numbers(f"{column}_high"), initial=0.0)
+            highest = 100.0 * float(np.nan_to_num(case.numbers(f"{column}_high")).max())
             panel.limits(y=(0.0, max(1.1 * highest, 1.0)))
         panel.describe(f"{label}: {title}", x_label(case), y_label)
     canvas.legend_below(canvas.panels[0], columns=7)

@@ -12,21 +12,30 @@ from wirelessagent.operations.record import Table
 
 
 def repair_tables(table: Figures) -> list[Table]:
-    columns = ("method", "RMSE / level", "in dB", "to the best", "to the oracle", "90 % holds", "below 5 %", "time")
+    columns = ("method", "RMSE / level", "in dB", "to the best", "to the oracle", "90 % holds, %", "below 5 %, %", "ms")
 
     def cells(row: dict[str, Any]) -> tuple[str, ...]:
         best, oracle, rmse = (_figure(row, name) for name in ("ratio_to_best", "ratio_to_oracle", "rmse"))
         holds = _figure(row, "coverage_90", percent=True)
         return (
             row["method"], rmse, _short(row["rmse_db"]), best, oracle, holds, _share(row, "below_5"),
-            f"{row['time_ms']:.3g} ms",
+            _short(row["time_ms"]),
         )  # fmt: skip
 
     return _by_case(table, columns, cells)
 
 
 def decision_tables(table: Figures) -> list[Table]:
-    columns = ("method", "goodput", "prop. fairness", "smallest rate", "missed", "missed, repaired", "power", "refused")
+    columns = (
+        "method",
+        "goodput, %",
+        "prop. fair, %",
+        "smallest, %",
+        "missed, %",
+        "of repaired, %",
+        "power",
+        "refused, %",
+    )
 
     def cells(row: dict[str, Any]) -> tuple[str, ...]:
         names = (*(f"{name}_share" for name in OBJECTIVES), "missed_share", "missed_of_resting_share")
@@ -42,8 +51,7 @@ def _figure(row: dict[str, Any], column: str, *, percent: bool = False) -> str:
     if values[0] is None:
         return "–"
     shown = [f"{100.0 * value:.1f}" if percent else _short(value) for value in values if value is not None]
-    text = shown[0] + (" %" if percent else "")
-    return f"{text} ({shown[1]}–{shown[2]})" if len(shown) == 3 and len(set(shown)) > 1 else text
+    return f"{shown[0]} ({shown[1]}–{shown[2]})" if len(shown) == 3 and len(set(shown)) > 1 else shown[0]
 
 
 def _short(value: float) -> str:
@@ -57,7 +65,7 @@ def _short(value: float) -> str:
 
 
 def _share(row: dict[str, Any], column: str) -> str:
-    return "–" if row[column] is None else f"{100.0 * row[column]:.1f} %"
+    return "–" if row[column] is None else f"{100.0 * row[column]:.1f}"
 
 
 def _by_case(
