@@ -12,18 +12,23 @@ from hypothesis import strategies as st
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.repairing.core.levels import PRIOR_LEVEL
+from wirelessagent.repairing.kriging import Kriging
 from wirelessagent.repairing.linear import Linear
 from wirelessagent.repairing.nncf import Nncf
 from wirelessagent.repairing.nncf_paper import NncfPaper
+from wirelessagent.repairing.predictor import Predictor
 from wirelessagent.repairing.repairer import Repairer
 from wirelessagent.repairing.user_mean import UserMean
 
 NAN = np.nan
 RELATIVE = [UserMean(), Linear(), Nncf()]
-ALL = [*RELATIVE, NncfPaper()]
+BY_EVIDENCE = [Kriging(), Predictor()]
+ALL = [*RELATIVE, *BY_EVIDENCE, NncfPaper()]
 
 all_repairers = pytest.mark.parametrize("repairer", ALL, ids=lambda r: r.name)
 relative_repairers = pytest.mark.parametrize("repairer", RELATIVE, ids=lambda r: r.name)
+repairers_by_evidence = pytest.mark.parametrize("repairer", BY_EVIDENCE, ids=lambda r: r.name)
+repairers_of_levels = pytest.mark.parametrize("repairer", [*RELATIVE, *BY_EVIDENCE], ids=lambda r: r.name)
 few = settings(max_examples=60, deadline=None, derandomize=True)
 
 
@@ -60,11 +65,11 @@ def test_every_matrix_is_completed(repairer: Repairer, seen: ChannelObservation)
         assert np.all(estimate.gain[unseen] > 0)
         assert np.all(estimate.gain_variance[unseen] > estimate.gain[unseen] ** 2)
     assert np.all(estimate.gain_variance[estimate.repaired] > 0)
-    if repairer.name in ("user_mean", "nncf"):
+    if repairer.name in ("user_mean", "nncf", "kriging", "predictor"):
         assert np.all(estimate.gain[estimate.repaired] > 0)
 
 
-@relative_repairers
+@repairers_of_levels
 @few
 @given(seen=observations(), seed=st.integers(0, 1000))
 def test_permuting_users_permutes_the_estimate(repairer: Repairer, seen: ChannelObservation, seed: int) -> None:
@@ -77,8 +82,10 @@ def test_permuting_users_permutes_the_estimate(repairer: Repairer, seen: Channel
         user_names=tuple(seen.user_names[k] for k in order),
     )
     straight, swapped = repairer.repair(seen), repairer.repair(permuted)
-    np.testing.assert_allclose(swapped.gain, straight.gain[order], rtol=1e-9)
-    np.testing.assert_allclose(swapped.gain_variance, straight.gain_variance[order], rtol=1e-6)
+    # Evidence is summed over the users in their order, and eigenvectors turn with rounding.
+    by_evidence = isinstance(repairer, Kriging | Predictor)
+    np.testing.assert_allclose(swapped.gain, straight.gain[order], rtol=1e-4 if by_evidence else 1e-9)
+    np.testing.assert_allclose(swapped.gain_variance, straight.gain_variance[order], rtol=1e-3 if by_evidence else 1e-6)
     assert np.array_equal(swapped.unobserved_users, straight.unobserved_users[order])
 
 
@@ -103,7 +110,7 @@ def test_scaling_one_user_scales_its_estimate_alone(
         np.testing.assert_allclose(ratio, ratio.mean() if ratio.size else 1.0, rtol=1e-9)
 
 
-@relative_repairers
+@repairers_of_levels
 @few
 @given(seen=observations(), exponent=st.integers(-40, 40))
 def test_scaling_everything_scales_the_estimate(repairer: Repairer, seen: ChannelObservation, exponent: int) -> None:
@@ -112,8 +119,9 @@ def test_scaling_everything_scales_the_estimate(repairer: Repairer, seen: Channe
     variance = None if seen.noise_variance is None else seen.noise_variance * factor**2
     scaled = repairer.repair(dataclasses.replace(seen, gain=seen.gain * factor, noise_variance=variance))
     plain = repairer.repair(seen)
-    np.testing.assert_allclose(scaled.gain, plain.gain * factor, rtol=1e-9)
-    np.testing.assert_allclose(scaled.gain_variance, plain.gain_variance * factor**2, rtol=1e-9)
+    rounding = 1e-6 if isinstance(repairer, Predictor) else 1e-9  # eigenvectors
+    np.testing.assert_allclose(scaled.gain, plain.gain * factor, rtol=rounding)
+    np.testing.assert_allclose(scaled.gain_variance, plain.gain_variance * factor**2, rtol=rounding)
 
 
 @all_repairers
@@ -122,7 +130,7 @@ def test_a_constant_channel_is_reproduced(repairer: Repairer, value: float) -> N
     gain = np.full((4, 20), value)
     gain[np.random.default_rng(3).random(gain.shape) < 0.3] = NAN
     estimate = repairer.repair(ChannelObservation(gain=gain))
-    np.testing.assert_allclose(estimate.gain, value, rtol=1e-15)
+    np.testing.assert_allclose(estimate.gain, value, rtol=1e-4 if isinstance(repairer, Kriging | Predictor) else 1e-15)
 
 
 @relative_repairers
@@ -155,7 +163,7 @@ def test_a_user_seen_now_does_not_need_its_history(repairer: Repairer) -> None:
     np.testing.assert_array_equal(with_history.gain_variance, without.gain_variance)
 
 
-@relative_repairers
+@repairers_of_levels
 def test_a_user_never_seen_gets_the_median_of_the_others_in_db(repairer: Repairer) -> None:
     gain = np.array([1e-10, 1e-13, 1e-11, 1e-12])[:, np.newaxis] * np.ones((4, 6))
     gain[2] = NAN
@@ -199,7 +207,10 @@ def test_a_single_observation_is_enough(repairer: Repairer) -> None:
     gain = np.full((1, 5), NAN)
     gain[0, 3] = 2e-11
     estimate = repairer.repair(ChannelObservation(gain=gain))
-    np.testing.assert_allclose(estimate.gain, 2e-11)
+    # Of one report that may be a peak, less is expected where the channel may be another.
+    lowest = 0.4 if isinstance(repairer, Kriging | Predictor) else 1.0
+    assert np.all(estimate.gain >= lowest * 2e-11 * (1 - 1e-12))
+    assert np.all(estimate.gain <= 2e-11 * (1 + 1e-9))
     assert np.all(estimate.gain_variance[0, [0, 1, 2, 4]] > 0)
 
 
@@ -211,9 +222,30 @@ def test_a_wider_gap_is_less_certain() -> None:
     gain = np.abs((rng.normal(size=(8, 24)) + 1j * rng.normal(size=(8, 24))) @ root.T / np.sqrt(2)) ** 2
     gain[:, 3] = NAN
     gain[:, 10:17] = NAN
-    for repairer in (Linear(), Nncf()):
+    for repairer in (Linear(), Nncf(), Kriging()):
         spread = np.sqrt(repairer.repair(ChannelObservation(gain=gain)).gain_variance).mean(axis=0)
         assert 3 * spread[3] < spread[13]
+
+
+@repairers_by_evidence
+def test_constant_rows_are_all_but_reproduced(repairer: Repairer) -> None:
+    truth = np.array([1e-30, 1e-12, 1e-9, 1.0])[:, np.newaxis] * np.ones((4, 20))
+    gain = np.where(np.random.default_rng(3).random(truth.shape) < 0.3, NAN, truth)
+    np.testing.assert_allclose(repairer.repair(ChannelObservation(gain=gain)).gain, truth, rtol=1e-3)
+
+
+def test_kriging_needs_no_history_and_the_predictor_none_but_history() -> None:
+    rng = np.random.default_rng(1)
+    gain = rng.exponential(size=(5, 3, 12)) * np.array([1e-10, 1e-13, 1e-8])[:, np.newaxis]
+    gain[-1, :, 3:5] = NAN
+    alone = Kriging().repair(ChannelObservation(gain=gain[-1]))
+    np.testing.assert_array_equal(Kriging().repair(ChannelObservation(gain=gain)).gain, alone.gain)
+    np.testing.assert_array_equal(Predictor().repair(ChannelObservation(gain=gain[-1])).gain, alone.gain)
+    gain[-1, 1] = NAN
+    level = gain[:-1, 1].mean()
+    unseen_now = Predictor().repair(ChannelObservation(gain=gain)).gain[1]
+    np.testing.assert_allclose(unseen_now, level, rtol=0.5)  # slots are independent: near the level
+    np.testing.assert_allclose(Kriging().repair(ChannelObservation(gain=gain)).gain[1], level, rtol=1e-12)
 
 
 def test_the_literal_rule_refuses_weights_that_mean_nothing() -> None:

@@ -83,15 +83,12 @@ def _completed(
 ) -> ChannelEstimate:
     level = slot.level[:, np.newaxis]
     gain = level * found[..., 0]
+    variance = level * (level * (factor[:, np.newaxis] * found[..., 1] + found[..., 2]))
     if slot.seen.min() < FEW:
         levels = user_levels(observation)
-        factor = factor * levels.doubt
         unseen = (slot.seen == 0)[:, np.newaxis]
         gain = np.where(unseen, levels.level[:, np.newaxis], gain)
-        variance = level * (level * (factor[:, np.newaxis] * found[..., 1] + found[..., 2]))
-        variance = np.where(unseen, levels.variance[:, np.newaxis], variance)
-    else:
-        variance = level * (level * (factor[:, np.newaxis] * found[..., 1] + found[..., 2]))
+        variance = np.where(unseen, levels.variance[:, np.newaxis], variance * levels.doubt[:, np.newaxis])
     missing = observation.missing
     gain = np.where(missing, gain, observation.current)
     variance = np.where(missing, np.maximum(variance, SMALLEST_VARIANCE), observation.current_noise_variance)

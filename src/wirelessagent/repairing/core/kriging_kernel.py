@@ -7,7 +7,9 @@ observed is estimated as
 
     ĝ = o + wᵀ(x − o),    w = M⁻¹(k + s),
 
-with the expected squared error 1 + s − wᵀ(k + s), a part of which, Σ w²η, is measurement noise. Noise is taken
+with the expected squared error 1 + s − wᵀ(k + s), a part of which, Σ w²η, is measurement noise. Where measured gains
+are conditional means (:attr:`.observation.ChannelObservation.noise_variance`), they vary less than the gain does: for
+C = |ρ|² + η their covariance is C/(1 + η)² and that with the gain |ρ|²/(1 + η). Noise is taken
 as it was where each entry was measured, since it grows with the gain. The rest, V in units of the level squared, comes
 from fading: of the complex coefficient the share c = 1 − √(1 − V) is unknown, and a gain whose mean is m has the
 variance 2mc − c² then (a Rician power). It is small in a fade, and no estimate is below c. What V exceeds 1 by is due
@@ -45,7 +47,9 @@ def factorise_lanes(place: IntArray, table: FloatArray, lanes: Lanes, first: int
             for c in range(count):
                 at = first + c
                 if place[i, c] >= 0:  # then the earlier one is there as well
-                    here[c] = table[place[i, c] - place[j, c], lanes.hypothesis[at]] + lanes.shared[at]
+                    here[c] = (
+                        table[place[i, c] - place[j, c], lanes.hypothesis[at]] + lanes.shared[at] * lanes.grown[at] ** 2
+                    )
                     here[c] += lanes.noise[at] + JITTER if i == j else 0.0
                 else:
                     here[c] = 1.0 if i == j else 0.0
@@ -122,11 +126,12 @@ def weigh_missing(
     size, count = where.shape
     for c in range(count):
         lane = first + c
-        h, s = lanes.hypothesis[lane], lanes.shared[lane]
-        error[c] = table[0, h] + s
+        h, grown = lanes.hypothesis[lane], lanes.grown[lane]
+        s = lanes.shared[lane] * grown * grown
+        error[c] = (table[0, h] + lanes.shared[lane]) * grown * grown
         for j in range(size):
             there = where[j, c] >= 0 and at[c] >= 0
-            towards[j, c] = table[abs(where[j, c] - at[c]), h] + s if there else 0.0
+            towards[j, c] = table[abs(where[j, c] - at[c]), h] * grown + s if there else 0.0
     for i in range(size):
         ours, scale = towards[i], low[i, i]
         for j in range(i):
@@ -146,6 +151,8 @@ def weigh_missing(
                 ours[c] -= left[c] * theirs[c]
         for c in range(count):
             ours[c] *= scale[c]
+    for c in range(count):
+        error[c] /= lanes.grown[first + c] ** 2
 
 
 @kernel
@@ -158,7 +165,7 @@ def weigh_left_out(
     """
     for c in range(begin - first, end - first):
         scale = 1.0 / inverse[i, i, c]
-        error[c] = scale - lanes.noise[first + c]
+        error[c] = (scale - lanes.noise[first + c]) / lanes.grown[first + c] ** 2
         for j in range(weight.shape[0]):
             weight[j, c] = -inverse[i, j, c] * scale
         weight[i, c] = 0.0
@@ -195,7 +202,7 @@ def combine(
             estimate += w * (gain[n] - offset)
             own += w * w
             known += w * w * (noise * level * gain[n] if np.isnan(noise_variance[n]) else noise_variance[n])
-        left = max(error[c] - noise * own, LEAST)
+        left = max(error[c] - noise * own / lanes.grown[lane] ** 2, LEAST)
         unknown = (1.0 - np.sqrt(1.0 - min(left, 1.0))) * level
         estimate = max(estimate, unknown)
         total += chance

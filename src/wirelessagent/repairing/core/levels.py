@@ -102,8 +102,9 @@ def user_levels(observation: ChannelObservation) -> UserLevels:
     variance *= doubt
     unseen, dark = count == 0, (count > 0) & (level == 0)
     known = current & (level > 0)[:, np.newaxis]
-    level[unseen], variance[unseen] = _guess(level[level > 0])
+    positive = level > 0
     level[dark], variance[dark] = _below_floor(slots[:, dark], slots)
+    level[unseen], variance[unseen] = _guess(level[positive if positive.any() else dark])
     divisor = level[:, np.newaxis]
     return UserLevels(
         level=level,

@@ -52,6 +52,7 @@ class Lanes(NamedTuple):
     Attributes:
         window, hypothesis: whose.
         noise: η.
+        grown: 1 + η where measured gains are conditional means, 1 where the noise is unknown.
         shared, offset: s and o of :mod:`.kriging_kernel`.
         level: a.
         probability: sums to 1 over the lanes of a window.
@@ -60,6 +61,7 @@ class Lanes(NamedTuple):
     window: IntArray
     hypothesis: IntArray
     noise: FloatArray
+    grown: FloatArray
     shared: FloatArray
     offset: FloatArray
     level: FloatArray
@@ -142,7 +144,7 @@ def lay_lanes(
     total = int(windows.lane[-1])
     lanes = Lanes(
         np.empty(total, np.int64), np.empty(total, np.int64), np.empty(total), np.empty(total), np.empty(total),
-        np.empty(total), np.empty(total),
+        np.empty(total), np.empty(total), np.empty(total),
     )  # fmt: skip
     for w in range(windows.user.size):
         k, first = windows.user[w], windows.lane[w]
@@ -153,6 +155,7 @@ def lay_lanes(
             c, h = first + i, kept[k, i]
             lanes.window[c], lanes.hypothesis[c] = w, h
             lanes.noise[c] = noise_share[k] if np.isnan(noise[h]) else noise[h]
+            lanes.grown[c] = 1.0 + noise_share[k] if np.isnan(noise[h]) else 1.0
             lanes.shared[c] = 1.0 / (1.0 + forms[k, 0, h]) if long[k] else 1.0
             lanes.offset[c] = forms[k, 1, h] * lanes.shared[c] if long[k] else 0.0
             lanes.level[c] = forms[k, 4, h]

@@ -1,0 +1,82 @@
+"""What the gain's correlation over time may be: Doppler spectra, weighed by how earlier slots explain later ones.
+
+Scatterers all around a user that moves at v give the complex correlation J₀(2πf_dΔt) with f_d = v f_c/c (Clarke 1968),
+and its gain J₀². Where power comes from few directions the spectrum is narrower; a Gaussian one of the same width,
+exp(−(2πf_dΔt)²/2) for the gain, stands for those. Doppler shifts lie on a grid from what hardly changes the gain over
+the whole history to what makes each slot a new channel. They are averaged over, not chosen: a wrong one is worse than
+none.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.repairing.core.hypotheses import Hypotheses
+
+SHIFTS = 24
+"""Doppler shifts on the grid."""
+SLOWEST, FASTEST = 0.01, 0.6
+"""The smallest shift times the length of the history, and the largest times the shortest step, in turns."""
+EXPECTED_TURNS, FACTOR = 0.03, 10.0
+"""Doppler shift times the step that is expected beforehand, and by what factor it may well be wrong: 30 Hz at a step
+of 1 ms is a user at 9 km/h in a band at 3.5 GHz."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Doppler:
+    """Correlations of the gain over time, as :class:`.hypotheses.Hypotheses` has them over frequency.
+
+    Attributes:
+        time: of each slot in units of the shortest step, the last one last, shape (slot,).
+        shift: 2πf_d in turns per step times 2π, of each hypothesis, shape (hypothesis,).
+        gaussian: whether the spectrum is Gaussian, shape (hypothesis,).
+        log_step, log_prior: see :class:`.hypotheses.Hypotheses`.
+    """
+
+    time: FloatArray
+    shift: FloatArray
+    gaussian: FloatArray
+    log_step: float
+    log_prior: FloatArray
+
+    def correlation(self, distance: FloatArray) -> FloatArray:
+        """Of gains that lie ``distance`` (any shape) steps apart, that shape and (hypothesis,)."""
+        from scipy.special import j0
+
+        angle = np.multiply.outer(distance, self.shift)
+        return np.where(self.gaussian > 0, np.exp(-0.5 * angle**2), j0(angle) ** 2)
+
+
+def doppler(observation: ChannelObservation) -> Doppler:
+    """Hypotheses for the times of an observation of two slots or more; one step each where times are unknown."""
+    times = observation.slot_times_s
+    if times is None:
+        times = np.arange(observation.num_slots, dtype=np.float64)
+    step = float(np.diff(times).min())
+    time = (times - times[-1]) / step
+    slowest = SLOWEST / -float(time[0])
+    turns = slowest * (FASTEST / slowest) ** np.linspace(0.0, 1.0, SHIFTS)
+    return Doppler(
+        time=time,
+        shift=np.tile(2.0 * np.pi * turns, 2),
+        gaussian=np.repeat([0.0, 1.0], SHIFTS),
+        log_step=float(np.log(turns[1] / turns[0])),
+        log_prior=-0.5 * (np.log(turns / EXPECTED_TURNS) / np.log(FACTOR)) ** 2,
+    )
+
+
+def as_hypotheses(candidates: Doppler, noise: float) -> Hypotheses:
+    """The same over a raster of slots, for :func:`.fit.learn`-like weighing; slots must be equidistant to a step."""
+    place = np.rint(candidates.time - candidates.time[0]).astype(np.int64)
+    return Hypotheses(
+        place=place,
+        table=candidates.correlation(np.arange(int(place[-1]) + 1, dtype=np.float64)),
+        noise=np.full(candidates.shift.size, noise),
+        families=2,
+        log_step=candidates.log_step,
+        log_prior=candidates.log_prior,
+    )

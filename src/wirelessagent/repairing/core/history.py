@@ -1,0 +1,118 @@
+"""Slots of the past in units of each user's mean, with the measurement noise that they carry."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.repairing.core import fit
+from wirelessagent.repairing.core.hypotheses import Hypotheses, hypotheses
+
+RECENT = 16
+"""Slots from which correlations are learnt, the last ones."""
+LARGEST_SHARE = 0.9
+
+
+@dataclass(frozen=True, kw_only=True)
+class History:
+    """What was seen of all users, slots without any gain left out.
+
+    Attributes:
+        gain: in units of the level, NaN where missing, shape (slot, user, subcarrier).
+        noise: variance of its error in the same unit squared, 0 where unknown, same shape.
+        level: mean of each user's observed gains, 1 where nothing positive was observed, shape (user,).
+        seen: how many gains are known of each user, 0 where none is positive, shape (user,).
+        noise_share: η of one slot, shape (user,).
+        grown: 1 + η where measured gains are conditional means, 1 where the noise is unknown, shape (user,).
+        place: of each slot among those of the observation, shape (slot,).
+    """
+
+    gain: FloatArray
+    noise: FloatArray
+    level: FloatArray
+    seen: IntArray
+    noise_share: FloatArray
+    grown: FloatArray
+    place: IntArray
+
+
+def history(observation: ChannelObservation) -> History | None:
+    """The slots of an observation that hold any gain; None if none does."""
+    place = np.flatnonzero(~np.isnan(observation.slots).all(axis=(1, 2)))
+    if not place.size:
+        return None
+    gain = observation.slots[place]
+    there = ~np.isnan(gain)
+    largest = np.where(there, gain, 0.0).max(axis=(0, 2))
+    scale = np.where(largest > 0, largest, 1.0)
+    count = there.sum(axis=(0, 2))
+    mean = np.where(there, gain / scale[:, np.newaxis], 0.0).sum(axis=(0, 2)) / np.maximum(count, 1)
+    level = np.where(largest > 0, scale * mean, 1.0)
+    relative = gain / level[:, np.newaxis]
+    noise, share = np.zeros(gain.shape), np.zeros(len(level))
+    known = observation.noise_variance is not None
+    if observation.noise_variance is not None:
+        given = observation.noise_variance.reshape(observation.slots.shape)[place]
+        noise = np.where(there, given / level[:, np.newaxis] / level[:, np.newaxis], 0.0)
+        part = np.where(there, relative - np.sqrt(np.maximum(relative**2 - noise, 0.0)), 0.0)
+        part = np.minimum(part.sum(axis=(0, 2)) / np.maximum(count, 1), LARGEST_SHARE)
+        share = 1.0 / (1.0 - part) ** 2 - 1.0
+    return History(
+        gain=relative,
+        noise=noise,
+        level=level,
+        seen=np.where(largest > 0, count, 0),
+        noise_share=share,
+        grown=1.0 + share if known else np.ones(len(level)),
+        place=place,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class OverFrequency:
+    """What the last slots say of the correlation over frequency, and those slots without holes.
+
+    Attributes:
+        candidates: where subcarriers are on a raster.
+        table: each user's |ρ|² at each distance, shape (user, distance).
+        noise_share: η of each user, shape (user,).
+        filled: the last slots, holes estimated over frequency, shape (user, slot, subcarrier).
+    """
+
+    candidates: Hypotheses
+    table: FloatArray
+    noise_share: FloatArray
+    filled: FloatArray
+
+
+def over_frequency(seen: History, observation: ChannelObservation) -> OverFrequency:
+    """Kriging on each of the last slots, each user's correlation the mean over them."""
+    recent = seen.gain[-RECENT:].swapaxes(0, 1)
+    users, slots, subcarriers = recent.shape
+    known_noise = observation.noise_variance is not None
+    noise = seen.noise[-RECENT:].swapaxes(0, 1)
+    rows = ChannelObservation(
+        gain=recent.reshape(-1, subcarriers),
+        noise_variance=np.where(np.isnan(recent), np.nan, noise).reshape(-1, subcarriers) if known_noise else None,
+        subcarrier_frequencies_hz=observation.subcarrier_frequencies_hz,
+    )
+    slot = fit.relative(rows)
+    learnt = fit.learn(slot, hypotheses(rows))
+    estimated = fit.estimate(slot, learnt, tested=False)[..., 0] * slot.level[:, np.newaxis]
+    estimated = np.where(slot.known, rows.gain, estimated).reshape(recent.shape)
+    known_rows = (slot.seen > 0).reshape(users, slots, 1)
+    estimated = np.where(known_rows, estimated, 1.0)
+    table, noise_share, _ = fit.mean_hypothesis(slot, learnt)
+    count = np.maximum(known_rows.sum(axis=1), 1)
+    table = np.where(known_rows, table.reshape(users, slots, -1), 0.0).sum(axis=1) / count
+    table[table[:, 0] == 0.0] = table[table[:, 0] > 0.0].mean(axis=0) if (table[:, 0] > 0.0).any() else 1.0
+    share = np.where(known_rows[..., 0], noise_share.reshape(users, slots), 0.0).sum(axis=1) / count[:, 0]
+    return OverFrequency(
+        candidates=learnt.candidates,
+        table=table,
+        noise_share=seen.noise_share if known_noise else share,
+        filled=estimated,
+    )

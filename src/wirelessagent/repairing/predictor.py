@@ -1,0 +1,122 @@
+"""The predictor: gains of a slot from the whole history, when the current one has holes, is late or is missing."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.fading_posterior import FadingPosterior
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.repairing.core import bins
+from wirelessagent.repairing.core.doppler import Doppler, doppler
+from wirelessagent.repairing.core.history import History, OverFrequency, history, over_frequency
+from wirelessagent.repairing.core.levels import SMALLEST_VARIANCE, user_levels
+from wirelessagent.repairing.kriging import Kriging
+from wirelessagent.repairing.repairer import Repairer
+
+KEPT, ENOUGH = 6, 0.97
+"""Most Doppler hypotheses kept for a user, and the probability at which they are enough."""
+TAIL = 1.2
+"""By how much variances from fading exceed the likeliest ones, as in kriging for a dozen entries that say something."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Predictor(Repairer):
+    """Best linear estimate of the gain over frequency and time, for a slot with holes, a late or a missing one.
+
+    The correlation over frequency is weighed as in kriging, that over time by how Doppler shifts of all sizes explain
+    the last slots (:mod:`wirelessagent.repairing.core.doppler`). Shifts are averaged over by their probability: where
+    the channel moves too fast to be followed, the estimate is the user's mean. With one slot alone it is kriging.
+    ``at_s`` asks for another time than the last slot's.
+    """
+
+    name: ClassVar[str] = "predictor"
+
+    def repair(self, observation: ChannelObservation, *, at_s: float | None = None) -> ChannelEstimate:
+        seen = history(observation)
+        if seen is None or (observation.num_slots == 1 and at_s is None):
+            return dataclasses.replace(Kriging().repair(observation), method=self.name)
+        candidates = doppler(observation)
+        found = estimated(seen, observation, candidates, steps(observation, at_s))
+        level = seen.level[:, np.newaxis]
+        gain, variance = level * found[..., 0], level * (level * (TAIL * found[..., 1] + found[..., 2]))
+        unseen = seen.seen == 0
+        if unseen.any():
+            levels = user_levels(observation)
+            gain[unseen], variance[unseen] = levels.level[unseen, np.newaxis], levels.variance[unseen, np.newaxis]
+        variance = np.maximum(variance, SMALLEST_VARIANCE)
+        if at_s is None:
+            missing = observation.missing
+            gain = np.where(missing, gain, observation.current)
+            variance = np.where(missing, variance, observation.current_noise_variance)
+        return ChannelEstimate(
+            gain=gain,
+            gain_variance=variance,
+            repaired=np.ones(gain.shape, dtype=bool) if at_s is not None else ~observation.measured[-1],
+            unobserved_users=np.asarray(~observation.measured.any(axis=(0, 2))),
+            user_names=observation.user_names,
+            method=self.name,
+            joint_posterior=FadingPosterior(gain, variance),
+        )
+
+
+def steps(observation: ChannelObservation, at_s: float | None) -> float:
+    """The time asked for, in steps after the last slot; where slots have no times they are a second apart."""
+    if at_s is None:
+        return 0.0
+    times = observation.slot_times_s
+    if times is None or times.size == 1:
+        return at_s - (observation.num_slots - 1.0 if times is None else float(times[-1]))
+    return (at_s - float(times[-1])) / float(np.diff(times).min())
+
+
+def estimated(seen: History, observation: ChannelObservation, candidates: Doppler, at: float) -> FloatArray:
+    """Mean, variance from fading and other variance of all gains ``at`` a time, shape (user, subcarrier, 3)."""
+    from wirelessagent.repairing.core import space_time_kernel
+
+    over = over_frequency(seen, observation)
+    now = dataclasses.replace(candidates, time=candidates.time[seen.place])
+    chance, level = weighed(over, now)
+    bin_of = bins.bins_of(now.time[-1] - now.time + 1.0)
+    mean, noise, count = averaged(seen, bin_of)
+    time = bins.over_time(now, bin_of, at)
+    users, _, subcarriers = mean.shape
+    found = np.empty((users, subcarriers, 3))
+    for k in range(users):
+        order = np.argsort(-chance[k])
+        kept = order[: min(KEPT, 1 + int(np.searchsorted(np.cumsum(chance[k][order]), ENOUGH)))]
+        space_time_kernel.estimate_user(
+            mean[k], noise[k], count[k], over.candidates.place, over.table[k], float(over.noise_share[k]),
+            float(seen.grown[k]), time.between[kept], time.towards[kept], level[k, kept],
+            chance[k, kept] / chance[k, kept].sum(), found[k],
+        )  # fmt: skip
+    return found
+
+
+def weighed(over: OverFrequency, now: Doppler) -> tuple[FloatArray, FloatArray]:
+    """How likely each Doppler hypothesis is for each user, and the level it says, shape (user, hypothesis)."""
+    from wirelessagent.repairing.core import evidence_kernel, pooling_kernel
+
+    slots = over.filled.shape[1]
+    time = now.time[-slots:]
+    between = np.moveaxis(now.correlation(np.abs(time[:, np.newaxis] - time)), -1, 0)
+    place = over.candidates.place[: bins.BLOCK]
+    alike = over.table[:, np.abs(place[:, np.newaxis] - place)]
+    likelihood, level = bins.log_evidence(over.filled[:, :, : bins.BLOCK], over.noise_share, alike, between)
+    return pooling_kernel.pooled_weights(evidence_kernel.SHARE * likelihood, 2, now.log_step, now.log_prior), level
+
+
+def averaged(seen: History, bin_of: IntArray) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Means of the bins, the variance of their noise, and how many slots they are of, (user, bin, subcarrier)."""
+    from wirelessagent.repairing.core import space_time_kernel
+
+    _, users, subcarriers = seen.gain.shape
+    shape = users, int(bin_of.max()) + 1, subcarriers
+    mean, noise, count = np.empty(shape), np.empty(shape), np.empty(shape, dtype=np.int64)
+    space_time_kernel.average(seen.gain, seen.noise, bin_of, mean, noise, count)
+    return mean, noise, count
