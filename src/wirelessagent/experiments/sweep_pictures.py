@@ -71,7 +71,7 @@ def x_label(case: Table) -> str:
 
 def logarithmic(panel: Panel, low: float, high: float) -> None:
     """A logarithmic y axis with its ticks written out: more of each decade where there are fewer decades."""
-    panel.axes.set_yscale("log")
+    panel.scales(y="log")
     panel.limits(y=(low, high))
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     steps = (1, 2, 3, 5, 7) if high < 15.0 * low else (1, 2, 5) if high < 2e3 * low else (1,)

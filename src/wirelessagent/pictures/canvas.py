@@ -112,9 +112,12 @@ class Panel:
         self.axes.grid(visible=True, color="#DDDDDD", linewidth=0.6)
         self.axes.set_axisbelow(True)
 
-    def scales(self, *, x: Literal["linear", "log"] = "linear", y: Literal["linear", "log"] = "linear") -> None:
-        self.axes.set_xscale(x)
-        self.axes.set_yscale(y)
+    def scales(self, *, x: Literal["linear", "log"] | None = None, y: Literal["linear", "log"] | None = None) -> None:
+        """Set scales, which takes ticks back to the usual ones; an axis that is not named stays as it is."""
+        if x is not None:
+            self.axes.set_xscale(x)
+        if y is not None:
+            self.axes.set_yscale(y)
 
     def limits(self, *, x: tuple[float, float] | None = None, y: tuple[float, float] | None = None) -> None:
         if x is not None:
