@@ -138,10 +138,12 @@ def test_the_pictures_show_what_the_tables_hold(result: Evaluated) -> None:
             rows = [result.table.where(channel=channel, loss=f"random:{rate}", method=method) for rate in (0.2, 0.5)]
             assert drawn[method].tolist() == [row.numbers("rmse")[0] for row in rows]
     recovery = result.tables["recovery"]
-    assert recovery.columns[4] == "kriging_db"
+    assert recovery.columns[5] == "kriging_db"
     heard = recovery.where(missing=0)
     assert np.all(recovery.numbers("low_db") <= recovery.numbers("high_db"))
-    assert np.all(np.abs(heard.numbers("kriging_db") - heard.numbers("truth_db")) < 3.0)
+    assert np.array_equal(heard.numbers("observed_db"), heard.numbers("kriging_db")), "what was observed stays"
+    assert np.isnan(recovery.where(missing=1).numbers("observed_db")).all()
+    assert not np.array_equal(heard.numbers("observed_db"), heard.numbers("truth_db")), "it was measured with noise"
 
 
 def test_neither_the_executor_nor_a_second_run_changes_a_figure() -> None:

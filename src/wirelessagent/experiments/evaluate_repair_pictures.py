@@ -29,7 +29,7 @@ def recovery_canvas(table: Table, caption: str) -> Canvas:
     canvas = Canvas(width_in=8.8, height_in=4.9)
     panel = canvas.panels[0]
     n, holes, heard = table.numbers("subcarrier"), table.where(missing=1), table.where(missing=0)
-    names = [column.removesuffix("_db") for column in table.columns[4:-2]]
+    names = [column.removesuffix("_db") for column in table.columns[5:-2]]
     panel.ribbon(
         n,
         table.numbers("low_db"),
@@ -39,7 +39,12 @@ def recovery_canvas(table: Table, caption: str) -> Canvas:
     )
     panel.curve(n, table.numbers("truth_db"), label="true channel", style=BLACK, marked=False)
     panel.marks(
-        heard.numbers("subcarrier"), heard.numbers("truth_db"), size_pt=4, shape="o", colour="black", label="observed"
+        heard.numbers("subcarrier"),
+        heard.numbers("observed_db"),
+        size_pt=4,
+        shape="o",
+        colour="black",
+        label="observed",
     )
     for style, name in enumerate(names):
         panel.curve(

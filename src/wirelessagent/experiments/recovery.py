@@ -23,8 +23,9 @@ _FLOOR_DB = 40.0
 def recovery_table(channel: EvaluatedChannel, loss: str, methods: tuple[str, ...], seed: int) -> Table:
     """The first draw's user that lost most but not all: truth, observed, estimates and one method's 90 % band, in dB.
 
-    Columns: user, subcarrier, missing, truth_db, then ``<method>_db`` for the method with the band, the user mean and
-    one competitor, as far as they are evaluated, then ``low_db`` and ``high_db``.
+    Columns: user, subcarrier, missing, truth_db, observed_db (as measured, NaN if missing), then ``<method>_db`` for the
+    method with the band, one competitor and the user mean, as far as they are evaluated, then ``low_db`` and
+    ``high_db``.
     """
     seeds = seeds_of(seed, 0)
     drawn = channel.drawn(seeds.channel)
@@ -42,11 +43,20 @@ def recovery_table(channel: EvaluatedChannel, loss: str, methods: tuple[str, ...
     def in_db(gain: FloatArray) -> FloatArray:
         return db(gain[user] / level, floor_db=-_FLOOR_DB)
 
-    lines = [in_db(drawn.truth), *(in_db(estimate.gain) for estimate in estimates)]
+    lines = [in_db(drawn.truth), in_db(observation.current), *(in_db(estimate.gain) for estimate in estimates)]
     lines += [in_db(posterior.quantile(at)) for at in (0.05, 0.95)]
     rows: list[tuple[Value, ...]] = [
         (observation.user_names[user], n + 1, int(observation.missing[user, n]), *(float(line[n]) for line in lines))
         for n in range(observation.num_subcarriers)
     ]
-    columns = ("user", "subcarrier", "missing", "truth_db", *(f"{name}_db" for name in names), "low_db", "high_db")
+    columns = (
+        "user",
+        "subcarrier",
+        "missing",
+        "truth_db",
+        "observed_db",
+        *(f"{name}_db" for name in names),
+        "low_db",
+        "high_db",
+    )
     return table_of(columns, rows)
