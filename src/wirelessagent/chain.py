@@ -25,7 +25,7 @@ from wirelessagent.plugin_options import options_of
 from wirelessagent.repairing.repairer import Repairer
 from wirelessagent.sensing.source import ChannelSource
 
-DEFAULT_REPAIRER = "kriging"
+DEFAULT_REPAIRER, DEFAULT_WITH_HISTORY = "kriging", "predictor"
 
 
 def simulate(source: str | ChannelSource, cell: Cell | None = None, *, seed: int = 0, **options: Any) -> Scene:
@@ -36,13 +36,14 @@ def simulate(source: str | ChannelSource, cell: Cell | None = None, *, seed: int
 
 def repair(
     observation: ChannelObservation,
-    method: str | Repairer = DEFAULT_REPAIRER,
+    method: str | Repairer | None = None,
     *,
     at_s: float | None = None,
     **options: Any,
 ) -> ChannelEstimate:
     """The current slot's gains, complete. Where nothing is missing, the observation itself and method "none".
 
+    Where no method is named it is kriging or, with history, the predictor.
     The method is "earlier repair" where the observation is complete because gains were repaired before.
     """
     observation = given_observation(observation)
@@ -53,8 +54,13 @@ def repair(
             gain_variance=observation.current_noise_variance,
             method="none" if observation.measured[-1].all() else "earlier repair",
         )
-    chosen = _chosen("repairer", method, options, Repairer)
+    chosen = _chosen("repairer", default_repairer(observation) if method is None else method, options, Repairer)
     return chosen.repair(observation, at_s=at_s)
+
+
+def default_repairer(observation: ChannelObservation) -> str:
+    """The repairer used when none is named: one that uses all that was observed."""
+    return DEFAULT_REPAIRER if observation.num_slots == 1 else DEFAULT_WITH_HISTORY
 
 
 def perfect(scene: Scene) -> ChannelEstimate:

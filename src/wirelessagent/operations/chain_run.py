@@ -54,7 +54,7 @@ class Answer:
 class Tools:
     """The plug-ins that a run of the chain uses, by name, and their options."""
 
-    repairer: str = chain.DEFAULT_REPAIRER
+    repairer: str | None = None
     repairer_options: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
     method: str | None = None
     method_options: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])

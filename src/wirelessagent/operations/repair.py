@@ -24,7 +24,9 @@ from wirelessagent.sensing.npz import write_npz
 class RepairRequest(ChannelFile):
     panel = "Options"
 
-    method: Annotated[str, PluginName("repairer")] = Field(chain.DEFAULT_REPAIRER, description="repairer")
+    method: Annotated[str | None, PluginName("repairer")] = Field(
+        None, description="repairer; kriging if not given, with history the predictor"
+    )
     method_options: Annotated[PluginOptions, OptionsOf("repairer")] = Field(
         default_factory=dict, description="options of the repairer"
     )

@@ -6,7 +6,6 @@ from typing import Annotated, ClassVar
 
 from pydantic import Field
 
-from wirelessagent import chain
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Request
 
@@ -16,8 +15,8 @@ class RepairerOptions(Request):
 
     panel: ClassVar[str] = "Options"
 
-    repairer: Annotated[str, PluginName("repairer")] = Field(
-        chain.DEFAULT_REPAIRER, description="repairer, where something is missing"
+    repairer: Annotated[str | None, PluginName("repairer")] = Field(
+        None, description="repairer, where something is missing; kriging if not given, with history the predictor"
     )
     repairer_options: Annotated[PluginOptions, OptionsOf("repairer")] = Field(
         default_factory=dict, description="options of the repairer"
