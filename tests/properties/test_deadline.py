@@ -55,15 +55,15 @@ def estimate() -> wa.ChannelEstimate:
 def test_a_deadline_is_replayed_by_its_restarts(problem: wa.Problem, ticking: None) -> None:
     cut = wa.decide(estimate(), problem, CELL, "dual", deadline_ms=7.5, seed=5)
     again = wa.decide(estimate(), problem, CELL, "dual", restarts=cut.restarts, seed=5)
-    assert cut.restarts >= 30
-    assert (cut.restarts > 30) == cut.is_usable
+    assert cut.restarts >= 10
+    assert (cut.restarts > 10) == cut.is_usable
     same(again, cut)
 
 
 def test_a_round_begins_only_where_one_like_those_before_ends_in_time(ticking: None) -> None:
     problem = PROBLEMS["lowest"]
     done = [wa.decide(estimate(), problem, CELL, "dual", deadline_ms=ms).restarts for ms in (0.5, 1.9, 2.1, 3.1, 9.1)]
-    assert done == [30, 30, 50, 70, 190]
+    assert done == [10, 10, 20, 30, 90]
 
 
 def test_a_deadline_ends_with_the_restarts_that_were_asked_for(ticking: None) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -84,23 +85,20 @@ def search(
     log_price = after.log_rate.copy() if after is not None and warm else np.zeros(users)
     log_mu = float(after.log_power) if after is not None and warm else 0.0
     given = owner is not None
-    sets = np.full(subcarriers, -1, dtype=np.int64)
-    if owner is not None:
-        sets[:] = owner
-    power_w = np.empty(subcarriers)
+    sets, power_w = np.empty(subcarriers, dtype=np.int64), np.empty(subcarriers)
+    sets[:] = -1 if owner is None else owner
     found = solve(
         form.snr_per_w, ask_of(form, program), users if users <= SMALL else CANDIDATES, effort.restarts, effort.seed,
         warm, log_price, log_mu, given, sets, power_w,
     )  # fmt: skip
-    prices = Prices(log_rate=log_price, log_power=found.log_mu)
     return Search(
         program=program,
         owner=owners_with_power(form, sets, power_w),
         power_w=power_w,
         score=float(found.score),
-        kept=found.score > WORST and bool(np.isfinite(power_w).all()),
+        kept=found.score > WORST and math.isfinite(power_w.sum()),
         bound=bound_of(form, program, log_price, found.log_mu),
-        prices=prices,
+        prices=Prices(log_rate=log_price, log_power=found.log_mu),
         iterations=int(found.iterations),
         restarts=effort.restarts,
     )

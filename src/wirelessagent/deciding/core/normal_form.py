@@ -96,7 +96,7 @@ class NormalForm:
             promised_nats=promised / bps_per_nat,
             most_nats=most / bps_per_nat,
             weight=problem.weights_of(users),
-            start=np.minimum(np.arange(0, subcarriers + group, group), subcarriers),
+            start=_starts(subcarriers, group),
             bps_per_nat=bps_per_nat,
         )
 
@@ -128,13 +128,15 @@ class NormalForm:
 
 def _snr_per_w(gain: FloatArray, problem: Problem, cell: Cell, cap_w: FloatArray) -> FloatArray:
     """a for ``gain`` (…, user, subcarrier), 0 where a pair may not be used."""
-    with np.errstate(over="ignore"):
-        snr_per_w = normalised_gain(gain, cell)
-    if snr_per_w.size and snr_per_w.max() > _MOST_SNR:
+    if gain.size and gain.max() / _MOST_SNR > cell.snr_gap * cell.noise_power_w:
         raise InputError(
             f"gains up to {gain.max():g} over a noise of {cell.noise_power_w:g} W are out of range: "
             "a power gain is about 1 at most; check its unit"
         )
+    snr_per_w = normalised_gain(gain, cell)
+    unlimited = problem.subcarrier_max_power_w is None and problem.users is None and problem.forbidden is None
+    if unlimited and snr_per_w.size and snr_per_w.min() > _LEAST_SNR:
+        return snr_per_w
     users, subcarriers = gain.shape[-2:]
     usable = snr_per_w > _LEAST_SNR
     if problem.subcarrier_max_power_w is not None:
@@ -144,6 +146,12 @@ def _snr_per_w(gain: FloatArray, problem: Problem, cell: Cell, cap_w: FloatArray
     if problem.forbidden is not None:
         usable &= problem.allows((users, subcarriers))
     return snr_per_w if usable.all() else np.where(usable, snr_per_w, 0.0)
+
+
+def _starts(num_subcarriers: int, group: int) -> IntArray:
+    if group == 1:
+        return np.arange(num_subcarriers + 1)
+    return np.minimum(np.arange(0, num_subcarriers + group, group), num_subcarriers)
 
 
 def _caps_w(problem: Problem, num_subcarriers: int) -> FloatArray:

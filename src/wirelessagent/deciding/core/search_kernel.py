@@ -4,15 +4,16 @@ Sets are improved at their own price of power until none of the moves and swaps 
 true local optimum: with μ the price that settles the sets S, value(S) = Σ V_k(S_k; μ) + μ P, and no other sets S' can
 be worth more than Σ V_k(S'_k; μ) + μ P, because their own price makes that smallest. So a change can be an improvement
 only if the worths at the present price add up to more. Then it is settled afresh, and kept if the score is higher.
-A restart gives a few groups away at random, improves, and goes back unless that is worth nearly as much; the best sets
-are kept.
+A restart gives a few groups away at random, improves, also by the chains of :mod:`.chains_kernel`, and goes back unless
+that is worth nearly as much; the best sets are kept.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.ask_kernel import LEVEL, POWER, Ask
+from wirelessagent.deciding.core.ask_kernel import LEVEL, POWER, SUM, Ask
+from wirelessagent.deciding.core.chains_kernel import Chains, empty_chains, improve_by_chains
 from wirelessagent.deciding.core.moves_kernel import (
     ROUNDING,
     change,
@@ -42,6 +43,12 @@ ROUNDS = 8
 GAIN = 1e-12
 """Share of a score by which a better one is higher."""
 MOST_KICKED = 3
+UNCHAINED = 3
+"""Kicks of a restart that looks for no chains; it takes about as long as one that does."""
+MOST_CHAINED = 32
+"""Up to so many groups chains are looked for; the time for all of them grows as the cube."""
+PROMISING = 0.05
+"""Share of the slack by which sets may fall short after a kick for chains to be looked for."""
 SLACK_SHARE = 1e-9
 LIFT = 1e-6
 SINGLE = 400
@@ -190,6 +197,16 @@ def single_changes(ask: Ask, sets: Sets, candidates: IntArray, score: float, at:
 
 
 @kernel
+def has_chains(ask: Ask, candidates: IntArray) -> bool:
+    """Whether chains are worth their time: not where groups are many, nor for sums of utilities with full subcarriers.
+
+    Sets with full subcarriers are not valued by sums over them, which is slow, and kicks alone find as good ones.
+    """
+    groups, users = candidates.shape
+    return users >= 3 and groups <= MOST_CHAINED and (ask.goal != SUM or not ask.max_nats < np.inf)
+
+
+@kernel
 def restart(
     ask: Ask,
     sets: Sets,
@@ -203,23 +220,26 @@ def restart(
 ) -> tuple[float, float]:
     """Restart so many times; the best score and its ln μ (or ln level), as :func:`polish`.
 
-    The next restart is from where the last one ended if that is worth less than before by no more than a share of
-    ``slack`` (in W) that falls to nothing (threshold accepting), so that the search leaves wide valleys.
+    The first restart looks for chains from the best sets; the others kick, and look for chains where what comes of it
+    is promising. Where there are no chains (:func:`has_chains`) each restart is three kicks instead. The next kick is
+    from where the last one ended if that is worth less than before by no more than a share of ``slack`` (in W) that
+    falls to nothing (threshold accepting), so that the search leaves wide valleys.
     """
-    standard = value_all(sets, price_of(ask, at))
-    here = standard
-    leeway = slack * np.exp(price_of(ask, at)) if slack < np.inf else 0.0
     base, trial_owner, contested = best_owner.copy(), best_owner.copy(), best_owner.copy()
     size = contested_groups(candidates, base, contested)
-    if size == 0:
+    if size == 0 or restarts == 0:
         return score, at
+    standard = value_all(sets, price_of(ask, at))
+    here, leeway = standard, slack * np.exp(price_of(ask, at)) if slack < np.inf else 0.0
     state = np.array([seed * 2654435761 + 88172645463325252])
-    for i in range(restarts):
-        kick(sets, candidates, contested, size, state)
-        if some_wanting(sets.user):
-            serve_all(sets)
-        improve(sets, candidates)
-        gained = total_worth(sets.user)
+    chained = has_chains(ask, candidates)
+    chains = empty_chains(sets.user.shape[0], base.size) if chained else empty_chains(0, 0)
+    tries = restarts if chained else UNCHAINED * restarts
+    for i in range(tries):
+        if i > 0 or not chained:
+            kick(sets, candidates, contested, size, state)
+        promising = -np.inf if i == 0 else here - PROMISING * leeway
+        gained = improve_kicked(sets, candidates, chains, promising if chained else np.inf)
         rounding = ROUNDING * abs(standard)
         if gained > standard + rounding:
             found, found_at = polish(ask, sets, candidates, at, trial_owner)
@@ -234,12 +254,23 @@ def restart(
                 set_level(sets.user, ask.share, np.exp(at))
             assign(sets, base)
             here = value_all(sets, price_of(ask, at))
-        elif gained >= here - rounding - leeway * (1.0 - i / restarts):
+        elif gained >= here - rounding - leeway * (1.0 - i / tries):
             copy_owners(sets.group[OWNER], base)
             here = gained
         else:
             go_back(sets, base)
     return score, at
+
+
+@kernel
+def improve_kicked(sets: Sets, candidates: IntArray, chains: Chains, promising: float) -> float:
+    """Serve who lacks a rate and improve, by chains too where that is worth ``promising`` or more; what it is worth."""
+    if some_wanting(sets.user):
+        serve_all(sets)
+    improve(sets, candidates)
+    if total_worth(sets.user) >= promising and not some_wanting(sets.user):
+        improve_by_chains(sets, candidates, chains)
+    return total_worth(sets.user)
 
 
 @kernel

@@ -36,7 +36,8 @@ from wirelessagent.model.problem import Problem
 
 _SMALL = 400
 """Up to so many users × groups a search is restarted by default."""
-_RESTARTS, _ROUND = 30, 20
+_RESTARTS, _ROUND = 10, 10
+"""Those of a small problem, and those of each round beyond them."""
 _SETTLED_S, _THOROUGH_S = 1.0, 5.0
 """Time for promised rates that were not found within the budget, and for a thorough search, where none is given."""
 
@@ -47,16 +48,17 @@ class Dual(Method):
 
     For given prices of the users' rates and of power the subcarriers decouple. The prices are found by Newton's method
     on a smoothed dual; they say who gets which subcarrier, and prove a bound. The sets are then improved by moves and
-    swaps, each followed by exact water-filling, and by restarts. The most rate, alone or per joule, without further
-    limits is solved in closed form.
+    swaps, each followed by exact water-filling, and by restarts with chains of such changes. The most rate, alone or
+    per joule, without further limits is solved in closed form.
 
     Attributes:
         effort: "fast" for a scheduler's slot; "thorough" goes on with prices of subcarriers, which prove more and find
             better sets, for some seconds at most, and often to the proven optimum.
         deadline_ms: time until which a fast search is restarted, and after which a thorough one begins nothing new; the
             first search is done in any case.
-        restarts: number of restarts instead of that of the effort. A fast decision under a deadline says how many it
-            did, and so many without one make the same decision again.
+        restarts: number of restarts instead of that of the effort. Each is one kick, the first none, with a search
+            for chains where that is promising, or three kicks without one where chains are not worth their time. A
+            fast decision under a deadline says how many it did, and so many without one make the same decision again.
         seed: of the restarts.
     """
 
@@ -97,8 +99,10 @@ class Dual(Method):
             return approached_decision(form, program)
         least: Search | None = None
         if promised:
-            wanted = program.goal == LEAST_POWER
-            least = search_promises(form, effort if wanted else Effort(restarts=0, seed=0), earlier if wanted else None)
+            if program.goal == LEAST_POWER:
+                least = search(form, program, effort, earlier)
+            else:
+                least = search_promises(form, Effort(restarts=0, seed=0))
             if not fits(form, least) and not is_proven_too_much(form, least):
                 least = carried(form, least, self._until(started, _SETTLED_S))
             if not fits(form, least):

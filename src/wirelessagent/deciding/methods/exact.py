@@ -26,7 +26,7 @@ from wirelessagent.model.decision import Bracket, Decision, Prices
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.problem import Problem
 
-_RESTARTS = 100
+_RESTARTS = 30
 _TINY = 1e-3
 
 
