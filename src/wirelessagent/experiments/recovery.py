@@ -23,7 +23,7 @@ _FLOOR_DB = 40.0
 def recovery_table(channel: EvaluatedChannel, loss: str, methods: tuple[str, ...], seed: int) -> Table:
     """The first draw's user that lost most but not all: truth, observed, estimates and one method's 90 % band, in dB.
 
-    Columns: user, subcarrier, missing, truth_db, observed_db (as measured, NaN if missing), then ``<method>_db`` for the
+    Columns: user, subcarrier, missing, truth_db, observed_db (as measured, NaN = missing), then ``<method>_db`` for the
     method with the band, one competitor and the user mean, as far as they are evaluated, then ``low_db`` and
     ``high_db``.
     """
