@@ -13,6 +13,7 @@ from wirelessagent.model.errors import InputError
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.repairing.core.levels import PRIOR_LEVEL
 from wirelessagent.repairing.kriging import Kriging
+from wirelessagent.repairing.learned_covariance import LearnedCovariance
 from wirelessagent.repairing.linear import Linear
 from wirelessagent.repairing.nncf import Nncf
 from wirelessagent.repairing.nncf_paper import NncfPaper
@@ -22,7 +23,7 @@ from wirelessagent.repairing.user_mean import UserMean
 
 NAN = np.nan
 RELATIVE = [UserMean(), Linear(), Nncf()]
-BY_EVIDENCE = [Kriging(), Predictor()]
+BY_EVIDENCE = [Kriging(), LearnedCovariance(), Predictor()]
 ALL = [*RELATIVE, *BY_EVIDENCE, NncfPaper()]
 
 all_repairers = pytest.mark.parametrize("repairer", ALL, ids=lambda r: r.name)
@@ -65,7 +66,7 @@ def test_every_matrix_is_completed(repairer: Repairer, seen: ChannelObservation)
         assert np.all(estimate.gain[unseen] > 0)
         assert np.all(estimate.gain_variance[unseen] > estimate.gain[unseen] ** 2)
     assert np.all(estimate.gain_variance[estimate.repaired] > 0)
-    if repairer.name in ("user_mean", "nncf", "kriging", "predictor"):
+    if repairer.name in ("user_mean", "nncf") or repairer in BY_EVIDENCE:
         assert np.all(estimate.gain[estimate.repaired] > 0)
 
 
@@ -83,7 +84,7 @@ def test_permuting_users_permutes_the_estimate(repairer: Repairer, seen: Channel
     )
     straight, swapped = repairer.repair(seen), repairer.repair(permuted)
     # Evidence is summed over the users in their order, and eigenvectors turn with rounding.
-    by_evidence = isinstance(repairer, Kriging | Predictor)
+    by_evidence = repairer in BY_EVIDENCE
     np.testing.assert_allclose(swapped.gain, straight.gain[order], rtol=1e-4 if by_evidence else 1e-9)
     np.testing.assert_allclose(swapped.gain_variance, straight.gain_variance[order], rtol=1e-3 if by_evidence else 1e-6)
     assert np.array_equal(swapped.unobserved_users, straight.unobserved_users[order])
@@ -119,7 +120,7 @@ def test_scaling_everything_scales_the_estimate(repairer: Repairer, seen: Channe
     variance = None if seen.noise_variance is None else seen.noise_variance * factor**2
     scaled = repairer.repair(dataclasses.replace(seen, gain=seen.gain * factor, noise_variance=variance))
     plain = repairer.repair(seen)
-    rounding = 1e-6 if isinstance(repairer, Predictor) else 1e-9  # eigenvectors
+    rounding = 1e-6 if repairer in BY_EVIDENCE else 1e-9  # eigenvectors
     np.testing.assert_allclose(scaled.gain, plain.gain * factor, rtol=rounding)
     np.testing.assert_allclose(scaled.gain_variance, plain.gain_variance * factor**2, rtol=rounding)
 
@@ -130,7 +131,7 @@ def test_a_constant_channel_is_reproduced(repairer: Repairer, value: float) -> N
     gain = np.full((4, 20), value)
     gain[np.random.default_rng(3).random(gain.shape) < 0.3] = NAN
     estimate = repairer.repair(ChannelObservation(gain=gain))
-    np.testing.assert_allclose(estimate.gain, value, rtol=1e-4 if isinstance(repairer, Kriging | Predictor) else 1e-15)
+    np.testing.assert_allclose(estimate.gain, value, rtol=1e-4 if repairer in BY_EVIDENCE else 1e-15)
 
 
 @relative_repairers
@@ -208,7 +209,7 @@ def test_a_single_observation_is_enough(repairer: Repairer) -> None:
     gain[0, 3] = 2e-11
     estimate = repairer.repair(ChannelObservation(gain=gain))
     # Of one report that may be a peak, less is expected where the channel may be another.
-    lowest = 0.4 if isinstance(repairer, Kriging | Predictor) else 1.0
+    lowest = 0.4 if repairer in BY_EVIDENCE else 1.0
     assert np.all(estimate.gain >= lowest * 2e-11 * (1 - 1e-12))
     assert np.all(estimate.gain <= 2e-11 * (1 + 1e-9))
     assert np.all(estimate.gain_variance[0, [0, 1, 2, 4]] > 0)

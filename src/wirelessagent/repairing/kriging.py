@@ -45,7 +45,7 @@ class Kriging(Repairer):
         factor, surprise = fit.factors(slot, found)
         if slot.level.size > 1:
             fit.with_partners(slot, learnt, surprise, found)
-        return _completed(observation, slot, learnt, found, factor)
+        return completed(observation, slot, learnt, found, factor)
 
     def hold(self, observation: ChannelObservation) -> HeldKriging:
         """A repairer that holds what this slot says of delay spreads, noise and variances for later slots.
@@ -75,12 +75,13 @@ class HeldKriging(Repairer):
             )
         slot = fit.relative(observation)
         found = fit.estimate(slot, self.learnt, tested=False)
-        return _completed(observation, slot, self.learnt, found, self.factor)
+        return completed(observation, slot, self.learnt, found, self.factor)
 
 
-def _completed(
+def completed(
     observation: ChannelObservation, slot: fit.Relative, learnt: fit.Learnt, found: FloatArray, factor: FloatArray
 ) -> ChannelEstimate:
+    """The estimate for what :func:`.fit.estimate` found, with its posterior; users unseen now get their level."""
     level = slot.level[:, np.newaxis]
     gain = level * found[..., 0]
     variance = level * (level * (factor[:, np.newaxis] * found[..., 1] + found[..., 2]))

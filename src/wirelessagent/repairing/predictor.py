@@ -12,11 +12,12 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.fading_posterior import FadingPosterior
 from wirelessagent.model.observation import ChannelObservation
-from wirelessagent.repairing.core import bins
+from wirelessagent.repairing.core import bins, learned
 from wirelessagent.repairing.core.doppler import Doppler, doppler
 from wirelessagent.repairing.core.history import History, OverFrequency, history, over_frequency
 from wirelessagent.repairing.core.levels import SMALLEST_VARIANCE, user_levels
-from wirelessagent.repairing.kriging import Kriging
+from wirelessagent.repairing.kriging import FEW, Kriging
+from wirelessagent.repairing.learned_covariance import LearnedCovariance
 from wirelessagent.repairing.repairer import Repairer
 
 KEPT, ENOUGH = 6, 0.97
@@ -31,7 +32,8 @@ class Predictor(Repairer):
 
     The correlation over frequency is weighed as in kriging, that over time by how Doppler shifts of all sizes explain
     the last slots (:mod:`wirelessagent.repairing.core.doppler`). Shifts are averaged over by their probability: where
-    the channel moves too fast to be followed, the estimate is the user's mean. With one slot alone it is kriging.
+    the channel moves too fast to be followed, the estimate is the user's mean. With one slot alone it is kriging; where
+    each slot is a new channel, :class:`wirelessagent.repairing.learned_covariance.LearnedCovariance` of the current.
     ``at_s`` asks for another time than the last slot's.
     """
 
@@ -41,6 +43,8 @@ class Predictor(Repairer):
         seen = history(observation)
         if seen is None or (observation.num_slots == 1 and at_s is None):
             return dataclasses.replace(Kriging().repair(observation), method=self.name)
+        if at_s is None and is_new(seen, observation):
+            return dataclasses.replace(LearnedCovariance().repair(observation), method=self.name)
         candidates = doppler(observation)
         found = estimated(seen, observation, candidates, steps(observation, at_s))
         level = seen.level[:, np.newaxis]
@@ -63,6 +67,16 @@ class Predictor(Repairer):
             method=self.name,
             joint_posterior=FadingPosterior(gain, variance),
         )
+
+
+def is_new(seen: History, observation: ChannelObservation) -> bool:
+    """Whether the current slot was observed and has nothing to do with the one before."""
+    last = observation.num_slots - 1
+    if seen.place.size < 2 or seen.place[-1] != last or not (~np.isnan(seen.gain[-1])).sum(axis=1).min() > FEW:
+        return False
+    both = ~np.isnan(seen.gain[-2:]).any(axis=0)
+    now, before = np.where(both, seen.gain[-2:] - 1.0, 0.0)
+    return float((now * before).sum()) <= learned.NEW * float(np.sqrt((now**2).sum() * (before**2).sum()))
 
 
 def steps(observation: ChannelObservation, at_s: float | None) -> float:

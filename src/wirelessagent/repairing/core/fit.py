@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -80,6 +81,17 @@ def learn(slot: Relative, candidates: Hypotheses) -> Learnt:
         log_likelihood, candidates.families, candidates.log_step, candidates.log_prior
     )
     return Learnt(candidates=candidates, chance=chance, forms=forms)
+
+
+def given(slot: Relative, candidates: Hypotheses, table: FloatArray, noise_share: FloatArray) -> Learnt:
+    """Parameters that are known: one correlation for each user, ``table`` (user, distance), and its η (user,)."""
+    from wirelessagent.repairing.core import evidence_kernel
+
+    users = slot.level.size
+    own = dataclasses.replace(candidates, table=np.ascontiguousarray(table.T), noise=noise_share, families=1)
+    forms = np.empty((users, 5, users))
+    evidence_kernel.weigh_users(slot.gain, slot.known, own.place, own.table, own.noise, slot.noise_share, forms)
+    return Learnt(candidates=own, chance=np.eye(users), forms=forms)
 
 
 def estimate(slot: Relative, learnt: Learnt, *, tested: bool) -> FloatArray:

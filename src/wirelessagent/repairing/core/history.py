@@ -12,7 +12,7 @@ from wirelessagent.repairing.core import fit
 from wirelessagent.repairing.core.hypotheses import Hypotheses, hypotheses
 
 RECENT = 16
-"""Slots from which correlations are learnt, the last ones."""
+"""Slots from which correlations over time are learnt, the last ones."""
 LARGEST_SHARE = 0.9
 
 
@@ -88,12 +88,12 @@ class OverFrequency:
     filled: FloatArray
 
 
-def over_frequency(seen: History, observation: ChannelObservation) -> OverFrequency:
-    """Kriging on each of the last slots, each user's correlation the mean over them."""
-    recent = seen.gain[-RECENT:].swapaxes(0, 1)
+def over_frequency(seen: History, observation: ChannelObservation, *, most: int = RECENT) -> OverFrequency:
+    """Kriging on each of the last slots, ``most`` of them, each user's correlation the mean over them."""
+    recent = seen.gain[-most:].swapaxes(0, 1)
     users, slots, subcarriers = recent.shape
     known_noise = observation.noise_variance is not None
-    noise = seen.noise[-RECENT:].swapaxes(0, 1)
+    noise = seen.noise[-most:].swapaxes(0, 1)
     rows = ChannelObservation(
         gain=recent.reshape(-1, subcarriers),
         noise_variance=np.where(np.isnan(recent), np.nan, noise).reshape(-1, subcarriers) if known_noise else None,
