@@ -20,7 +20,7 @@ def bins_of(age: FloatArray) -> IntArray:
     """The bin of each slot for its age in steps, 1 or more, the last slot's first.
 
     >>> bins_of(np.arange(8.0, 0.0, -1.0))
-    array([3, 3, 3, 2, 2, 1, 1, 0])
+    array([4, 3, 3, 3, 2, 2, 1, 0])
     """
     result = np.empty(age.size, dtype=np.int64)
     current, begin = -1, 0.0

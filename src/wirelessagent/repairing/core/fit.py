@@ -149,6 +149,9 @@ def with_partners(slot: Relative, learnt: Learnt, surprise: FloatArray, found: F
     if not correlation.any():
         return
     table, noise, level = mean_hypothesis(slot, learnt)
+    shared = (learnt.chance / (1.0 + learnt.forms[:, 0])).sum(axis=1)
+    offset = (learnt.chance * learnt.forms[:, 1] / (1.0 + learnt.forms[:, 0])).sum(axis=1)
     partners_kernel.krige_with_partners(
-        slot.gain, slot.known, slot.seen, slot.noise, learnt.candidates.place, table, noise, level, correlation, found
-    )
+        slot.gain, slot.known, slot.seen, slot.noise, learnt.candidates.place, table, noise, level, offset, shared,
+        correlation, found,
+    )  # fmt: skip

@@ -1,9 +1,9 @@
 """Estimates that rest on correlated users as well: kriging over users and frequency.
 
 The correlation of two gains is the product of that of their users, u, and that over frequency, so one estimate weighs
-the user's own nearest gains and those of the users that are correlated with it most, in units of their levels. Each
-user's level is unknown by itself: second moments have 1 added between gains of the same user. Formulas are those of
-:mod:`.kriging_kernel`, with the mean of the user's hypotheses in their place.
+the user's own nearest gains and those of the users that are correlated with it most, in units of their levels, about
+what each user's gains say of its level, o with the variance s. Formulas are those of :mod:`.kriging_kernel`, with the
+mean of the user's hypotheses in their place.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.repairing.core.evidence_kernel import JITTER
 
-OWN, PARTNERS, THEIRS = 12, 6, 3
+OWN, PARTNERS, THEIRS = 12, 8, 3
 """Gains of the user itself, other users, and gains of each that an estimate rests on at most."""
 LEAST = 0.05
 """Correlation of users below which they tell each other nothing."""
@@ -84,6 +84,8 @@ def krige_with_partners(
     table: FloatArray,
     noise: FloatArray,
     level: FloatArray,
+    offset: FloatArray,
+    shared: FloatArray,
     correlation: FloatArray,
     found: FloatArray,
 ) -> None:
@@ -92,8 +94,8 @@ def krige_with_partners(
     Args:
         gain, known, seen, noise_variance: see :mod:`.relative_kernel`, the latter NaN where unknown.
         place: of each subcarrier, shape (subcarrier,).
-        table, noise, level: |ρ|² at each distance, η and the level, the means of a user's hypotheses, shapes
-            (user, distance), (user,) and (user,).
+        table, noise, level, offset, shared: |ρ|² at each distance, η, the level a, o and s, the means of a user's
+            hypotheses, shapes (user, distance) and (user,) each.
         correlation: of the gains of each two users, shape (user, user).
         found: shape (user, subcarrier, 3).
     """
@@ -116,18 +118,20 @@ def krige_with_partners(
                 for j in range(i + 1):
                     b, there = chosen[j]
                     same = 1.0 if a == b else 0.0
-                    matrix[i, j] = max(correlation[a, b], same) * table[k, abs(place[at] - place[there])] + same
+                    alike = max(correlation[a, b], same)
+                    matrix[i, j] = alike * table[k, abs(place[at] - place[there])] + same * shared[a]
                 matrix[i, i] += noise[a] + JITTER
                 same = 1.0 if a == k else 0.0
-                towards[i] = max(correlation[a, k], same) * table[k, abs(place[at] - place[n])] + same
+                alike = max(correlation[a, k], same)
+                towards[i] = alike * table[k, abs(place[at] - place[n])] + same * shared[k]
                 side[i] = towards[i]
             if not solve(matrix, size, side):
                 continue
-            estimate, error, known_part = 0.0, table[k, 0] + 1.0, 0.0
+            estimate, error, known_part = offset[k], table[k, 0] + shared[k], 0.0
             for i in range(size):
                 a, at = chosen[i]
                 own = noise[a] * level[a] * gain[a, at] if np.isnan(noise_variance[a, at]) else noise_variance[a, at]
-                estimate += side[i] * gain[a, at]
+                estimate += side[i] * (gain[a, at] - offset[a])
                 error -= side[i] * (towards[i] + noise[a] * side[i])
                 known_part += side[i] * side[i] * own
             error = max(error, 1e-13)
