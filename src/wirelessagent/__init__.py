@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from wirelessagent.model.decision import Bracket, Decision, Prices
     from wirelessagent.model.errors import InputError, WirelessAgentError
     from wirelessagent.model.estimate import ChannelEstimate
+    from wirelessagent.model.fading_posterior import FadingPosterior
     from wirelessagent.model.metrics import LinkMetrics, link_metrics
     from wirelessagent.model.objective import Objective
     from wirelessagent.model.observation import ChannelObservation
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     from wirelessagent.model.problem import Problem
     from wirelessagent.model.scene import Scene
     from wirelessagent.operations.chain_run import ask
+    from wirelessagent.repairing.kriging import Kriging
     from wirelessagent.repairing.repairer import Repairer
     from wirelessagent.sensing import loss
     from wirelessagent.sensing.files import read
@@ -55,9 +57,11 @@ _HOMES = {
     "ChannelObservation": "model.observation",
     "ChannelSource": "sensing.source",
     "Decision": "model.decision",
+    "FadingPosterior": "model.fading_posterior",
     "FileBaseStation": "acting.file",
     "GammaPosterior": "model.posterior",
     "InputError": "model.errors",
+    "Kriging": "repairing.kriging",
     "LinkMetrics": "model.metrics",
     "Method": "deciding.method",
     "Objective": "model.objective",
@@ -89,7 +93,7 @@ _HOMES = {
 
 __all__ = [  # kept in the order of _HOMES; a test compares the two
     "BaseStation", "BatchDecision", "Bracket", "Cell", "ChannelEstimate", "ChannelObservation", "ChannelSource",
-    "Decision", "FileBaseStation", "GammaPosterior", "InputError", "LinkMetrics", "Method", "Objective", "Outcome",
+    "Decision", "FadingPosterior", "FileBaseStation", "GammaPosterior", "InputError", "Kriging", "LinkMetrics", "Method", "Objective", "Outcome",
     "Posterior", "Prices", "Problem", "Repairer", "Scene", "SimulatedBaseStation", "WirelessAgentError", "ask",
     "compare", "decide", "decide_batch", "kernel", "link_metrics", "loss", "perfect", "phrases", "plugins", "read",
     "repair", "report", "simulate", "testing", "units",

@@ -202,8 +202,8 @@ def test_learning_takes_over_where_the_profile_is_of_no_kind() -> None:
         for i, repairer in enumerate((LearnedCovariance(), Predictor(), Kriging())):
             errors[i] += np.sum((repairer.repair(seen).gain - truth)[lost[-1]] ** 2)
     learned, predicted, kriged = np.sqrt(errors)
-    assert learned < 0.5 * kriged
-    assert predicted < 0.5 * kriged
+    assert learned < 0.6 * kriged
+    assert predicted < 0.6 * kriged
 
 
 def test_held_parameters_repair_the_next_slot_as_well() -> None:
