@@ -93,10 +93,10 @@ _HOMES = {
 
 __all__ = [  # kept in the order of _HOMES; a test compares the two
     "BaseStation", "BatchDecision", "Bracket", "Cell", "ChannelEstimate", "ChannelObservation", "ChannelSource",
-    "Decision", "FadingPosterior", "FileBaseStation", "GammaPosterior", "InputError", "Kriging", "LinkMetrics", "Method", "Objective", "Outcome",
-    "Posterior", "Prices", "Problem", "Repairer", "Scene", "SimulatedBaseStation", "WirelessAgentError", "ask",
-    "compare", "decide", "decide_batch", "kernel", "link_metrics", "loss", "perfect", "phrases", "plugins", "read",
-    "repair", "report", "simulate", "testing", "units",
+    "Decision", "FadingPosterior", "FileBaseStation", "GammaPosterior", "InputError", "Kriging", "LinkMetrics",
+    "Method", "Objective", "Outcome", "Posterior", "Prices", "Problem", "Repairer", "Scene", "SimulatedBaseStation",
+    "WirelessAgentError", "ask", "compare", "decide", "decide_batch", "kernel", "link_metrics", "loss", "perfect",
+    "phrases", "plugins", "read", "repair", "report", "simulate", "testing", "units",
 ]  # fmt: skip
 
 
