@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from wirelessagent.deciding.core.ask_kernel import EFFICIENCY, LEVEL, SUM, Ask
+from wirelessagent.deciding.core.ask_kernel import EFFICIENCY, LEVEL, POWER, SUM, Ask
 from wirelessagent.deciding.core.bundle_kernel import LOW
 from wirelessagent.deciding.core.climb_point_kernel import FARTHEST
 from wirelessagent.deciding.core.demand_kernel import kink_of
-from wirelessagent.deciding.core.prices_kernel import climb
+from wirelessagent.deciding.core.prices_kernel import FLAT, climb
 from wirelessagent.deciding.core.sets_kernel import Channel
 from wirelessagent.deciding.core.settle_kernel import set_level
 from wirelessagent.deciding.core.start_kernel import equal_price, even_split, typical_snr
@@ -20,6 +20,9 @@ COLD = np.array([0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 5e-6])
 PROMISED = np.array([0.1, 0.02, 5e-3, 1.5e-3, 1e-4, 5e-6])
 WARM = np.array([2e-2, 5e-3, 1.5e-3, 1e-4, 5e-6])
 """Temperatures of a climb from afar, from a start for promises alone, and from the slot before."""
+LOOSE = 0.1
+"""How roughly prices for promises alone settle among many pairs from the slot before, instead of ``FLAT``: they hardly
+move in a slot, and most of the way is foreseen where the temperature falls."""
 FEW, COLDEST = 300, 2
 """Pairs of users and groups up to which the last temperatures are worth their time, and how many those are."""
 
@@ -64,16 +67,18 @@ def find_prices(
         kink = kink_of(rows[k])
         if not warm and not np.isnan(kink):
             point[k] = max(point[k], kink) if rows[k, LOW] > 0.0 else kink
-    temperatures = WARM if warm else COLD if elastic else PROMISED
+    temperatures, flat = WARM if warm else COLD if elastic else PROMISED, FLAT
     if users * (ask.start.size - 1) > FEW:
         temperatures = temperatures[:-COLDEST]
-    dual, iterations = climb(groups, ask, rows, temperatures, point)
+        if warm and ask.goal == POWER:
+            flat = LOOSE
+    dual, iterations = climb(groups, ask, rows, temperatures, flat, point)
     log_mu = float(point[users])
     for k in range(users):
         log_price[k] = point[k] - log_mu
     price = np.exp(log_price)
     for g in range(ask.start.size - 1):
-        write_terms(groups, g, log_price, price, term[g])
+        write_terms(groups.pair, ask.start[g], ask.start[g + 1], log_price, price, term, g)
     if ask.goal == LEVEL:
         log_mu = np.log(dual) if dual > 0.0 else -FARTHEST
     return dual, log_mu, iterations

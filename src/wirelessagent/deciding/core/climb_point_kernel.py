@@ -13,7 +13,7 @@ from wirelessagent.deciding.core.ask_kernel import EFFICIENCY, LEVEL, POWER, SUM
 from wirelessagent.deciding.core.bundle_kernel import HIGH, LOW, REFERENCE, SLOPE, utility
 from wirelessagent.deciding.core.demand_kernel import demand, kink_of, level_bound
 from wirelessagent.deciding.core.settle_kernel import set_level
-from wirelessagent.deciding.core.supply_kernel import SMALL, Groups, supply
+from wirelessagent.deciding.core.supply_kernel import Groups, supply
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 
@@ -31,13 +31,14 @@ class Path(NamedTuple):
     Attributes:
         kink: ln w at which a straight utility's demand jumps, NaN for none, shape (user,).
         figures: the temperature, relative to what a group is worth, that worth, the least ln μ, the efficiency q,
-            and the highest ln λ.
-        free, step, factor: workspace, shapes (user + 1,), (user + 1,) and (user + 1, user + 1).
+            the highest ln λ, and what a step must promise.
+        free, slope, step, factor: workspace, shapes (user + 1,) thrice and (user + 1, user + 1).
     """
 
     kink: FloatArray
     figures: FloatArray
     free: IntArray
+    slope: FloatArray
     step: FloatArray
     factor: FloatArray
 
@@ -66,7 +67,7 @@ class State(NamedTuple):
     figures: FloatArray
 
 
-RELATIVE, MEAN, LEAST, EFFICIENT, DEAREST = 0, 1, 2, 3, 4
+RELATIVE, MEAN, LEAST, EFFICIENT, DEAREST, FLATNESS = 0, 1, 2, 3, 4, 5
 VALUE, SMOOTH, EXACT, SHARED, PAID = 0, 1, 2, 3, 4
 
 
@@ -80,7 +81,9 @@ def new_path(rows: FloatArray, log_price: FloatArray) -> Path:
         if abs(log_price[k] - kink[k]) < NEAR:
             log_price[k] = kink[k]
     size = users + 1
-    return Path(kink, np.zeros(5), np.empty(size, dtype=np.int64), np.empty(size), np.empty((size, size)))
+    return Path(
+        kink, np.zeros(6), np.empty(size, dtype=np.int64), np.empty(size), np.empty(size), np.empty((size, size))
+    )  # fmt: skip
 
 
 @kernel
@@ -108,8 +111,7 @@ def evaluate(groups: Groups, ask: Ask, rows: FloatArray, path: Path, at: State) 
     log_lambda = np.minimum(np.maximum(at.log_price[:users] - log_mu, -FARTHEST), FARTHEST)
     relative = path.figures[RELATIVE]
     smooth, exact, shared = supply(
-        groups, log_lambda, relative * path.figures[MEAN] / mu, SMALL * relative, at.supplied, at.rising, at.cooling,
-        at.hessian,
+        groups, log_lambda, relative * path.figures[MEAN] / mu, at.supplied, at.rising, at.cooling, at.hessian,
     )  # fmt: skip
     worth = mu * (smooth + budget_of(ask))
     level = 0.0

@@ -26,6 +26,7 @@ from wirelessagent.deciding.core.climb_point_kernel import (
     EFFICIENT,
     EXACT,
     FARTHEST,
+    FLATNESS,
     LEAST,
     MEAN,
     PAID,
@@ -60,6 +61,9 @@ SHORT, LONG = 1.0, 8.0
 """Longest step of a logarithm at first, and after many that were too short."""
 FLAT = 1e-2
 """What a step must promise, in units of the temperature and of the value of all groups."""
+LEAST_SHARE, NEARLY, SHARED_AT = 1e-2, 0.999, 5e-3
+"""Supply in units of demand between which it is taken to grow exponentially, and the least temperature at which it is:
+below, few users share a group."""
 ENOUGH = 40.0
 """For the level ln λ next to that of the budget in W, beyond which a common factor changes nothing."""
 LAST, EXACTLY = 10, 1e-9
@@ -69,13 +73,34 @@ ROUGH = 0.1
 
 
 @kernel
-def solve_step(path: Path, at: State) -> float:
+def write_slope(path: Path, at: State, logarithmic: bool) -> None:
+    """Write the gradient, or what leads to a better step from it for users who are new to the groups that they want.
+
+    Supply s of theirs grows exponentially with the price rather than linearly, as long as other users own nearly all of
+    those groups. The step that makes up for a demand d that is fixed is then (ln d − ln s) s/s′ instead of (d − s)/s′.
+    """
+    users = at.supplied.size
+    path.slope[:] = at.gradient
+    for k in range(users):
+        if logarithmic and at.gradient[k] < 0.0 and at.falling[k] == 0.0:
+            share = at.supplied[k] / (at.supplied[k] - at.gradient[k] * np.exp(-at.log_price[k]))
+            if LEAST_SHARE < share < NEARLY:
+                path.slope[k] *= share * np.log(share) / (share - 1.0)
+
+
+@kernel
+def solve_step(path: Path, at: State, logarithmic: bool) -> float:
     """Write Newton's step; returns the fall of F that it promises, twice."""
     size = 0
     for k in range(at.free.size):
         if at.free[k]:
             path.free[size] = k
             size += 1
+    write_slope(path, at, logarithmic)
+    newton_step(at.hessian, path.slope, path.free, size, path.factor, path.step)
+    promised = -(path.step * at.gradient).sum()
+    if promised > 0.0 or not logarithmic:
+        return promised
     return newton_step(at.hessian, at.gradient, path.free, size, path.factor, path.step)
 
 
@@ -130,6 +155,8 @@ def descend(groups: Groups, ask: Ask, rows: FloatArray, path: Path, here: State,
     scale = 1.0
     for trial in range(TRIALS):
         apart = trial == 1
+        if apart and np.abs(path.step).max() <= 0.5 * longest:  # nothing was shortened
+            continue
         if trial == CAREFUL and (ask.goal == LEVEL or np.abs(path.step).max() > longest):
             path.step[:] *= min(1.0, longest / np.abs(path.step).max())
             scale = first_kink(path, here, longest, apart)
@@ -150,9 +177,9 @@ def settle_at(groups: Groups, ask: Ask, rows: FloatArray, path: Path, here: Stat
     swapped = False
     steps = 0
     while steps < STEPS:
-        promised = solve_step(path, here)
+        promised = solve_step(path, here, path.figures[RELATIVE] >= SHARED_AT)
         mu = np.exp(here.log_price[-1])
-        enough = FLAT * path.figures[RELATIVE] * mu * abs(here.figures[SMOOTH] + budget_of(ask))
+        enough = path.figures[FLATNESS] * path.figures[RELATIVE] * mu * abs(here.figures[SMOOTH] + budget_of(ask))
         surplus = surplus_of(ask, path, here, SHARED)
         if promised <= max(enough, ROUGH * abs(surplus)):
             if abs(surplus) <= enough:
@@ -187,23 +214,24 @@ def cool(path: Path, here: State, relative: float, worth: float) -> None:
         here.hessian[users, k] += (ratio - 1.0) * here.rising[k]
         here.hessian[users, users] -= (ratio - 1.0) * here.rising[k]
     here.gradient[:] += (ratio - 1.0) * here.cooling
-    solve_step(path, here)
+    solve_step(path, here, False)  # the gradient is not that of today's supply
     walk(path, here, here, SHORT, False, 1.0)
 
 
 @kernel
 def climb(
-    groups: Groups, ask: Ask, rows: FloatArray, temperatures: FloatArray, log_price: FloatArray
+    groups: Groups, ask: Ask, rows: FloatArray, temperatures: FloatArray, flat: float, log_price: FloatArray
 ) -> tuple[float, int]:
     """Minimise F from ``log_price``, ln w of each user and ln μ, shape (user + 1,), overwritten with the best found.
 
     Returns F there (for the level its bound, for the efficiency q) and the Newton steps. Temperatures are in units of
-    the mean price of a group. ``rows`` is overwritten for the level.
+    the mean price of a group, and ``flat`` is what a step must promise at each, next to that (:data:`FLAT`). ``rows``
+    is overwritten for the level.
     """
     users = rows.shape[0]
     here, there, path = new_state(users), new_state(users), new_path(rows, log_price)
     here.log_price[:] = log_price
-    path.figures[LEAST] = least_price(ask, rows)
+    path.figures[FLATNESS], path.figures[LEAST] = flat, least_price(ask, rows)
     path.figures[DEAREST] = float(np.log(ask.budget_w)) + ENOUGH if ask.goal == LEVEL else FARTHEST
     here.log_price[users] = max(here.log_price[users], path.figures[LEAST])
     here.figures[EXACT] = worth_w(groups, log_price[:users] - log_price[users])

@@ -15,6 +15,38 @@ NEAREST = 0.02
 
 
 @kernel
+def full_factor(snr: FloatArray, nats: FloatArray, owner: IntArray, budget_w: float) -> float:
+    """The factor on ``nats`` (user,) that takes the budget if all owned subcarriers carry something and none is full.
+
+    A user whose m subcarriers have the SNR per watt a then needs m e^((factor·nats − Σ ln a)/m) − Σ 1/a. Newton's
+    method on the logarithm of the sum of the first parts, which is convex, comes down from where one of them takes all.
+    """
+    users = nats.size
+    size, log_snr, total = np.zeros(users), np.zeros(users), budget_w
+    for n in range(owner.size):
+        if snr[n] > 0.0:
+            size[owner[n]] += 1.0
+            log_snr[owner[n]] += np.log(snr[n])
+            total += 1.0 / snr[n]
+    factor, goal = np.inf, np.log(total) - 0.5 * ACCURACY * budget_w / total
+    for k in range(users):
+        if nats[k] > 0.0 and size[k] > 0.0:
+            factor = min(factor, (size[k] * (goal - np.log(size[k])) + log_snr[k]) / nats[k])
+    for _ in range(STEPS):
+        needed, rising = 0.0, 0.0
+        for k in range(users):
+            if nats[k] > 0.0 and size[k] > 0.0:
+                part = size[k] * np.exp((factor * nats[k] - log_snr[k]) / size[k])
+                needed += part
+                rising += part * nats[k] / size[k]
+        step = (np.log(needed) - goal) * needed / rising
+        factor -= step
+        if not abs(step) > 1e-9 * abs(factor):
+            break
+    return factor
+
+
+@kernel
 def carried_scaling(
     snr_per_w: FloatArray,
     cap_w: FloatArray,
@@ -36,7 +68,9 @@ def carried_scaling(
             snr[n] = snr_per_w[owner[n], n]
             ceiling[n] = min(np.log1p(cap_w[n] * snr[n]), max_nats)
     power_w, log_price = np.empty(owner.size), np.empty(nats.size)
-    low, high, factor = min(1.0, budget_w / max(spent_w, 1e-300)), most, 1.0
+    low, high = min(1.0, budget_w / max(spent_w, 1e-300)), most
+    factor = full_factor(snr, nats, owner, budget_w)
+    factor = factor if low < factor < high else 1.0
     for _ in range(STEPS):
         needed_w = owned_power(snr, ceiling, factor * nats, owner, power_w, log_price)
         excess = np.log(max(needed_w, 1e-300) / budget_w)
