@@ -98,7 +98,7 @@ def _forget_afterwards() -> Iterator[None]:
 
 
 BUILT_IN = {
-    "channel_source": {"rayleigh", "file"},
+    "channel_source": {"rayleigh", "cqi", "file"},
     "repairer": {"user_mean", "nncf", "nncf_paper", "linear", "kriging", "learned_covariance", "predictor"},
     "objective": {"max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate"},
     "method": {"dual", "greedy", "paper", "equal_power", "round_robin"},
