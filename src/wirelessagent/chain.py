@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -104,6 +105,9 @@ def decide(
 ) -> Decision:
     """The allocation for ``problem`` on the estimated channel, with its certificate.
 
+    With an outage probability the rates are promised, and the certificate holds, under the estimate's posterior
+    (:mod:`wirelessagent.deciding.outage`), whatever the method.
+
     ``after`` is an earlier decision for the same users, such as the previous slot's, whose prices the search starts
     from. It changes nothing where nothing is searched (the most rate or efficiency without further limits is a closed
     form) or where the earlier one found no prices (``after.prices`` is None).
@@ -117,8 +121,19 @@ def decide(
     resolved = resolve(problem).for_users(estimate.user_names)
     chosen = _chosen("method", default_method(resolved) if method is None else method, options, Method)
     _check(resolved, type(chosen))
+    if after is not None:
+        _check_start(chosen, estimate, after)
+    if resolved.outage_probability is not None and "outage_probability" not in chosen.constraints:
+        from wirelessagent.deciding.outage import decide_with_outage
+
+        return decide_with_outage(chosen, estimate, resolved, cell, after)
     if after is None:
         return chosen.solve(estimate, resolved, cell)
+    return cast(Decision, cast(Any, chosen).solve(estimate, resolved, cell, after=after))
+
+
+def _check_start(chosen: Method, estimate: ChannelEstimate, after: Decision) -> None:
+    """Refuse an earlier decision that is no start for the method on this estimate."""
     if not chosen.warm_starts:
         raise InputError(f"method {chosen.name!r} does not start from an earlier decision: leave out after=…")
     if after.rate_bps.size != estimate.num_users:
@@ -126,7 +141,6 @@ def decide(
             f"after=… is a decision for {after.rate_bps.size} users, and the estimate has {estimate.num_users}: "
             "prices of other users are no start, leave it out"
         )
-    return cast(Decision, cast(Any, chosen).solve(estimate, resolved, cell, after=after))
 
 
 def decide_batch(
@@ -199,7 +213,12 @@ def _check(problem: Problem, method: type[Method]) -> None:
 
 
 def _refusal(problem: Problem, method: type[Method]) -> str:
-    """Why a method does not solve such problems; empty if it does."""
+    """Why a method does not solve such problems; empty if it does.
+
+    An outage probability is no reason: for a method that knows of none, :func:`decide` takes care of it.
+    """
+    if problem.outage_probability is not None and "outage_probability" not in method.constraints:
+        problem = dataclasses.replace(problem, outage_probability=None)
     try:
         method.objective_of(problem)
     except UnsupportedProblemError as refusal:

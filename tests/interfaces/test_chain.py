@@ -17,10 +17,10 @@ from wirelessagent.plugins import Plugin
 
 @dataclass(frozen=True, kw_only=True)
 class Needy(wa.Method):
-    """A method with an option that has no default, and that honours an outage probability."""
+    """A method with an option that has no default, and that honours weights."""
 
     name = "needy"
-    constraints = frozenset({"outage_probability"})
+    constraints = frozenset({"weights"})
 
     depth: int
 
@@ -32,8 +32,8 @@ def test_a_refusal_names_a_method_that_needs_options(monkeypatch: pytest.MonkeyP
     needy = Plugin(kind="method", name="needy", package="some-package", target="some:Needy", cls=Needy)
     installed = [*plugins.plugins("method"), needy]
     monkeypatch.setattr(plugins, "plugins", lambda kind: installed)
-    with pytest.raises(UnsupportedProblemError, match=r"does not honour outage_probability.*\(.*needy\)"):
-        chain.check_solvable(wa.Problem("max_rate", outage_probability=0.1))
+    with pytest.raises(UnsupportedProblemError, match=r"does not honour weights.*\(.*needy\)"):
+        chain.check_solvable(wa.Problem("max_rate", weights=[1.0, 2.0]), "round_robin")
 
 
 def test_decide_names_the_methods_that_solve_what_one_refuses() -> None:

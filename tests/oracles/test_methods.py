@@ -401,8 +401,8 @@ def test_equal_power_radiates_what_it_is_told() -> None:
 
 def test_what_is_not_honoured_is_refused() -> None:
     estimate = known(rayleigh_gain(2, 4, seed=2)[0])
-    with pytest.raises(UnsupportedProblemError, match="does not honour outage_probability: leave it out or"):
-        wa.decide(estimate, wa.Problem("max_rate", outage_probability=0.1))
+    with pytest.raises(UnsupportedProblemError, match="does not honour weights: leave it out or"):
+        wa.decide(estimate, wa.Problem("max_rate", weights=[1.0, 2.0]), method="round_robin")
     with pytest.raises(UnsupportedProblemError, match="min_rate_bps, weights: leave them out or"):
         wa.decide(estimate, wa.Problem("max_rate", weights=[1.0, 2.0], min_rate_bps=1.0), method="paper_bisection")
     with pytest.raises(InputError, match="shape"):

@@ -12,7 +12,7 @@ from wirelessagent.model.metrics import LinkMetrics, jain_index, metrics_of_rate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.phrases import phrases
-from wirelessagent.model.units import human
+from wirelessagent.model.units import human, reliability
 
 _FIGURES = (
     ("Sum rate", "sum_rate_bps", "bit/s"),
@@ -30,7 +30,8 @@ class Report:
 
     Attributes:
         decision: what was decided.
-        predicted: metrics on the estimated channel; its rates are the promised ones.
+        predicted: metrics on the estimated channel. Its rates are the promised ones; with an outage probability they
+            are the mean ones, and its goodput is what is expected of the promises that are kept.
         achieved: metrics on the true channel; None where it is not known.
         missed_users: numbers of the users whose true rate fell short of the promise, counted from 0.
     """
@@ -50,12 +51,23 @@ class Report:
             )
             for label, name, unit in _FIGURES
         ]
+        rows = [*self._promises(), *rows]
         name = name_of_figure(self.decision)
         if not name:
             return rows
         achieved = "–" if self.achieved is None else self._worth(self.achieved)
         label = name[:1].upper() + name[1:] if name.isascii() else name  # a capital α reads as an A
         return [(label, self._worth(self.predicted), achieved), *rows]
+
+    def _promises(self) -> list[tuple[str, str, str]]:
+        """What is promised with which probability, beside how many promises were kept; nothing without an outage."""
+        decision = self.decision
+        if decision.problem.outage_probability is None:
+            return []
+        served = decision.rate_bps > 0
+        kept = f"{int(served.sum()) - len(self.missed_users)} of {int(served.sum())} kept"
+        label = f"Promised at {reliability(decision.problem.outage_probability)}"
+        return [(label, human(float(decision.rate_bps.sum()), "bit/s"), "–" if self.achieved is None else kept)]
 
     def _worth(self, metrics: LinkMetrics) -> str:
         """The objective's value for these rates and power."""
@@ -109,9 +121,12 @@ def name_of_figure(decision: Decision, language: str = "en") -> str:
 
 def predicted_metrics(decision: Decision) -> LinkMetrics:
     """The decision's metrics on the channel that it was made for."""
+    judged = decision.expected_rate_bps.size > 0
+    rate = decision.expected_rate_bps if judged else decision.rate_bps
+    kept = 1.0 - decision.outage if judged else 1.0
     metrics = metrics_of_rates(
-        decision.rate_bps,
-        goodput_bps=float(decision.rate_bps.sum()),
+        rate,
+        goodput_bps=float((kept * decision.rate_bps).sum()),
         power_w=decision.total_power_w,
         num_subcarriers=decision.owner.size,
         cell=decision.cell,

@@ -13,12 +13,17 @@ from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
-from wirelessagent.model.units import db, human, percent
+from wirelessagent.model.units import db, human, percent, reliability
 
 _ENGLISH: Mapping[str, str] = {
     "allocation": "{used} of {total} subcarriers serve {served} of {users} users with {power} of the {budget} allowed.",
     "optimal": "This is the optimum on the estimated channel: the bound proves that nothing does better.",
     "gap": "Nothing on the estimated channel does better than {bound}; this decision is within {gap} of that.",
+    "outage_optimal": "No promises at this probability do better, by what is known here: the bound proves it.",
+    "outage_gap": "No promises at this probability, by what is known of the channel, do better than {bound}; this "
+    "decision is within {gap} of that, part of which is what not knowing costs.",
+    "outage": "Each promised rate is kept with a probability of {sure}, by the joint posterior of the gains that it "
+    "rests on; {promised} are promised in all, and {mean} are expected.",
     "times": "Nothing on the estimated channel does better than {bound}; this decision is {times:.3g} times that.",
     "zero_bound": "A value of zero is not ruled out, so how far this is from the best is not known.",
     "no_bound": "The method {method} gives no bound, so how far this is from the best is not known.",
@@ -56,6 +61,11 @@ _CHINESE: Mapping[str, str] = {
     "服务 {users} 个用户中的 {served} 个，功率 {power}（上限 {budget}）。",
     "optimal": "这是估计信道上的最优解：对偶界证明没有更好的分配。",
     "gap": "在估计信道上任何分配都不会优于 {bound}；本方案与该界相差不超过 {gap}。",
+    "outage_optimal": "在对信道已有的了解下，以此概率作出的任何承诺都不会更优：对偶界已证明。",
+    "outage_gap": "在对信道已有的了解下，以此概率作出的任何承诺都不会优于 {bound}；本方案与该界相差不超过 {gap}，"
+    "其中一部分是信道不确定的代价。",
+    "outage": "按所依据增益的联合后验分布，每个承诺速率以 {sure} 的概率兑现；"
+    "承诺总和为 {promised}，期望总和为 {mean}。",
     "times": "在估计信道上任何分配都不会优于 {bound}；本方案是该界的 {times:.3g} 倍。",
     "zero_bound": "尚不能排除零值，因此与最优解的差距未知。",
     "no_bound": "方法 {method} 不提供界，因此与最优解的差距未知。",
@@ -98,6 +108,7 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
         return [words["no_promise"]]
     figure = name_of_figure(decision, language)
     said = [_allocation(words, decision), *_goal(words, decision, objective, figure), _certificate(words, decision)]
+    said += _promised_at(words, decision)
     said += _groups(words, decision, estimate, figure)
     said += [decision.reason] if decision.reason and not cannot_be_served(decision) else []
     said += _prices(words, decision, objective, figure)
@@ -123,14 +134,26 @@ def _allocation(words: Mapping[str, str], decision: Decision) -> str:
 def _certificate(words: Mapping[str, str], decision: Decision) -> str:
     if np.isnan(decision.gap):
         return words["no_bound"].format(method=decision.method)
+    outage = "outage_" if decision.expected_rate_bps.size else ""
     if decision.status == "optimal" and decision.gap <= OPTIMAL_GAP:
-        return words["optimal"]
+        return words[f"{outage}optimal"]
     if np.isinf(decision.gap):
         return words["zero_bound"].format(method=decision.method)
     bound = human(decision.bound, decision.unit)
     if decision.gap > 1.0 and decision.value * decision.bound > 0:  # percents beyond 100 tell nothing
         return words["times"].format(bound=bound, times=decision.value / decision.bound)
-    return words["gap"].format(bound=bound, gap=percent(decision.gap))
+    return words[f"{outage}gap"].format(bound=bound, gap=percent(decision.gap))
+
+
+def _promised_at(words: Mapping[str, str], decision: Decision) -> list[str]:
+    """With which probability rates are promised, and what they are beside the mean ones."""
+    outage = decision.problem.outage_probability
+    if outage is None or not decision.expected_rate_bps.size:
+        return []
+    mean, promised = float(decision.expected_rate_bps.sum()), float(decision.rate_bps.sum())
+    return [
+        words["outage"].format(sure=reliability(outage), mean=human(mean, "bit/s"), promised=human(promised, "bit/s"))
+    ]
 
 
 def _groups(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate, figure: str) -> list[str]:

@@ -52,11 +52,14 @@ class Decision:
     Attributes:
         owner: the user of each subcarrier, −1 for nobody, shape (subcarrier,).
         power_w: radiated power on each subcarrier, shape (subcarrier,).
-        rate_bps: each user's predicted rate on the estimated channel, shape (user,); this is what is promised.
+        rate_bps: each user's predicted rate on the estimated channel, shape (user,); this is what is promised. With an
+            outage probability it is the rate that the true one stays below with that probability at most.
         status: "optimal" (gap ≤ 1e-9 or proven), "feasible", "infeasible" (with proof) or "undecided" (nothing
             feasible found and no proof that nothing exists).
-        value: the objective's value on the estimated channel; NaN where nothing feasible was found.
-        bound: the best value that any allocation can reach on the estimated channel; NaN if the method has none.
+        value: the objective's value on the estimated channel, or at the rates that are promised with an outage
+            probability; NaN where nothing feasible was found.
+        bound: the best value that any allocation can reach on the estimated channel, or with promises of that outage
+            probability under the estimate's posterior; NaN if the method has none.
         gap: \\|value − bound\\| / \\|bound\\|; 0/0 is 0; NaN without a bound.
         unit: the unit of ``value`` and ``bound``.
         reason: one sentence on why it is infeasible or undecided, or on what else to know of it; empty otherwise.
@@ -69,6 +72,10 @@ class Decision:
         restarts: restarts of a local search done by the method: given to it as its option ``restarts``, they make the
             same decision again where a deadline ended it.
         prices: where the search ended, for the next slot's to start from; None if the method does not search prices.
+        expected_rate_bps: each user's mean rate under the estimate's posterior, shape (user,), where an outage
+            probability is accepted; empty otherwise.
+        outage: the probability that each user's true rate is below ``rate_bps`` under that posterior, by draws that the
+            decision did not see, shape (user,); empty likewise.
         method: registered name of the method.
         problem: the problem solved, with its objective resolved.
         cell: the cell it was solved for.
@@ -95,9 +102,11 @@ class Decision:
     iterations: int = 0
     restarts: int = 0
     prices: Prices | None = None
+    expected_rate_bps: FloatArray = field(default_factory=lambda: np.empty(0))
+    outage: FloatArray = field(default_factory=lambda: np.empty(0))
 
     def __post_init__(self) -> None:
-        for name in ("owner", "power_w", "rate_bps", "price_of_rate"):
+        for name in ("owner", "power_w", "rate_bps", "price_of_rate", "expected_rate_bps", "outage"):
             object.__setattr__(self, name, frozen(getattr(self, name)))
 
     @property

@@ -13,12 +13,13 @@ and Balakrishnan, *Continuous Univariate Distributions* (1994), section 20.12 (L
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.even_draws import normal_draws
 from wirelessagent.model.posterior import Posterior
 
 _NODES = 513
@@ -29,19 +30,31 @@ _RULE = 24
 """Quantiles from which expectations are taken."""
 
 
+class ErrorCorrelation(Protocol):
+    """How the errors e of one user's entries are correlated over frequency."""
+
+    def __call__(self) -> FloatArray:
+        """R with R Rᵀ the correlation, shape (user, subcarrier, subcarrier)."""
+        ...
+
+    def among(self, user: int, subcarriers: IntArray) -> FloatArray:
+        """The correlation between a few of a user's entries, shape (entry, entry)."""
+        ...
+
+
 @dataclass(frozen=True)
 class FadingPosterior(Posterior):
     """Powers of partly known coefficients.
 
     Attributes:
         mean, variance: of the true gains, shape (user, subcarrier).
-        error_root: from no arguments to R with R Rᵀ the correlation of the errors e over frequency, shape
-            (user, subcarrier, subcarrier); None for independent errors. It is asked once, when samples are drawn.
+        error_root: the correlation of the errors e over frequency; None for independent errors. It is asked when
+            samples are drawn.
     """
 
     mean: FloatArray
     variance: FloatArray
-    error_root: Callable[[], FloatArray] | None = field(default=None, repr=False, compare=False)
+    error_root: ErrorCorrelation | None = field(default=None, repr=False, compare=False)
 
     def quantile(self, probability: float) -> FloatArray:
         mean = self.mean
@@ -63,10 +76,39 @@ class FadingPosterior(Posterior):
         drawn: FloatArray = (known + root * error[0]) ** 2 + (root * error[1]) ** 2
         wide = self._spread > 1.0
         if wide.any():
-            alpha = np.where(wide, self._alpha, np.inf)
-            level: FloatArray = rng.standard_gamma(np.where(wide, alpha, 1.0), size=drawn.shape)
-            drawn = np.where(wide, drawn * (np.where(wide, alpha, 2.0) - 1.0) / level, drawn)
+            every = np.arange(int(subcarriers))
+            for user in np.flatnonzero(wide.any(axis=1)).tolist():
+                drawn[:, user] *= self._levels(user, every, rng.random(num_samples))
         return np.where(self.variance > 0, drawn, self.mean)
+
+    def samples_of(self, user: int, subcarriers: IntArray, num_samples: int, *, seed: int) -> FloatArray:
+        rng = np.random.default_rng((seed, user))
+        error = normal_draws(num_samples, 2 * subcarriers.size, rng).reshape(num_samples, 2, -1).transpose(1, 0, 2)
+        if self.error_root is not None and subcarriers.size > 1:
+            strength, direction = np.linalg.eigh(self.error_root.among(user, subcarriers))
+            error = error @ (direction * np.sqrt(np.maximum(strength, 0.0))).T
+        mean = self.mean[user, subcarriers]
+        unknown = mean * self._unknown[user, subcarriers]
+        root = np.sqrt(unknown / 2.0)
+        drawn: FloatArray = (np.sqrt(np.maximum(mean - unknown, 0.0)) + root * error[0]) ** 2 + (root * error[1]) ** 2
+        if (self._spread[user, subcarriers] > 1.0).any():
+            drawn *= self._levels(user, subcarriers, rng.random(num_samples))
+        return np.where(self.variance[user, subcarriers] > 0, drawn, mean)
+
+    def _levels(self, user: int, subcarriers: IntArray, chance: FloatArray) -> FloatArray:
+        """Draws of a user's level in units of the mean, shape (sample, subcarrier); 1 where it is known.
+
+        It is one level that all the user's entries share, so it is drawn once: ``chance`` (sample,) says where among
+        its possible values it lies, the more uncertain it is for an entry the further from the mean.
+        """
+        from scipy.special import gammaincinv
+
+        wide, alpha = self._spread[user, subcarriers] > 1.0, self._alpha[user, subcarriers]
+        level = np.ones((chance.size, subcarriers.size))
+        for shape in np.unique(alpha[wide]):
+            there = wide & (alpha == shape)
+            level[:, there] = ((shape - 1.0) / gammaincinv(shape, chance))[:, np.newaxis]
+        return level
 
     def expected_log1p(self, scale: FloatArray) -> FloatArray:
         rule = _quantile_rule()

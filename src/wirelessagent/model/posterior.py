@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import FloatArray, IntArray
 
 _NODES = (np.arange(64) + 0.5) / 64
 
@@ -27,6 +27,14 @@ class Posterior(ABC):
     @abstractmethod
     def samples(self, num_samples: int, *, seed: int) -> FloatArray:
         """Joint draws of the true gains, shape (sample, user, subcarrier)."""
+
+    def samples_of(self, user: int, subcarriers: IntArray, num_samples: int, *, seed: int) -> FloatArray:
+        """Joint draws of one user's gains on a few ``subcarriers``, shape (sample, subcarrier).
+
+        Other draws than :meth:`samples` makes, of the same distribution; they may be spread more evenly than
+        independent ones. A posterior overrides this where it can draw a few entries without drawing all.
+        """
+        return self.samples(num_samples, seed=seed)[:, user, subcarriers]
 
     @abstractmethod
     def expected_log1p(self, scale: FloatArray) -> FloatArray:
@@ -51,6 +59,12 @@ class GammaPosterior(Posterior):
         shape = self._shape()
         drawn = np.random.default_rng(seed).gamma(shape, size=(num_samples, *shape.shape)) / shape
         return self.mean * np.where(self.variance > 0, drawn, 1.0)
+
+    def samples_of(self, user: int, subcarriers: IntArray, num_samples: int, *, seed: int) -> FloatArray:
+        few = GammaPosterior(self.mean[user, subcarriers], self.variance[user, subcarriers])
+        shape = few._shape()
+        drawn = np.random.default_rng((seed, user)).gamma(shape, size=(num_samples, shape.size)) / shape
+        return few.mean * np.where(few.variance > 0, drawn, 1.0)
 
     def expected_log1p(self, scale: FloatArray) -> FloatArray:
         return np.mean([np.log1p(scale * self.quantile(node)) for node in _NODES], axis=0)

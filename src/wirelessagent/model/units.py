@@ -53,6 +53,15 @@ def prefixed(largest: float, unit: str) -> tuple[float, str]:
     return next(((scale, prefix + unit) for scale, prefix in _PREFIXES if largest >= scale), (1.0, unit))
 
 
+def reliability(outage_probability: float) -> str:
+    """The probability that a promise is kept, with all its digits: the nines are what counts.
+
+    >>> reliability(0.05), reliability(1e-5)
+    ('95 %', '99.999 %')
+    """
+    return f"{100.0 - 100.0 * outage_probability:.10g} %"
+
+
 def percent(share: float) -> str:
     """A share in percent, with as many digits as people read; 0 where it is rounding.
 

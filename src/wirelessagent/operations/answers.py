@@ -10,7 +10,7 @@ from wirelessagent.explain.report import Report, cannot_be_served
 from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.metrics import LinkMetrics
-from wirelessagent.model.units import human, percent
+from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.operations.record import Integers, Matrix, Record, SwitchMatrix, Table, Vector
 
 
@@ -58,6 +58,9 @@ class DecisionAnswer(Record):
     owner: Integers
     power_w: Vector
     rate_bps: Vector
+    outage_probability: float | None
+    expected_rate_bps: Vector
+    outage: Vector
     total_power_w: float
     max_power_w: float
     price_of_power: float
@@ -74,11 +77,12 @@ class DecisionAnswer(Record):
         objective = decision.problem.objective
         copied = (
             "method", "status", "reason", "value", "bound", "gap", "unit", "owner", "power_w", "rate_bps",
-            "total_power_w", "price_of_power", "price_of_rate", "iterations", "restarts",
+            "expected_rate_bps", "outage", "total_power_w", "price_of_power", "price_of_rate", "iterations", "restarts",
         )  # fmt: skip
         return {
             **{name: getattr(decision, name) for name in copied},
             "objective": objective if isinstance(objective, str) else objective.name,
+            "outage_probability": decision.problem.outage_probability,
             "max_power_w": decision.problem.budget_w(decision.cell),
             "needed_power_w": _bracket(decision.needed_power_w),
             "rate_scaling": _bracket(decision.rate_scaling),
@@ -130,8 +134,10 @@ def certificate_line(decision: Decision) -> str:
     if np.isnan(decision.gap):
         return f"{decision.status}: {value} ({decision.method}; no bound)"
     left_out = cannot_be_served(decision)
+    outage = decision.problem.outage_probability
+    of = "no allocation on this estimate does" if outage is None else f"no promises kept at {reliability(outage)} do"
     return (
-        f"{decision.status}: {value}; no allocation on this estimate does better than "
+        f"{decision.status}: {value}; {of} better than "
         f"{human(decision.bound, decision.unit)} (gap {percent(decision.gap)}; {decision.method})"
         + (f". Note: {left_out}" if left_out else "")
     )
@@ -171,6 +177,7 @@ def report_table(report: Report) -> Table:
 def user_table(report: Report, estimate: ChannelEstimate | None = None) -> Table:
     """Each user's subcarriers, power and rate."""
     decision = report.decision
+    judged = decision.problem.outage_probability is not None and decision.expected_rate_bps.size > 0
     rows: list[tuple[str, ...]] = []
     for user, name in enumerate(decision.user_names):
         own = decision.owner == user
@@ -179,15 +186,20 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None) -> Table
             row.append(str(int((own & estimate.repaired[user]).sum())))
         row.append(human(float(decision.power_w[own].sum()), "W"))
         row.append(human(decision.rate_bps[user], "bit/s"))
+        if judged:
+            row.append(human(decision.expected_rate_bps[user], "bit/s"))
         if report.achieved is not None:
             missed = f" ({percent(_shortfall(report, user))} short)" if user in report.missed_users else ""
             row.append(human(report.achieved.user_rate_bps[user], "bit/s") + missed)
         rows.append(tuple(row))
     repaired = () if estimate is None else ("of them repaired",)
     achieved = () if report.achieved is None else ("achieved rate",)
+    predicted = ("predicted rate",)
+    if judged:
+        predicted = (f"promised at {reliability(decision.problem.outage_probability or 0.0)}", "predicted rate")
     return Table(
         title="Users",
-        columns=("user", "subcarriers", *repaired, "power", "predicted rate", *achieved),
+        columns=("user", "subcarriers", *repaired, "power", *predicted, *achieved),
         rows=tuple(rows),
     )
 

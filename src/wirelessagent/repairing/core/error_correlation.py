@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from wirelessagent.model.arrays import BoolArray, FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.repairing.core.fit import Learnt, Relative, mean_hypothesis
 
 BLOCK = 320
 """Subcarriers whose errors are treated together; blocks of longer bands count as independent."""
 JITTER = 1e-10
+NEAREST = 10
+"""Observed entries on each side of a missing one beyond which others add next to nothing to what is known of it."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +30,7 @@ class ErrorRoots:
 
     def __call__(self) -> FloatArray:
         """L with L Lᵀ the correlation, shape (user, subcarrier, subcarrier)."""
-        table, noise, _ = mean_hypothesis(self.slot, self.learnt)
+        table, noise = self._mean
         place = self.learnt.candidates.place
         users, subcarriers = self.slot.known.shape
         root = np.broadcast_to(np.eye(subcarriers), (users, subcarriers, subcarriers)).copy()
@@ -41,10 +44,50 @@ class ErrorRoots:
                     root[k, missing[:, np.newaxis], missing] = _root(table[k][distance], known, float(noise[k]))
         return root
 
+    def among(self, user: int, subcarriers: IntArray) -> FloatArray:
+        """The correlation between the errors of a few of a user's entries, shape (entry, entry).
+
+        Given the observed entries about them alone, as the others would add next to nothing.
+        """
+        table, noise = self._mean
+        place, known = self.learnt.candidates.place, self.slot.known[user]
+        correlation = np.eye(subcarriers.size)
+        holes = np.flatnonzero(~known[subcarriers])
+        missing, observed = subcarriers[holes], np.flatnonzero(known)
+        if missing.size > 1:
+            first = np.searchsorted(observed, missing)
+            near = np.unique(np.clip(first[:, np.newaxis] + np.arange(-NEAREST, NEAREST), 0, max(observed.size - 1, 0)))
+            about = np.sort(np.concatenate([observed[near] if observed.size else observed, missing]))
+            distance = np.abs(place[about, np.newaxis] - place[about])
+            left = _left(table[user][distance], known[about], float(noise[user]))
+            order = np.argsort(missing, kind="stable")
+            correlation[np.ix_(holes[order], holes[order])] = left
+        return correlation
+
+    @functools.cached_property
+    def _mean(self) -> tuple[FloatArray, FloatArray]:
+        """Correlation at each distance (user, distance) and η (user,) of the mean hypothesis."""
+        table, noise, _ = mean_hypothesis(self.slot, self.learnt)
+        return table, noise
+
 
 def _root(correlation: FloatArray, known: BoolArray, noise: float) -> FloatArray:
-    """Of the errors of the missing entries, shape (missing, missing)."""
-    from scipy.linalg import cho_factor, cho_solve, cholesky
+    """Root of the correlation of the errors of the missing entries, shape (missing, missing)."""
+    from scipy.linalg import cholesky
+
+    normal = _left(correlation, known, noise)
+    size = len(normal)
+    for jitter in (1e-9, 1e-6, 1e-3, 1e-1):
+        try:
+            return cholesky((normal + jitter * np.eye(size)) / (1.0 + jitter), lower=True)
+        except np.linalg.LinAlgError:
+            continue
+    return np.eye(size)
+
+
+def _left(correlation: FloatArray, known: BoolArray, noise: float) -> FloatArray:
+    """Correlation of the errors of the missing entries, shape (missing, missing)."""
+    from scipy.linalg import cho_factor, cho_solve
 
     missing = ~known
     left = correlation[np.ix_(missing, missing)]
@@ -54,11 +97,5 @@ def _root(correlation: FloatArray, known: BoolArray, noise: float) -> FloatArray
         left = left - across.T @ cho_solve(cho_factor(seen, lower=True), across)
     scale = np.sqrt(np.maximum(np.diagonal(left), JITTER))
     normal = left / scale / scale[:, np.newaxis]
-    size = len(normal)
     np.fill_diagonal(normal, 1.0)
-    for jitter in (1e-9, 1e-6, 1e-3, 1e-1):
-        try:
-            return cholesky((normal + jitter * np.eye(size)) / (1.0 + jitter), lower=True)
-        except np.linalg.LinAlgError:
-            continue
-    return np.eye(size)
+    return normal
