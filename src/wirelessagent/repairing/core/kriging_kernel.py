@@ -12,8 +12,12 @@ are conditional means (:attr:`.observation.ChannelObservation.noise_variance`), 
 C = |ρ|² + η their covariance is C/(1 + η)² and that with the gain |ρ|²/(1 + η). Noise is taken
 as it was where each entry was measured, since it grows with the gain. The rest, V in units of the level squared, comes
 from fading: of the complex coefficient the share c = 1 − √(1 − V) is unknown, and a gain whose mean is m has the
-variance 2mc − c² then (a Rician power). It is small in a fade, and no estimate is below c. What V exceeds 1 by is due
-to the level, which is unknown as well.
+variance 2mc − c² then (a Rician power), if the phases of the observed coefficients are known. They are not, and what
+they leave open depends less on m: the error's third cumulants with the estimate (tr AΣAΣBΣ for Hermitian forms A, B of
+a complex Gaussian) give the variance the slope 5/6 · 2c for small c, and 2c for large, where phases do not matter. So m
+is drawn towards the level there, by the share (1 − c)⁴/6, which follows the cumulants of holes on a grid within some
+hundredths for c up to 0.4. The variance is small in a fade, and no estimate is below c. What V exceeds 1 by is due to
+the level, which is unknown as well.
 
 Hypotheses are averaged: means by their weights, variances with the disagreement of the means. Entries that were
 observed are estimated from the others as well, which tells how good all this is.
@@ -30,6 +34,8 @@ from wirelessagent.repairing.core.windows_kernel import Lanes, Windows
 
 TOGETHER = 64
 """Lanes worked on together: as many as the cache holds."""
+PHASES = 1.0 / 6.0
+"""How much less the variance depends on the gain than that of a Rician power, for small c."""
 LEAST = 1e-13
 """Least V."""
 
@@ -203,13 +209,15 @@ def combine(
             own += w * w
             known += w * w * (noise * level * gain[n] if np.isnan(noise_variance[n]) else noise_variance[n])
         left = max(error[c] - noise * own / lanes.grown[lane] ** 2, LEAST)
-        unknown = (1.0 - np.sqrt(1.0 - min(left, 1.0))) * level
+        share = 1.0 - np.sqrt(1.0 - min(left, 1.0))
+        unknown = share * level
         estimate = max(estimate, unknown)
+        about = estimate + PHASES * (1.0 - share) ** 4 * (level - estimate)
         total += chance
         before = estimate - mean
         mean += before * chance / total
         other += chance * (before * (estimate - mean) + known)
-        fading += chance * (2.0 * estimate * unknown - unknown * unknown + max(left - 1.0, 0.0) * level * level)
+        fading += chance * (2.0 * about * unknown - unknown * unknown + max(left - 1.0, 0.0) * level * level)
     found[0], found[1], found[2] = mean, fading, other
 
 
