@@ -18,7 +18,14 @@ _NODES = (np.arange(64) + 0.5) / 64
 
 
 class Posterior(ABC):
-    """The distribution of the true (user, subcarrier) gains given all observations."""
+    """The distribution of the true (user, subcarrier) gains given all observations.
+
+    Attributes:
+        mean: of each gain, shape (user, subcarrier). Where a noisy measurement is not all that tells of a gain it is
+            not the estimate's, which is the measurement.
+    """
+
+    mean: FloatArray
 
     @abstractmethod
     def quantile(self, probability: float) -> FloatArray:

@@ -98,5 +98,28 @@ def completed(
         gain=gain,
         gain_variance=variance,
         method="kriging",
-        joint_posterior=FadingPosterior(gain, variance, ErrorRoots(slot, learnt)),
+        joint_posterior=_posterior(observation, slot, learnt, found, factor, gain, variance),
     )
+
+
+def _posterior(
+    observation: ChannelObservation,
+    slot: fit.Relative,
+    learnt: fit.Learnt,
+    found: FloatArray,
+    factor: FloatArray,
+    gain: FloatArray,
+    variance: FloatArray,
+) -> FadingPosterior:
+    """The posterior of entries with these means and variances; what was measured with noise is told by others as well.
+
+    An entry that stands out from its neighbours stands out by its noise, most likely, and whoever looks for strong
+    entries finds those. So the measurement and what the others say of the entry, where that was worked out, are
+    weighed by their variances.
+    """
+    level = slot.level[:, np.newaxis]
+    others = level * (level * (factor[:, np.newaxis] * found[..., 1] + found[..., 2]))
+    told = ~observation.missing & (variance > 0) & (others > 0) & (slot.seen >= FEW)[:, np.newaxis]
+    weight = np.where(told, variance / np.where(told, variance + others, 1.0), 0.0)
+    mean = np.where(told, gain + weight * (level * found[..., 0] - gain), gain)
+    return FadingPosterior(mean, np.where(told, variance * (1.0 - weight), variance), ErrorRoots(slot, learnt))

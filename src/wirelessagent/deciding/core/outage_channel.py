@@ -97,9 +97,9 @@ class UncertainChannel:
         below = sum(
             (right - left) * self.estimate.posterior.quantile(float(left)) for left, right in itertools.pairwise(nodes)
         )
-        mean = self.estimate.gain
+        mean = self.estimate.posterior.mean
         gain = (mean - np.maximum(below, 0.0)) / (1.0 - self.outage)
-        return self._known(np.where(self.uncertain, np.maximum(gain, mean), mean))
+        return self._known(np.where(self.uncertain, np.maximum(gain, mean), self.estimate.gain))
 
     def _known(self, gain: FloatArray) -> ChannelEstimate:
         certain = np.zeros(gain.shape)
