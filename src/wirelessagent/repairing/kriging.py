@@ -122,4 +122,5 @@ def _posterior(
     told = ~observation.missing & (variance > 0) & (others > 0) & (slot.seen >= FEW)[:, np.newaxis]
     weight = np.where(told, variance / np.where(told, variance + others, 1.0), 0.0)
     mean = np.where(told, gain + weight * (level * found[..., 0] - gain), gain)
-    return FadingPosterior(mean, np.where(told, variance * (1.0 - weight), variance), ErrorRoots(slot, learnt))
+    errors = ErrorRoots(slot, learnt, told & slot.known)
+    return FadingPosterior(mean, np.where(told, variance * (1.0 - weight), variance), errors)

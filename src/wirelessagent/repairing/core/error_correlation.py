@@ -22,11 +22,14 @@ class ErrorRoots:
     """Roots of the correlation matrices of the errors, worked out when asked for.
 
     Given the observed gains, Gaussian ones with the user's mean hypothesis would have the covariance
-    S = R_mm − R_mo (R_oo + η)⁻¹ R_om; the correlation is that of S. Errors of observed gains are independent.
+    S = R_mm − R_mo (R_oo + η)⁻¹ R_om; the correlation is that of S. The same holds for observed ones of which the
+    others tell as well (``smoothed``, shape (user, subcarrier)); errors of those that only their own measurement tells
+    of are independent.
     """
 
     slot: Relative = field(repr=False)
     learnt: Learnt = field(repr=False)
+    smoothed: BoolArray = field(repr=False)
 
     def __call__(self) -> FloatArray:
         """L with L Lᵀ the correlation, shape (user, subcarrier, subcarrier)."""
@@ -39,9 +42,11 @@ class ErrorRoots:
                 block = slice(start, start + BLOCK)
                 distance = np.abs(place[block, np.newaxis] - place[block])
                 known = self.slot.known[k, block]
-                if not known.all():
-                    missing = start + np.flatnonzero(~known)
-                    root[k, missing[:, np.newaxis], missing] = _root(table[k][distance], known, float(noise[k]))
+                wanted = ~known | self.smoothed[k, block]
+                if wanted.any():
+                    there = start + np.flatnonzero(wanted)
+                    left = _left(table[k][distance], wanted, known, float(noise[k]))
+                    root[k, there[:, np.newaxis], there] = _root(left)
         return root
 
     def among(self, user: int, subcarriers: IntArray) -> FloatArray:
@@ -52,16 +57,16 @@ class ErrorRoots:
         table, noise = self._mean
         place, known = self.learnt.candidates.place, self.slot.known[user]
         correlation = np.eye(subcarriers.size)
-        holes = np.flatnonzero(~known[subcarriers])
-        missing, observed = subcarriers[holes], np.flatnonzero(known)
-        if missing.size > 1:
-            first = np.searchsorted(observed, missing)
-            near = np.unique(np.clip(first[:, np.newaxis] + np.arange(-NEAREST, NEAREST), 0, max(observed.size - 1, 0)))
-            about = np.sort(np.concatenate([observed[near] if observed.size else observed, missing]))
+        places = np.flatnonzero((~known | self.smoothed[user])[subcarriers])
+        wanted, observed = subcarriers[places], np.flatnonzero(known)
+        if wanted.size > 1:
+            first = np.searchsorted(observed, wanted)
+            near = np.clip(first[:, np.newaxis] + np.arange(-NEAREST, NEAREST), 0, max(observed.size - 1, 0))
+            about = np.union1d(observed[np.unique(near)] if observed.size else observed, wanted)
             distance = np.abs(place[about, np.newaxis] - place[about])
-            left = _left(table[user][distance], known[about], float(noise[user]))
-            order = np.argsort(missing, kind="stable")
-            correlation[np.ix_(holes[order], holes[order])] = left
+            left = _left(table[user][distance], np.isin(about, wanted), known[about], float(noise[user]))
+            order = np.argsort(wanted, kind="stable")
+            correlation[np.ix_(places[order], places[order])] = left
         return correlation
 
     @functools.cached_property
@@ -71,28 +76,26 @@ class ErrorRoots:
         return table, noise
 
 
-def _root(correlation: FloatArray, known: BoolArray, noise: float) -> FloatArray:
-    """Root of the correlation of the errors of the missing entries, shape (missing, missing)."""
+def _root(correlation: FloatArray) -> FloatArray:
+    """The lower triangular root of a correlation matrix that may be singular, same shape."""
     from scipy.linalg import cholesky
 
-    normal = _left(correlation, known, noise)
-    size = len(normal)
+    size = len(correlation)
     for jitter in (1e-9, 1e-6, 1e-3, 1e-1):
         try:
-            return cholesky((normal + jitter * np.eye(size)) / (1.0 + jitter), lower=True)
+            return cholesky((correlation + jitter * np.eye(size)) / (1.0 + jitter), lower=True)
         except np.linalg.LinAlgError:
             continue
     return np.eye(size)
 
 
-def _left(correlation: FloatArray, known: BoolArray, noise: float) -> FloatArray:
-    """Correlation of the errors of the missing entries, shape (missing, missing)."""
+def _left(correlation: FloatArray, wanted: BoolArray, known: BoolArray, noise: float) -> FloatArray:
+    """Correlation of the errors of the ``wanted`` entries given the ``known`` ones, shape (wanted, wanted)."""
     from scipy.linalg import cho_factor, cho_solve
 
-    missing = ~known
-    left = correlation[np.ix_(missing, missing)]
+    left = correlation[np.ix_(wanted, wanted)]
     if known.any():
-        across = correlation[np.ix_(known, missing)]
+        across = correlation[np.ix_(known, wanted)]
         seen = correlation[np.ix_(known, known)] + (noise + JITTER) * np.eye(int(known.sum()))
         left = left - across.T @ cho_solve(cho_factor(seen, lower=True), across)
     scale = np.sqrt(np.maximum(np.diagonal(left), JITTER))
