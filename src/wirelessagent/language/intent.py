@@ -3,34 +3,66 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Literal, TypeAlias, get_args
+from typing import Literal, TypeAlias, cast, get_args
 
 from wirelessagent.model.errors import InputError
 
 IntentKind: TypeAlias = Literal["allocate", "question", "command", "clarify", "out_of_scope"]
 
-CONSTRAINTS: tuple[str, ...] = (
+Constraint: TypeAlias = float | Mapping[str, float] | tuple[str, ...]
+"""A figure for everybody, figures by user, or users."""
+
+Detail: TypeAlias = float | str | Mapping[str, Constraint]
+
+EVERYBODY = "all"
+"""The key of everybody who is not named, in figures by user."""
+
+FIGURES: tuple[str, ...] = (
     "max_power_w",
-    "min_rate_bps",
-    "max_rate_bps",
     "circuit_power_w",
     "outage_probability",
+    "subcarrier_max_power_w",
+    "resource_block_group_size",
 )
+FIGURES_OF_USERS: tuple[str, ...] = ("min_rate_bps", "max_rate_bps", "weights")
+LISTS_OF_USERS: tuple[str, ...] = ("users", "leave_out")
+CONSTRAINTS: tuple[str, ...] = (
+    "max_power_w", "min_rate_bps", "max_rate_bps", "circuit_power_w", "outage_probability", "weights", "users",
+    "leave_out", "subcarrier_max_power_w", "resource_block_group_size",
+)  # fmt: skip
+
+COMMANDS: tuple[str, ...] = (
+    "apply", "confirm", "reject", "undo", "reset", "compare", "explain", "history", "status", "help", "export",
+)  # fmt: skip
+QUESTIONS: tuple[str, ...] = (
+    "why_user", "why_infeasible", "certificate", "uncertainty", "what_if", "step", "prices", "users", "capabilities",
+    "concept", "other",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
 class Intent:
-    """One understood sentence. Only ``kind == "allocate"`` may lead to an action.
+    """One understood sentence. Only ``kind == "allocate"`` may lead to an action, and a command of the operator's.
 
     Attributes:
         kind: allocate (a request that can be carried out), question, command, clarify (``reply`` asks back) or
             out_of_scope.
-        objective: the registered name of an objective for allocate, None otherwise.
-        constraints: figures in SI units by name, out of :data:`CONSTRAINTS`; rates are per user. All are positive and
-            finite, and a probability is below 1.
+        objective: the registered name of an objective for allocate, None otherwise. In a conversation it is that of the
+            current request where the sentence names none.
+        constraints: what the sentence states, in SI units, by name out of :data:`CONSTRAINTS`. Rates are per user: a
+            figure for everybody, or figures by user, such as ``{"all": 5e5, "3": 2e6}``. A user is referred to by name
+            or by the number that the operator said ("3" is "user 3"). A probability is below 1; all figures are
+            positive and finite, and a weight may be 0. Empty for every kind but allocate.
+        dropped: constraints of the current request that no longer hold ("without the power limit").
+        amends: whether the sentence changes the current request of a conversation ("now with 10 W") instead of
+            replacing it.
+        topic: what a command (:data:`COMMANDS`) or a question (:data:`QUESTIONS`) is about; None for other kinds.
+        details: figures and names of a command or question, such as ``{"user": "3"}``, ``{"missing_share": 0.4}``,
+            ``{"power_w": 1.0}``, and ``{"constraints": {…}}`` for what-if.
+        pending: constraints that were read although the sentence leads to a question back; the answer may use them.
         language: the operator's, as in "en" or "zh".
         confidence: 0 to 1; of the kind and the objective together.
         evidence: the operator's words that each field came from, separate places joined by " … ". The key "not_used"
@@ -41,12 +73,17 @@ class Intent:
 
     kind: IntentKind
     objective: str | None
-    constraints: Mapping[str, float]
+    constraints: Mapping[str, Constraint]
     language: str
     confidence: float
     evidence: Mapping[str, str]
     reply: str
     recogniser: str
+    dropped: tuple[str, ...] = ()
+    amends: bool = False
+    topic: str | None = None
+    details: Mapping[str, Detail] = field(default_factory=dict[str, Detail])
+    pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
 
     def __post_init__(self) -> None:
         if self.kind not in get_args(IntentKind):
@@ -56,11 +93,52 @@ class Intent:
                              f"objective {self.objective!r}")  # fmt: skip
         if not 0 <= self.confidence <= 1:
             raise InputError(f"confidence must be between 0 and 1; got {self.confidence!r}")
-        for name, value in self.constraints.items():
-            if name not in CONSTRAINTS:
-                raise InputError(f"unknown constraint {name!r}: known are {', '.join(CONSTRAINTS)}")
-            if not 0 < value < (1 if name == "outage_probability" else math.inf):
-                limits = "between 0 and 1" if name == "outage_probability" else "positive and finite"
-                raise InputError(f"{name} must be {limits}; got {value!r}")
-        object.__setattr__(self, "constraints", MappingProxyType(dict(self.constraints)))
-        object.__setattr__(self, "evidence", MappingProxyType(dict(self.evidence)))
+        topics = {"command": COMMANDS, "question": QUESTIONS}.get(self.kind, ())
+        if self.topic is not None and self.topic not in topics:
+            raise InputError(f"a {self.kind} has no topic {self.topic!r}; known are {', '.join(topics) or 'none'}")
+        _known(self.dropped)
+        for name in ("constraints", "pending"):
+            object.__setattr__(self, name, checked_constraints(getattr(self, name)))
+        for name in ("evidence", "details"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+
+
+def checked_constraints(constraints: Mapping[str, Constraint]) -> Mapping[str, Constraint]:
+    """The same constraints, read-only.
+
+    Raises:
+        InputError: a name is not known, or a value is not what its name may have.
+    """
+    _known(constraints)
+    return MappingProxyType({name: _checked(name, value) for name, value in constraints.items()})
+
+
+def _known(names: Iterable[str]) -> None:
+    for name in names:
+        if name not in CONSTRAINTS:
+            raise InputError(f"unknown constraint {name!r}: known are {', '.join(CONSTRAINTS)}")
+
+
+def _checked(name: str, value: Constraint) -> Constraint:
+    if name in LISTS_OF_USERS:
+        return _users(name, value)
+    if isinstance(value, Mapping) and name in FIGURES_OF_USERS:
+        return MappingProxyType({str(user): _figure(name, each) for user, each in value.items()})
+    return _figure(name, value)
+
+
+def _users(name: str, value: Constraint) -> tuple[str, ...]:
+    if isinstance(value, str | Mapping) or not isinstance(value, Iterable) or not tuple(value):
+        raise InputError(f"{name} must be users, such as ('3', '5'); got {value!r}")
+    return tuple(str(user) for user in value)
+
+
+def _figure(name: str, value: object) -> float:
+    limits = "between 0 and 1" if name == "outage_probability" else "positive and finite"
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise InputError(f"{name} must be {limits}; got {value!r}")
+    figure = float(cast(float, value))
+    top = 1 if name == "outage_probability" else math.inf
+    if not (0 < figure < top or (name == "weights" and figure == 0)):
+        raise InputError(f"{name} must be {limits}; got {value!r}")
+    return figure

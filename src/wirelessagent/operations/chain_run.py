@@ -126,7 +126,7 @@ def _pose(intent: Intent, cell: Cell) -> tuple[Problem, Cell, list[str]]:
     circuit_power_w = constraints.pop("circuit_power_w", None)
     if circuit_power_w is not None:
         cell = dataclasses.replace(cell, circuit_power_w=circuit_power_w)
-    asked = constraints.get("max_power_w")
+    asked = cast("float | None", constraints.get("max_power_w"))
     if asked is not None and asked > cell.max_power_w:
         constraints["max_power_w"] = cell.max_power_w
         notes.append(

@@ -1,0 +1,44 @@
+"""What every recogniser is: a sentence and what is known of the conversation in, an intent out."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import ClassVar, Literal, TypeAlias
+
+from wirelessagent.language.intent import Constraint, Intent
+
+Awaited: TypeAlias = Literal["nothing", "confirmation", "clarification"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Context:
+    """What a sentence may refer to.
+
+    Attributes:
+        user_names: of the channel; empty where it is not known yet.
+        max_power_w: the cell's limit, which shares of the power refer to.
+        objective, constraints: of the current request; None and empty where there is none.
+        awaits: what the agent asked for last.
+        pending: constraints that were read before a clarifying question, for its answer to use.
+        language: of the conversation so far; "" at its start.
+    """
+
+    user_names: tuple[str, ...] = ()
+    max_power_w: float = 20.0
+    objective: str | None = None
+    constraints: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    awaits: Awaited = "nothing"
+    pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    language: str = ""
+
+
+class Recogniser(ABC):
+    """Turns an operator's sentence into an intent."""
+
+    name: ClassVar[str]
+
+    @abstractmethod
+    def recognise(self, text: str, context: Context | None = None) -> Intent:
+        """What the operator means; never raises, whatever the text."""
