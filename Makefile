@@ -4,7 +4,7 @@ UV_VERSION := 0.13.8
 PYTHON ?= python3
 # uv from the path if there is one, else a copy of our own.
 UV := $(shell command -v uv 2>/dev/null || echo .tools/uv/bin/uv)
-RUN := $(UV) run --frozen --extra plot --extra evaluate
+RUN := $(UV) run --frozen --extra plot --extra evaluate --extra llm --extra llm
 
 export UV_COMPILE_BYTECODE ?= 1
 
@@ -23,7 +23,7 @@ test: lint  ## lint, types, import contract, all tests, the third-party example
 	PYTHONPATH=build/third_party $(RUN) pytest examples/third_party_objective/tests
 
 lint: $(UV)
-	$(UV) sync --locked --quiet --extra plot --extra evaluate
+	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm
 	$(RUN) ruff format --check .
 	$(RUN) ruff check .
 	$(RUN) pyright
