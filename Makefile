@@ -4,7 +4,7 @@ UV_VERSION := 0.13.8
 PYTHON ?= python3
 # uv from the path if there is one, else a copy of our own.
 UV := $(shell command -v uv 2>/dev/null || echo .tools/uv/bin/uv)
-RUN := $(UV) run --frozen --extra plot --extra evaluate --extra llm --extra llm
+RUN := $(UV) run --frozen --extra plot --extra evaluate --extra llm
 
 export UV_COMPILE_BYTECODE ?= 1
 
