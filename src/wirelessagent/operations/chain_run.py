@@ -34,7 +34,7 @@ ASSUMED_MIN_RATE_BPS = 200e3
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What came of a sentence: every stage's result, the notes made on the way and the explanation."""
+    """What came of a sentence: every stage's result, the notes made on the way, the explanation and the tools."""
 
     intent: Intent
     scene: Scene
@@ -45,6 +45,7 @@ class Answer:
     report: Report
     notes: tuple[str, ...]
     explanation: tuple[str, ...]
+    tools: Tools
 
     def __str__(self) -> str:
         return "\n".join([certificate_line(self.decision), *self.notes, *self.explanation, str(self.report)])
@@ -115,6 +116,7 @@ def act_on(intent: Intent, scene: Scene, *losses: Loss, seed: int, tools: Tools,
         report=made,
         notes=tuple(notes),
         explanation=tuple(explain(estimate, made, language=intent.language)),
+        tools=tools,
     )
 
 
