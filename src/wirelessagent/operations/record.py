@@ -2,20 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, Any, TypeAlias, cast
 
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
-
-@dataclass(frozen=True, kw_only=True)
-class Table:
-    """A table for people: all cells are text; numbers come with their units in the column's name or in the cell."""
-
-    title: str
-    columns: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+from wirelessagent.explain.table import Table
 
 
 Block: TypeAlias = str | Table

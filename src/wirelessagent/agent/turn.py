@@ -1,0 +1,82 @@
+"""One turn of a conversation: what was said, what was understood, what was done, and what was replied."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from wirelessagent.explain.report import Report
+from wirelessagent.explain.table import Table
+from wirelessagent.language.intent import Intent
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.scene import Scene
+
+Stage: TypeAlias = Literal["answered", "asked", "planned", "applied", "reverted", "undone", "nothing"]
+"""What a turn came to: answered (a question; nothing was to be applied), asked (a question back), planned (a decision
+that waits to be applied), applied, reverted (applied, found worse than promised and taken back), undone, or nothing
+(what was wanted is so already, or cannot be done)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run:
+    """One run of the chain: every stage's result, the notes made on the way and the explanation.
+
+    Attributes:
+        intent: what was understood.
+        scene: the scene, with the cell that the intent states.
+        observation: what was seen of the channel.
+        estimate: what was made of it.
+        decision: who gets what; the problem that it solves is ``decision.problem``.
+        outcome: what the base station did, read back; None where nothing was applied.
+        report: predicted beside achieved.
+        notes: what was assumed on the way.
+        explanation: the decision in words.
+    """
+
+    intent: Intent
+    scene: Scene
+    observation: ChannelObservation
+    estimate: ChannelEstimate
+    decision: Decision
+    outcome: Outcome | None
+    report: Report
+    notes: tuple[str, ...]
+    explanation: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Turn:
+    """What came of one line of a conversation.
+
+    Attributes:
+        number: of the turn in its session, from 1.
+        session: the session's identifier.
+        text: what the operator said.
+        intent: what was understood.
+        reply: what the agent said, in the operator's language.
+        stage: what it came to.
+        run: the run of the chain that the reply speaks of; a what-if's own, which nothing was applied of.
+        at_utc: when it was done, ISO 8601.
+        version: of this package.
+        seed: of every draw.
+        recogniser: which recogniser understood it.
+        tables: figures that belong to the reply.
+        restored: what the base station read back after the last good allocation was put back; None where none was.
+    """
+
+    number: int
+    session: str
+    text: str
+    intent: Intent
+    reply: str
+    stage: Stage
+    run: Run | None
+    at_utc: str
+    version: str
+    seed: int
+    recogniser: str
+    tables: tuple[Table, ...] = ()
+    restored: Outcome | None = None
