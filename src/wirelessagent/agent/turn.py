@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from wirelessagent.agent.tools import Tools
 from wirelessagent.explain.report import Report
 from wirelessagent.explain.table import Table
 from wirelessagent.language.intent import Intent
@@ -34,6 +35,7 @@ class Run:
         report: predicted beside achieved.
         notes: what was assumed on the way.
         explanation: the decision in words.
+        tools: the plug-ins that made it.
     """
 
     intent: Intent
@@ -45,6 +47,7 @@ class Run:
     report: Report
     notes: tuple[str, ...]
     explanation: tuple[str, ...]
+    tools: Tools
 
 
 @dataclass(frozen=True, kw_only=True)

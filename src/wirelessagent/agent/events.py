@@ -1,0 +1,31 @@
+"""What a running piece of work tells its listener."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event:
+    """Something that just happened.
+
+    Attributes:
+        stage: "read", "understand", "note", "sense", "repair", "decide", "act" or the name of a piece of long work.
+        message: one sentence for the user.
+        done, total: how far counted work has come; both 0 where nothing is counted.
+    """
+
+    stage: str
+    message: str
+    done: int = 0
+    total: int = 0
+
+
+Progress: TypeAlias = Callable[[Event], None]
+
+
+def silent(event: Event) -> None:
+    """A progress listener for callers that want none."""
+    del event
