@@ -79,6 +79,14 @@ def plugin(kind: Kind, name: str) -> Plugin:
     return _load(kind, entries[0])
 
 
+def version_of(package: str) -> str:
+    """The installed version of a package; "" if it is not installed."""
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return ""
+
+
 def plugins(kind: Kind) -> list[Plugin]:
     """Every plug-in of a kind; duplicates and failures carry their error instead of a class."""
     found: list[Plugin] = []

@@ -28,7 +28,7 @@ def run(arguments: list[str]) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a terminal without Chinese must not stop the work
-    _tell_of_compiling(wanted="--json" not in arguments)
+    _show_notes(wanted="--json" not in arguments)
     if not {"-h", "--help"}.isdisjoint(arguments):
         _show_long_names_whole()
     command = typer.main.get_command(_app(arguments))
@@ -67,12 +67,13 @@ class _Notes(logging.Handler):
         print(f"wirelessagent: {record.getMessage()}", file=sys.stderr)  # noqa: T201
 
 
-def _tell_of_compiling(*, wanted: bool) -> None:
-    """Have the wait of the first decision on a machine explained, where somebody reads along."""
-    log = logging.getLogger("wirelessagent.kernels.compiling")
-    log.setLevel(logging.INFO)
-    log.propagate = False
-    log.handlers = [_Notes()] if wanted else [logging.NullHandler()]
+def _show_notes(*, wanted: bool) -> None:
+    """Have it told what is not recorded and, where somebody reads along, why a machine's first decision takes time."""
+    for name, shown in (("wirelessagent.kernels.compiling", wanted), ("wirelessagent.store", True)):
+        log = logging.getLogger(name)
+        log.setLevel(logging.INFO)
+        log.propagate = False
+        log.handlers = [_Notes()] if shown else [logging.NullHandler()]
 
 
 def _give_up_output() -> None:
@@ -112,12 +113,17 @@ def _app(arguments: list[str]) -> typer.Typer:
     )
     app.callback(help="From an operator's words to a certified OFDMA allocation.")(_root)
     words = [word for word in arguments if not word.startswith("-")]
-    groups = {name: typer.Typer(no_args_is_help=True, rich_markup_mode="rich") for name in GROUPS}
-    for operation in OPERATIONS:
-        *group, name = path = operation.name.split()
-        parameters = Parameters(operation.request) if words[: len(path)] == path else None
-        owner = groups[group[0]] if group else app
-        owner.command(name=name, help=operation.summary + ".", epilog=_EPILOG)(_command(operation, parameters))
+    alone = {operation.name for operation in OPERATIONS} & GROUPS.keys()
+    groups = {name: typer.Typer(no_args_is_help=name not in alone, rich_markup_mode="rich") for name in GROUPS}
+    paths = [operation.name.split() for operation in OPERATIONS]
+    asked = max((path for path in paths if words[: len(path)] == path), key=len, default=list[str]())
+    for operation, path in zip(OPERATIONS, paths, strict=True):
+        command = _command(operation, Parameters(operation.request) if path == asked else None)
+        if operation.name not in alone:
+            owner = groups[path[0]] if len(path) > 1 else app
+            owner.command(name=path[-1], help=operation.summary + ".", epilog=_EPILOG)(command)
+        elif path == asked:  # else a second word follows, whose command it is
+            groups[path[0]].callback(invoke_without_command=True)(command)
     for name, group in groups.items():
         app.add_typer(group, name=name, help=GROUPS[name] + ".", epilog=_EPILOG)
     return app

@@ -5,8 +5,10 @@ WirelessAgentError
 │   ├── FileFormatError            a file that is not what it should be
 │   ├── UnknownNameError           a plug-in, experiment or operation that does not exist
 │   ├── UnsupportedProblemError    a method that does not solve this problem
-│   └── UnclearRequestError        a sentence that needs a question back
+│   ├── UnclearRequestError        a sentence that needs a question back
+│   └── NothingRecordedError       an audit store that does not exist yet, or a turn that is not in it
 ├── PluginError                    a plug-in that cannot be loaded, or two that share a name
+├── StoreError                     an audit store that cannot be opened, read or written, or is none
 └── MissingDependencyError         an optional package that is not installed
 
 Every message says what was wrong, the value received and what to do next.
@@ -50,8 +52,16 @@ class UnclearRequestError(InputError):
     """A sentence that must be answered with a question."""
 
 
+class NothingRecordedError(InputError):
+    """An audit store does not exist yet, or holds no such turn."""
+
+
 class PluginError(WirelessAgentError):
     """A plug-in cannot be loaded, or two share a name."""
+
+
+class StoreError(WirelessAgentError):
+    """An audit store cannot be opened, read or written, or what is there is none."""
 
 
 class MissingDependencyError(WirelessAgentError, ImportError):

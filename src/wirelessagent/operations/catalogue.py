@@ -5,6 +5,7 @@ from __future__ import annotations
 from wirelessagent.operations.ask import ASK
 from wirelessagent.operations.compare import COMPARE
 from wirelessagent.operations.evaluate import EVALUATE_DECISION, EVALUATE_REPAIR
+from wirelessagent.operations.history import HISTORY, HISTORY_EXPORT, HISTORY_REPLAY, HISTORY_SHOW
 from wirelessagent.operations.intent import INTENT
 from wirelessagent.operations.list_plugins import PLUGINS
 from wirelessagent.operations.operation import AnyOperation
@@ -15,7 +16,12 @@ from wirelessagent.operations.solve import SOLVE
 
 OPERATIONS: tuple[AnyOperation, ...] = (
     ASK, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, EVALUATE_REPAIR, EVALUATE_DECISION, PLUGINS,
+    HISTORY, HISTORY_SHOW, HISTORY_REPLAY, HISTORY_EXPORT,
 )  # fmt: skip
 
-GROUPS: dict[str, str] = {"evaluate": "Compare methods on many draws, with confidence intervals"}
-"""Summaries of the first words of names that have two."""
+GROUPS: dict[str, str] = {
+    "evaluate": "Compare methods on many draws, with confidence intervals",
+    "history": "What was asked, decided and applied: list, show, replay, export",
+}
+"""Summaries of the first words of names that have two; where an operation has the first word alone, it is what is done
+without a second."""

@@ -1,0 +1,253 @@
+"""history: what was asked, decided and done, from the audit store; shown, done again and handed on."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
+
+from pydantic import Field
+
+from wirelessagent.explain.report import report
+from wirelessagent.model.arrays import whole
+from wirelessagent.model.atomic import writable_target, write_atomically
+from wirelessagent.model.errors import NothingRecordedError
+from wirelessagent.model.units import human, percent
+from wirelessagent.operations.answers import DecisionAnswer, certificate_line, decision_tables
+from wirelessagent.operations.fields import Positional
+from wirelessagent.operations.operation import Operation, Progress
+from wirelessagent.operations.record import Block, Record, Table
+from wirelessagent.operations.recording import StoreOptions, opened, place_of
+from wirelessagent.store.content import estimate_of
+from wirelessagent.store.export import exported
+from wirelessagent.store.plain import plain
+from wirelessagent.store.rebuilt import decision_of, outcome_of
+from wirelessagent.store.stored import StoredTurn
+
+if TYPE_CHECKING:
+    from wirelessagent.store.store import Store
+
+_TEXT_SHOWN = 48
+_SESSION_SHOWN = 8
+
+
+class HistoryRequest(StoreOptions):
+    panel = "Options"
+
+    session: str | None = Field(None, description="only the turns of this session")
+    last: int = Field(20, description="only so many, the latest ones")
+
+
+class HistoryLine(Record):
+    """One turn in a list."""
+
+    number: int
+    at_utc: str
+    session: str
+    turn: int
+    text: str
+    stage: str
+    objective: str | None
+    status: str | None
+    value: float | None
+    gap: float | None
+    unit: str | None
+    applied: str | None
+
+    @classmethod
+    def of(cls, turn: StoredTurn) -> HistoryLine:
+        same = {name: getattr(turn, name) for name in cls.model_fields if name != "applied"}
+        return cls(**same, applied=None if turn.applied is None else turn.applied["base_station"])
+
+    def row(self) -> tuple[str, ...]:
+        """What a list shows of it."""
+        text = self.text if len(self.text) <= _TEXT_SHOWN else self.text[: _TEXT_SHOWN - 1] + "…"
+        value = "–" if self.value is None else human(self.value, self.unit or "")
+        return (
+            str(self.number), self.at_utc[:19].replace("T", " "), f"{self.session[:_SESSION_SHOWN]} {self.turn}",
+            " ".join(text.split()), self.objective or "–", self.status or self.stage, value,
+            "–" if self.gap is None else percent(self.gap), self.applied or "–",
+        )  # fmt: skip
+
+
+class HistoryRecord(Record):
+    """The turns asked for, the oldest first."""
+
+    store: str
+    turns: list[HistoryLine]
+
+    def blocks(self) -> list[Block]:
+        if not self.turns:
+            return [f"nothing is recorded yet in {self.store}"]
+        columns = ("turn", "time (UTC)", "session", "said", "objective", "status", "value", "gap", "applied by")
+        return [
+            Table(title=f"Recorded in {self.store}", columns=columns, rows=tuple(line.row() for line in self.turns)),
+            "history show N tells all of a turn, history replay N does its work again.",
+        ]
+
+
+def list_turns(request: HistoryRequest, progress: Progress) -> HistoryRecord:
+    del progress
+    last = whole("last", request.last)
+    try:
+        with opened(request) as store:
+            turns = [HistoryLine.of(turn) for turn in store.turns(request.session, last=last)]
+            return HistoryRecord(store=store.place, turns=turns)
+    except NothingRecordedError:
+        return HistoryRecord(store=place_of(request), turns=[])
+
+
+class TurnRequest(StoreOptions):
+    panel = "Options"
+
+    number: Annotated[int, Positional()] = Field(description="number of the turn, as history lists it")
+
+
+class ShowRecord(Record):
+    """All that is recorded of a turn, and what was changed or removed since in its session."""
+
+    turn: dict[str, Any]
+    faults: list[str]
+    paragraphs: list[str | Table] = Field(exclude=True)
+
+    def blocks(self) -> list[Block]:
+        return list(self.paragraphs)
+
+
+def show_turn(request: TurnRequest, progress: Progress) -> ShowRecord:
+    del progress
+    with opened(request) as store:
+        turn = store.turn(request.number)
+        faults = store.faults(turn.session)
+        said = [*_said(turn), *_decided(store, turn), *_kept(turn, faults)]
+        return ShowRecord(turn=plain(vars(turn)), faults=faults, paragraphs=said)
+
+
+def _said(turn: StoredTurn) -> Iterator[Block]:
+    yield f"Turn {turn.number}, turn {turn.turn} of the session {turn.session}, {turn.at_utc} ({turn.stage})"
+    yield f"Said: {turn.text}"
+    yield f"Replied: {turn.reply} ({turn.recogniser}, {turn.intent['confidence']:.0%} sure)"
+
+
+def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
+    """The decision as it was told then."""
+    if turn.estimate is None:
+        return
+    estimate = estimate_of(store.content(turn.estimate))
+    decision, outcome = decision_of(turn, estimate.user_names), outcome_of(turn)
+    yield certificate_line(decision)
+    yield from decision_tables(report(decision, outcome), estimate)
+    yield from (f"Note: {note}" for note in turn.notes or ())
+    yield "\n".join(turn.explanation or ())
+    if outcome is not None:
+        as_decided = (outcome.owner == decision.owner).all() and (outcome.power_w == decision.power_w).all()
+        found = "as decided" if as_decided else "other than decided"
+        yield f"Applied by {outcome.base_station}; read back {found}: {human(float(outcome.power_w.sum()), 'W')}"
+
+
+def _kept(turn: StoredTurn, faults: list[str]) -> Iterator[Block]:
+    """How the turn is kept, and whether it still is what it was."""
+    yield (
+        f"Seed {turn.seed}, wirelessagent {turn.version}, {', '.join(f'{a} {b}' for a, b in turn.platform.items())}\n"
+        f"Hash {turn.hash}"
+    )
+    yield "Checked: nothing in this session was changed or removed." if not faults else "WARNING: " + "; ".join(faults)
+
+
+class ReplayRecord(Record):
+    """What came of doing a turn's work again."""
+
+    number: int
+    verdict: str
+    same_setting: bool
+    summary: str
+    differences: list[str]
+    decision: DecisionAnswer
+    certificate: str = Field(exclude=True)
+
+    def blocks(self) -> list[Block]:
+        said: list[Block] = [f"Turn {self.number}: {self.summary}", *self.differences]
+        return [*said, self.certificate]
+
+
+def replay_turn(request: TurnRequest, progress: Progress) -> ReplayRecord:
+    del progress
+    with opened(request) as store:
+        replay = store.replay(request.number)
+    return ReplayRecord(
+        number=request.number,
+        verdict=replay.verdict,
+        same_setting=replay.same_setting,
+        summary=replay.summary,
+        differences=list(replay.differences),
+        decision=DecisionAnswer.of(replay.decision),
+        certificate=certificate_line(replay.decision),
+    )
+
+
+class ExportRequest(StoreOptions):
+    panel = "Options"
+
+    out: Annotated[Path, Positional()] = Field(description="file to write, JSON lines")
+    session: str | None = Field(None, description="only the turns of this session")
+
+
+class ExportRecord(Record):
+    """The file written."""
+
+    out: Path
+    turns: int
+    contents: int
+
+    def blocks(self) -> list[Block]:
+        return [f"{self.turns} turns and the {self.contents} channels that they speak of written to {self.out}"]
+
+
+def export_turns(request: ExportRequest, progress: Progress) -> ExportRecord:
+    del progress
+    writable_target(request.out)
+    written = {"turn": 0, "content": 0}
+
+    with opened(request) as store:
+
+        def write(stream: BinaryIO) -> None:
+            for line in exported(store, request.session):
+                written[line["kind"]] += 1
+                stream.write(json.dumps(line, ensure_ascii=False, allow_nan=False).encode() + b"\n")
+
+        write_atomically(request.out, write)
+    return ExportRecord(out=request.out, turns=written["turn"], contents=written["content"])
+
+
+HISTORY = Operation(
+    name="history",
+    summary="List what was asked, decided and applied, from the audit store",
+    request=HistoryRequest,
+    record=HistoryRecord,
+    run=list_turns,
+)
+
+HISTORY_SHOW = Operation(
+    name="history show",
+    summary="Show all that is recorded of a turn, and check that it was not changed",
+    request=TurnRequest,
+    record=ShowRecord,
+    run=show_turn,
+)
+
+HISTORY_REPLAY = Operation(
+    name="history replay",
+    summary="Repair and decide again as a turn did, and say whether the decision is the same",
+    request=TurnRequest,
+    record=ReplayRecord,
+    run=replay_turn,
+)
+
+HISTORY_EXPORT = Operation(
+    name="history export",
+    summary="Write turns with the channels that they saw as JSON lines",
+    request=ExportRequest,
+    record=ExportRecord,
+    run=export_turns,
+)

@@ -1,0 +1,62 @@
+"""Turns go to the audit store, and where they cannot, that is told and costs nothing else."""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING
+
+from pydantic import Field
+
+from wirelessagent.model.errors import WirelessAgentError
+from wirelessagent.operations.operation import Request
+
+if TYPE_CHECKING:
+    from wirelessagent.agent.turn import Turn
+    from wirelessagent.store.store import Store
+
+_log = logging.getLogger("wirelessagent.store")
+
+
+class StoreOptions(Request):
+    """Which audit store."""
+
+    store: str | None = Field(
+        None,
+        description="audit store, an SQLite file or a SQLAlchemy URL; that of WIRELESSAGENT_STORE_URL, or a file in "
+        "the user's data folder, if not given",
+    )
+
+
+class RecordingOptions(StoreOptions):
+    """Whether turns are recorded, and where."""
+
+    no_store: bool = Field(False, description="record nothing; WIRELESSAGENT_STORE=no does so for good")
+
+    def remember(self, turn: Turn) -> int | None:
+        """The turn's number in the store; None where it was not to be recorded, or could not be."""
+        if self.no_store:
+            return None
+        from wirelessagent.settings import settings
+
+        try:
+            if not settings().store:
+                return None
+            with opened(self, create=True) as store:
+                return store.append(turn)
+        except WirelessAgentError as error:
+            _log.warning("this turn is not recorded: %s", error)
+            return None
+
+
+def opened(options: StoreOptions, *, create: bool = False) -> Store:
+    """The store that the options name; SQLAlchemy is loaded only here."""
+    from wirelessagent.store.store import Store
+
+    return Store.open(options.store, create=create)
+
+
+def place_of(options: StoreOptions) -> str:
+    """Where that store is or would be, as people name it."""
+    from wirelessagent.store.place import shown, url_of
+
+    return shown(url_of(options.store))

@@ -1,0 +1,206 @@
+"""Where the audit store is: found, made privately, opened, and known for one of ours before anything is written.
+
+SQLite runs in WAL mode with ``synchronous=FULL``: what is committed is on the disk, a process that is killed leaves
+nothing half done, and readers never wait. A transaction that writes begins with IMMEDIATE, so that two processes take
+turns instead of failing half way.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import time
+from collections.abc import Callable, Generator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import platformdirs
+from sqlalchemy import URL, Connection, Engine, create_engine, event, inspect, make_url, select
+from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError, SQLAlchemyError
+from sqlalchemy.pool import NullPool
+
+from wirelessagent import __version__
+from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
+from wirelessagent.settings import settings
+from wirelessagent.store.schema import METADATA, SCHEMA, SCHEMA_VERSION, TURN
+
+_PATIENCE_S = 10.0
+"""How long a writer waits for another."""
+
+_BEGIN = "wirelessagent_begin"
+"""The execution option that says how a transaction begins on SQLite."""
+
+
+def url_of(where: str | Path | None) -> URL:
+    """The URL of a store named by a URL or a file; as the settings say, or in the user's data folder, if not given.
+
+    Raises:
+        InputError: it is no URL, or of a database that cannot hold a store.
+    """
+    named = str(where or settings().store_url or platformdirs.user_data_path("wirelessagent") / "audit.sqlite3")
+    if "://" not in named:
+        return URL.create("sqlite", database=str(Path(named).expanduser().absolute()))
+    try:
+        url = make_url(named)
+        url.get_dialect()
+    except (ArgumentError, NoSuchModuleError) as error:
+        raise InputError(f"the audit store cannot be at {named!r}: {error}; name a file or a SQLAlchemy URL") from error
+    if url.get_backend_name() not in ("sqlite", "postgresql"):
+        raise InputError(
+            f"the audit store cannot be at {shown(url)}: only SQLite and PostgreSQL are known to keep it append-only"
+        )
+    if url.get_backend_name() == "sqlite" and file_of(url) is None:
+        raise InputError(f"the audit store needs a file; got {named!r}: as in sqlite:////var/lib/audit.sqlite3")
+    return url
+
+
+def shown(url: URL) -> str:
+    """The place as people name it: a file by its path, anything else without its password."""
+    path = file_of(url)
+    return url.render_as_string(hide_password=True) if path is None else str(path)
+
+
+def file_of(url: URL) -> Path | None:
+    """The file of an SQLite database; None for another database, or one without a file."""
+    if url.get_backend_name() != "sqlite" or url.database in (None, "", ":memory:"):
+        return None
+    return None if str(url.database).startswith("file:") else Path(str(url.database))
+
+
+def opened(url: URL, *, create: bool) -> Engine:
+    """The store's engine, once it is known to be a store of this schema; made first where ``create`` says so.
+
+    Raises:
+        NothingRecordedError: there is none and it is not to be made.
+        StoreError: it cannot be opened or made, or is something else.
+    """
+    with told(url):
+        path = file_of(url)
+        if path is not None:
+            _prepare_file(path, create=create)
+        engine = _engine(url)
+        _patiently(lambda: _check(engine, create=create))
+        return engine
+
+
+@contextlib.contextmanager
+def told(url: URL) -> Generator[None]:
+    """Have what a database or a disk refuses told in one sentence."""
+    try:
+        yield
+    except ImportError as error:
+        raise StoreError(f"the audit store at {shown(url)} needs a driver that is not installed: {error}") from error
+    except OSError as error:
+        said = f"{error.strerror or error}: {error.filename or ''}".strip(": ")
+        raise StoreError(f"the audit store at {shown(url)} cannot be used: {said}") from error
+    except SQLAlchemyError as error:
+        said = " ".join(str(error.orig if isinstance(error, DBAPIError) else error).split())
+        damaged = any(sign in said for sign in ("malformed", "not a database", "disk image"))
+        how = "; nothing was changed: move it away, or name another store" if damaged else ""
+        raise StoreError(f"the audit store at {shown(url)} cannot be used: {said}{how}") from error
+
+
+@contextlib.contextmanager
+def writing(engine: Engine) -> Generator[Connection]:
+    """A transaction that holds the right to write from its start; committed at the end, undone by an error."""
+    with engine.connect().execution_options(**{_BEGIN: "BEGIN IMMEDIATE"}) as connection, connection.begin():
+        if engine.dialect.name == "postgresql":
+            connection.exec_driver_sql(f"LOCK TABLE {TURN.name} IN EXCLUSIVE MODE")
+        yield connection
+
+
+def _prepare_file(path: Path, *, create: bool) -> None:
+    """Make sure of a file that only its owner can read."""
+    if not create:
+        if not path.exists():
+            raise NothingRecordedError(f"nothing is recorded yet: there is no audit store at {path}")
+        return
+    if path.parent == platformdirs.user_data_path("wirelessagent"):
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    if path.is_dir():
+        raise StoreError(f"the audit store cannot be at {path}: that is a folder; name a file in it")
+    os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o600))
+
+
+def _engine(url: URL) -> Engine:
+    if url.get_backend_name() != "sqlite":
+        return create_engine(url, poolclass=NullPool)
+    engine = create_engine(url, poolclass=NullPool, connect_args={"timeout": _PATIENCE_S})
+    event.listen(engine, "connect", _set_up)
+    event.listen(engine, "begin", _begin)
+    return engine
+
+
+def _set_up(connection: Any, _: object) -> None:
+    """Leave transactions to us, and take no commit for done before it is on the disk."""
+    connection.isolation_level = None
+    connection.execute("PRAGMA synchronous=FULL")
+    connection.execute("PRAGMA foreign_keys=ON")
+
+
+def _begin(connection: Connection) -> None:
+    how = connection.get_execution_options().get(_BEGIN, "BEGIN")
+    if how:
+        connection.exec_driver_sql(how)
+
+
+def _patiently(check: Callable[[], None]) -> None:
+    """Do it again while another process that makes the same store holds it: SQLite does not wait for that by itself."""
+    until = time.monotonic() + _PATIENCE_S
+    while True:
+        try:
+            check()
+        except DBAPIError as error:
+            if "locked" not in str(error.orig) or time.monotonic() > until:
+                raise
+            time.sleep(0.02)
+        else:
+            return
+
+
+def _check(engine: Engine, *, create: bool) -> None:
+    """Refuse what is not a store of this schema; make one where nothing is."""
+    with engine.connect() as connection:
+        if _is_store(connection):
+            return
+    if not create:
+        raise NothingRecordedError(f"nothing is recorded yet in {shown(engine.url)}")
+    if engine.dialect.name == "sqlite":
+        with engine.connect().execution_options(**{_BEGIN: ""}) as connection:
+            connection.exec_driver_sql("PRAGMA journal_mode=WAL")
+    with engine.connect().execution_options(**{_BEGIN: "BEGIN IMMEDIATE"}) as connection, connection.begin():
+        if engine.dialect.name == "postgresql":
+            connection.exec_driver_sql(f"SELECT pg_advisory_xact_lock(hashtext('{SCHEMA.name}'))")
+        if not _is_store(connection):  # another process may have been faster
+            METADATA.create_all(connection)
+            now = datetime.now(UTC).isoformat(timespec="seconds")
+            connection.execute(
+                SCHEMA.insert(), {"version": SCHEMA_VERSION, "package_version": __version__, "made_utc": now}
+            )
+
+
+def _is_store(connection: Connection) -> bool:
+    """Whether the database holds a store; False where it holds nothing that could be meant to be one.
+
+    Raises:
+        StoreError: it holds something else, or a store of another schema.
+    """
+    place = shown(connection.engine.url)
+    tables = set(inspect(connection).get_table_names())
+    if SCHEMA.name not in tables:
+        foreign = tables if connection.dialect.name == "sqlite" else tables & set(METADATA.tables)
+        if foreign:
+            raise StoreError(
+                f"{place} is not an audit store but a database with the tables {', '.join(sorted(foreign)[:5])}; "
+                "nothing was changed: name another store"
+            )
+        return False
+    versions = list(connection.execute(select(SCHEMA.c.version)).scalars())
+    if versions != [SCHEMA_VERSION]:
+        found = ", ".join(map(str, versions)) or "none"
+        raise StoreError(
+            f"the audit store at {place} has the schema version {found}, and this version of wirelessagent knows "
+            f"{SCHEMA_VERSION}; nothing was changed: use the newer one, or name another store"
+        )
+    return True

@@ -1,0 +1,100 @@
+"""What a row says, as the chain's own types again: cell, problem, decision, outcome."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from wirelessagent import plugins
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.decision import Bracket, Decision, Prices
+from wirelessagent.model.metrics import LinkMetrics
+from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.problem import Problem
+from wirelessagent.store.record_of import CONSTRAINTS, FIGURES
+from wirelessagent.store.stored import StoredTurn
+
+_ARRAYS = ("weights", "min_rate_bps", "max_rate_bps", "subcarrier_max_power_w")
+
+
+def cell_of(turn: StoredTurn) -> Cell:
+    return Cell(**turn.cell)
+
+
+def problem_of(turn: StoredTurn) -> Problem:
+    """The problem that was decided on, every figure as it was.
+
+    Raises:
+        InputError: its objective is not installed, or has other options by now.
+    """
+    named = turn.problem["objective"]
+    stated = {name: turn.problem[name] for name in CONSTRAINTS if turn.problem[name] is not None}
+    for name in _ARRAYS:
+        if name in stated:
+            stated[name] = _floats(stated[name])
+    if "users" in stated:
+        stated["users"] = tuple(stated["users"])
+    return Problem(plugins.objective(named["name"], named["options"]), **stated)
+
+
+def decision_of(turn: StoredTurn, user_names: tuple[str, ...]) -> Decision:
+    """The decision as it was made, for a channel of these users."""
+    allocation, certificate = turn.allocation, dict(turn.certificate)
+    brackets = {name: _bracket(certificate.pop(name)) for name in ("needed_power_w", "rate_scaling")}
+    prices = certificate.pop("prices")
+    arrays = {name: _floats(certificate.pop(name)) for name in ("price_of_rate", "expected_rate_bps", "outage")}
+    return Decision(
+        owner=np.array(allocation["owner"], dtype=np.int64),
+        power_w=_floats(allocation["power_w"]),
+        rate_bps=_floats(allocation["rate_bps"]),
+        **{name: _figure(getattr(turn, name)) for name in FIGURES},
+        status=turn.status,  # pyright: ignore[reportArgumentType]  # as it came from a decision
+        unit=turn.unit or "",
+        method=turn.method["name"],
+        problem=problem_of(turn),
+        cell=cell_of(turn),
+        user_names=user_names,
+        price_of_power=float(certificate.pop("price_of_power")),
+        prices=None if prices is None else Prices(log_rate=_floats(prices["log_rate"]),
+                                                  log_power=float(prices["log_power"])),
+        **brackets,
+        **arrays,
+        **certificate,
+    )  # fmt: skip
+
+
+def outcome_of(turn: StoredTurn) -> Outcome | None:
+    """What the base station did, as it was read back."""
+    if turn.applied is None:
+        return None
+    found = dict(turn.applied)
+    achieved = found["achieved"]
+    return Outcome(
+        base_station=found["base_station"],
+        owner=np.array(found["owner"], dtype=np.int64),
+        power_w=_floats(found["power_w"]),
+        promised_bps=_floats(found["promised_bps"]),
+        achieved=None if achieved is None else _metrics(achieved),
+        written_to=None if found["written_to"] is None else Path(found["written_to"]),
+    )
+
+
+def _metrics(stored: dict[str, Any]) -> LinkMetrics:
+    figures = {name: float(value) for name, value in stored.items() if name != "user_rate_bps"}
+    return LinkMetrics(user_rate_bps=_floats(stored["user_rate_bps"]), **figures)
+
+
+def _bracket(stored: dict[str, Any] | None) -> Bracket | None:
+    return None if stored is None else Bracket(**{side: float(figure) for side, figure in stored.items()})
+
+
+def _figure(stored: float | None) -> float:
+    return math.nan if stored is None else float(stored)
+
+
+def _floats(stored: Any) -> Any:
+    """Numbers, also those that JSON has as text, as an array."""
+    return np.array(stored, dtype=np.float64)
