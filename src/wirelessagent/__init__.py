@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from wirelessagent.acting.base_station import BaseStation
     from wirelessagent.acting.file import FileBaseStation
     from wirelessagent.acting.simulated import SimulatedBaseStation
-    from wirelessagent.chain import compare, decide, decide_batch, perfect, repair, simulate
+    from wirelessagent.chain import decide, decide_batch, perfect, repair, simulate
+    from wirelessagent.comparison import compare
     from wirelessagent.deciding.method import Method
     from wirelessagent.explain.report import report
     from wirelessagent.kernels import kernel
@@ -74,7 +75,7 @@ _HOMES = {
     "SimulatedBaseStation": "acting.simulated",
     "WirelessAgentError": "model.errors",
     "ask": "operations.chain_run",
-    "compare": "chain",
+    "compare": "comparison",
     "decide": "chain",
     "decide_batch": "chain",
     "kernel": "kernels",

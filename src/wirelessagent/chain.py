@@ -1,28 +1,26 @@
-"""Sense, repair, decide and compare on Python objects: the chain's stages with plug-ins looked up by name."""
+"""Sense, repair and decide on Python objects: the chain's stages with plug-ins looked up by name."""
 
 from __future__ import annotations
 
 import dataclasses
-import time
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from typing import Any, TypeGuard, TypeVar, cast
+from collections.abc import Mapping
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
 from wirelessagent import plugins
+from wirelessagent.deciding.expected import counted_on
 from wirelessagent.deciding.method import Method
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.batch_decision import BatchDecision
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
-from wirelessagent.model.errors import InputError, UnknownNameError, UnsupportedProblemError
+from wirelessagent.model.errors import InputError, UnsupportedProblemError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.given import given_cell, given_estimate, given_observation, given_problem
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.scene import Scene
-from wirelessagent.plugin_options import options_of
 from wirelessagent.repairing.repairer import Repairer
 from wirelessagent.sensing.source import ChannelSource
 
@@ -55,7 +53,7 @@ def repair(
             gain_variance=observation.current_noise_variance,
             method="none" if observation.measured[-1].all() else "earlier repair",
         )
-    chosen = _chosen("repairer", default_repairer(observation) if method is None else method, options, Repairer)
+    chosen = chosen_plugin("repairer", default_repairer(observation) if method is None else method, options, Repairer)
     return chosen.repair(observation, at_s=at_s)
 
 
@@ -105,8 +103,9 @@ def decide(
 ) -> Decision:
     """The allocation for ``problem`` on the estimated channel, with its certificate.
 
-    With an outage probability the rates are promised, and the certificate holds, under the estimate's posterior
-    (:mod:`wirelessagent.deciding.outage`), whatever the method.
+    Where nothing is promised, uncertain gains count by the mean rate that they carry
+    (:mod:`wirelessagent.deciding.expected`). With an outage probability the rates are promised, and the certificate
+    holds, under the estimate's posterior (:mod:`wirelessagent.deciding.outage`). Both hold for every method.
 
     ``after`` is an earlier decision for the same users, such as the previous slot's, whose prices the search starts
     from. It changes nothing where nothing is searched (the most rate or efficiency without further limits is a closed
@@ -119,17 +118,18 @@ def decide(
     """
     estimate, cell = given_estimate(estimate), given_cell(cell)
     resolved = resolve(problem).for_users(estimate.user_names)
-    chosen = _chosen("method", default_method(resolved) if method is None else method, options, Method)
+    chosen = chosen_plugin("method", default_method(resolved) if method is None else method, options, Method)
     _check(resolved, type(chosen))
     if after is not None:
         _check_start(chosen, estimate, after)
     if resolved.outage_probability is not None and "outage_probability" not in chosen.constraints:
         from wirelessagent.deciding.outage import decide_with_outage
 
-        return decide_with_outage(chosen, estimate, resolved, cell, after)
+        return decide_with_outage(chosen, estimate, resolved, cell, after).knowing(estimate)
+    channel = estimate if resolved.outage_probability is not None else counted_on(estimate, resolved, cell)
     if after is None:
-        return chosen.solve(estimate, resolved, cell)
-    return cast(Decision, cast(Any, chosen).solve(estimate, resolved, cell, after=after))
+        return chosen.solve(channel, resolved, cell).knowing(estimate)
+    return cast(Decision, cast(Any, chosen).solve(channel, resolved, cell, after=after)).knowing(estimate)
 
 
 def _check_start(chosen: Method, estimate: ChannelEstimate, after: Decision) -> None:
@@ -178,7 +178,7 @@ def decide_batch(
 _Tool = TypeVar("_Tool", Method, Repairer)
 
 
-def _chosen(kind: plugins.Kind, named: str | _Tool, options: Mapping[str, Any], base: type[_Tool]) -> _Tool:
+def chosen_plugin(kind: plugins.Kind, named: str | _Tool, options: Mapping[str, Any], base: type[_Tool]) -> _Tool:
     """A plug-in by its name with its options, or itself.
 
     Raises:
@@ -224,65 +224,3 @@ def _refusal(problem: Problem, method: type[Method]) -> str:
     except UnsupportedProblemError as refusal:
         return str(refusal)
     return ""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Comparison:
-    """One method's answer beside the others': its decision, or why it has none, and the time it took."""
-
-    method: str
-    decision: Decision | None
-    refusal: str
-    time_s: float
-
-
-def compare(
-    estimate: ChannelEstimate,
-    problem: Problem,
-    cell: Cell | None = None,
-    methods: Iterable[str | Method] | None = None,
-    **options: Any,
-) -> list[Comparison]:
-    """Each method's decision on the same problem; all methods that solve it if none are named.
-
-    An option goes to every method by name that has it; methods of your own making, as in Dual(effort="thorough"), have
-    their options already. The time is the second call's, so that compiling is not counted. A method that was named
-    and does not solve the problem is listed with its refusal; one that was not named is left out.
-
-    Raises:
-        UnknownNameError: none of the methods has an option of this name.
-    """
-    resolved = resolve(problem)
-    named = list(methods) if methods is not None else [one.name for one in plugins.plugins("method") if one.cls]
-    known = {name: {one.name for one in options_of(plugins.load("method", name))} for name in named if _is_name(name)}
-    surplus = options.keys() - set[str]().union(*known.values())
-    if surplus:
-        of = f"the methods {', '.join(map(_label, named))}"
-        raise UnknownNameError("option", min(surplus), set[str]().union(*known.values()), of=of)
-    found: list[Comparison] = []
-    for method in named:
-        own = {name: value for name, value in options.items() if _is_name(method) and name in known[method]}
-        try:
-            decide(estimate, resolved, cell, method, **own)
-        except UnsupportedProblemError as refusal:
-            if methods is not None:
-                found.append(Comparison(method=_label(method), decision=None, refusal=str(refusal), time_s=np.nan))
-            continue
-        start = time.perf_counter()
-        decision = decide(estimate, resolved, cell, method, **own)
-        elapsed = time.perf_counter() - start
-        found.append(Comparison(method=_label(method), decision=decision, refusal="", time_s=elapsed))
-    return found
-
-
-def _is_name(method: str | Method) -> TypeGuard[str]:
-    return isinstance(method, str)
-
-
-def _label(method: str | Method) -> str:
-    """A method's name, with the options that are not at their defaults: "dual (effort=thorough)"."""
-    if isinstance(method, str):
-        return method
-    values = {one.name: (getattr(method, one.name), one.default) for one in options_of(type(method))}
-    set_apart = [f"{name}={value}" for name, (value, default) in values.items() if value != default]
-    return f"{method.name} ({', '.join(set_apart)})" if set_apart else method.name

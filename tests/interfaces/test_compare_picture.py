@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.chain import Comparison
+from wirelessagent.comparison import Comparison
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human
 from wirelessagent.pictures.canvas import Canvas

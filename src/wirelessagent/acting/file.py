@@ -43,7 +43,7 @@ class FileBaseStation(BaseStation):
             base_station=self.name,
             owner=decision.owner,
             power_w=decision.power_w,
-            promised_bps=decision.rate_bps,
+            promised_bps=decision.committed_bps,
             written_to=path,
         )
 
@@ -60,7 +60,7 @@ def _write_json(stream: BinaryIO, decision: Decision) -> None:
     content = {
         "owner": decision.owner.tolist(),
         "power_w": decision.power_w.tolist(),
-        "promised_bps": decision.rate_bps.tolist(),
+        "promised_bps": decision.committed_bps.tolist(),
         "user_names": list(decision.user_names),
     }
     stream.write(json.dumps(content, ensure_ascii=False, allow_nan=False, indent=1).encode())
@@ -80,7 +80,7 @@ def _write_npz(stream: BinaryIO, decision: Decision) -> None:
         stream,
         owner=decision.owner,
         power_w=decision.power_w,
-        promised_bps=decision.rate_bps,
+        promised_bps=decision.committed_bps,
         user_names=np.array(decision.user_names),
     )
 

@@ -33,12 +33,13 @@ class SimulatedBaseStation(BaseStation):
             )
         check_applicable(decision, self.scene.cell)
         achieved = link_metrics(
-            truth, decision.owner, decision.power_w, self.scene.cell, committed_bps=decision.rate_bps
+            truth, decision.owner, decision.power_w, self.scene.cell, committed_bps=decision.committed_bps
         )
         return Outcome(
             base_station=self.name,
             owner=decision.owner,
             power_w=decision.power_w,
-            promised_bps=decision.rate_bps,
+            promised_bps=decision.committed_bps,
             achieved=achieved,
+            true_gain=truth,
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
@@ -9,6 +10,9 @@ import numpy as np
 
 from wirelessagent.model.arrays import FloatArray, IntArray, frozen
 from wirelessagent.model.cell import Cell
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.forecast import Forecast, forecast
+from wirelessagent.model.objective import Objective
 from wirelessagent.model.problem import Problem
 
 Status: TypeAlias = Literal["optimal", "feasible", "infeasible", "undecided"]
@@ -52,8 +56,9 @@ class Decision:
     Attributes:
         owner: the user of each subcarrier, −1 for nobody, shape (subcarrier,).
         power_w: radiated power on each subcarrier, shape (subcarrier,).
-        rate_bps: each user's predicted rate on the estimated channel, shape (user,); this is what is promised. With an
-            outage probability it is the rate that the true one stays below with that probability at most.
+        rate_bps: each user's predicted rate on the channel that was decided on, shape (user,): the estimated one, on
+            which uncertain gains count by their mean rates where nothing is promised. With an outage probability it is
+            the rate that the true one stays below with that probability at most.
         status: "optimal" (gap ≤ 1e-9 or proven), "feasible", "infeasible" (with proof) or "undecided" (nothing
             feasible found and no proof that nothing exists).
         value: the objective's value on the estimated channel, or at the rates that are promised with an outage
@@ -80,6 +85,7 @@ class Decision:
         problem: the problem solved, with its objective resolved.
         cell: the cell it was solved for.
         user_names: one name per user.
+        estimate: what was known of the channel; None where a method was asked by itself and does not tell.
     """
 
     owner: IntArray
@@ -104,15 +110,47 @@ class Decision:
     prices: Prices | None = None
     expected_rate_bps: FloatArray = field(default_factory=lambda: np.empty(0))
     outage: FloatArray = field(default_factory=lambda: np.empty(0))
+    estimate: ChannelEstimate | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("owner", "power_w", "rate_bps", "price_of_rate", "expected_rate_bps", "outage"):
             object.__setattr__(self, name, frozen(getattr(self, name)))
 
+    def knowing(self, estimate: ChannelEstimate) -> Decision:
+        """The same decision with what was known of the channel."""
+        found = object.__new__(type(self))
+        found.__dict__.update(self.__dict__, estimate=estimate)
+        found.__dict__.pop("forecast", None)
+        return found
+
     @property
     def is_usable(self) -> bool:
         """Whether the allocation keeps every constraint and may be applied."""
         return self.status in ("optimal", "feasible")
+
+    @functools.cached_property
+    def forecast(self) -> Forecast | None:
+        """What the true channel will carry by the estimate's posterior; None where nothing is uncertain.
+
+        Rates are committed between what each user was promised and the most that it can use; where the power is to be
+        least, to what was promised.
+        """
+        if self.estimate is None or not self.is_usable:
+            return None
+        users, problem = self.rate_bps.size, self.problem
+        least, most = problem.min_rates_bps(users), problem.max_rates_bps(users)
+        if self.outage.size or (isinstance(problem.objective, Objective) and problem.objective.measure == "power"):
+            least = most = self.rate_bps
+        return forecast(self.estimate, self.owner, self.power_w, self.cell, least_bps=least, most_bps=most)
+
+    @property
+    def committed_bps(self) -> FloatArray:
+        """The rate that each user is sent at, shape (user,): what of it the true channel does not carry is lost.
+
+        With certain gains, with an outage probability and where the power is to be least it is ``rate_bps``; else that
+        of which most is expected to arrive (:mod:`wirelessagent.model.forecast`).
+        """
+        return self.rate_bps if self.forecast is None else self.forecast.committed_bps
 
     @property
     def total_power_w(self) -> float:

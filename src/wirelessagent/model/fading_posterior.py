@@ -20,14 +20,13 @@ import numpy as np
 
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.even_draws import normal_draws
+from wirelessagent.model.mean_log import MeanLogs
 from wirelessagent.model.posterior import Posterior
 
 _NODES = 513
 """Nodes of a quantile's table over √(c/m)."""
 _SHARP = 1e-4
 """c/m below which the amplitude is normal to four digits and more."""
-_RULE = 24
-"""Quantiles from which expectations are taken."""
 
 
 class ErrorCorrelation(Protocol):
@@ -111,8 +110,7 @@ class FadingPosterior(Posterior):
         return level
 
     def expected_log1p(self, scale: FloatArray) -> FloatArray:
-        rule = _quantile_rule()
-        return np.sum([weight * np.log1p(scale * self.quantile(at)) for at, weight in rule], axis=0)
+        return _mean_logs().mean(self._spread, self.mean * scale)
 
     @functools.cached_property
     def _spread(self) -> FloatArray:
@@ -152,10 +150,5 @@ def _rician_quantiles(probability: float) -> FloatArray:
 
 
 @functools.lru_cache(maxsize=1)
-def _quantile_rule() -> tuple[tuple[float, float], ...]:
-    """Probabilities u = t² and weights, by Gauss and Legendre's rule in t: the logarithm of a gain in a deep fade,
-    ln u, is mild in t."""
-    from numpy.polynomial.legendre import leggauss
-
-    node, weight = leggauss(_RULE)
-    return tuple((float(t * t), float(w * t)) for t, w in zip((node + 1.0) / 2.0, weight, strict=True))
+def _mean_logs() -> MeanLogs:
+    return MeanLogs.of(lambda probability, spread: FadingPosterior(np.ones(spread.shape), spread).quantile(probability))

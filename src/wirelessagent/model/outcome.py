@@ -19,8 +19,9 @@ class Outcome:
         base_station: registered name of the base station.
         owner: the user of each subcarrier as read back, −1 for nobody, shape (subcarrier,).
         power_w: radiated power on each subcarrier as read back, shape (subcarrier,).
-        promised_bps: the rates that the decision promised, shape (user,).
+        promised_bps: the rates that the decision committed the users to, shape (user,).
         achieved: metrics on the true channel; None where the base station cannot measure them.
+        true_gain: the true channel where the base station knows it, shape (user, subcarrier).
         written_to: the file written, for base stations that write one.
     """
 
@@ -29,9 +30,10 @@ class Outcome:
     power_w: FloatArray
     promised_bps: FloatArray
     achieved: LinkMetrics | None = None
+    true_gain: FloatArray | None = None
     written_to: Path | None = None
     missed: BoolArray = field(init=False)
-    """True for users whose true rate fell short of the promise, shape (user,); all False where it is not known."""
+    """True for users whose true rate fell short of the commitment, shape (user,); all False where it is not known."""
 
     def __post_init__(self) -> None:
         short = np.zeros(self.promised_bps.shape, dtype=bool)

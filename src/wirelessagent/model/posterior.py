@@ -7,14 +7,14 @@ fading with a known mean, and a point mass where the variance is zero).
 
 from __future__ import annotations
 
+import functools
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
 
 from wirelessagent.model.arrays import FloatArray, IntArray
-
-_NODES = (np.arange(64) + 0.5) / 64
+from wirelessagent.model.mean_log import MeanLogs
 
 
 class Posterior(ABC):
@@ -74,10 +74,16 @@ class GammaPosterior(Posterior):
         return few.mean * np.where(few.variance > 0, drawn, 1.0)
 
     def expected_log1p(self, scale: FloatArray) -> FloatArray:
-        return np.mean([np.log1p(scale * self.quantile(node)) for node in _NODES], axis=0)
+        spread = np.where(self.variance > 0, 1.0 / self._shape(), 0.0)
+        return _mean_logs().mean(spread, self.mean * scale)
 
     def _shape(self) -> FloatArray:
         """The gamma shape parameter mean²/variance; 1 where it is not used."""
         certain = (self.variance <= 0) | (self.mean <= 0)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             return np.where(certain, 1.0, np.clip(self.mean**2 / self.variance, 1e-3, 1e12))
+
+
+@functools.lru_cache(maxsize=1)
+def _mean_logs() -> MeanLogs:
+    return MeanLogs.of(lambda probability, spread: GammaPosterior(np.ones(spread.shape), spread).quantile(probability))

@@ -8,8 +8,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from wirelessagent import chain
-from wirelessagent.chain import Comparison
+from wirelessagent.comparison import Comparison, compare
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human, percent
@@ -103,7 +102,7 @@ def _place(one: Comparison) -> tuple[int, float, float, float]:
 def run(request: CompareRequest, progress: Progress) -> CompareRecord:
     check_picture(request.plot)
     scene, estimate, problem = request.posed(progress)
-    found = sorted(chain.compare(estimate, problem, scene.cell, request.methods, **request.method_options), key=_place)
+    found = sorted(compare(estimate, problem, scene.cell, request.methods, **request.method_options), key=_place)
     if not found:
         raise UnsupportedProblemError(f"no registered method solves {request.objective!r} with these constraints")
     answers = [

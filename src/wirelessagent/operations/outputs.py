@@ -11,7 +11,7 @@ from typing import Any
 
 from wirelessagent import __version__
 from wirelessagent.acting.file import allocation_writer
-from wirelessagent.chain import Comparison
+from wirelessagent.comparison import Comparison
 from wirelessagent.model.atomic import writable_target
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision

@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
-from wirelessagent.chain import Comparison
+from wirelessagent.comparison import Comparison
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.objective import Objective

@@ -60,8 +60,8 @@ class BaseStationContract(PluginContract):
     def test_remembers_what_was_promised(self) -> None:
         scene = known_scene()
         outcome = self._applied(scene)
-        assert np.array_equal(outcome.promised_bps, _decision(scene).rate_bps), (
-            f"promised_bps must be the decision's rates {_decision(scene).rate_bps}; got {outcome.promised_bps}"
+        assert np.array_equal(outcome.promised_bps, _decision(scene).committed_bps), (
+            f"promised_bps must be the decision's rates {_decision(scene).committed_bps}; got {outcome.promised_bps}"
         )
 
     def test_measures_on_the_true_channel(self) -> None:
