@@ -21,7 +21,7 @@ OPERATIONS: tuple[AnyOperation, ...] = (
 
 GROUPS: dict[str, str] = {
     "evaluate": "Compare methods on many draws, with confidence intervals",
-    "history": "What was asked, decided and applied: list, show, replay, export",
+    "history": "List what was asked, decided and applied; show, replay or export it",
 }
 """Summaries of the first words of names that have two; where an operation has the first word alone, it is what is done
 without a second."""
