@@ -1,15 +1,31 @@
-"""What holds for the whole suite: nothing is recorded among the user's own turns."""
+"""No test may speak to the network (servers on this machine are none) or record turns among the user's own."""
 
 from __future__ import annotations
 
 import os
+import socket
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
 
-@pytest.fixture(scope="session", autouse=True)
-def audit_store(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+@pytest.fixture(autouse=True, scope="session")
+def _no_network() -> Iterator[None]:
+    def guarded(self: socket.socket, address: Any) -> None:
+        here = self.family == getattr(socket, "AF_UNIX", None) or address[0] in ("127.0.0.1", "::1", "localhost")
+        if not here:
+            raise RuntimeError(f"a test tried to connect to {address!r}")
+        connect(self, address)
+
+    with pytest.MonkeyPatch.context() as patch:
+        connect = socket.socket.connect
+        patch.setattr(socket.socket, "connect", guarded)
+        yield
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _own_store(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """An audit store of the suite's own, for this process and those that it starts."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(os.environ, "WIRELESSAGENT_STORE_URL", str(tmp_path_factory.mktemp("store") / "audit.sqlite3"))
