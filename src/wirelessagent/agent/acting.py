@@ -1,0 +1,187 @@
+"""Apply, read back, compare with the promise, and revert to the last good allocation where it was not kept.
+
+A base station may do something else than it was told, stop half-way, or do as told on a channel that is not as it was
+estimated. Each of these is found in what is read back:
+
+- the allocation that is in effect is not the one that was decided;
+- what the true channel carries of the rates promised is more than a tolerance below them in all;
+- more promises are missed than the outage probability explains: less than one channel in a thousand misses as many;
+- the allocation that was in effect before keeps the same request, and does so better by more than the tolerance.
+
+Where no outage probability was accepted, a missed promise is no fault by itself: on an estimate about half are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats
+
+from wirelessagent.acting.base_station import BaseStation
+from wirelessagent.agent.run import with_outcome
+from wirelessagent.agent.turn import Run
+from wirelessagent.agent.words import say
+from wirelessagent.explain.report import name_of_figure
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.metrics import RATE_TOLERANCE
+from wirelessagent.model.objective import Objective
+from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.units import human, percent, reliability
+
+TOLERANCE = 0.1
+"""Share by which what is achieved may fall short of what was promised or of what there was before."""
+
+_SAME_POWER = 1e-3
+"""Share of the power by which two allocations may differ and be the same: what radios round."""
+
+_ROUNDING = 1e-9
+
+_UNLIKELY = 1e-3
+"""Probability below which so many missed promises are not chance."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Effect:
+    """What came of applying a run.
+
+    Attributes:
+        run: the run with what was read back; its outcome is None where the base station failed.
+        faults: why it was not kept, each in one sentence; empty where it is good.
+        restored: what was read back after the last good allocation was put back; None where it was not.
+        trouble: why it could not be put back; empty where it could, or where there was none.
+        as_decided: whether what was read back is what was decided, whatever it achieves.
+    """
+
+    run: Run
+    faults: tuple[str, ...] = ()
+    restored: Outcome | None = None
+    trouble: str = ""
+    as_decided: bool = True
+
+
+def carry_out(run: Run, station: BaseStation, last_good: Run | None, tolerance: float = TOLERANCE) -> Effect:
+    """Apply a run's decision; where it is at fault, put the last good one back."""
+    language = run.intent.language
+    outcome, failure = _applied(station, run.decision, language)
+    done = run if outcome is None else with_outcome(run, outcome)
+    amiss = [failure] if outcome is None else _differences(run.decision, outcome, language)
+    faults = list(amiss)
+    if outcome is not None and not amiss:
+        faults = [*_broken_promises(run.decision, outcome, tolerance, language), *_worse(done, last_good, tolerance)]
+    if not faults or last_good is None:
+        return Effect(run=done, faults=tuple(faults), as_decided=not amiss)
+    restored, trouble = put_back(last_good, station, language)
+    return Effect(run=done, faults=tuple(faults), restored=restored, trouble=trouble, as_decided=not amiss)
+
+
+def put_back(good: Run, station: BaseStation, language: str) -> tuple[Outcome | None, str]:
+    """What was read back after an earlier allocation was applied again, and what went wrong with that."""
+    outcome, failure = _applied(station, good.decision, language)
+    if outcome is None:
+        return None, failure
+    return outcome, " ".join(_differences(good.decision, outcome, language))
+
+
+def same_allocation(one: Decision, other: Decision) -> bool:
+    """Whether two decisions are the same for the base station and the users, within rounding."""
+    return (
+        one.owner.shape == other.owner.shape
+        and one.rate_bps.shape == other.rate_bps.shape
+        and bool(np.array_equal(_in_use(one), _in_use(other)))
+        and bool(np.allclose(one.power_w, other.power_w, rtol=0, atol=_ROUNDING * one.total_power_w))
+        and bool(np.allclose(one.rate_bps, other.rate_bps, rtol=_ROUNDING, atol=0))
+    )
+
+
+def _applied(station: BaseStation, decision: Decision, language: str) -> tuple[Outcome | None, str]:
+    try:
+        return station.apply(decision), ""
+    except Exception as error:  # noqa: BLE001  # equipment of any make must not end the conversation
+        return None, say(language, "station_failed", station=station.name, why=error)
+
+
+def _in_use(allocation: Decision | Outcome) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    """The owner of each subcarrier that carries power, −1 elsewhere."""
+    return np.where(allocation.power_w > 0, allocation.owner, -1)
+
+
+def _differences(decision: Decision, outcome: Outcome, language: str) -> list[str]:
+    """How what was read back differs from what was decided."""
+    count = decision.owner.size
+    if outcome.owner.shape != decision.owner.shape or outcome.power_w.shape != decision.power_w.shape:
+        return [say(language, "other_shape", read=outcome.owner.size, planned=count)]
+    found: list[str] = []
+    off = np.abs(outcome.power_w - decision.power_w)
+    if not off.sum() <= _SAME_POWER * decision.total_power_w:  # NaN is a difference too
+        read, planned = float(outcome.power_w.sum()), decision.total_power_w
+        found.append(say(language, "other_power", read=human(read, "W"), planned=human(planned, "W")))
+    moved = int(np.count_nonzero((_in_use(outcome) != _in_use(decision)) & (outcome.power_w > 0)))
+    if moved:
+        found.append(say(language, "other_owner", moved=moved, total=count))
+    return found
+
+
+def _broken_promises(decision: Decision, outcome: Outcome, tolerance: float, language: str) -> list[str]:
+    if outcome.achieved is None:
+        return []
+    found: list[str] = []
+    promised = outcome.promised_bps
+    carried = float(np.minimum(outcome.achieved.user_rate_bps, promised).sum())
+    total = float(promised.sum())
+    if carried < total * (1 - tolerance):
+        short, of = percent(1 - carried / total), human(total, "bit/s")
+        found.append(say(language, "too_little", carried=human(carried, "bit/s"), promised=of, short=short))
+    outage = decision.problem.outage_probability
+    missed, served = int(np.count_nonzero(outcome.missed)), int(np.count_nonzero(promised > 0))
+    if outage is not None and missed and float(stats.binom.sf(missed - 1, served, outage)) < _UNLIKELY:
+        found.append(say(language, "too_many", missed=missed, served=served, sure=reliability(outage)))
+    return found
+
+
+def _worse(run: Run, good: Run | None, tolerance: float) -> list[str]:
+    """What the last good allocation, where it keeps the same request, gives more than the new one."""
+    if good is None or run.outcome is None or good.outcome is None or not _keeps(run, good):
+        return []
+    now, before = _worth(run, run.outcome), _worth(run, good.outcome)
+    objective = run.decision.problem.objective
+    assert isinstance(objective, Objective)
+    lost = before * (1 - tolerance) - now if objective.direction == "max" else now - before * (1 + tolerance)
+    if not lost > 0:
+        return []
+    language, unit = run.intent.language, run.decision.unit
+    figure = name_of_figure(run.decision, language) or say(language, "value")
+    return [say(language, "worse_than_before", figure=figure, now=human(now, unit), before=human(before, unit))]
+
+
+def _worth(run: Run, outcome: Outcome) -> float:
+    """The value of what was read back, for the objective of ``run``."""
+    problem, achieved = run.decision.problem, outcome.achieved
+    assert isinstance(problem.objective, Objective)
+    assert achieved is not None
+    users = achieved.user_rate_bps.size
+    useful = np.minimum(achieved.user_rate_bps, problem.max_rates_bps(users))
+    return problem.objective.value(useful, achieved.power_w, run.decision.cell, problem.weights_of(users))
+
+
+def _keeps(run: Run, good: Run) -> bool:
+    """Whether an earlier allocation, as it was read back on the same channel, keeps the constraints of ``run``."""
+    problem, outcome, truth = run.decision.problem, good.outcome, run.scene.current_truth
+    if outcome is None or outcome.achieved is None or truth is None:
+        return False
+    earlier = good.scene.current_truth
+    if run.outcome is None or run.outcome.achieved is None or earlier is None or not np.array_equal(truth, earlier):
+        return False
+    users = len(truth)
+    used = np.flatnonzero(outcome.power_w > 0)
+    owner = outcome.owner[used]
+    cap = np.inf if problem.subcarrier_max_power_w is None else problem.subcarrier_max_power_w
+    least = np.where(problem.serves(users), problem.min_rates_bps(users), 0.0)
+    return bool(
+        outcome.power_w.sum() <= problem.budget_w(run.decision.cell) * (1 + RATE_TOLERANCE)
+        and np.all(outcome.power_w <= np.asarray(cap) * (1 + RATE_TOLERANCE))
+        and np.all(problem.serves(users)[owner])
+        and np.all(problem.allows(truth.shape)[owner, used])
+        and np.all(outcome.achieved.user_rate_bps >= least * (1 - RATE_TOLERANCE))
+        and problem.resource_block_group_size in (1, good.decision.problem.resource_block_group_size)
+    )

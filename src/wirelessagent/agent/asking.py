@@ -1,0 +1,186 @@
+"""Turns that change nothing: what if, compare, status, history, help, and questions about the decision."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import cast
+
+from wirelessagent import plugins
+from wirelessagent.agent import answers
+from wirelessagent.agent.figures import certificate_line, decision_tables, side_by_side, worded
+from wirelessagent.agent.request import Request
+from wirelessagent.agent.restating import restated
+from wirelessagent.agent.site import Site
+from wirelessagent.agent.state import Reply, State
+from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.agent.words import say
+from wirelessagent.explain.table import Table
+from wirelessagent.language.intent import Constraint, Intent
+from wirelessagent.model.errors import UnsupportedProblemError
+from wirelessagent.model.units import human, percent
+
+_SHOWN = 60
+"""Characters of a sentence that the history shows."""
+
+
+def what_if(site: Site, state: State, intent: Intent) -> Reply:
+    """A decision for other circumstances beside the one that holds."""
+    language, details = intent.language, intent.details
+    share = details.get("missing_share")
+    constraints = cast("Mapping[str, Constraint]", details.get("constraints") or {})
+    objective = cast("str | None", details.get("objective"))
+    if share is None and not constraints and objective is None:
+        return Reply(text=say(language, "what_if_nothing"), stage="asked")
+    if state.request is None and objective is None:
+        return Reply(text=say(language, "nothing_yet"))
+    if share is not None and not 0 <= cast(float, share) < 1:
+        return Reply(text=say(language, "what_if_missing_share", share=percent(cast(float, share))), stage="asked")
+    request = (state.request or Request(objective=cast(str, objective))).amended(constraints, objective=objective)
+    sight = None if share is None else site.sight_missing(cast(float, share), language)
+    run = site.foreseen(site.plan(intent, request, sight=sight))
+    line = certificate_line(run.decision, language)
+    if share is None:
+        text = say(language, "what_if", request=restated(request, language), line=line)
+    else:
+        text = say(language, "what_if_seen", share=percent(cast(float, share)), line=line)
+    runs = [(say(language, "what_if_column"), run)]
+    if state.run is not None:
+        runs.insert(0, (say(language, "now_column"), site.foreseen(state.run)))
+    return Reply(text=text, run=run, tables=(side_by_side(runs, language),))
+
+
+def compare(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
+    """The decision that holds beside the last other one, or beside what other methods and repairers make of it."""
+    language = intent.language
+    if state.run is None or state.request is None:
+        return Reply(text=say(language, "nothing_yet"))
+    named = [str(intent.details[key]) for key in ("with", "methods", "repairers") if key in intent.details]
+    names = [name for name in re.split(r"[,，、;\s]+", " ".join(named)) if name and name != "last"]
+    return _with_named(site, state, intent, names) if names else _with_last(state.run, language, turns)
+
+
+def _with_last(run: Run, language: str, turns: Sequence[Turn]) -> Reply:
+    made = [turn for turn in turns if turn.run is not None and turn.intent.kind == "allocate"]
+    own = next((turn.number for turn in reversed(made) if _same(turn.run, run)), len(turns))
+    earlier = [turn for turn in made if not _same(turn.run, run)]
+    if not earlier:
+        return Reply(text=say(language, "nothing_to_compare"))
+    last = earlier[-1]
+    assert last.run is not None
+    columns = [
+        (say(language, "turn_column", number=number), one) for number, one in ((own, run), (last.number, last.run))
+    ]
+    text = say(language, "compared_last", turn=last.number, line=certificate_line(last.run.decision, language))
+    return Reply(text=text, tables=(side_by_side(columns, language),))
+
+
+def _same(one: Run | None, other: Run) -> bool:
+    """Whether two runs are of one decision, applied or not."""
+    return one is not None and one.decision is other.decision
+
+
+def _with_named(site: Site, state: State, intent: Intent, names: Sequence[str]) -> Reply:
+    language, run = intent.language, state.run
+    assert run is not None
+    assert state.request is not None
+    columns, refusals = [(run.decision.method, site.foreseen(run))], list[str]()
+    for name in names:
+        if name in plugins.names("method"):
+            tools, sight = site.with_tools(method=name), None
+        elif name in plugins.names("repairer"):
+            tools = site.with_tools(repairer=name)
+            sight = site.sight_by(tools, language)
+        else:
+            known = {f"{kind}s": ", ".join(plugins.names(kind)) for kind in ("method", "repairer")}
+            return Reply(text=say(language, "not_installed", name=name, **known), stage="asked")
+        try:
+            found = site.plan(intent, state.request, sight=sight, tools=tools)
+            columns.append((name, site.foreseen(found)))
+        except UnsupportedProblemError as refusal:
+            refusals.append(say(language, "refused", name=name, why=refusal))
+    listed = say(language, "comma").join(names)
+    text = "\n".join([say(language, "compared", names=listed), *refusals])
+    return Reply(text=text, tables=(side_by_side(columns, language),) if len(columns) > 1 else ())
+
+
+def status(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
+    """What is asked for, what was decided, and what is in effect."""
+    language = intent.language
+    if state.request is None and state.on_air is None:
+        return Reply(text=say(language, "status_none"))
+    said: list[str] = []
+    if state.request is not None:
+        said.append(say(language, "status", request=restated(state.request, language)))
+    if state.run is not None:
+        said.append(say(language, "status_run", certificate=certificate_line(state.run.decision, language)))
+    said.append(_on_air(state.on_air, language, turns))
+    if state.planned is not None:
+        said.append(say(language, "status_waits"))
+    return Reply(text="\n".join(said))
+
+
+def _on_air(run: Run | None, language: str, turns: Sequence[Turn]) -> str:
+    if run is None:
+        return say(language, "status_off_air")
+    number = next((turn.number for turn in reversed(turns) if turn.run is run), len(turns))
+    promised = run.decision.rate_bps if run.outcome is None else run.outcome.promised_bps
+    return say(
+        language, "status_on_air", power=human(run.decision.total_power_w, "W"), turn=number,
+        rate=human(float(promised.sum()), "bit/s"), served=int((promised > 0).sum()),
+    )  # fmt: skip
+
+
+def history(intent: Intent, turns: Sequence[Turn]) -> Reply:
+    """The turns so far, or one of them."""
+    language, number = intent.language, intent.details.get("number")
+    if not turns:
+        return Reply(text=say(language, "history_none"))
+    if number is None:
+        rows = tuple(
+            (str(turn.number), _short(turn.text), say(language, f"{turn.stage}_stage"), _value(turn.run))
+            for turn in turns
+        )
+        columns = tuple(worded(language, label) for label in ("turn", "said", "came to", "value"))
+        table = Table(title=say(language, "history_title"), columns=columns, rows=rows)
+        return Reply(text=say(language, "history_so_far", count=len(turns)), tables=(table,))
+    chosen = next((turn for turn in turns if turn.number == number), None)
+    if chosen is None:
+        asked = f"{cast(float, number):g}"
+        return Reply(text=say(language, "history_unknown", number=asked, last=len(turns)), stage="asked")
+    text = say(language, "history_turn", number=chosen.number, text=_short(chosen.text), reply=chosen.reply)
+    return Reply(text=text, tables=chosen.tables)
+
+
+def _short(text: str) -> str:
+    plain = " ".join(text.split())
+    return plain if len(plain) <= _SHOWN else f"{plain[: _SHOWN - 1]}…"
+
+
+def _value(run: Run | None) -> str:
+    return "–" if run is None else human(run.decision.value, run.decision.unit)
+
+
+def explain(state: State, intent: Intent) -> Reply:
+    """The decision that holds in words, with its tables."""
+    run = state.run
+    if run is None:
+        return Reply(text=say(intent.language, "nothing_yet"))
+    text = answers.explanation(run, intent.language)
+    return Reply(text=text, tables=tuple(decision_tables(run.report, run.estimate, intent.language)))
+
+
+def export(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
+    """The request and its fulfilment as a document of a standard."""
+    del turns
+    return Reply(text=say(intent.language, "nothing_yet" if state.run is None else "no_such_answer", help=""))
+
+
+def question(site: Site, state: State, intent: Intent) -> Reply:
+    """A question about the decision that holds."""
+    if intent.topic == "concept":
+        return Reply(text=answers.concept(intent) or say(intent.language, "help"))
+    if state.run is None:
+        return Reply(text=say(intent.language, "nothing_yet"))
+    text, tables = answers.answer(state.run, intent, site.user_names)
+    return Reply(text=text or say(intent.language, "no_such_answer", help=say(intent.language, "help")), tables=tables)

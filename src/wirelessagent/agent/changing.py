@@ -1,0 +1,195 @@
+"""Turns that change what is asked for or what is in effect: requests, apply, yes and no, undo, reset.
+
+plan → confirm → apply → read back → compare with the promise → revert; see :mod:`wirelessagent.agent.acting`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+from wirelessagent.acting.base_station import BaseStation
+from wirelessagent.agent.acting import Effect, same_allocation
+from wirelessagent.agent.figures import certificate_line, decision_tables
+from wirelessagent.agent.request import requested
+from wirelessagent.agent.restating import restated
+from wirelessagent.agent.run import applied_line, with_outcome
+from wirelessagent.agent.site import Site
+from wirelessagent.agent.state import Reply, State
+from wirelessagent.agent.turn import Run, Stage
+from wirelessagent.agent.words import say
+from wirelessagent.language.intent import Intent
+from wirelessagent.model.units import human
+
+
+def allocate(site: Site, state: State, intent: Intent) -> Reply:
+    """Decide on a new or amended request and act on it, or ask before."""
+    request = requested(intent, state.request)
+    run = site.plan(intent, request)
+    new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good)
+    said = " ".join([restated(request, intent.language), *_notes(run), _sentence(run)])
+    if not run.decision.is_usable:
+        return _reply(intent, [said, say(intent.language, "not_applied")], "nothing", new, run)
+    if state.on_air is not None and same_allocation(run.decision, state.on_air.decision):
+        kept = with_outcome(run, state.on_air.outcome)
+        new = dataclasses.replace(new, run=kept, on_air=kept)
+        return _reply(intent, [said, say(intent.language, "no_change")], "nothing", new, kept)
+    return _carry_or_ask(site, new, intent, run, said)
+
+
+def apply(site: Site, state: State, intent: Intent) -> Reply:
+    """Apply what was decided; the operator said so, which is the confirmation."""
+    language, run = intent.language, state.planned or state.run
+    if run is None:
+        return Reply(text=say(language, "nothing_yet"))
+    if run is state.on_air:
+        return Reply(text=say(language, "already"), stage="nothing")
+    if not run.decision.is_usable:
+        return Reply(text=say(language, "nothing_to_apply", why=certificate_line(run.decision, language)))
+    station = site.station(run)
+    if station is None:
+        return Reply(text=say(language, "no_station"), stage="nothing")
+    return _apply(site, state, intent, run, station)
+
+
+def confirm(site: Site, state: State, intent: Intent) -> Reply:
+    """A yes: apply what waits for it."""
+    if state.planned is None:
+        return Reply(text=say(intent.language, "nothing_to_confirm"))
+    return apply(site, state, intent)
+
+
+def reject(site: Site, state: State, intent: Intent) -> Reply:
+    """A no: what waits is not applied; what is asked for stays, to be changed."""
+    del site
+    if state.planned is None:
+        return Reply(text=say(intent.language, "nothing_to_confirm"))
+    new = dataclasses.replace(state, planned=None)
+    return Reply(text=say(intent.language, "not_applied"), stage="nothing", state=new)
+
+
+def undo(site: Site, state: State, intent: Intent, past: Sequence[State]) -> Reply:
+    """Back to what was asked for before and, where something else was in effect then, back to that too."""
+    language = intent.language
+    if not past:
+        return Reply(text=say(language, "nothing_to_undo"), stage="nothing")
+    before = past[-1]
+    text = say(language, "undone_all")
+    if before.request is not None:
+        text = say(language, "undone", request=restated(before.request, language))
+    return dataclasses.replace(_undone(site, state, intent, before, text), undone=True)
+
+
+def _undone(site: Site, state: State, intent: Intent, before: State, text: str) -> Reply:
+    good = before.on_air
+    held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
+    if good is None:
+        said = [text] if state.on_air is None else [text, say(intent.language, "stays")]
+        return _reply(intent, said, "undone", held, before.run)
+    station = site.station(good)
+    if station is None or (state.on_air is not None and same_allocation(good.decision, state.on_air.decision)):
+        return _reply(intent, [text], "undone", held, before.run)
+    if site.asks(station):
+        return _reply(intent, [text, _question(good, before)], "planned", dataclasses.replace(held, planned=good), good)
+    return _put_back(site, before, intent, good, station, [text])
+
+
+def reset(site: Site, state: State, intent: Intent) -> Reply:
+    """Forget what is asked for; what is in effect stays."""
+    del site
+    new = State(on_air=state.on_air, last_good=state.last_good)
+    return Reply(text=say(intent.language, "reset"), stage="undone", state=new)
+
+
+def _carry_or_ask(site: Site, state: State, intent: Intent, run: Run, said: str) -> Reply:
+    station = site.station(run)
+    if station is None:
+        return _reply(intent, [said, say(intent.language, "no_station")], "planned", state, run)
+    if site.asks(station):
+        waiting = dataclasses.replace(state, planned=run)
+        return _reply(intent, [said, say(intent.language, "apply_it")], "planned", waiting, run)
+    return _apply(site, state, intent, run, station, said)
+
+
+def _apply(site: Site, state: State, intent: Intent, run: Run, station: BaseStation, said: str = "") -> Reply:
+    """Apply a run, or put one back that was in effect before."""
+    if run.outcome is not None and run is state.planned:
+        return _put_back(site, state, intent, run, station, [])
+    effect = site.carry_out(run, station, state.last_good)
+    new = dataclasses.replace(state, run=effect.run, planned=None)
+    text = [said] if said else []
+    if not effect.faults:
+        new = dataclasses.replace(new, on_air=effect.run, last_good=effect.run)
+        return _reply(intent, [*text, _capital(applied_line(effect.run)) + "."], "applied", new, effect.run)
+    text.append(_told(effect, state.last_good, intent.language))
+    if effect.restored is not None and not effect.trouble:
+        new = dataclasses.replace(new, on_air=state.last_good)
+        return _reply(intent, text, "reverted", new, effect.run, effect)
+    in_effect = effect.run if effect.as_decided else None
+    new = dataclasses.replace(new, on_air=in_effect)
+    return _reply(intent, text, "nothing" if effect.run.outcome is None else "applied", new, effect.run, effect)
+
+
+def _put_back(site: Site, state: State, intent: Intent, good: Run, station: BaseStation, text: Sequence[str]) -> Reply:
+    """Apply again what was in effect before, for an undo."""
+    outcome, trouble = site.put_back(good, station)
+    told = (
+        say(intent.language, "not_put_back", why=trouble) if trouble else _in_effect(intent.language, "put_back", good)
+    )
+    back = good if outcome is None else with_outcome(good, outcome)
+    run = back if state.run is good else state.run
+    new = dataclasses.replace(state, run=run, planned=None, on_air=None if trouble else back)
+    new = dataclasses.replace(new, last_good=state.last_good if trouble else back)
+    reply = _reply(intent, [*text, told], "undone", new, back)
+    return dataclasses.replace(reply, restored=outcome)
+
+
+def _told(effect: Effect, last_good: Run | None, language: str) -> str:
+    faults = "".join(effect.faults) if language == "zh" else " ".join(effect.faults)
+    if effect.restored is not None and not effect.trouble and last_good is not None:
+        return _in_effect(language, "reverted", last_good, faults=faults)
+    if last_good is None:
+        return say(language, "faulty", faults=faults)
+    return say(language, "not_reverted", faults=faults, trouble=effect.trouble)
+
+
+def _in_effect(language: str, key: str, run: Run, **names: str) -> str:
+    """A sentence about an allocation that is in effect again."""
+    power = human(run.decision.total_power_w, "W")
+    promised = run.decision.rate_bps if run.outcome is None else run.outcome.promised_bps
+    return say(language, key, power=power, rate=human(float(promised.sum()), "bit/s"), **names)
+
+
+def _question(good: Run, state: State) -> str:
+    """Whether to put an earlier allocation back."""
+    language = good.intent.language
+    request = "–" if state.request is None else restated(state.request, language)
+    return say(language, "put_it_back", power=human(good.decision.total_power_w, "W"), request=request)
+
+
+def _notes(run: Run) -> list[str]:
+    return [say(run.intent.language, "note", note=_capital(note)) for note in run.notes]
+
+
+def _sentence(run: Run) -> str:
+    language = run.intent.language
+    return say(language, "sentence", line=_capital(certificate_line(run.decision, language)))
+
+
+def _capital(sentence: str) -> str:
+    return sentence[:1].upper() + sentence[1:]
+
+
+def _reply(
+    intent: Intent, said: Sequence[str], stage: Stage, state: State, run: Run | None, effect: Effect | None = None
+) -> Reply:
+    """What is said of a run, with its tables."""
+    tables = [] if run is None else decision_tables(run.report, run.estimate, intent.language)
+    return Reply(
+        text=("" if intent.language == "zh" else " ").join(said),
+        stage=stage,
+        state=state,
+        run=run,
+        tables=tuple(tables),
+        restored=None if effect is None else effect.restored,
+    )

@@ -1,0 +1,179 @@
+"""From a request in the operator's terms to a problem on a channel: users by name, figures as arrays, limits kept."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+
+from wirelessagent import plugins
+from wirelessagent.agent.request import Request
+from wirelessagent.agent.words import say
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint
+from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.errors import InputError, UnclearRequestError
+from wirelessagent.model.problem import Problem
+from wirelessagent.model.units import human
+
+ASSUMED_MIN_RATE_BPS = 200e3
+"""Rate promised to each user where the least power is asked for and no rate was named."""
+
+_UNNAMED: Mapping[str, float] = {"min_rate_bps": 0.0, "max_rate_bps": np.inf, "weights": 1.0}
+"""What holds for users who are not named in figures by user."""
+
+_NAMES_SHOWN = 12
+
+
+@dataclass(frozen=True, kw_only=True)
+class Posed:
+    """A problem, the cell it is stated for, and what was assumed."""
+
+    problem: Problem
+    cell: Cell
+    notes: tuple[str, ...]
+
+
+class UnknownUserError(UnclearRequestError):
+    """Somebody was meant who is not there; the message is the question to the operator."""
+
+    def __init__(self, reference: str, user_names: tuple[str, ...], language: str) -> None:
+        more = len(user_names) - _NAMES_SHOWN
+        names = say(language, "comma").join(user_names[:_NAMES_SHOWN])
+        known = say(language, "names_and_more", names=names, more=more) if more > 0 else names
+        super().__init__(say(language, "unknown_user", user=reference, known=known))
+        self.reference = reference
+
+
+def pose(request: Request, cell: Cell, user_names: tuple[str, ...], language: str = "en") -> Posed:
+    """The problem that a request states on a channel of these users.
+
+    Raises:
+        UnclearRequestError: it names a user who is not there, or what cannot hold together; the message is the
+            question to the operator, in ``language``.
+    """
+    return _Posing(request, cell, user_names, language).posed()
+
+
+class _Posing:
+    """One request on its way to a problem."""
+
+    def __init__(self, request: Request, cell: Cell, user_names: tuple[str, ...], language: str) -> None:
+        self._request, self._cell, self._names, self._language = request, cell, user_names, language
+        self._given: dict[str, Constraint] = dict(request.constraints)
+        self._objective = plugins.objective(request.objective)
+        self._notes: dict[str, None] = {}
+
+    def posed(self) -> Posed:
+        circuit_power_w = self._given.pop("circuit_power_w", None)
+        if circuit_power_w is not None:
+            self._cell = dataclasses.replace(self._cell, circuit_power_w=cast(float, circuit_power_w))
+        self._check_power()
+        self._check_rates()
+        fields: dict[str, Any] = {"users": self._served()}
+        for name, value in self._given.items():
+            fields[name] = self._by_user(name, value) if name in FIGURES_OF_USERS else value
+        self._check_order(fields)
+        self._check_group(fields)
+        try:
+            problem = Problem(self._objective, **fields).for_users(self._names)
+            problem.weights_of(len(self._names))
+        except InputError as error:
+            raise UnclearRequestError(self._say("impossible", why=error)) from error
+        return Posed(problem=problem, cell=self._cell, notes=tuple(self._notes))
+
+    def _say(self, key: str, **names: object) -> str:
+        return say(self._language, key, **names)
+
+    def _note(self, key: str, **names: object) -> None:
+        self._notes[self._say(key, **names)] = None
+
+    def _check_power(self) -> None:
+        asked = cast("float | None", self._given.get("max_power_w"))
+        limit = self._cell.max_power_w
+        if asked is not None and asked > limit:
+            self._given["max_power_w"] = limit
+            self._note("above_the_limit", asked=human(asked, "W"), limit=human(limit, "W"))
+
+    def _check_rates(self) -> None:
+        if self._objective.measure != "power":
+            return
+        if "min_rate_bps" not in self._given:
+            self._given["min_rate_bps"] = ASSUMED_MIN_RATE_BPS
+            self._note("assumed_rate", rate=human(ASSUMED_MIN_RATE_BPS, "bit/s"))
+        if self._given.pop("weights", None) is not None:
+            self._note("weights_mean_nothing")
+
+    def _served(self) -> tuple[int, ...] | None:
+        """Numbers of the users to serve; None for all."""
+        wanted, unwanted = self._given.pop("users", None), self._given.pop("leave_out", None)
+        if wanted is None and unwanted is None:
+            return None
+        numbers = set(range(len(self._names))) if wanted is None else self._numbers(wanted)
+        numbers -= set[int]() if unwanted is None else self._numbers(unwanted)
+        if not numbers:
+            raise UnclearRequestError(self._say("nobody_left"))
+        return tuple(sorted(numbers))
+
+    def _numbers(self, references: Constraint) -> set[int]:
+        return {self._number(reference) for reference in cast("tuple[str, ...]", references)}
+
+    def _number(self, reference: str) -> int:
+        number, by_place = user_number(reference, self._names, self._language)
+        if by_place:
+            self._note("user_by_place", number=reference, name=self._names[number])
+        return number
+
+    def _by_user(self, name: str, value: Constraint) -> float | FloatArray:
+        if not isinstance(value, Mapping):
+            return cast(float, value)
+        figures = np.full(len(self._names), value.get(EVERYBODY, _UNNAMED[name]))
+        for reference, figure in value.items():
+            if reference != EVERYBODY:
+                figures[self._number(reference)] = figure
+        return figures
+
+    def _check_order(self, fields: Mapping[str, Any]) -> None:
+        """Refuse rates of which the least is above the most, for a user who is served."""
+        count = len(self._names)
+        least = np.broadcast_to(fields.get("min_rate_bps", 0.0), count)
+        most = np.broadcast_to(fields.get("max_rate_bps", np.inf), count)
+        served = fields["users"]
+        crossed = [user for user in (range(count) if served is None else served) if least[user] > most[user]]
+        if crossed:
+            user = crossed[0]
+            low, high = (human(float(rate[user]), "bit/s") for rate in (least, most))
+            raise UnclearRequestError(self._say("rates_crossed", user=self._names[user], low=low, high=high))
+
+    def _check_group(self, fields: dict[str, Any]) -> None:
+        size = fields.get("resource_block_group_size")
+        if size is None:
+            return
+        if size != int(size):
+            raise UnclearRequestError(self._say("whole_groups", size=f"{size:g}"))
+        fields["resource_block_group_size"] = int(size)
+
+
+def user_number(reference: str, user_names: tuple[str, ...], language: str = "en") -> tuple[int, bool]:
+    """Who is meant, from 0, and whether it had to be taken as a place in the list.
+
+    "3" is the user named "user 3", else the one named "3", else the third one.
+
+    Raises:
+        UnknownUserError: nobody can be meant.
+    """
+    said = " ".join(reference.split()).casefold()
+    names = [name.casefold() for name in user_names]
+    for name in (f"user {said}", said):
+        if name in names:
+            return names.index(name), False
+    figure = re.fullmatch(r"(?:user\s*)?0*(\d{1,9})", said)
+    if figure is not None and f"user {figure[1]}" in names:
+        return names.index(f"user {figure[1]}"), False
+    if figure is None or not 1 <= int(figure[1]) <= len(names):
+        raise UnknownUserError(reference, user_names, language)
+    return int(figure[1]) - 1, True

@@ -1,0 +1,112 @@
+"""The chain from an intent to a decision and back from the base station: sense, repair, decide, report, explain."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+
+from wirelessagent import chain, plugins
+from wirelessagent.acting.base_station import BaseStation
+from wirelessagent.agent.events import Event, Progress, silent
+from wirelessagent.agent.figures import certificate_line
+from wirelessagent.agent.posing import Posed
+from wirelessagent.agent.tools import Tools
+from wirelessagent.agent.turn import Run
+from wirelessagent.agent.words import say
+from wirelessagent.explain.report import report
+from wirelessagent.explain.words import explain
+from wirelessagent.language.intent import Intent
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.scene import Loss, Scene
+from wirelessagent.model.units import percent
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sight:
+    """What is known of a scene's channel: what was seen, and what was made of it."""
+
+    scene: Scene
+    observation: ChannelObservation
+    estimate: ChannelEstimate
+
+
+def look(
+    scene: Scene, losses: Sequence[Loss], seed: int, tools: Tools, *, language: str = "en", progress: Progress = silent
+) -> Sight:
+    """Observe a scene, with what ``losses`` leave of it, and repair what is missing."""
+    seen = scene.observe(*losses, seed=seed)
+    progress(Event(stage="sense", message=describe(seen, language)))
+    estimate = chain.repair(seen, tools.repairer, **tools.repairer_options)
+    missing = int(seen.missing.sum())
+    repaired = say(language, "repaired" if missing else "complete", missing=missing, method=estimate.method)
+    progress(Event(stage="repair", message=repaired))
+    return Sight(scene=scene, observation=seen, estimate=estimate)
+
+
+def describe(seen: ChannelObservation, language: str = "en") -> str:
+    """The size of an observation and what is missing, in one sentence."""
+    missing = int(seen.missing.sum())
+    history = say(language, "history", slots=seen.num_slots) if seen.num_slots > 1 else ""
+    return say(
+        language, "sensed", users=seen.num_users, subcarriers=seen.num_subcarriers, history=history, missing=missing,
+        entries=seen.missing.size, share=percent(missing / seen.missing.size),
+    )  # fmt: skip
+
+
+def plan(intent: Intent, posed: Posed, sight: Sight, tools: Tools, *, progress: Progress = silent) -> Run:
+    """Decide on what was posed; nothing is applied."""
+    for note in posed.notes:
+        progress(Event(stage="note", message=note))
+    decision = chain.decide(sight.estimate, posed.problem, posed.cell, tools.method, **tools.method_options)
+    progress(Event(stage="decide", message=certificate_line(decision, intent.language)))
+    made = report(decision)
+    return Run(
+        intent=intent,
+        scene=dataclasses.replace(sight.scene, cell=posed.cell),
+        observation=sight.observation,
+        estimate=sight.estimate,
+        decision=decision,
+        outcome=None,
+        report=made,
+        notes=posed.notes,
+        explanation=tuple(explain(sight.estimate, made, language=intent.language)),
+        tools=tools,
+    )
+
+
+def with_outcome(run: Run, outcome: Outcome | None) -> Run:
+    """The run after the base station did something, with its report and its explanation."""
+    made = report(run.decision, outcome)
+    explained = explain(run.estimate, made, language=run.intent.language)
+    return dataclasses.replace(run, outcome=outcome, report=made, explanation=tuple(explained))
+
+
+def station_of(tools: Tools, scene: Scene) -> BaseStation | None:
+    """The base station that is named, else a simulated one where the true channel is known; else None."""
+    name = tools.base_station or ("simulated" if scene.truth is not None else None)
+    if name is None:
+        return None
+    return cast(BaseStation, plugins.create("base_station", name, tools.base_station_options, scene))
+
+
+def applied_line(run: Run) -> str:
+    """What became of a run on the base station, in one sentence."""
+    language, decision, outcome = run.intent.language, run.decision, run.outcome
+    if not decision.is_usable:
+        return say(language, "not_usable", why=decision.reason)
+    if outcome is None:
+        return say(language, "no_station")
+    if outcome.written_to is not None:
+        return say(language, "written", path=outcome.written_to)
+    if outcome.achieved is None:
+        return say(language, "applied", station=outcome.base_station)
+    promised = outcome.promised_bps > 0
+    kept, served = int(np.count_nonzero(promised & ~outcome.missed)), int(np.count_nonzero(promised))
+    key = "applied_promised" if decision.problem.promises_rates else "applied_committed"
+    return say(language, key, station=outcome.base_station, kept=kept, served=served)

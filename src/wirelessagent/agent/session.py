@@ -1,0 +1,246 @@
+"""A conversation with memory: sentences in, turns out.
+
+    session = wa.Session(scene, wa.loss.random(0.2), seed=1)
+    print(session.say("Highest total rate, at most 10 W").reply)
+    print(session.say("and at least 1 Mbit/s for everyone").reply)
+
+What is asked for, what was decided and what is in effect are kept as immutable states, so that "undo" goes back to
+each of them. The recogniser only says what is meant; what is done about it is decided here, and the same for all of
+them.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+import uuid
+from collections.abc import Callable, Mapping
+from datetime import UTC, datetime
+from typing import Any, Protocol, cast
+
+from wirelessagent import __version__
+from wirelessagent.acting.base_station import BaseStation
+from wirelessagent.agent import asking, changing
+from wirelessagent.agent.acting import TOLERANCE
+from wirelessagent.agent.events import Event, Progress, silent
+from wirelessagent.agent.posing import UnknownUserError, user_number
+from wirelessagent.agent.request import Request
+from wirelessagent.agent.site import Site
+from wirelessagent.agent.state import Missing, Reply, State
+from wirelessagent.agent.tools import Tools
+from wirelessagent.agent.turn import Turn
+from wirelessagent.agent.words import say
+from wirelessagent.language.intent import Constraint, Detail, Intent
+from wirelessagent.language.offline import OfflineRecogniser
+from wirelessagent.language.recogniser import Context, Recogniser
+from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
+from wirelessagent.model.scene import Loss, Scene
+
+_USER = re.compile(
+    r"(?i)\s*(?:(?:no|sorry|i mean|i meant|make it|我是说|是)[,，\s]*)*"
+    r"(?:the\s+)?(?:user|ue|用户)?\s*#?\s*(.{1,40}?)\s*号?[.!。]?\s*"
+)
+"""An answer to "whom did you mean?"."""
+
+
+class TurnStore(Protocol):
+    """What keeps turns for good."""
+
+    def append(self, turn: Turn) -> object:
+        """Keep a turn, whole or not at all."""
+        ...
+
+
+class Session:
+    """A conversation about one cell.
+
+    Args:
+        scene: the cell and its channel.
+        losses: what gets lost of what is sensed.
+        seed: of every draw.
+        recogniser: what understands sentences; the offline one if not given.
+        base_station: where allocations are applied: one of your own, or a registered name in ``tools``; a simulated
+            one if neither is given and the true channel is known.
+        confirm: whether to ask before anything is applied; None asks unless the base station is simulated.
+        tolerance: share by which what is achieved may fall short before the last good allocation is put back.
+        tools: the repairer, the method and the base station by name, with their options.
+        store: keeps every turn.
+        progress: is told of each stage as it happens.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        *losses: Loss,
+        seed: int = 0,
+        recogniser: Recogniser | None = None,
+        base_station: BaseStation | None = None,
+        confirm: bool | None = None,
+        tolerance: float = TOLERANCE,
+        tools: Tools | None = None,
+        store: TurnStore | None = None,
+        progress: Progress = silent,
+    ) -> None:
+        self._site = Site(
+            scene, losses, seed=seed, tools=tools or Tools(), base_station=base_station, confirm=confirm,
+            tolerance=tolerance, progress=progress,
+        )  # fmt: skip
+        self._recogniser: Recogniser = recogniser or cast(Recogniser, OfflineRecogniser())
+        self._store, self._progress = store, progress
+        self._state, self._past = State(), list[State]()
+        self._turns: list[Turn] = []
+        self._language = ""
+        self.id = uuid.uuid4().hex[:12]
+
+    @property
+    def turns(self) -> tuple[Turn, ...]:
+        """What was said so far."""
+        return tuple(self._turns)
+
+    @property
+    def request(self) -> Request | None:
+        """What is asked for: its objective and its constraints; None at the start."""
+        return self._state.request
+
+    @property
+    def state(self) -> State:
+        """What holds: the request, the decision, what waits for a yes, and what is in effect."""
+        return self._state
+
+    def say(self, text: str) -> Turn:
+        """Take a line from the operator: understand it, do what it asks, and reply."""
+        intent = self._answered(text) or self._recogniser.recognise(text, self._context())
+        self._language = intent.language
+        if intent.kind == "allocate":
+            sure = f"{intent.confidence:.0%}"
+            message = say(intent.language, "understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure)
+            self._progress(Event(stage="understand", message=message))
+        reply = self._reply(intent)
+        self._take(reply)
+        return self._kept(text, intent, reply)
+
+    def _context(self) -> Context:
+        state, request = self._state, self._state.request
+        return Context(
+            user_names=self._site.user_names,
+            max_power_w=self._site.scene.cell.max_power_w,
+            objective=None if request is None else request.objective,
+            constraints={} if request is None else request.constraints,
+            awaits=state.awaits,
+            pending=state.pending,
+            language=self._language,
+        )
+
+    def _reply(self, intent: Intent) -> Reply:
+        """What the intent leads to; what cannot be done becomes a reply, and changes nothing."""
+        try:
+            return self._handled(intent)
+        except UnclearRequestError as question:
+            reference = question.reference if isinstance(question, UnknownUserError) else None
+            missing = None if reference is None else Missing(intent=intent, reference=reference)
+            asked = dataclasses.replace(
+                self._state, planned=None, asked=True, pending=dict(intent.constraints), missing=missing
+            )
+            return Reply(text=str(question), stage="asked", state=asked)
+        except UnsupportedProblemError as refusal:
+            return Reply(text=say(intent.language, "unsupported", why=refusal), stage="nothing")
+        except WirelessAgentError as error:
+            return Reply(text=str(error), stage="nothing")
+
+    def _handled(self, intent: Intent) -> Reply:
+        site, state = self._site, self._state
+        if intent.kind == "allocate":
+            return changing.allocate(site, state, intent)
+        if intent.kind == "clarify":
+            asked = dataclasses.replace(state, planned=None, asked=True, pending=dict(intent.pending), missing=None)
+            return Reply(text=intent.reply, stage="asked", state=asked)
+        if intent.kind == "out_of_scope":
+            return Reply(text=intent.reply)
+        handlers: Mapping[str, Callable[[], Reply]] = {
+            "apply": lambda: changing.apply(site, state, intent),
+            "confirm": lambda: changing.confirm(site, state, intent),
+            "reject": lambda: changing.reject(site, state, intent),
+            "undo": lambda: changing.undo(site, state, intent, self._past),
+            "reset": lambda: changing.reset(site, state, intent),
+            "compare": lambda: asking.compare(site, state, intent, self._turns),
+            "explain": lambda: asking.explain(state, intent),
+            "history": lambda: asking.history(intent, self._turns),
+            "status": lambda: asking.status(state, intent, self._turns),
+            "what_if": lambda: asking.what_if(site, state, intent),
+            "export": lambda: asking.export(state, intent, self._turns),
+            "help": lambda: Reply(text=say(intent.language, "help")),
+            "capabilities": lambda: Reply(text=say(intent.language, "help")),
+        }
+        handle = handlers.get(intent.topic or "")
+        if handle is not None:
+            return handle()
+        return asking.question(site, state, intent) if intent.kind == "question" else Reply(text=intent.reply)
+
+    def _take(self, reply: Reply) -> None:
+        """Let what the reply brought hold, and remember what held before another request."""
+        before, new = self._state, reply.state
+        if new is None:
+            new = dataclasses.replace(before, asked=reply.stage == "asked", pending={}, missing=None)
+        elif reply.undone:
+            self._past.pop()
+        elif new.request != before.request:
+            self._past.append(dataclasses.replace(before, planned=None, asked=False, pending={}, missing=None))
+        self._state = new
+
+    def _kept(self, text: str, intent: Intent, reply: Reply) -> Turn:
+        """The turn, remembered and stored; a store that fails is told of and stops nothing."""
+        said = reply.text
+        if intent.recogniser not in (self._recogniser.name, ""):
+            said = f"{say(intent.language, 'fallen_back', recogniser=intent.recogniser)} {said}"
+        turn = Turn(
+            number=len(self._turns) + 1,
+            session=self.id,
+            text=text,
+            intent=intent,
+            reply=said,
+            stage=reply.stage,
+            run=reply.run,
+            at_utc=datetime.now(UTC).isoformat(timespec="milliseconds"),
+            version=__version__,
+            seed=self._site.seed,
+            recogniser=intent.recogniser,
+            tables=reply.tables,
+            restored=reply.restored,
+        )
+        if self._store is not None:
+            try:
+                self._store.append(turn)
+            except WirelessAgentError as error:
+                said = f"{turn.reply} {say(intent.language, 'not_recorded', why=error)}"
+                turn = dataclasses.replace(turn, reply=said)
+        self._turns.append(turn)
+        return turn
+
+    def _answered(self, text: str) -> Intent | None:
+        """The intent that waits for a user, with the one that this line names; None where it names none."""
+        missing, match = self._state.missing, _USER.fullmatch(text)
+        if missing is None or match is None:
+            return None
+        try:
+            number, _ = user_number(match[1], self._site.user_names)
+        except UnknownUserError:
+            return None
+        return _with_user(missing, self._site.user_names[number])
+
+
+def _with_user(missing: Missing, name: str) -> Intent:
+    """The intent with a user in the place of the one who is not there."""
+    intent, reference = missing.intent, missing.reference
+    details: dict[str, Any] = {key: _renamed(value, reference, name) for key, value in intent.details.items()}
+    if not reference:
+        details["user"] = name
+    constraints = {key: _renamed(value, reference, name) for key, value in intent.constraints.items()}
+    return dataclasses.replace(intent, details=details, constraints=constraints)
+
+
+def _renamed(value: Constraint | Detail, reference: str, name: str) -> Any:
+    if isinstance(value, Mapping):
+        return {name if key == reference else key: _renamed(inner, reference, name) for key, inner in value.items()}
+    if isinstance(value, tuple):
+        return tuple(name if user == reference else user for user in value)
+    return name if value == reference else value

@@ -1,0 +1,108 @@
+"""The cell that a conversation is about: what is seen of its channel, how decisions are made, and its base station."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+from wirelessagent import chain
+from wirelessagent.acting.base_station import BaseStation
+from wirelessagent.acting.simulated import SimulatedBaseStation
+from wirelessagent.agent import acting
+from wirelessagent.agent.events import Event, Progress
+from wirelessagent.agent.posing import pose
+from wirelessagent.agent.request import Request
+from wirelessagent.agent.run import Sight, applied_line, look, plan, station_of, with_outcome
+from wirelessagent.agent.tools import Tools
+from wirelessagent.agent.turn import Run
+from wirelessagent.language.intent import Intent
+from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.scene import Loss, Scene
+from wirelessagent.sensing.loss import random
+
+
+class Site:
+    """One scene with its losses, the tools that work on it, and the rules of acting.
+
+    The channel is looked at once, when it is first needed.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        losses: Sequence[Loss],
+        *,
+        seed: int,
+        tools: Tools,
+        base_station: BaseStation | None,
+        confirm: bool | None,
+        tolerance: float,
+        progress: Progress,
+    ) -> None:
+        self.scene, self.losses, self.seed, self.tools = scene, tuple(losses), seed, tools
+        self.tolerance, self.progress = tolerance, progress
+        self._base_station, self._confirm = base_station, confirm
+        self._sight: Sight | None = None
+
+    @property
+    def user_names(self) -> tuple[str, ...]:
+        return self.scene.sensed.user_names
+
+    def sight(self, language: str) -> Sight:
+        """What is known of the channel."""
+        if self._sight is None:
+            self._sight = look(
+                self.scene, self.losses, self.seed, self.tools, language=language, progress=self.progress
+            )
+        return self._sight
+
+    def sight_missing(self, share: float, language: str) -> Sight:
+        """What would be known if this share of the gains were missing, at random."""
+        losses = [random(share)] if share > 0 else []
+        return look(self.scene, losses, self.seed, self.tools, language=language, progress=self.progress)
+
+    def sight_by(self, tools: Tools, language: str) -> Sight:
+        """What is known of the same observation by another repairer."""
+        return look(self.scene, self.losses, self.seed, tools, language=language, progress=self.progress)
+
+    def plan(self, intent: Intent, request: Request, *, sight: Sight | None = None, tools: Tools | None = None) -> Run:
+        """The decision for a request.
+
+        Raises:
+            UnclearRequestError: the request does not fit the channel; the message is the question to the operator.
+            UnsupportedProblemError: the method does not solve it.
+        """
+        posed = pose(request, self.scene.cell, self.user_names, intent.language)
+        tools = tools or self.tools
+        chain.check_solvable(posed.problem, tools.method)
+        return plan(intent, posed, sight or self.sight(intent.language), tools, progress=self.progress)
+
+    def station(self, run: Run) -> BaseStation | None:
+        """The base station that a run would be applied at; None where there is none."""
+        return self._base_station or station_of(self.tools, run.scene)
+
+    def asks(self, station: BaseStation) -> bool:
+        """Whether the operator has to say yes before anything is applied."""
+        return station.name != SimulatedBaseStation.name if self._confirm is None else self._confirm
+
+    def carry_out(self, run: Run, station: BaseStation, last_good: Run | None) -> acting.Effect:
+        """Apply a run, read back, and go back to the last good one where it is at fault."""
+        effect = acting.carry_out(run, station, last_good, self.tolerance)
+        if effect.run.outcome is not None:
+            self.progress(Event(stage="act", message=applied_line(effect.run)))
+        return effect
+
+    def put_back(self, run: Run, station: BaseStation) -> tuple[Outcome | None, str]:
+        """Apply again what was in effect before: what was read back, and what went wrong."""
+        return acting.put_back(run, station, run.intent.language)
+
+    def foreseen(self, run: Run) -> Run:
+        """A run with what it would achieve, where the true channel is known; nothing is applied."""
+        if run.outcome is not None or run.scene.truth is None or not run.decision.is_usable:
+            return run
+        return with_outcome(run, SimulatedBaseStation(run.scene).apply(run.decision))
+
+    def with_tools(self, **changes: str) -> Tools:
+        """The tools with others of a kind, at their own defaults."""
+        options = {f"{kind}_options": dict[str, object]() for kind in changes}
+        return dataclasses.replace(self.tools, **changes, **options)  # pyright: ignore[reportArgumentType]

@@ -1,0 +1,75 @@
+"""Where a conversation stands, and what one turn makes of it. States never change; each turn may bring a new one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from wirelessagent.agent.request import Request
+from wirelessagent.agent.turn import Run, Stage
+from wirelessagent.explain.table import Table
+from wirelessagent.language.intent import Constraint, Intent
+from wirelessagent.language.recogniser import Awaited
+from wirelessagent.model.outcome import Outcome
+
+
+@dataclass(frozen=True, kw_only=True)
+class Missing:
+    """A question back about a user: the intent that waits, and whom it names that is not there ("" for nobody)."""
+
+    intent: Intent
+    reference: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class State:
+    """What holds in a conversation.
+
+    Attributes:
+        request: what is asked for; None at the start.
+        run: the decision for it; None where there is none yet.
+        planned: what a yes would apply; None where nothing waits.
+        on_air: what is in effect at the base station, as it was read back; None where that is nothing or not known.
+        last_good: what to go back to; None where nothing was good yet.
+        asked: whether the last turn asked back.
+        pending: constraints that were read before that question.
+        missing: the question, where it was about a user.
+    """
+
+    request: Request | None = None
+    run: Run | None = None
+    planned: Run | None = None
+    on_air: Run | None = None
+    last_good: Run | None = None
+    asked: bool = False
+    pending: dict[str, Constraint] = field(default_factory=dict[str, Constraint])
+    missing: Missing | None = None
+
+    @property
+    def awaits(self) -> Awaited:
+        """What the agent asked for last."""
+        if self.asked:
+            return "clarification"
+        return "nothing" if self.planned is None else "confirmation"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reply:
+    """What a turn came to.
+
+    Attributes:
+        text: what the agent says.
+        stage: see :data:`~wirelessagent.agent.turn.Stage`.
+        state: what holds now; None where nothing changed.
+        run: the run that was made or applied.
+        tables: figures that belong to the text.
+        restored: what was read back after the last good allocation was put back.
+        undone: whether the state is an earlier one, and can't itself be undone.
+    """
+
+    text: str
+    stage: Stage = "answered"
+    state: State | None = None
+    run: Run | None = None
+    tables: tuple[Table, ...] = ()
+    restored: Outcome | None = None
+    undone: bool = False
