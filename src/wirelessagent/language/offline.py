@@ -20,6 +20,7 @@ from wirelessagent.language.goals import Goal
 from wirelessagent.language.intent import CONSTRAINTS, Intent, IntentKind
 from wirelessagent.language.leftovers import unread
 from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.text import language_of, normalise
 from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
@@ -40,13 +41,14 @@ _ABOUT_THE_NETWORK = (
 )  # fmt: skip
 
 
-class OfflineRecogniser:
+class OfflineRecogniser(Recogniser):
     """Recognises intents from words alone, in English and Chinese."""
 
     name = NAME
 
-    def recognise(self, text: str) -> Intent:
+    def recognise(self, text: str, context: Context | None = None) -> Intent:
         """What the operator means; never raises, whatever the text."""
+        del context
         own = _own_words()
         language = language_of(text[:_MAX_CHARACTERS])
         voice = Voice(language, _labels(own, language))

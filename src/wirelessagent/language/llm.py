@@ -1,0 +1,118 @@
+"""The LLM recogniser: an LLM chooses the meaning, the rules hold it to the figures, and answer where it does not.
+
+Every sentence is read by the offline recogniser first. The LLM then fills in a typed form (:mod:`llm_meaning`), in
+which figures are references to those that the parser found; what it says is checked against the sentence
+(:mod:`llm_check`), and it is asked once more if that fails. After that, and whenever it does not answer in time, the
+offline recogniser's intent stands, and says so.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import logging
+from typing import cast
+
+from wirelessagent import plugins
+from wirelessagent.language import llm_prompt
+from wirelessagent.language.intent import Intent, IntentKind
+from wirelessagent.language.llm_check import Case, Read
+from wirelessagent.language.llm_door import NoAnswer, fill_in, require_llm
+from wirelessagent.language.llm_meaning import meaning_with
+from wirelessagent.language.llm_prompt import Offer
+from wirelessagent.language.llm_reasons import note
+from wirelessagent.language.llm_settings import LlmSettings
+from wirelessagent.language.offline import OfflineRecogniser
+from wirelessagent.language.recogniser import Context, Recogniser
+from wirelessagent.language.replies import Voice
+from wirelessagent.model.objective import Objective
+
+NAME = "llm"
+_MAX_CHARACTERS = 2000
+SAID = ("max_power_w", "min_rate_bps", "max_rate_bps", "circuit_power_w", "outage_probability")
+_AGREED, _ALONE = 0.95, 0.8  # how sure: both recognisers read the same kind, objective and topic, or the LLM alone
+_log = logging.getLogger(__name__)
+
+
+class LlmRecogniser(Recogniser):
+    """Recognises intents with the LLM of the settings, and offline where it fails.
+
+    Raises:
+        InputError: the settings are not complete.
+        MissingDependencyError: the extra ``llm`` is not installed.
+    """
+
+    name = NAME
+
+    def __init__(self, settings: LlmSettings | None = None, offline: Recogniser | None = None) -> None:
+        require_llm()
+        self._settings = settings or LlmSettings.read()
+        self._offline = offline or OfflineRecogniser()
+
+    def recognise(self, text: str, context: Context | None = None) -> Intent:
+        """What the operator means; never raises, whatever the text."""
+        known = context or Context()
+        offline = self._offline.recognise(text, known)
+        if not text.strip() or len(text) > _MAX_CHARACTERS:
+            return offline
+        case = Case(text, known, offline)
+        offers = offered()
+        try:
+            read = fill_in(
+                self._settings,
+                llm_prompt.instructions(offers),
+                llm_prompt.case(text, case.figures, known),
+                meaning_with(tuple(offer.name for offer in offers)),
+                case.read,
+            )
+        except NoAnswer as error:
+            _log.info("%s", error)
+            return _without_llm(offline, error)
+        return _intent(read, case)
+
+
+def offered() -> tuple[Offer, ...]:
+    """Every objective that loads, as an LLM is told of it."""
+    found = [item for item in plugins.plugins("objective") if item.cls is not None]
+    return tuple(
+        Offer(name=item.name, summary=item.summary, phrases=cast("type[Objective]", item.cls).phrases) for item in found
+    )
+
+
+def _without_llm(offline: Intent, error: NoAnswer) -> Intent:
+    """The offline recogniser's intent, which says that it is and why."""
+    said = note(error.told(offline.language), offline.language)
+    return dataclasses.replace(
+        offline, reply=f"{offline.reply} {said}".strip(), recogniser=f"{offline.recogniser} ({error})"
+    )
+
+
+def _intent(read: Read, case: Case) -> Intent:
+    offline = case.offline
+    agreed = (read.kind, read.objective, read.topic) == (offline.kind, offline.objective, offline.topic)
+    same = agreed and dict(read.constraints) == dict(offline.constraints)
+    return Intent(
+        kind=cast(IntentKind, read.kind),
+        objective=read.objective,
+        constraints=read.constraints,
+        dropped=read.dropped,
+        amends=read.amends,
+        topic=read.topic,
+        details=read.details,
+        language=read.language,
+        confidence=_AGREED if agreed else _ALONE,
+        evidence=read.evidence,
+        reply=offline.reply if same and read.kind != "clarify" else _reply(read),
+        recogniser=NAME,
+    )
+
+
+def _reply(read: Read) -> str:
+    """What to say to a sentence that the rules read otherwise."""
+    if read.kind == "clarify":
+        return read.question
+    labels = {offer.name: offer.called(read.language) for offer in offered()}
+    voice = Voice(read.language, labels)
+    if read.objective is None:
+        return voice.say(read.kind)
+    plain = {name: value for name, value in read.constraints.items() if isinstance(value, float) and name in SAID}
+    return voice.restated(read.objective, plain, ())
