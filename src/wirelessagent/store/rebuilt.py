@@ -11,6 +11,7 @@ import numpy as np
 from wirelessagent import plugins
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Bracket, Decision, Prices
+from wirelessagent.model.forecast import Forecast
 from wirelessagent.model.metrics import LinkMetrics
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.problem import Problem
@@ -41,12 +42,12 @@ def problem_of(turn: StoredTurn) -> Problem:
 
 
 def decision_of(turn: StoredTurn, user_names: tuple[str, ...]) -> Decision:
-    """The decision as it was made, for a channel of these users."""
+    """The decision as it was made, with its forecast, for a channel of these users."""
     allocation, certificate = turn.allocation, dict(turn.certificate)
     brackets = {name: _bracket(certificate.pop(name)) for name in ("needed_power_w", "rate_scaling")}
-    prices = certificate.pop("prices")
+    prices, forecast = certificate.pop("prices"), certificate.pop("forecast")
     arrays = {name: _floats(certificate.pop(name)) for name in ("price_of_rate", "expected_rate_bps", "outage")}
-    return Decision(
+    decision = Decision(
         owner=np.array(allocation["owner"], dtype=np.int64),
         power_w=_floats(allocation["power_w"]),
         rate_bps=_floats(allocation["rate_bps"]),
@@ -64,6 +65,8 @@ def decision_of(turn: StoredTurn, user_names: tuple[str, ...]) -> Decision:
         **arrays,
         **certificate,
     )  # fmt: skip
+    vars(decision)["forecast"] = None if forecast is None else Forecast(**_arrays_and_figures(forecast))
+    return decision
 
 
 def outcome_of(turn: StoredTurn) -> Outcome | None:
@@ -83,8 +86,11 @@ def outcome_of(turn: StoredTurn) -> Outcome | None:
 
 
 def _metrics(stored: dict[str, Any]) -> LinkMetrics:
-    figures = {name: float(value) for name, value in stored.items() if name != "user_rate_bps"}
-    return LinkMetrics(user_rate_bps=_floats(stored["user_rate_bps"]), **figures)
+    return LinkMetrics(**_arrays_and_figures(stored))
+
+
+def _arrays_and_figures(stored: dict[str, Any]) -> dict[str, Any]:
+    return {name: _floats(value) if isinstance(value, list) else float(value) for name, value in stored.items()}
 
 
 def _bracket(stored: dict[str, Any] | None) -> Bracket | None:
