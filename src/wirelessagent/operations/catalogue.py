@@ -5,6 +5,7 @@ from __future__ import annotations
 from wirelessagent.operations.ask import ASK
 from wirelessagent.operations.compare import COMPARE
 from wirelessagent.operations.evaluate import EVALUATE_DECISION, EVALUATE_REPAIR
+from wirelessagent.operations.export import EXPORT
 from wirelessagent.operations.history import HISTORY, HISTORY_EXPORT, HISTORY_REPLAY, HISTORY_SHOW
 from wirelessagent.operations.intent import INTENT
 from wirelessagent.operations.list_plugins import PLUGINS
@@ -16,7 +17,7 @@ from wirelessagent.operations.solve import SOLVE
 
 OPERATIONS: tuple[AnyOperation, ...] = (
     ASK, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, EVALUATE_REPAIR, EVALUATE_DECISION, PLUGINS,
-    HISTORY, HISTORY_SHOW, HISTORY_REPLAY, HISTORY_EXPORT,
+    HISTORY, HISTORY_SHOW, HISTORY_REPLAY, HISTORY_EXPORT, EXPORT,
 )  # fmt: skip
 
 GROUPS: dict[str, str] = {

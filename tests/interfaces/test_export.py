@@ -1,0 +1,104 @@
+"""export: what is in the audit store as documents of standards, on the command line."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import wirelessagent as wa
+from wirelessagent.interfaces.cli import run
+from wirelessagent.standards import tmf921, tmf921_models, ts28312_models
+from wirelessagent.store.store import Store
+from wirelessagent.testing.turns import decided_turn, random_turn, turn_of
+
+CELL = wa.Cell()
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Path:
+    """A store of two turns of a session, a question between them, and one of another session."""
+    place = tmp_path / "audit.sqlite3"
+    scene = wa.simulate("rayleigh", CELL, num_users=3, num_subcarriers=6, seed=2)
+    with Store.open(place, create=True) as store:
+        store.append(decided_turn(scene, wa.Problem("max_rate", max_power_w=5.0), number=1))
+        store.append(turn_of(None, number=2))
+        store.append(decided_turn(scene, wa.Problem("max_rate", max_power_w=10.0), number=3))
+        store.append(random_turn(1, session="another one/2", seed=1))
+    return place
+
+
+def printed(place: Path, capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, Any]:
+    assert run(["export", *arguments, "--store", str(place), "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_a_turn_is_printed_as_a_standard_has_it(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    sent = printed(place, capsys, "1")
+    ts28312_models.Document.model_validate(sent)
+    assert sent["Intent"][0]["id"] == "one-1"
+    assert sent["Intent"][0]["userLabel"] == "higher speed"
+    tmf921_models.Document.model_validate(printed(place, capsys, "1", "--format", "tmf921"))
+
+
+def test_better_than_what_the_session_had_before(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    first, third = printed(place, capsys, "1"), printed(place, capsys, "3")
+    before, objective = (sent["Intent"][0]["intentExpectations"][0]["expectationTargets"][0] for sent in (first, third))
+    assert before["targetValueRange"] == 0
+    results = first["IntentReport"][0]["intentFulfilmentReport"]["expectationFulfilmentResult"]
+    assert objective["targetValueRange"] == results[0]["targetFulfilmentResults"][0]["targetAchievedValue"]
+    whole = third["IntentReport"][0]["intentFulfilmentReport"]["intentFulfilmentInfo"]
+    assert whole == {"fulfilmentStatus": "FULFILLED"}
+
+
+def test_what_was_put_back_is_what_there_was(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = wa.simulate("rayleigh", CELL, num_users=3, num_subcarriers=6, seed=2)
+    with Store.open(place) as store:
+        turn = decided_turn(scene, wa.Problem("max_rate", max_power_w=20.0), number=4)
+        small = decided_turn(scene, wa.Problem("max_rate", max_power_w=1.0), number=4)
+        assert small.run is not None
+        store.append(dataclasses.replace(turn, stage="reverted", restored=small.run.outcome))
+        number = store.append(decided_turn(scene, wa.Problem("max_rate", max_power_w=10.0), number=5))
+    sent = printed(place, capsys, str(number))
+    assert small.run.outcome is not None
+    assert small.run.outcome.achieved is not None
+    current = float(np.mean(small.run.outcome.achieved.user_rate_bps)) / 1e3
+    wanted = sent["Intent"][0]["intentExpectations"][0]["expectationTargets"][0]["targetValueRange"]
+    assert wanted == pytest.approx(current, rel=1e-12)
+
+
+def test_the_latest_decision_is_meant_if_none_is_named(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert printed(place, capsys)["Intent"][0]["id"] == "another-one-2-1"
+
+
+def test_a_file_holds_the_same(place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "intent.json"
+    assert run(["export", "3", "--store", str(place), "--format", "tmf921", "--out", str(out)]) == 0
+    told = capsys.readouterr().out
+    assert "TMF921 v5" in told
+    assert "AveDLRANUEThpt" in told
+    assert "kept" in told
+    text = out.read_text(encoding="utf-8")
+    assert tmf921.to_json(tmf921_models.Document.model_validate_json(text)) + "\n" == text
+    assert json.loads(text) == printed(place, capsys, "3", "--format", "tmf921")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["2"], "decided nothing"),
+        (["99"], "there is no turn 99"),
+        (["1", "--format", "28312"], "not one of 'ts28312', 'tmf921'"),
+        (["1", "--observation-period-s", "0"], "observation_period_s must be positive"),
+        (["1", "--out", "/no/such/folder/x.json"], "does not exist"),
+    ],
+)
+def test_what_cannot_be_exported_is_said(
+    place: Path, arguments: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["export", *arguments, "--store", str(place)]) in (1, 2)
+    assert told in capsys.readouterr().err
