@@ -90,7 +90,7 @@ def same_allocation(one: Decision, other: Decision) -> bool:
         and one.rate_bps.shape == other.rate_bps.shape
         and bool(np.array_equal(_in_use(one), _in_use(other)))
         and bool(np.allclose(one.power_w, other.power_w, rtol=0, atol=_ROUNDING * one.total_power_w))
-        and bool(np.allclose(one.rate_bps, other.rate_bps, rtol=_ROUNDING, atol=0))
+        and bool(np.allclose(one.committed_bps, other.committed_bps, rtol=_ROUNDING, atol=0))
     )
 
 

@@ -1,0 +1,267 @@
+"""Plan, confirm, apply, read back, compare with the promise, revert: on base stations that do as they please."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import pytest
+from conversations import LOSS, SCENE, SEED, Scripted, asks, means
+
+import wirelessagent as wa
+from wirelessagent.agent.acting import carry_out, same_allocation
+from wirelessagent.agent.posing import pose
+from wirelessagent.agent.request import Request
+from wirelessagent.agent.run import look, plan, with_outcome
+from wirelessagent.agent.session import Session
+from wirelessagent.agent.tools import Tools
+from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.language.intent import Intent
+
+YES, NO = means("command", topic="confirm"), means("command", topic="reject")
+UNDO, APPLY, STATUS = (means("command", topic=topic) for topic in ("undo", "apply", "status"))
+
+
+@dataclass(frozen=True)
+class Moody(wa.BaseStation):
+    """A base station that does as its moods say, one per allocation; without moods it obeys."""
+
+    name = "moody"
+
+    scene: wa.Scene | None = SCENE
+    moods: list[str] = field(default_factory=list[str])
+    applied: list[wa.Decision] = field(default_factory=list[wa.Decision])
+
+    def apply(self, decision: wa.Decision) -> wa.Outcome:
+        self.applied.append(decision)
+        mood = self.moods.pop(0) if self.moods else "obey"
+        if mood == "raise":
+            raise OSError("the radio link broke off half-way")
+        assert self.scene is not None
+        outcome = wa.SimulatedBaseStation(self.scene).apply(decision)
+        half = np.arange(decision.owner.size) < decision.owner.size // 2
+        match mood:
+            case "drop power":
+                return replace(outcome, power_w=outcome.power_w * 0.5)
+            case "half":
+                return replace(outcome, power_w=np.where(half, outcome.power_w, 0.0))
+            case "swap":
+                return replace(outcome, owner=np.where(half, (outcome.owner + 1) % 4, outcome.owner))
+            case "cut":
+                return replace(outcome, owner=outcome.owner[half], power_w=outcome.power_w[half])
+            case "fade" | "dip":
+                assert outcome.achieved is not None
+                rate = outcome.achieved.user_rate_bps * (0.8 if mood == "fade" else 0.95)
+                return replace(outcome, achieved=replace(outcome.achieved, user_rate_bps=rate))
+            case _:
+                return outcome
+
+
+def talk(station: wa.BaseStation | None, *intents: Intent, confirm: bool | None = False) -> tuple[Session, list[Turn]]:
+    """A session after these turns, on a station that needs no yes unless it is said so."""
+    script = Scripted(intents)
+    session = Session(SCENE, LOSS, seed=SEED, recogniser=script, base_station=station, confirm=confirm)
+    return session, [session.say("…") for _ in intents]
+
+
+def run_of(objective: str, method: str | None = None, **constraints: object) -> Run:
+    """A plan on the scene, by a method of one's choice."""
+    tools = Tools(method=method)
+    request = Request(objective=objective, constraints=constraints)  # type: ignore[arg-type]
+    posed = pose(request, SCENE.cell, SCENE.sensed.user_names)
+    return plan(asks(objective), posed, look(SCENE, (LOSS,), SEED, tools), tools)
+
+
+def applied(run: Run) -> Run:
+    return with_outcome(run, wa.SimulatedBaseStation(SCENE).apply(run.decision))
+
+
+@pytest.mark.parametrize(
+    ("mood", "told"),
+    [
+        ("drop power", "It radiates 2.5 W instead of 5 W"),
+        ("half", "instead of 5 W"),
+        ("swap", "10 of 20 subcarriers serve somebody else"),
+        ("cut", "10 subcarriers instead of 20"),
+        ("raise", "The base station moody failed: the radio link broke off half-way."),
+        ("fade", "promised arrive, 2"),
+    ],
+)
+def test_what_is_not_as_decided_or_promised_is_taken_back(mood: str, told: str) -> None:
+    station = Moody(moods=["obey", mood])
+    session, turns = talk(station, asks("max_rate", max_power_w=10.0), asks("max_rate", max_power_w=5.0), STATUS)
+    assert [turn.stage for turn in turns[:2]] == ["applied", "reverted"]
+    assert told in turns[1].reply
+    assert "The last good allocation is in effect again: 10 W" in turns[1].reply
+    first, bad = turns[0].run, turns[1].run
+    assert first is not None
+    assert bad is not None
+    assert turns[1].restored is not None
+    assert np.array_equal(turns[1].restored.power_w, first.decision.power_w)
+    assert [decision.total_power_w for decision in station.applied] == pytest.approx([10, 5, 10])
+    assert (bad.outcome is None) == (mood == "raise")
+    assert session.state.on_air is first
+    assert session.request == Request(objective="max_rate", constraints={"max_power_w": 5.0})
+    assert "In effect: 10 W" in turns[2].reply
+
+
+def test_a_reverted_request_can_be_applied_again_or_undone() -> None:
+    station = Moody(moods=["obey", "half"])
+    session, turns = talk(station, asks("max_rate", max_power_w=10.0), asks("max_rate", max_power_w=5.0), APPLY)
+    assert turns[2].stage == "applied"
+    assert session.state.on_air is turns[2].run
+    station = Moody(moods=["obey", "half"])
+    session, turns = talk(station, asks("max_rate", max_power_w=10.0), asks("max_rate", max_power_w=5.0), UNDO)
+    assert turns[2].stage == "undone"
+    assert len(station.applied) == 3  # the revert put it back already
+    assert session.request == Request(objective="max_rate", constraints={"max_power_w": 10.0})
+
+
+@pytest.mark.parametrize(("mood", "stage"), [("half", "applied"), ("raise", "nothing"), ("fade", "applied")])
+def test_without_an_earlier_allocation_there_is_nothing_to_go_back_to(mood: str, stage: str) -> None:
+    session, (turn,) = talk(Moody(moods=[mood]), asks("max_rate"))
+    assert turn.stage == stage
+    assert "no earlier allocation to go back to" in turn.reply
+    assert session.state.last_good is None
+    assert (session.state.on_air is None) == (mood != "fade")
+
+
+def test_a_revert_that_fails_is_told_and_what_is_in_effect_is_not_known() -> None:
+    station = Moody(moods=["obey", "half", "raise"])
+    session, turns = talk(station, asks("max_rate"), asks("max_rate", max_power_w=5.0), asks("max_rate"))
+    assert turns[1].stage == "applied"
+    assert "could not be put back: The base station moody failed" in turns[1].reply
+    assert turns[1].restored is None
+    assert turns[2].stage == "applied"  # what is in effect is not known, so it is not "nothing to change"
+    assert session.state.on_air is turns[2].run
+
+
+def test_a_few_missed_promises_are_chance_and_many_are_not() -> None:
+    for outage, faults in ((0.05, 1), (0.9, 0), (None, 0)):
+        constraints = {} if outage is None else {"outage_probability": outage}
+        run = run_of("min_power", min_rate_bps=1e6, **constraints)
+        effect = carry_out(run, Moody(moods=["dip"]), None)
+        assert len(effect.faults) == faults, effect.faults
+        assert all("4 of 4 promises are missed, more than a reliability of 95 %" in fault for fault in effect.faults)
+
+
+def test_the_tolerance_is_as_it_was_set() -> None:
+    run = run_of("min_power", min_rate_bps=1e6)
+    assert not carry_out(run, Moody(moods=["dip"]), None, tolerance=0.1).faults
+    assert len(carry_out(run, Moody(moods=["dip"]), None, tolerance=0.01).faults) == 1
+    assert not carry_out(run, Moody(moods=["fade"]), None, tolerance=0.3).faults
+
+
+def test_what_is_worse_than_before_for_the_same_request_is_taken_back() -> None:
+    good, poor = applied(run_of("max_rate")), run_of("max_rate", "round_robin")
+    station = Moody()
+    effect = carry_out(poor, station, good)
+    assert len(effect.faults) == 1
+    assert "does better on the same channel" in effect.faults[0]
+    assert effect.restored is not None
+    assert np.array_equal(effect.restored.power_w, good.decision.power_w)
+    saving, wasting = applied(run_of("min_power", min_rate_bps=1e6)), run_of("max_rate", min_rate_bps=1e6)
+    assert not carry_out(wasting, Moody(), saving).faults
+    assert not carry_out(run_of("min_power", min_rate_bps=1e6), Moody(), applied(wasting)).faults
+
+
+@pytest.mark.parametrize(
+    "constraints",
+    [
+        {"max_power_w": 5.0},
+        {"leave_out": ("1",)},
+        {"min_rate_bps": {"3": 1e6}},
+        {"subcarrier_max_power_w": 0.3},
+        {"resource_block_group_size": 4},
+    ],
+)
+def test_what_was_before_is_no_measure_where_it_does_not_keep_the_request(constraints: dict[str, object]) -> None:
+    good = applied(run_of("max_rate"))
+    method = "round_robin" if constraints.keys() <= {"max_power_w"} else None
+    assert not carry_out(run_of("max_rate", method, **constraints), Moody(), good).faults
+
+
+def test_another_channel_is_no_measure() -> None:
+    good, poor = applied(run_of("max_rate")), run_of("max_rate", "round_robin")
+    assert SCENE.truth is not None
+    elsewhere = replace(good, scene=replace(SCENE, truth=SCENE.truth * 2))
+    assert not carry_out(poor, Moody(), elsewhere).faults
+
+
+def test_the_same_allocation_is_the_same_within_rounding() -> None:
+    decision = run_of("max_rate").decision
+    nudged = replace(decision, power_w=decision.power_w * (1 + 1e-12))
+    assert same_allocation(decision, nudged)
+    assert not same_allocation(decision, replace(decision, power_w=decision.power_w * 0.999))
+    assert not same_allocation(decision, replace(decision, owner=np.roll(decision.owner, 1)))
+    certain = replace(decision, estimate=None)
+    assert not same_allocation(certain, replace(certain, rate_bps=certain.rate_bps * 0.9))
+
+
+def test_nothing_is_applied_before_a_yes() -> None:
+    station = Moody()
+    session, (turn,) = talk(station, asks("max_rate", max_power_w=5.0), confirm=None)
+    assert turn.stage == "planned"
+    assert turn.reply.endswith("Apply it? (yes or no)")
+    assert session.state.awaits == "confirmation"
+    assert station.applied == []
+    session, turns = talk(station, asks("max_rate", max_power_w=5.0), STATUS, YES, YES, confirm=None)
+    assert [turn.stage for turn in turns] == ["planned", "answered", "applied", "answered"]
+    assert "waits for your yes" in turns[1].reply
+    assert "Nothing waits" in turns[3].reply
+    assert len(station.applied) == 1
+    assert session.state.on_air is turns[2].run
+    assert session.state.awaits == "nothing"
+
+
+def test_after_a_no_the_request_stands_and_can_be_changed_or_applied() -> None:
+    station = Moody()
+    session, turns = talk(station, asks("max_rate", max_power_w=5.0), NO, NO, confirm=None)
+    assert [turn.stage for turn in turns] == ["planned", "nothing", "answered"]
+    assert station.applied == []
+    assert session.request == Request(objective="max_rate", constraints={"max_power_w": 5.0})
+    _, turns = talk(station, asks("max_rate", max_power_w=5.0), NO, APPLY, confirm=None)
+    assert turns[2].stage == "applied"
+    _, turns = talk(station, asks("max_rate"), asks("max_rate", amends=True, max_power_w=4.0), YES, confirm=None)
+    assert turns[2].run is not None
+    assert turns[2].run.decision.total_power_w == pytest.approx(4)
+
+
+def test_a_yes_after_a_question_back_applies_nothing() -> None:
+    station = Moody()
+    unclear = means("clarify", reply="Which aim?")
+    unknown = asks("max_rate", amends=True, leave_out=("9",))
+    for between in (unclear, unknown):
+        _, turns = talk(station, asks("max_rate"), between, YES, confirm=None)
+        assert [turn.stage for turn in turns] == ["planned", "asked", "answered"]
+    assert station.applied == []
+
+
+def test_an_undo_asks_before_it_puts_something_back() -> None:
+    station = Moody()
+    start = asks("max_rate", max_power_w=10.0), YES, asks("max_rate", amends=True, max_power_w=5.0), YES, UNDO
+    session, turns = talk(station, *start, YES, confirm=None)
+    assert [turn.stage for turn in turns[3:]] == ["applied", "planned", "undone"]
+    assert "Put the earlier allocation back (10 W" in turns[4].reply
+    assert [decision.total_power_w for decision in station.applied] == pytest.approx([10, 5, 10])
+    assert session.state.on_air is not None
+    assert session.state.on_air.decision.total_power_w == pytest.approx(10)
+    session, turns = talk(Moody(), *start, NO, confirm=None)
+    assert session.request == Request(objective="max_rate", constraints={"max_power_w": 10.0})
+    assert session.state.on_air is not None
+    assert session.state.on_air.decision.total_power_w == pytest.approx(5)
+
+
+def test_simulated_cells_apply_at_once_unless_they_are_to_ask() -> None:
+    assert talk(None, asks("max_rate"), confirm=None)[1][0].stage == "applied"
+    assert talk(None, asks("max_rate"), confirm=True)[1][0].stage == "planned"
+    assert talk(Moody(), asks("max_rate"), confirm=False)[1][0].stage == "applied"
+
+
+def test_without_a_base_station_plans_are_made() -> None:
+    blind = replace(SCENE, truth=None)
+    session = Session(blind, LOSS, seed=SEED, recogniser=Scripted([asks("max_rate"), APPLY]))
+    first, second = session.say("…"), session.say("…")
+    assert (first.stage, second.stage) == ("planned", "nothing")
+    assert "true channel is not known" in first.reply
+    assert "true channel is not known" in second.reply
