@@ -7,7 +7,7 @@ import logging
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -63,8 +63,8 @@ class Asked:
 
 
 @pytest.fixture(params=[False, True], ids=["whole", "streamed"])
-def asked(request: pytest.FixtureRequest) -> Iterator[Asked]:
-    yield Asked(request.param)
+def asked(request: pytest.FixtureRequest) -> Asked:
+    return Asked(request.param)
 
 
 def offline(text: str = SENTENCE, context: Context | None = None) -> Intent:
@@ -225,8 +225,9 @@ INJECTIONS = [
 @pytest.mark.parametrize(
     "obeys",
     [
-        call("apply", {"max_power_w": 1000}), call("shell", {"command": "reboot"}), right(objective="delete_everything"),
-        meaning(kind="command", topic="confirm"), meaning(kind="command", topic="apply"),
+        call("apply", {"max_power_w": 1000}), call("shell", {"command": "reboot"}),
+        right(objective="delete_everything"), meaning(kind="command", topic="confirm"),
+        meaning(kind="command", topic="apply"),
         right(objective="max_rate", objective_words="", constraints=[{"constraint": "max_power_w", "figure": 5000}]),
     ],
     ids=["tool", "shell", "objective", "confirm", "apply", "figures"],

@@ -12,15 +12,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from wirelessagent.language.intent import (
+    COMMANDS,
     EVERYBODY,
     FIGURES_OF_USERS,
     LISTS_OF_USERS,
+    QUESTIONS,
     Constraint,
     Detail,
     Intent,
     checked_constraints,
 )
-from wirelessagent.language.llm_figures import KINDS, Figure, figures_of, matching
+from wirelessagent.language.llm_figures import DETAIL_KINDS, KINDS, Figure, FigureKind, figures_of, matching
 from wirelessagent.language.llm_meaning import Meaning, Reference, Stated
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.recogniser import Context
@@ -69,6 +71,7 @@ class Case:
         self._known_users: set[str] = set()
         for value in rules.values():
             self._known_users.update(value if isinstance(value, tuple) else _by_user(value))
+        self._known_users.add(str(offline.details.get("user", EVERYBODY)))
 
     def read(self, meaning: Meaning) -> Read:
         """The meaning in the terms of an intent.
@@ -150,7 +153,7 @@ class Case:
         return checked, {name: " … ".join(dict.fromkeys(words)) for name, words in evidence.items()}
 
     def _figure(self, stated: Stated) -> Figure:
-        figure = self._known(stated.figure, stated.constraint)
+        figure = self._known(stated.figure, stated.constraint, KINDS[stated.constraint])
         floor = stated.constraint == "min_rate_bps"
         against = "at_most" if floor else "at_least"
         if figure.comparator == against and KINDS[stated.constraint] in ("power", "rate"):
@@ -160,14 +163,14 @@ class Case:
             )
         return figure
 
-    def _known(self, given: Reference, name: str) -> Figure:
-        """The figure of the kind that a constraint takes."""
-        figure = matching(self.figures, given, KINDS[name])
+    def _known(self, given: Reference, name: str, kind: FigureKind) -> Figure:
+        """The figure of this kind that is referred to for a constraint or a detail."""
+        figure = matching(self.figures, given, kind)
         if figure is None:
-            labels = ", ".join(figure.label for figure in self.figures if figure.kind == KINDS[name])
+            labels = ", ".join(figure.label for figure in self.figures if figure.kind == kind)
             raise Objection(
                 "invented",
-                f"{name}: {str(given)[:40]!r} is no {KINDS[name]} of this sentence or conversation; there are "
+                f"{name}: {str(given)[:40]!r} is no {kind} of this sentence or conversation; there are "
                 f"{labels or 'none: use clarify if one is needed'}",
             )
         return figure
@@ -255,6 +258,9 @@ class Case:
 
     def _about(self, meaning: Meaning) -> Read:
         """A question or a command."""
+        known = COMMANDS if meaning.kind == "command" else QUESTIONS
+        if meaning.topic is not None and meaning.topic not in known:
+            raise Objection("mixed", f"topics of a {meaning.kind} are {', '.join(known)}")
         if meaning.topic in ACTING and (self.offline.kind, self.offline.topic) != ("command", meaning.topic):
             raise Objection("go_ahead", f"the operator did not plainly say {meaning.topic}: use clarify")
         details = {**self._details(meaning), **self._supposed(meaning)}
@@ -269,12 +275,10 @@ class Case:
             details["with"] = given.compared_with
         if given.format is not None:
             details["format"] = given.format
-        kinds = {"power_w": "max_power_w", "rate_bps": "min_rate_bps", "missing_share": "outage_probability",
-                 "number": "weights"}  # fmt: skip
-        for name, like in kinds.items():
+        for name, kind in DETAIL_KINDS.items():
             reference = getattr(given, name)
             if reference is not None:
-                details[name] = self._known(reference, like).value
+                details[name] = self._known(reference, name, kind).value
         return details
 
     def _supposed(self, meaning: Meaning) -> dict[str, Detail]:

@@ -34,6 +34,14 @@ KINDS: dict[str, FigureKind] = {
 }
 """Which kind of figure each constraint takes."""
 
+DETAIL_KINDS: dict[str, FigureKind] = {
+    "power_w": "power",
+    "rate_bps": "rate",
+    "missing_share": "ratio",
+    "number": "number",
+}
+"""Which kind of figure each detail of a question or command takes."""
+
 _MULTIPLES: tuple[tuple[float, str], ...] = (
     (2.0, r"\b(?:twice|doubled?|doubles|doubling|doble|doppelt\w*|deux fois|dos veces)\b|翻倍|翻一番|加倍|双倍"),
     (3.0, r"\b(?:thrice|tripled?|triples|triple|dreifach\w*|trois fois|tres veces)\b|三倍"),
@@ -152,10 +160,12 @@ def _of_session(context: Context) -> list[Figure]:
 def _read_by_rules(offline: Intent, known: Sequence[Figure], *, start: int) -> Iterator[Figure]:
     """What the rules work out from the sentence and nothing above holds, such as a rate that is to be doubled."""
     place = start
-    for name, value in _values({**offline.pending, **offline.constraints}):
-        if matching(known, value, KINDS[name]) is None:
-            words = str(offline.evidence.get(name, "")) or name
-            yield Figure(label=f"S{place}", value=value, kind=KINDS[name], words=words)
+    stated = [(name, KINDS[name], value) for name, value in _values({**offline.pending, **offline.constraints})]
+    details = [(name, kind, offline.details.get(name)) for name, kind in DETAIL_KINDS.items()]
+    for name, kind, value in (*stated, *details):
+        if isinstance(value, int | float) and matching(known, value, kind) is None:
+            words = offline.evidence.get(name) or name
+            yield Figure(label=f"S{place}", value=float(value), kind=kind, words=words)
             place += 1
 
 
