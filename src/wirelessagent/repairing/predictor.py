@@ -12,8 +12,9 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.fading_posterior import FadingPosterior
 from wirelessagent.model.observation import ChannelObservation
-from wirelessagent.repairing.core import bins, learned
+from wirelessagent.repairing.core import bins, fit, learned
 from wirelessagent.repairing.core.doppler import Doppler, doppler
+from wirelessagent.repairing.core.error_correlation import ErrorRoots
 from wirelessagent.repairing.core.history import History, OverFrequency, history, over_frequency
 from wirelessagent.repairing.core.levels import SMALLEST_VARIANCE, user_levels
 from wirelessagent.repairing.kriging import FEW, Kriging
@@ -45,8 +46,8 @@ class Predictor(Repairer):
             return dataclasses.replace(Kriging().repair(observation), method=self.name)
         if at_s is None and is_new(seen, observation):
             return dataclasses.replace(LearnedCovariance().repair(observation), method=self.name)
-        candidates = doppler(observation)
-        found = estimated(seen, observation, candidates, steps(observation, at_s))
+        over = over_frequency(seen, observation)
+        found = estimated(seen, over, doppler(observation), steps(observation, at_s))
         level = seen.level[:, np.newaxis]
         gain, variance = level * found[..., 0], level * (level * (TAIL * found[..., 1] + found[..., 2]))
         unseen = seen.seen == 0
@@ -65,7 +66,7 @@ class Predictor(Repairer):
             unobserved_users=np.asarray(~observation.measured.any(axis=(0, 2))),
             user_names=observation.user_names,
             method=self.name,
-            joint_posterior=FadingPosterior(gain, variance),
+            joint_posterior=FadingPosterior(gain, variance, errors(observation, over, late=at_s is not None)),
         )
 
 
@@ -89,11 +90,23 @@ def steps(observation: ChannelObservation, at_s: float | None) -> float:
     return (at_s - float(times[-1])) / float(np.diff(times).min())
 
 
-def estimated(seen: History, observation: ChannelObservation, candidates: Doppler, at: float) -> FloatArray:
+def errors(observation: ChannelObservation, over: OverFrequency, *, late: bool) -> ErrorRoots:
+    """How the errors hang together over frequency: as gains do that the current slot leaves open, if it is that one.
+
+    With the same history for all subcarriers this is exact, since the covariance is a product over time and frequency.
+    """
+    slot = fit.relative(observation)
+    users = slot.level.size
+    own = dataclasses.replace(over.candidates, table=over.table.T, noise=over.noise_share, families=1)
+    known = slot.known & (not late)
+    learnt = fit.Learnt(candidates=own, chance=np.eye(users), forms=np.zeros((users, 5, users)))
+    return ErrorRoots(dataclasses.replace(slot, known=known), learnt, np.zeros_like(known))
+
+
+def estimated(seen: History, over: OverFrequency, candidates: Doppler, at: float) -> FloatArray:
     """Mean, variance from fading and other variance of all gains ``at`` a time, shape (user, subcarrier, 3)."""
     from wirelessagent.repairing.core import space_time_kernel
 
-    over = over_frequency(seen, observation)
     now = dataclasses.replace(candidates, time=candidates.time[seen.place])
     chance, level = weighed(over, now)
     bin_of = bins.bins_of(now.time[-1] - now.time + 1.0)
