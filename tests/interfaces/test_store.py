@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import random
 import re
@@ -13,11 +14,14 @@ import sys
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
 from sqlalchemy import create_mock_engine
 
+from wirelessagent.agent.tools import Tools
+from wirelessagent.agent.turn import Stage
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError, WirelessAgentError
 from wirelessagent.settings import settings
 from wirelessagent.store.content import Content, estimate_of, observation_of
@@ -93,8 +97,9 @@ def test_a_turn_comes_back_as_it_went_in(store: Store) -> None:
         assert cell_of(found) == turn.run.decision.cell
         assert canonical(vars(problem_of(found))) == canonical(vars(turn.run.decision.problem))
         again = turn_of(
-            turn.run.__class__(**{**vars(turn.run), "decision": decision_of(found, seen.user_names),
-                                  "outcome": outcome_of(found)}),
+            dataclasses.replace(
+                turn.run, decision=decision_of(found, seen.user_names), outcome=outcome_of(found)
+            ),
             number=number, text=turn.text,
         )  # fmt: skip
         assert canonical(record_of(again)[0]) == canonical(record_of(turn)[0])
@@ -111,10 +116,23 @@ def test_any_text_is_kept_as_far_as_a_database_can(store: Store, text: str) -> N
 def test_what_is_no_plain_data_is_refused_and_nothing_is_recorded(store: Store) -> None:
     turn = random_turn(2, seed=3)
     assert turn.run is not None
-    tools = turn.run.tools.__class__(method_options={"callback": print})
+    tools = Tools(method_options={"callback": print})
     with pytest.raises(InputError, match="builtin_function_or_method cannot be recorded"):
-        store.append(turn_of(turn.run.__class__(**{**vars(turn.run), "tools": tools})))
+        store.append(turn_of(dataclasses.replace(turn.run, tools=tools)))
     assert list(store.turns()) == []
+
+
+@pytest.mark.parametrize("stage", get_args(Stage))
+def test_only_what_was_applied_is_recorded_as_applied(store: Store, stage: Stage) -> None:
+    run = random_turn(1, seed=1).run
+    assert run is not None
+    assert run.outcome is not None
+    found = store.turn(store.append(turn_of(run, stage=stage)))
+    assert (found.applied is not None) == (stage in ("applied", "reverted"))
+    put_back = dataclasses.replace(turn_of(run, stage=stage, number=2), restored=run.outcome)
+    restored = store.turn(store.append(put_back)).restored
+    assert restored is not None
+    assert restored["power_w"] == run.outcome.power_w.tolist()
 
 
 def test_a_channel_is_stored_once(store: Store, place: Path) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
+import numpy as np
 from pydantic import Field
 
 from wirelessagent.explain.report import report
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from wirelessagent.store.store import Store
 
 _TEXT_SHOWN = 48
-_SESSION_SHOWN = 8
+_SESSION_SHOWN = 12
 
 
 class HistoryRequest(StoreOptions):
@@ -54,11 +55,13 @@ class HistoryLine(Record):
     gap: float | None
     unit: str | None
     applied: str | None
+    put_back: str | None
 
     @classmethod
     def of(cls, turn: StoredTurn) -> HistoryLine:
-        same = {name: getattr(turn, name) for name in cls.model_fields if name != "applied"}
-        return cls(**same, applied=None if turn.applied is None else turn.applied["base_station"])
+        same = {name: getattr(turn, name) for name in cls.model_fields if name not in ("applied", "put_back")}
+        applied, put_back = (None if one is None else one["base_station"] for one in (turn.applied, turn.restored))
+        return cls(**same, applied=applied, put_back=put_back)
 
     def row(self) -> tuple[str, ...]:
         """What a list shows of it."""
@@ -67,7 +70,8 @@ class HistoryLine(Record):
         return (
             str(self.number), self.at_utc[:19].replace("T", " "), f"{self.session[:_SESSION_SHOWN]} {self.turn}",
             " ".join(text.split()), self.objective or "–", self.status or self.stage, value,
-            "–" if self.gap is None else percent(self.gap), self.applied or "–",
+            "–" if self.gap is None else percent(self.gap),
+            f"{self.put_back} (put back)" if self.put_back else self.applied or "–",
         )  # fmt: skip
 
 
@@ -141,9 +145,12 @@ def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
     yield from (f"Note: {note}" for note in turn.notes or ())
     yield "\n".join(turn.explanation or ())
     if outcome is not None:
-        as_decided = (outcome.owner == decision.owner).all() and (outcome.power_w == decision.power_w).all()
-        found = "as decided" if as_decided else "other than decided"
+        pairs = ((outcome.owner, decision.owner), (outcome.power_w, decision.power_w))
+        found = "as decided" if all(np.array_equal(*pair) for pair in pairs) else "other than decided"
         yield f"Applied by {outcome.base_station}; read back {found}: {human(float(outcome.power_w.sum()), 'W')}"
+    if turn.restored is not None:
+        power = human(float(np.sum(turn.restored["power_w"])), "W")
+        yield f"Put back by {turn.restored['base_station']}, what was in effect before: {power}"
 
 
 def _kept(turn: StoredTurn, faults: list[str]) -> Iterator[Block]:

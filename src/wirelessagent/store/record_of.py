@@ -24,6 +24,9 @@ from wirelessagent.plugin_options import options_of
 from wirelessagent.store.content import Content, estimate_content, observation_content
 from wirelessagent.store.plain import plain
 
+APPLIED = ("applied", "reverted")
+"""Stages in which the run was applied; in others its outcome is what it would be, or what an earlier turn applied."""
+
 FIGURES = ("value", "bound", "gap")
 ALLOCATION = ("owner", "power_w", "rate_bps")
 CERTIFICATE = (
@@ -54,6 +57,8 @@ def record_of(turn: Turn) -> tuple[dict[str, Any], tuple[Content, ...]]:
         return _plain_columns(row), ()
     contents = observation_content(turn.run.observation), estimate_content(turn.run.estimate)
     row.update(_run_columns(turn.run), observation=contents[0].hash, estimate=contents[1].hash)
+    outcome = _outcome(turn.run.outcome) if turn.stage in APPLIED else None
+    row["applied"] = None if outcome is None else {**outcome, "options": turn.run.tools.base_station_options}
     return _plain_columns(row), contents
 
 
@@ -61,7 +66,6 @@ def _run_columns(run: Run) -> dict[str, Any]:
     tools, decision = run.tools, run.decision
     objective = decision.problem.objective
     repairer = tools.repairer or (run.estimate.method if run.estimate.method in plugins.names("repairer") else None)
-    outcome = _outcome(run.outcome)
     return {
         "objective": objective if isinstance(objective, str) else objective.name,
         "facts": run.scene.facts,
@@ -70,7 +74,6 @@ def _run_columns(run: Run) -> dict[str, Any]:
         "cell": decision.cell,
         "method": {"name": tools.method or decision.method, "options": tools.method_options},
         **decision_columns(decision),
-        "applied": None if outcome is None else {**outcome, "options": tools.base_station_options},
         "notes": run.notes,
         "explanation": run.explanation,
     }

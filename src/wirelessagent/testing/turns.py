@@ -7,7 +7,7 @@ import numpy as np
 from wirelessagent import __version__, chain, plugins
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.agent.turn import Run, Stage, Turn
 from wirelessagent.explain.report import report
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.cell import Cell
@@ -27,7 +27,7 @@ SENTENCES = (
 
 
 def turn_of(
-    run: Run | None, *, session: str = "one", number: int = 1, text: str = "higher speed", stage: str = "applied"
+    run: Run | None, *, session: str = "one", number: int = 1, text: str = "higher speed", stage: Stage = "applied"
 ) -> Turn:
     """A turn that came to ``run``."""
     objective = None if run is None else run.decision.problem.objective
@@ -38,7 +38,7 @@ def turn_of(
     )  # fmt: skip
     return Turn(
         number=number, session=session, text=text, intent=intent, reply="done", run=run,
-        stage="answered" if run is None else stage,  # pyright: ignore[reportArgumentType]
+        stage="answered" if run is None else stage,
         at_utc="2026-11-21T12:00:00+00:00", version=__version__, seed=number, recogniser="offline",
     )  # fmt: skip
 
