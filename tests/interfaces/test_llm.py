@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 from llm_stub import Reply, StubLlm, call, case_of, error, meaning, raw, refuse, say, truthful
 
 from wirelessagent.language.intent import Intent
@@ -51,11 +53,11 @@ class Asked:
         script: Callable[[dict[str, Any]], Reply] | list[Reply],
         text: str = SENTENCE,
         context: Context | None = None,
-        **settings: Any,
+        **changed: Any,
     ) -> Intent:
         with StubLlm(script) as self.stub:
-            given = {"base_url": self.stub.url, "model": "m", "api_key": KEY, "timeout_s": 20, "stream": self._stream}
-            recogniser = LlmRecogniser(LlmSettings(**(given | settings)))
+            setup = {"base_url": self.stub.url, "model": "m", "api_key": KEY, "timeout_s": 20, "stream": self._stream}
+            recogniser = LlmRecogniser(LlmSettings(**(setup | changed)))
             began = time.monotonic()
             intent = recogniser.recognise(text, context)
             self.seconds = time.monotonic() - began
@@ -254,6 +256,17 @@ def test_long_text_goes_to_nobody() -> None:
     asked = Asked(stream=False)
     assert asked([right()], "save power " * 100_000).recogniser == "offline"
     assert asked.stub.requests == []
+
+
+@settings(max_examples=40, deadline=None)
+@given(text=st.text(max_size=300))
+@example("9" * 1900 + " W")
+@example("1e999999 W, weight 1e400, user " + "7" * 500)
+@example("\ud800 save power \x00\u202e")
+def test_any_text_gets_an_answer(text: str) -> None:
+    with StubLlm(lambda _: right(leave_out=["9" * 6000], users=["\ud800"])) as stub:
+        intent = LlmRecogniser(LlmSettings(base_url=stub.url, model="m")).recognise(text)
+    assert intent.recogniser.startswith("offline")
 
 
 def test_objectives_come_from_the_registry(monkeypatch: pytest.MonkeyPatch) -> None:

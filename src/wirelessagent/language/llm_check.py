@@ -188,7 +188,7 @@ class Case:
     def _user(self, said: str) -> str:
         """A user as the operator calls them: by number, or by a name that stands in the sentence."""
         name = said.strip()
-        match = re.fullmatch(r"\D*?(\d+)\D*", name)
+        match = re.fullmatch(r"[^0-9]*([0-9]{1,9})[^0-9]*", name)
         number = None if match is None else str(int(match[1]))
         if number is not None and (number in self._spoken or number in self._known_users):
             return number

@@ -138,7 +138,7 @@ def _numbers(text: str, quantities: Sequence[Quantity]) -> Iterator[Figure]:
     found: list[tuple[int, float, str]] = []
     for number in numbers(plain):
         inside = any(quantity.start <= number.start < quantity.end for quantity in quantities)
-        if number.value is not None and not inside:
+        if number.value is not None and math.isfinite(number.value) and not inside:
             found.append((number.start, float(number.value), plain[number.start : number.end]))
     for value, words in _MULTIPLES:
         found.extend((match.start(), value, match.group()) for match in re.finditer(f"(?i:{words})", plain))
@@ -160,9 +160,10 @@ def _of_session(context: Context) -> list[Figure]:
 def _read_by_rules(offline: Intent, known: Sequence[Figure], *, start: int) -> Iterator[Figure]:
     """What the rules work out from the sentence and nothing above holds, such as a rate that is to be doubled."""
     place = start
-    stated = [(name, KINDS[name], value) for name, value in _values({**offline.pending, **offline.constraints})]
-    details = [(name, kind, offline.details.get(name)) for name, kind in DETAIL_KINDS.items()]
-    for name, kind, value in (*stated, *details):
+    stated = _values({**offline.pending, **offline.constraints})
+    read: list[tuple[str, FigureKind, object]] = [(name, KINDS[name], value) for name, value in stated]
+    read.extend((name, kind, offline.details.get(name)) for name, kind in DETAIL_KINDS.items())
+    for name, kind, value in read:
         if isinstance(value, int | float) and matching(known, value, kind) is None:
             words = offline.evidence.get(name) or name
             yield Figure(label=f"S{place}", value=float(value), kind=kind, words=words)
