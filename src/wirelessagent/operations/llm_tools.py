@@ -33,7 +33,7 @@ _CHANNEL = "path"  # the field of a request that names the channel's file
 _MOST_CHARACTERS = 20_000
 
 
-def llm_tools(channel: Path | None = None, operations: Sequence[AnyOperation] = OFFERED) -> tuple[LlmTool, ...]:
+def llm_tools(channel: Path | str | None = None, operations: Sequence[AnyOperation] = OFFERED) -> tuple[LlmTool, ...]:
     """The tools for a channel in a file; those that need one are left out where there is none."""
     return tuple(
         tool_of(operation, channel)
@@ -42,7 +42,7 @@ def llm_tools(channel: Path | None = None, operations: Sequence[AnyOperation] = 
     )
 
 
-def tool_of(operation: AnyOperation, channel: Path | None = None) -> LlmTool:
+def tool_of(operation: AnyOperation, channel: Path | str | None = None) -> LlmTool:
     """One operation as a tool."""
 
     def run(form: BaseModel) -> str:
