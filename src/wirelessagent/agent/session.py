@@ -16,7 +16,7 @@ import re
 import uuid
 from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
-from typing import Any, Protocol, cast
+from typing import Any, Protocol
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
@@ -85,7 +85,7 @@ class Session:
             scene, losses, seed=seed, tools=tools or Tools(), base_station=base_station, confirm=confirm,
             tolerance=tolerance, progress=progress,
         )  # fmt: skip
-        self._recogniser: Recogniser = recogniser or cast(Recogniser, OfflineRecogniser())
+        self._recogniser = recogniser or OfflineRecogniser()
         self._store, self._progress = store, progress
         self._state, self._past = State(), list[State]()
         self._turns: list[Turn] = []

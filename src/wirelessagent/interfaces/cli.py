@@ -15,6 +15,7 @@ from typing import Annotated, Any
 import typer
 from pydantic import ValidationError
 
+from wirelessagent.interfaces.cli_chat import converse
 from wirelessagent.interfaces.cli_options import Parameters, as_flag, is_positional
 from wirelessagent.interfaces.cli_output import Listener, show
 from wirelessagent.operations.catalogue import GROUPS, OPERATIONS
@@ -148,6 +149,8 @@ def _command(operation: AnyOperation, parameters: Parameters | None) -> Callable
         assert parameters is not None  # a command that runs is the one that was asked for
         as_json = values.pop("json")
         request = _request(operation, parameters.values(values))
+        if operation.converse is not None:
+            return converse(operation, request, as_json=as_json)
         if as_json:
             record = operation.run(request, silent)
             print(record.model_dump_json(indent=2))  # noqa: T201

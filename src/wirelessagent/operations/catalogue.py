@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from wirelessagent.operations.ask import ASK
+from wirelessagent.operations.chat import CHAT
 from wirelessagent.operations.compare import COMPARE
 from wirelessagent.operations.evaluate import EVALUATE_DECISION, EVALUATE_REPAIR
 from wirelessagent.operations.export import EXPORT
@@ -16,7 +17,7 @@ from wirelessagent.operations.simulate import SIMULATE
 from wirelessagent.operations.solve import SOLVE
 
 OPERATIONS: tuple[AnyOperation, ...] = (
-    ASK, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, EVALUATE_REPAIR, EVALUATE_DECISION, PLUGINS,
+    ASK, CHAT, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, EVALUATE_REPAIR, EVALUATE_DECISION, PLUGINS,
     HISTORY, HISTORY_SHOW, HISTORY_REPLAY, HISTORY_EXPORT, EXPORT,
 )  # fmt: skip
 

@@ -6,49 +6,26 @@ fields are its options, the record's fields its answer; nothing about an operati
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeAlias, TypeVar
 
 from pydantic import BaseModel, ConfigDict, field_validator
 
 from wirelessagent import __version__
+from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.model.errors import InputError, WirelessAgentError
 from wirelessagent.operations.record import Record
 
 __all__ = [
-    "AnyOperation", "Event", "InputError", "Operation", "Progress", "Request", "WirelessAgentError",
+    "AnyOperation", "Conversation", "Event", "InputError", "Operation", "Progress", "Request", "WirelessAgentError",
     "installed_version", "silent",
 ]  # fmt: skip
-
-
-@dataclass(frozen=True, kw_only=True)
-class Event:
-    """Something that just happened in a running operation.
-
-    Attributes:
-        stage: "read", "understand", "note", "sense", "repair", "decide", "act" or the name of a piece of long work.
-        message: one sentence for the user.
-        done, total: how far counted work has come; both 0 where nothing is counted.
-    """
-
-    stage: str
-    message: str
-    done: int = 0
-    total: int = 0
 
 
 def installed_version() -> str:
     """The version of this package."""
     return __version__
-
-
-Progress: TypeAlias = Callable[[Event], None]
-
-
-def silent(event: Event) -> None:
-    """A progress listener for callers that want none."""
-    del event
 
 
 class Request(BaseModel):
@@ -67,6 +44,19 @@ class Request(BaseModel):
         return value
 
 
+@dataclass(frozen=True, kw_only=True)
+class Conversation:
+    """What goes on line by line.
+
+    Attributes:
+        answer: the record of a line; None where the line ends the conversation.
+        lines: those that the request holds; None where they are still to come.
+    """
+
+    answer: Callable[[str], Record | None]
+    lines: Sequence[str] | None = None
+
+
 Req = TypeVar("Req", bound=Request)
 Rec = TypeVar("Rec", bound=Record)
 
@@ -81,6 +71,8 @@ class Operation(Generic[Req, Rec]):
         request: the type of its request.
         record: the type of its record.
         run: the function.
+        converse: of an operation that goes on line by line: opens it, so that each line gets a record, and None ends
+            it. Where a surface can, it hands the lines over as they come; ``run`` takes those of the request.
     """
 
     name: str
@@ -88,6 +80,7 @@ class Operation(Generic[Req, Rec]):
     request: type[Req]
     record: type[Rec]
     run: Callable[[Req, Progress], Rec]
+    converse: Callable[[Req, Progress], Conversation] | None = None
 
 
 AnyOperation: TypeAlias = Operation[Any, Any]

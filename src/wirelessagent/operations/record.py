@@ -9,7 +9,6 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from wirelessagent.explain.table import Table
 
-
 Block: TypeAlias = str | Table
 
 

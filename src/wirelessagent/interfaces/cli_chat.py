@@ -1,0 +1,54 @@
+"""Conversations on a terminal: a line in, a record out, until the lines end."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator
+
+from wirelessagent.interfaces.cli_output import show
+from wirelessagent.operations.operation import AnyOperation, Event, Request, silent
+
+_PROMPT = "> "
+
+
+def converse(operation: AnyOperation, request: Request, *, as_json: bool) -> int:
+    """Hand lines over as they come and show what becomes of each; with ``as_json`` one line of JSON per turn.
+
+    Lines come from the request, else from the terminal or from a pipe. Returns the exit code.
+    """
+    assert operation.converse is not None
+    conversation = operation.converse(request, silent if as_json else _file_read)
+    typed = conversation.lines is None and sys.stdin.isatty()
+    for line in _typed() if conversation.lines is None else conversation.lines:
+        if not line.strip():
+            continue
+        if not (typed or as_json):
+            print(f"{_PROMPT}{line}")  # noqa: T201
+        record = conversation.answer(line)
+        if record is None:
+            break
+        if as_json:
+            print(record.model_dump_json(), flush=True)  # noqa: T201
+        else:
+            show(record)
+    return 0
+
+
+def _file_read(event: Event) -> None:
+    """Tell what was understood of a file; of the rest the replies tell."""
+    if event.stage == "read":
+        print(event.message)  # noqa: T201
+
+
+def _typed() -> Iterable[str]:
+    return _prompted() if sys.stdin.isatty() else (line.rstrip("\r\n") for line in sys.stdin)
+
+
+def _prompted() -> Iterator[str]:
+    """Lines from the terminal, until its end is signalled."""
+    while True:
+        try:
+            yield input(_PROMPT)
+        except EOFError:
+            print()  # noqa: T201
+            return

@@ -1,0 +1,78 @@
+"""A cell to talk about as options: its channel, what gets lost, its base station, and who understands."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from wirelessagent import chain
+from wirelessagent.agent.session import Session
+from wirelessagent.agent.tools import Tools
+from wirelessagent.language.offline import OfflineRecogniser
+from wirelessagent.language.recogniser import Recogniser
+from wirelessagent.model.scene import Scene
+from wirelessagent.operations.cell_options import CellOptions
+from wirelessagent.operations.channel_file import file_scene
+from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
+from wirelessagent.operations.operation import Progress
+from wirelessagent.operations.simulate import LOSS_USAGE
+from wirelessagent.operations.tool_options import MethodOptions, RepairerOptions
+from wirelessagent.sensing.loss import parse as parse_loss
+
+
+class SiteOptions(MethodOptions, RepairerOptions, CellOptions):
+    """All that a conversation about a cell starts from."""
+
+    panel: ClassVar[str] = "Options"
+
+    csi: Path | None = Field(None, description="gain matrix to work on; a simulated cell if not given")
+    source: Annotated[str, PluginName("channel_source")] = Field("rayleigh", description="channel source without --csi")
+    source_options: Annotated[PluginOptions, OptionsOf("channel_source", but=("path",))] = Field(
+        default_factory=dict, description="options of the channel source; with --csi, how to read the file"
+    )
+    loss: list[str] | None = Field(
+        None,
+        description=f"what gets lost, several joined by +: {LOSS_USAGE}; "
+        "random:0.2 for a simulated cell and nothing for a file if not given",
+    )
+    base_station: Annotated[str | None, PluginName("base_station")] = Field(
+        None, description="base station; simulated where the true channel is known"
+    )
+    base_station_options: Annotated[PluginOptions, OptionsOf("base_station")] = Field(
+        default_factory=dict, description="options of the base station"
+    )
+    yes: bool = Field(False, description="apply without asking; simulated base stations never ask")
+    recogniser: Literal["offline", "llm"] = Field(
+        "offline", description="who understands: the offline recogniser, or the LLM of the settings"
+    )
+    seed: int = Field(1, description="seed of every draw")
+
+    def scene(self, progress: Progress) -> Scene:
+        """The cell and its channel."""
+        if self.csi is not None:
+            return file_scene(self, self.csi, self.source_options, progress)
+        return chain.simulate(self.source, self.cell(), seed=self.seed, **self.source_options)
+
+    def session(self, progress: Progress) -> Session:
+        """A conversation about the cell that was not begun yet."""
+        default_loss = [] if self.csi else ["random:0.2"]
+        return Session(
+            self.scene(progress),
+            *(parse_loss(text) for text in (default_loss if self.loss is None else self.loss)),
+            seed=self.seed,
+            recogniser=self.chosen_recogniser(),
+            confirm=False if self.yes else None,
+            tools=Tools(**{item.name: getattr(self, item.name) for item in dataclasses.fields(Tools)}),
+            progress=progress,
+        )
+
+    def chosen_recogniser(self) -> Recogniser:
+        """Who understands; pydantic-ai is loaded only here."""
+        if self.recogniser == "offline":
+            return OfflineRecogniser()
+        from wirelessagent.language.llm import LlmRecogniser
+
+        return LlmRecogniser()

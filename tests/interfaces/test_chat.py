@@ -1,0 +1,104 @@
+"""The conversation on the command line: from a script, a pipe and a terminal, in words and as JSON."""
+
+from __future__ import annotations
+
+import io
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+from wirelessagent.interfaces.cli import run
+from wirelessagent.operations.chat import ChatRequest
+from wirelessagent.operations.chat import run as chat
+from wirelessagent.operations.operation import InputError, silent
+
+CELL = ("--num-users", "3", "--seed", "3")
+SAID = ["Highest total rate, at most 10 W", "", "Save power, 500 kbit/s each"]
+
+
+@pytest.fixture
+def script(tmp_path: Path) -> Path:
+    path = tmp_path / "said.txt"
+    path.write_text("\n".join([*SAID, "quit", "maximum rate"]), encoding="utf-8")
+    return path
+
+
+def test_a_script_is_read_to_its_end_or_until_leave_is_taken(script: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["chat", *CELL, "--script", str(script)]) == 0
+    told = capsys.readouterr().out
+    assert [line for line in told.splitlines() if line.startswith("> ")] == [f"> {SAID[0]}", f"> {SAID[2]}", "> quit"]
+    assert "at most 10 W" in told
+    assert "500 kbit/s for each user" in told
+    assert told.count("achieved rate") == 2
+
+
+def test_json_is_a_line_per_turn(script: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["chat", *CELL, "--script", str(script), "--json"]) == 0
+    turns = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [turn["number"] for turn in turns] == [1, 2]
+    assert [turn["request"]["objective"] for turn in turns] == ["max_rate", "min_power"]
+    assert turns[1]["request"]["constraints"] == {"min_rate_bps": 500e3}
+    assert turns[1]["decision"]["unit"] == "W"
+    assert turns[1]["outcome"]["power_w"] == turns[1]["decision"]["power_w"]
+    assert turns[0]["session"] == turns[1]["session"]
+    assert turns[1]["stored"] == turns[0]["stored"] + 1
+    assert turns[0]["tables"][0]["title"] == "Users"
+
+
+def test_lines_come_from_a_pipe(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", io.StringIO("maximum rate\r\n"))
+    assert run(["chat", *CELL]) == 0
+    assert "The highest total rate." in capsys.readouterr().out
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_lines_come_from_a_terminal_until_it_ends(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "stdin", Terminal("maximum rate\n"))
+    assert run(["chat", *CELL]) == 0
+    assert "> The highest total rate." in capsys.readouterr().out  # what was typed stands there already
+
+
+def test_an_interrupt_is_no_traceback(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(prompt: str) -> str:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys, "stdin", Terminal())
+    monkeypatch.setattr("builtins.input", interrupted)
+    assert run(["chat", *CELL]) == 130
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_a_base_station_asks_unless_it_is_told_yes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "allocation.json"
+    options = ["chat", *CELL, "--base-station", "file", "--path", str(out), "--say", "maximum rate", "--json"]
+    assert run(options) == 0
+    assert json.loads(capsys.readouterr().out)["awaits"] == "confirmation"
+    assert not out.exists()
+    assert run([*options, "--yes"]) == 0
+    assert json.loads(capsys.readouterr().out)["stage"] == "applied"
+    assert out.exists()
+
+
+def test_what_is_said_comes_from_one_place(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["chat", *CELL, "--script", "no.txt"]) == 2
+    assert "no.txt cannot be read" in capsys.readouterr().err
+    (tmp_path / "latin.txt").write_bytes(b"d\xe9bit")
+    assert run(["chat", *CELL, "--script", str(tmp_path / "latin.txt")]) == 2
+    assert run(["chat", *CELL, "--script", "no.txt", "--say", "maximum rate"]) == 2
+    assert "not from both" in capsys.readouterr().err
+
+
+def test_without_a_terminal_the_request_says_it_all() -> None:
+    record = chat(ChatRequest(say=["maximum rate", "make it nice"], source_options={"num_users": 3}), silent)
+    assert [turn.stage for turn in record.turns] == ["applied", "asked"]
+    assert record.needs_answer
+    with pytest.raises(InputError, match="nothing is said"):
+        chat(ChatRequest(), silent)
