@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from wirelessagent.acting.base_station import BaseStation
     from wirelessagent.acting.file import FileBaseStation
     from wirelessagent.acting.simulated import SimulatedBaseStation
+    from wirelessagent.agent.session import Session
     from wirelessagent.chain import decide, decide_batch, perfect, repair, simulate
     from wirelessagent.comparison import compare
     from wirelessagent.deciding.method import Method
@@ -72,6 +73,7 @@ _HOMES = {
     "Problem": "model.problem",
     "Repairer": "repairing.repairer",
     "Scene": "model.scene",
+    "Session": "agent.session",
     "SimulatedBaseStation": "acting.simulated",
     "WirelessAgentError": "model.errors",
     "ask": "operations.chain_run",
@@ -95,9 +97,9 @@ _HOMES = {
 __all__ = [  # kept in the order of _HOMES; a test compares the two
     "BaseStation", "BatchDecision", "Bracket", "Cell", "ChannelEstimate", "ChannelObservation", "ChannelSource",
     "Decision", "FadingPosterior", "FileBaseStation", "GammaPosterior", "InputError", "Kriging", "LinkMetrics",
-    "Method", "Objective", "Outcome", "Posterior", "Prices", "Problem", "Repairer", "Scene", "SimulatedBaseStation",
-    "WirelessAgentError", "ask", "compare", "decide", "decide_batch", "kernel", "link_metrics", "loss", "perfect",
-    "phrases", "plugins", "read", "repair", "report", "simulate", "testing", "units",
+    "Method", "Objective", "Outcome", "Posterior", "Prices", "Problem", "Repairer", "Scene", "Session",
+    "SimulatedBaseStation", "WirelessAgentError", "ask", "compare", "decide", "decide_batch", "kernel", "link_metrics",
+    "loss", "perfect", "phrases", "plugins", "read", "repair", "report", "simulate", "testing", "units",
 ]  # fmt: skip
 
 
