@@ -15,6 +15,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from llm_stub import Reply, StubLlm, call, case_of, error, meaning, raw, refuse, say, truthful
+from pydantic import ValidationError
 
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.llm import LlmRecogniser
@@ -124,7 +125,6 @@ FAULTS: dict[str, tuple[list[Reply], str, int]] = {
     "other JSON": ([raw(b'{"hello": 1}')] * 3, "what it sent", 1),
     "no choices": ([raw(chat(choices=[]))] * 3, "what it sent", 1),
     "numbers for text": ([raw(chat(choices=[{"index": 0, "message": 7, "finish_reason": 7}]))] * 3, "", 1),
-    "redirect": ([Reply(raw=b"", status=307, headers={"Location": "http://127.0.0.1:9/v1"})] * 3, "", 1),
     "refusal": ([refuse(f"No, {KEY}")] * 3, "it refused", 1),
     "words": ([say("Sure, I set the power to 100 W.")] * 3, "what it sent was no answer", 2),
     "empty words": ([say("")] * 3, "what it sent was no answer", 2),
@@ -181,6 +181,13 @@ def test_time_is_bounded_over_both_questions() -> None:
     asked = Asked(stream=False)
     slow = [Reply(message=reply.message, delay_s=0.7) for reply in (say("what?"), right())]
     assert_offline_answered(asked(slow, timeout_s=1.0), "no answer within 1 s")
+
+
+def test_redirects_are_not_followed(asked: Asked) -> None:
+    with StubLlm([right()]) as elsewhere:
+        away = Reply(raw=b"", status=307, headers={"Location": f"{elsewhere.url}/chat/completions"})
+        assert_offline_answered(asked([away]), "the LLM did not answer")
+    assert elsewhere.requests == []
 
 
 def test_dead_server() -> None:
@@ -316,6 +323,11 @@ class TestSettings:
             LlmRecogniser()
         assert KEY not in str(caught.value)
         assert caught.value.__cause__ is None
+
+    def test_validation_errors_show_no_value(self) -> None:
+        with pytest.raises(ValidationError) as caught:
+            LlmSettings.model_validate({"api_key": KEY, "model": "m"})
+        assert KEY not in str(caught.value)
 
     def test_other_programs_settings_are_left_alone(self, monkeypatch: pytest.MonkeyPatch) -> None:
         """Keys and organisations that are meant for OpenAI itself do not go to another endpoint."""
