@@ -70,6 +70,15 @@ def answer(capsys: pytest.CaptureFixture[str], *arguments: object) -> dict[str, 
     return json.loads(capsys.readouterr().out)
 
 
+def talked(capsys: pytest.CaptureFixture[str], *sentences: str, options: tuple[str, ...] = ()) -> list[dict[str, Any]]:
+    """The turns of a conversation, each a line of JSON; what was said on stderr stays to be read."""
+    said = [part for sentence in sentences for part in ("--say", sentence)]
+    assert run(["chat", "--num-users", "4", *said, *options, "--json"]) == 0
+    out, err = capsys.readouterr()
+    sys.stderr.write(err)
+    return [json.loads(line) for line in out.splitlines()]
+
+
 def told(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
     assert run([str(argument) for argument in arguments]) == 0, capsys.readouterr().err
     return capsys.readouterr().out
@@ -190,7 +199,13 @@ def test_history_show_tells_a_turn_and_checks_it(
     assert record["turn"]["allocation"]["owner"] == turn.run.decision.owner.tolist()
     assert record["turn"]["applied"]["power_w"] == turn.run.decision.power_w.tolist()
     shown = told(capsys, "history", "show", 1)
-    for text in ("Said: higher speed", "feasible: ", "read back as decided: 20 W", record["turn"]["hash"]):
+    for text in (
+        "Said: higher speed",
+        "Understood by offline, 90% sure: allocate, max_min_rate\n",
+        "feasible: ",
+        "read back as decided: 20 W",
+        record["turn"]["hash"],
+    ):
         assert text in shown
     assert "nothing in this session was changed" in shown
     assert "decided" not in told(capsys, "history", "show", 2)
@@ -218,6 +233,49 @@ def test_history_replay_says_whether_it_is_the_same(
     )
     assert run(["history", "replay", "2"]) == 2
     assert "turn 2 decided nothing (answered), so there is nothing to replay" in capsys.readouterr().err
+
+
+def test_a_conversation_is_recorded_turn_by_turn(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = ("Highest total rate, at most 10 W", "how are you?", "Save power, 200 kbit/s each", "能效最高")
+    turns = talked(capsys, *said)
+    assert [turn["stored"] for turn in turns] == [1, 2, 3, 4]
+    listed = answer(capsys, "history")["turns"]
+    assert [line["text"] for line in listed] == list(said)
+    assert {line["session"] for line in listed} == {turns[0]["session"]}
+    for turn, line in zip(turns, listed, strict=True):
+        assert line["stage"] == turn["stage"]
+        if turn["decision"] is not None:
+            assert line["value"] == turn["decision"]["value"]
+            assert answer(capsys, "history", "replay", line["number"])["verdict"] == "identical"
+    assert answer(capsys, "history", "show", 4)["faults"] == []
+
+
+@pytest.mark.parametrize("how", ["option", "setting"])
+def test_nothing_is_recorded_where_it_is_not_wanted(
+    place: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, how: str
+) -> None:
+    if how == "setting":
+        monkeypatch.setenv("WIRELESSAGENT_STORE", "no")
+    options = ("--no-store",) if how == "option" else ()
+    assert talked(capsys, "Highest total rate", options=options)[0]["stored"] is None
+    assert not place.exists()
+
+
+@pytest.mark.parametrize("content", ["damaged", "no folder", "no setting"])
+def test_a_store_that_fails_keeps_no_cell_from_being_served(
+    place: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, content: str
+) -> None:
+    if content == "damaged":
+        place.write_bytes(b"0123456789abcdef" * 512)
+    elif content == "no folder":
+        monkeypatch.setenv("WIRELESSAGENT_STORE_URL", str(place / "none" / "audit.sqlite3"))
+    else:
+        monkeypatch.setenv("WIRELESSAGENT_STORE", "perhaps")
+    (turn,) = talked(capsys, "Highest total rate")
+    err = capsys.readouterr().err
+    assert (turn["stage"], turn["stored"]) == ("applied", None)
+    assert err.startswith("wirelessagent: this turn is not recorded: ")
+    assert err.count("\n") == 1
 
 
 def test_a_replay_in_another_process_is_identical(place: Path, scene: wa.Scene) -> None:

@@ -11,18 +11,19 @@ import numpy as np
 from pydantic import Field
 
 from wirelessagent.explain.report import report
+from wirelessagent.explain.tables import decision_tables
 from wirelessagent.model.arrays import whole
 from wirelessagent.model.atomic import writable_target, write_atomically
 from wirelessagent.model.errors import NothingRecordedError
 from wirelessagent.model.units import human, percent
-from wirelessagent.operations.answers import DecisionAnswer, certificate_line, decision_tables
+from wirelessagent.operations.answers import DecisionAnswer, certificate_line
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.record import Block, Record, Table
 from wirelessagent.operations.recording import StoreOptions, opened, place_of
 from wirelessagent.store.content import estimate_of
 from wirelessagent.store.export import exported
-from wirelessagent.store.plain import plain
+from wirelessagent.store.plain import canonical, plain
 from wirelessagent.store.rebuilt import decision_of, outcome_of
 from wirelessagent.store.stored import StoredTurn
 
@@ -68,7 +69,7 @@ class HistoryLine(Record):
         text = self.text if len(self.text) <= _TEXT_SHOWN else self.text[: _TEXT_SHOWN - 1] + "…"
         value = "–" if self.value is None else human(self.value, self.unit or "")
         return (
-            str(self.number), self.at_utc[:19].replace("T", " "), f"{self.session[:_SESSION_SHOWN]} {self.turn}",
+            str(self.number), self.at_utc[:16].replace("T", " "), f"{self.session[:_SESSION_SHOWN]} {self.turn}",
             " ".join(text.split()), self.objective or "–", self.status or self.stage, value,
             "–" if self.gap is None else percent(self.gap),
             f"{self.put_back} (put back)" if self.put_back else self.applied or "–",
@@ -131,7 +132,11 @@ def show_turn(request: TurnRequest, progress: Progress) -> ShowRecord:
 def _said(turn: StoredTurn) -> Iterator[Block]:
     yield f"Turn {turn.number}, turn {turn.turn} of the session {turn.session}, {turn.at_utc} ({turn.stage})"
     yield f"Said: {turn.text}"
-    yield f"Replied: {turn.reply} ({turn.recogniser}, {turn.intent['confidence']:.0%} sure)"
+    intent = turn.intent
+    parts = (intent["kind"], intent["topic"], intent["objective"], canonical(intent["constraints"] or None))
+    meant = ", ".join(part for part in parts if part not in (None, "null"))
+    yield f"Understood by {turn.recogniser}, {intent['confidence']:.0%} sure: {meant}"
+    yield f"Replied: {turn.reply}"
 
 
 def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
