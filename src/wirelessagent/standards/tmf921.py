@@ -159,7 +159,7 @@ def _report(subject: Subject, found: list[Expectation]) -> JsonLd:
         "icm:reportGenerated": {"@type": "t:Instant", "t:inXSDDateTimeStamp": stamp},
         "imo:handlingState": {"@id": f"imo:{_state(found)}"},
         "icm:result": is_kept(found),
-        "icm:resultFrom": [_about(subject, one, stamp) for one in found],
+        "icm:resultFrom": [_about(subject, one) for one in found],
     }
     if known and not subject.decision.is_usable:
         made["icm:information"] = known
@@ -172,7 +172,7 @@ def _state(found: list[Expectation]) -> str:
     return "StateDegraded" if any(one.progress == "missed" for one in found) else "StateIntentReceived"
 
 
-def _about(subject: Subject, one: Expectation, stamp: JsonLd) -> JsonLd:
+def _about(subject: Subject, one: Expectation) -> JsonLd:
     kept = one.progress == "kept"
     condition: JsonLd = {
         "@id": _iri(subject, one, "condition:report"),
@@ -185,7 +185,7 @@ def _about(subject: Subject, one: Expectation, stamp: JsonLd) -> JsonLd:
             "@type": "met:Observation",
             "met:observedMetric": _metric(one),
             "rdf:value": _quantity(one.achieved, one.metric.unit),
-            "met:obtainedAt": {"@type": "t:Instant", "t:inXSDDateTimeStamp": stamp},
+            "met:obtainedAt": {"@type": "xsd:dateTime", "@value": subject.at.isoformat()},
         }
     if one.promised is not None:
         condition["wa:promised"] = _quantity(one.promised, one.metric.unit)
