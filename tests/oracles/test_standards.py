@@ -6,6 +6,7 @@ import importlib.util
 import json
 import math
 import sys
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -333,15 +334,34 @@ def test_models_read_what_they_write_and_nothing_is_nan(name: str):
             assert ": null" not in text
 
 
+@dataclass(frozen=True, kw_only=True)
+class Logarithms(wa.Objective):
+    """Σ ln r, shown as it is: −∞ where anybody gets nothing."""
+
+    name = "logarithms"
+
+    def utility(self, rate: np.ndarray) -> np.ndarray:
+        with np.errstate(divide="ignore"):
+            return np.log(rate)
+
+    def conjugate(self, price: Any, min_rate: Any, max_rate: Any) -> Any:
+        raise NotImplementedError
+
+
 def test_a_figure_that_no_document_can_hold_is_left_out():
     made = scene()
-    decision = wa.decide(wa.repair(made.observe()), wa.Problem(alpha_fairness()), CELL)
+    decision = wa.decide(wa.repair(made.observe()), wa.Problem("proportional_fairness"), CELL)
+    decision = replace(decision, problem=decision.problem.resolved(Logarithms()))
     dark = wa.Scene(cell=CELL, sensed=made.sensed, truth=np.zeros_like(made.sensed.gain))
     outcome = wa.SimulatedBaseStation(dark).apply(decision)
     run = Subject(**{**vars(subject()), "decision": decision, "outcome": outcome})
     for standard in (ts28312, tmf921):
         json.loads(standard.to_json(standard.document(run)), parse_constant=lambda constant: pytest.fail(constant))
-    assert result(run, "objective")["targetFulfilmentInfo"]["fulfilmentStatus"] == "NOT_FULFILLED"
+    found = result(run, "objective")
+    assert found["targetFulfilmentInfo"]["fulfilmentStatus"] == "NOT_FULFILLED"
+    assert "targetAchievedValue" not in found
+    again = Subject(**{**vars(run), "current": outcome})
+    assert target(again, "objective")["targetValueRange"] == 0
 
 
 def test_the_models_refuse_what_the_standard_does_not_know():
