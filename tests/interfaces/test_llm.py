@@ -103,12 +103,20 @@ def test_answer_in_json(asked: Asked, output: str) -> None:
     assert (intent.recogniser, intent.objective, dict(intent.constraints)) == ("llm", "min_power", TRUE_CONSTRAINTS)
 
 
+def test_a_question_back_keeps_what_was_read() -> None:
+    asked = Asked(stream=False)
+    intent = asked([meaning(kind="clarify", question="For 10 W: what first?", topic=None)])
+    assert (intent.kind, intent.reply, intent.recogniser) == ("clarify", "For 10 W: what first?", "llm")
+    assert dict(intent.pending) == TRUE_CONSTRAINTS
+
+
 def test_only_text_leaves_the_machine() -> None:
     asked = Asked(stream=False)
     context = Context(user_names=("Ada", "user 2"), objective="max_rate", constraints={"max_power_w": 5.0})
     asked([right()], context=context)
     case = case_of(asked.stub.requests[0])
-    assert set(case) == {"sentence", "figures", "user_names", "num_users", "current_request", "awaited"}
+    assert set(case) == {"sentence", "figures", "user_names", "num_users", "current_request", "awaited",
+                         "before_the_question"}  # fmt: skip
     assert case["sentence"] == SENTENCE
     assert {figure["words"] for figure in case["figures"]} >= {"1 Mbit/s", "10 W"}
     assert case["current_request"] == {"objective": "max_rate", "constraints": {"max_power_w": 5.0}}

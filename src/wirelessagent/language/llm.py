@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import dataclasses
 import logging
+from collections.abc import Mapping
 from typing import cast
 
 from wirelessagent import plugins
 from wirelessagent.language import llm_prompt
-from wirelessagent.language.intent import Intent, IntentKind
+from wirelessagent.language.intent import Constraint, Intent, IntentKind
 from wirelessagent.language.llm_check import Case, Read
 from wirelessagent.language.llm_door import NoAnswer, fill_in, require_llm
 from wirelessagent.language.llm_meaning import meaning_with
@@ -90,6 +91,7 @@ def _intent(read: Read, case: Case) -> Intent:
     offline = case.offline
     agreed = (read.kind, read.objective, read.topic) == (offline.kind, offline.objective, offline.topic)
     same = agreed and dict(read.constraints) == dict(offline.constraints)
+    left = {name: words for name, words in offline.evidence.items() if name == "not_used"}
     return Intent(
         kind=cast(IntentKind, read.kind),
         objective=read.objective,
@@ -100,10 +102,16 @@ def _intent(read: Read, case: Case) -> Intent:
         details=read.details,
         language=read.language,
         confidence=_AGREED if agreed else _ALONE,
-        evidence=read.evidence,
+        pending=_rules(offline) if read.kind == "clarify" else {},
+        evidence={**read.evidence, **left} if read.kind == "allocate" else {},
         reply=offline.reply if same and read.kind != "clarify" else _reply(read),
         recogniser=NAME,
     )
+
+
+def _rules(offline: Intent) -> Mapping[str, Constraint]:
+    """What the rules read, for the answer to a question back to use."""
+    return {**offline.pending, **offline.constraints}
 
 
 def _reply(read: Read) -> str:

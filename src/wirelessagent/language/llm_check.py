@@ -145,6 +145,7 @@ class Case:
             users = self._users(getattr(meaning, name))
             if users:
                 found[name] = tuple(users)
+                evidence[name] = [self.offline.evidence.get(name) or ", ".join(users)]
         try:
             checked = checked_constraints(found)
         except InputError as error:

@@ -36,6 +36,7 @@ Objectives
 {objectives}
 A rate for every user together with a limit on the power, and no other wish, means max_rate.
 If the sentence changes the current request ("now with 10 W"), set amends and give only what changes.
+If awaited is clarification and the sentence answers it, before_the_question holds and is repeated as constraints.
 
 Constraints
 - max_power_w: the most that the cell may radiate; circuit_power_w: power drawn whatever is radiated
@@ -87,6 +88,7 @@ def case(text: str, figures: Iterable[Figure], context: Context) -> str:
         "num_users": len(context.user_names),
         "current_request": current,
         "awaited": context.awaits,
+        "before_the_question": plain(context.pending),
     }
     return json.dumps(data, ensure_ascii=False)
 
