@@ -87,6 +87,13 @@ def test_bad_values_are_told_in_words() -> None:
         tool_of(OFFERED[-1]).run(tools["plugins"].form(kind="weapons"))
 
 
+def test_memory_is_not_for_an_llm_to_fill() -> None:
+    tool = tools_by_name()["simulate"]
+    for options in ({"num_users": 10**9}, {"num_users": 5000, "num_subcarriers": 3000}):
+        with pytest.raises(InputError, match="too large"):
+            tool.run(tool.form.model_validate({"source_options": options}))
+
+
 class TestAssistant:
     """Questions answered with tools, before a real server."""
 

@@ -7,8 +7,9 @@ caller hands over. Applying an allocation is no tool: the operator confirms it, 
 
 from __future__ import annotations
 
+import math
 import types
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, cast, get_args
 
@@ -31,6 +32,7 @@ OFFERED: tuple[AnyOperation, ...] = (SIMULATE, REPAIR, SOLVE, COMPARE, PLUGINS)
 
 _CHANNEL = "path"  # the field of a request that names the channel's file
 _MOST_CHARACTERS = 20_000
+_MOST_GAINS = 1_000_000
 
 
 def llm_tools(channel: Path | str | None = None, operations: Sequence[AnyOperation] = OFFERED) -> tuple[LlmTool, ...]:
@@ -47,6 +49,7 @@ def tool_of(operation: AnyOperation, channel: Path | str | None = None) -> LlmTo
 
     def run(form: BaseModel) -> str:
         values = form.model_dump(exclude_unset=True, exclude_none=True)
+        _check_size(values)
         if _CHANNEL in operation.request.model_fields:
             values[_CHANNEL] = channel
         try:
@@ -59,6 +62,14 @@ def tool_of(operation: AnyOperation, channel: Path | str | None = None) -> LlmTo
 
     name = operation.name.replace(" ", "_").replace("-", "_")
     return LlmTool(name=name, summary=operation.summary, form=form_of(operation), run=run)
+
+
+def _check_size(values: Mapping[str, Any]) -> None:
+    """Refuse options that together ask for more than a conversation needs: an LLM must not fill the memory."""
+    for name, given in values.items():
+        options = cast("dict[str, Any]", given) if isinstance(given, dict) else {}
+        if math.prod(value for value in options.values() if isinstance(value, int) and value > 1) > _MOST_GAINS:
+            raise InputError(f"{name}: too large for a tool; got {options!r}")
 
 
 def form_of(operation: AnyOperation) -> type[BaseModel]:
