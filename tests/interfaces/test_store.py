@@ -370,6 +370,7 @@ def test_a_commit_is_on_the_disk_and_no_reader_waits(store: Store) -> None:
         ("sqlite://", "needs a file"),
         ("sqlite:///:memory:", "needs a file"),
         ("postgresql+nosuch://host/audit", "nosuch"),
+        ("~nobody-of-that-name/audit.sqlite3", "cannot be at ~nobody-of-that-name"),
         ("postgresql+psycopg2://me:secret@localhost/audit", "needs a driver that is not installed"),
     ],
 )
@@ -386,7 +387,7 @@ def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
         Store.open(tmp_path, create=True)
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="nothing is read-only to the superuser")
+@pytest.mark.skipif(getattr(os, "geteuid", int)() == 0, reason="nothing is read-only to the superuser")
 def test_a_read_only_folder_is_told(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
     with pytest.raises(StoreError, match="cannot be used: Permission denied"):

@@ -39,7 +39,7 @@ def url_of(where: str | Path | None) -> URL:
     """
     named = str(where or settings().store_url or platformdirs.user_data_path("wirelessagent") / "audit.sqlite3")
     if "://" not in named:
-        return URL.create("sqlite", database=str(Path(named).expanduser().absolute()))
+        return URL.create("sqlite", database=str(_absolute(named)))
     try:
         url = make_url(named)
         url.get_dialect()
@@ -52,6 +52,13 @@ def url_of(where: str | Path | None) -> URL:
     if url.get_backend_name() == "sqlite" and file_of(url) is None:
         raise InputError(f"the audit store needs a file; got {named!r}: as in sqlite:////var/lib/audit.sqlite3")
     return url
+
+
+def _absolute(path: str) -> Path:
+    try:
+        return Path(path).expanduser().absolute()
+    except RuntimeError as error:  # nobody's home
+        raise StoreError(f"the audit store cannot be at {path}: {error}; name another place") from error
 
 
 def shown(url: URL) -> str:
