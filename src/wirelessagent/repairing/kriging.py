@@ -15,7 +15,7 @@ from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.repairing.core import fit
 from wirelessagent.repairing.core.error_correlation import ErrorRoots
 from wirelessagent.repairing.core.hypotheses import hypotheses
-from wirelessagent.repairing.core.levels import SMALLEST_VARIANCE, user_levels
+from wirelessagent.repairing.core.levels import user_levels
 from wirelessagent.repairing.repairer import Repairer
 
 FEW = 8
@@ -82,45 +82,25 @@ def completed(
     observation: ChannelObservation, slot: fit.Relative, learnt: fit.Learnt, found: FloatArray, factor: FloatArray
 ) -> ChannelEstimate:
     """The estimate for what :func:`.fit.estimate` found, with its posterior; users unseen now get their level."""
-    level = slot.level[:, np.newaxis]
-    gain = level * found[..., 0]
-    variance = level * (level * (factor[:, np.newaxis] * found[..., 1] + found[..., 2]))
+    from wirelessagent.repairing.core import completing_kernel
+
+    unseen = np.ones((slot.level.size, 3))
     if slot.seen.min() < FEW:
         levels = user_levels(observation)
-        unseen = (slot.seen == 0)[:, np.newaxis]
-        gain = np.where(unseen, levels.level[:, np.newaxis], gain)
-        variance = np.where(unseen, levels.variance[:, np.newaxis], variance * levels.doubt[:, np.newaxis])
-    missing = observation.missing
-    gain = np.where(missing, gain, observation.current)
-    variance = np.where(missing, np.maximum(variance, SMALLEST_VARIANCE), observation.current_noise_variance)
-    return ChannelEstimate.completing(
-        observation,
+        unseen = np.stack([levels.level, levels.variance, levels.doubt], axis=1)
+    gain, variance, mean, mean_variance = (np.empty(slot.gain.shape) for _ in range(4))
+    smoothed = np.empty(slot.gain.shape, dtype=np.bool_)
+    completing_kernel.complete(
+        observation.current, observation.current_noise_variance, slot.known, slot.level, found, factor, unseen, FEW,
+        slot.seen, gain, variance, mean, mean_variance, smoothed,
+    )  # fmt: skip
+    measured = observation.measured
+    return ChannelEstimate(
         gain=gain,
         gain_variance=variance,
+        repaired=~measured[-1],
+        unobserved_users=np.asarray(~measured.any(axis=(0, 2))),
+        user_names=observation.user_names,
         method="kriging",
-        joint_posterior=_posterior(observation, slot, learnt, found, factor, gain, variance),
+        joint_posterior=FadingPosterior(mean, mean_variance, ErrorRoots(slot, learnt, smoothed)),
     )
-
-
-def _posterior(
-    observation: ChannelObservation,
-    slot: fit.Relative,
-    learnt: fit.Learnt,
-    found: FloatArray,
-    factor: FloatArray,
-    gain: FloatArray,
-    variance: FloatArray,
-) -> FadingPosterior:
-    """The posterior of entries with these means and variances; what was measured with noise is told by others as well.
-
-    An entry that stands out from its neighbours stands out by its noise, most likely, and whoever looks for strong
-    entries finds those. So the measurement and what the others say of the entry, where that was worked out, are
-    weighed by their variances.
-    """
-    level = slot.level[:, np.newaxis]
-    others = level * (level * (factor[:, np.newaxis] * found[..., 1] + found[..., 2]))
-    told = ~observation.missing & (variance > 0) & (others > 0) & (slot.seen >= FEW)[:, np.newaxis]
-    weight = np.where(told, variance / np.where(told, variance + others, 1.0), 0.0)
-    mean = np.where(told, gain + weight * (level * found[..., 0] - gain), gain)
-    errors = ErrorRoots(slot, learnt, told & slot.known)
-    return FadingPosterior(mean, np.where(told, variance * (1.0 - weight), variance), errors)

@@ -14,7 +14,7 @@ Fading Channels*, eq. 6.2),
 
 which counts ``PAIR_SHARE``: neighbouring pairs tell much the same.
 
-All hypotheses are worked on side by side, as the innermost axis, so that the processor's vectors are full.
+Hypotheses are worked on side by side; see :mod:`.side_by_side_kernel`.
 """
 
 from __future__ import annotations
@@ -23,10 +23,9 @@ import numpy as np
 
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
+from wirelessagent.repairing.core.side_by_side_kernel import JITTER, factorise, packed, width_of
 
 SHARE, PAIR_SHARE = 0.5, 0.1
-JITTER = 1e-10
-"""Added to each variance, so that no matrix is singular."""
 BLOCK = 16
 """Most entries weighed together; of longer bands blocks are weighed and taken for independent."""
 MOST_BLOCKS = 2
@@ -35,59 +34,60 @@ NEAREST = 1.0 - 1e-9
 
 
 @kernel
-def factorise(place: IntArray, table: FloatArray, noise: FloatArray, shared: FloatArray, low: FloatArray) -> None:
-    """Write the Cholesky factors of C + shared into the lower half of ``low``, shape (n, n, hypothesis).
-
-    The diagonal holds the inverses of the factor's. ``place`` is of shape (n,), ``table`` (distance, hypothesis),
-    ``noise`` and ``shared`` (hypothesis,).
-    """
-    size, count = place.size, noise.size
-    for i in range(size):
-        for j in range(i):
-            here, row = low[i, j], table[place[i] - place[j]]
-            for h in range(count):
-                here[h] = row[h] + shared[h]
-            for m in range(j):
-                left, right = low[i, m], low[j, m]
-                for h in range(count):
-                    here[h] -= left[h] * right[h]
-            scale = low[j, j]
-            for h in range(count):
-                here[h] *= scale[h]
-        here, row = low[i, i], table[0]
-        for h in range(count):
-            here[h] = row[h] + shared[h] + noise[h] + JITTER
-        for m in range(i):
-            left = low[i, m]
-            for h in range(count):
-                here[h] -= left[h] * left[h]
-        for h in range(count):
-            here[h] = 1.0 / np.sqrt(max(here[h], JITTER))
+def fill(place: IntArray, table: FloatArray, noise: FloatArray, first: int, low: FloatArray) -> None:
+    """Write C of the hypotheses from ``first`` on to ``low``, packed."""
+    last = min(first + low.shape[1], noise.size)
+    own = noise[first:last]
+    for i in range(place.size):
+        for j in range(i + 1):
+            here, row = packed(i, j), table[place[i] - place[j]][first:last]
+            for c in range(row.size):
+                low[here, c] = row[c]
+        here = packed(i, i)
+        for c in range(own.size):
+            low[here, c] += own[c] + JITTER
 
 
 @kernel
-def add_forms(low: FloatArray, gain: FloatArray, one: FloatArray, seen: FloatArray, forms: FloatArray) -> None:
-    """Add A, B, Q and −ln|C| of ``gain`` (n,) to ``forms`` (4, hypothesis); the rest is workspace (n, hypothesis)."""
-    size, count = gain.size, forms.shape[1]
-    a, b, q, product = forms[0], forms[1], forms[2], np.ones(count)
-    for i in range(size):
-        ones, values, scale = one[i], seen[i], low[i, i]
-        for h in range(count):
-            ones[h], values[h] = 1.0, gain[i]
+def add_forms(low: FloatArray, gain: FloatArray, side: FloatArray, sums: FloatArray) -> None:
+    """Add A, B and Q of ``gain`` (n,) to ``sums`` (4, lane), whose last row is multiplied by |C|^−½.
+
+    ``low`` holds the factors; ``side`` (2, n, lane) is workspace.
+    """
+    count = low.shape[1]
+    for i in range(gain.size):
+        for c in range(count):
+            side[0, i, c], side[1, i, c] = 1.0, gain[i]
         for m in range(i):
-            left, one_m, seen_m = low[i, m], one[m], seen[m]
-            for h in range(count):
-                ones[h] -= left[h] * one_m[h]
-                values[h] -= left[h] * seen_m[h]
-        for h in range(count):
-            ones[h] *= scale[h]
-            values[h] *= scale[h]
-            a[h] += ones[h] * ones[h]
-            b[h] += ones[h] * values[h]
-            q[h] += values[h] * values[h]
-            product[h] *= scale[h]
-    for h in range(count):
-        forms[3, h] += 2.0 * np.log(product[h])
+            left = packed(i, m)
+            for c in range(count):
+                side[0, i, c] -= low[left, c] * side[0, m, c]
+                side[1, i, c] -= low[left, c] * side[1, m, c]
+        diagonal = packed(i, i)
+        for c in range(count):
+            one, value = side[0, i, c] * low[diagonal, c], side[1, i, c] * low[diagonal, c]
+            side[0, i, c], side[1, i, c] = one, value
+            sums[0, c] += one * one
+            sums[1, c] += one * value
+            sums[2, c] += value * value
+            sums[3, c] *= low[diagonal, c]
+
+
+@kernel
+def conclude(sums: FloatArray, entries: float, first: int, forms: FloatArray, result: FloatArray) -> None:
+    """Write ln L and the forms of the hypotheses from ``first`` on; see :func:`weigh`."""
+    level, exponent = np.empty(sums.shape[1]), np.empty(sums.shape[1])
+    for c in range(sums.shape[1]):
+        a, b, q = sums[0, c], sums[1, c], max(sums[2, c], 1e-300)
+        root = np.sqrt(b * b + 4.0 * entries * q)
+        u = (b + root) / (2.0 * q)
+        level[c] = 2.0 * q / (b + root)
+        exponent[c] = 0.5 * (q * u * u - 2.0 * b * u + a)
+    for h in range(first, min(first + sums.shape[1], result.size)):
+        c = h - first
+        forms[0, h], forms[1, h], forms[2, h] = sums[0, c], sums[1, c], sums[2, c]
+        forms[3, h], forms[4, h] = 2.0 * np.log(sums[3, c]), level[c]
+        result[h] += SHARE * (0.5 * forms[3, h] - entries * np.log(level[c]) - exponent[c])
 
 
 @kernel
@@ -103,75 +103,92 @@ def bump(t: float) -> float:
 
 
 @kernel
-def add_pairs(place: IntArray, gain: FloatArray, table: FloatArray, noise: FloatArray, log_pairs: FloatArray) -> None:
-    """Add ln f(y|x)/f(y) of neighbours, of mean gain 1, to ``log_pairs`` (hypothesis,).
+def add_pairs(place: IntArray, gain: FloatArray, table: FloatArray, noise: FloatArray, result: FloatArray) -> None:
+    """Add the share of ln f(y|x)/f(y) of neighbours, of mean gain 1, to ``result`` (hypothesis,).
 
-    Logarithms are taken of the product, once.
+    Logarithms are taken of the product, once; what depends on the distance alone is worked out once for each.
     """
-    count = log_pairs.size
-    kept, product = np.empty(count), np.ones(count)
-    for h in range(count):
-        kept[h] = 1.0 / (1.0 + noise[h])
-    for i in range(gain.size - 1):
-        row = table[place[i + 1] - place[i]]
-        both, root = gain[i] + gain[i + 1], 2.0 * np.sqrt(gain[i] * gain[i + 1])
+    count, pairs = result.size, gain.size - 1
+    exponent, product, scale, share, spread = (
+        np.zeros(count), np.ones(count), np.empty(count), np.empty(count), np.empty(count)
+    )  # fmt: skip
+    done = np.zeros(pairs, np.bool_)
+    for start in range(pairs):
+        if done[start]:
+            continue
+        distance = place[start + 1] - place[start]
         for h in range(count):
-            r = min(row[h] * kept[h], NEAREST)
-            scale = 1.0 / (1.0 - r)
-            z = root * np.sqrt(r) * scale
-            product[h] *= bump(z / (1.0 + z)) * scale / np.sqrt(1.0 + 6.283185307179586 * z)
-            log_pairs[h] += z - r * both * scale
+            r = min(table[distance, h] / (1.0 + noise[h]), NEAREST)
+            scale[h] = 1.0 / (1.0 - r)
+            share[h] = r * scale[h]
+            spread[h] = 2.0 * np.sqrt(r) * scale[h]
+        for i in range(start, pairs):
+            if place[i + 1] - place[i] != distance:
+                continue
+            done[i] = True
+            both, root = gain[i] + gain[i + 1], np.sqrt(gain[i] * gain[i + 1])
+            for h in range(count):
+                z = root * spread[h]
+                width = np.sqrt(1.0 + 6.283185307179586 * z)
+                inverse = 1.0 / ((1.0 + z) * width)
+                product[h] *= bump(z * width * inverse) * scale[h] * (1.0 + z) * inverse
+                exponent[h] += z - both * share[h]
     for h in range(count):
-        log_pairs[h] += np.log(product[h])
+        result[h] += PAIR_SHARE * (exponent[h] + np.log(product[h]))
 
 
 @kernel
 def weigh(
     gain: FloatArray,
-    known: BoolArray,
     place: IntArray,
     table: FloatArray,
     noise: FloatArray,
+    low: FloatArray,
+    side: FloatArray,
     forms: FloatArray,
-) -> FloatArray:
-    """ln L of each hypothesis for one user, shape (hypothesis,), up to a constant.
+    result: FloatArray,
+) -> None:
+    """Write ln L of each hypothesis for one user to ``result`` (hypothesis,), up to a constant.
 
     Args:
-        gain, known: of a user in units of about its level, shape (subcarrier,).
-        place, table, noise: see :mod:`.hypotheses`, none of the noise NaN.
+        gain, place: of the user's observed entries in units of about its level, and where they are, shape (entry,).
+        table, noise: see :mod:`.hypotheses`, none of the noise NaN.
+        low, side: workspace for matrices of as many entries as :func:`most_together` says.
         forms: written, A, B, Q, −ln|C| and the level 1/u, shape (5, hypothesis).
     """
-    seen = np.flatnonzero(known)
-    count = noise.size
-    if seen.size == 0:
-        forms[:4], forms[4] = 0.0, 1.0
-        return np.zeros(count)
-    blocks = max(1, min(MOST_BLOCKS, seen.size // BLOCK))
-    length = min(BLOCK, seen.size) if blocks > 1 else seen.size
-    low, one, values_of = np.empty((length, length, count)), np.empty((length, count)), np.empty((length, count))
-    nothing = np.zeros(count)
-    forms[:] = 0.0
-    log_pairs = np.zeros(count)
-    mean = 0.0
-    for i in seen:
-        mean += gain[i] / seen.size
-    for b in range(blocks):
-        first = 0 if blocks == 1 else b * (seen.size - length) // (blocks - 1)
-        chosen = seen[first : first + length]
-        here, values = place[chosen], gain[chosen]
-        factorise(here, table, noise, nothing, low)
-        add_forms(low, values, one, values_of, forms)
-        if mean > 0.0:
-            add_pairs(here, values / mean, table, noise, log_pairs)
-    entries = float(blocks * length)
-    result = np.empty(count)
-    for h in range(count):
-        a, b, q = forms[0, h], forms[1, h], max(forms[2, h], 1e-300)
-        u = (b + np.sqrt(b * b + 4.0 * entries * q)) / (2.0 * q)
-        forms[4, h] = 1.0 / u
-        log_likelihood = entries * np.log(u) - 0.5 * (q * u * u - 2.0 * b * u + a) + 0.5 * forms[3, h]
-        result[h] = SHARE * log_likelihood + PAIR_SHARE * log_pairs[h]
-    return result
+    length = most_together(gain.size)
+    forms[:4], forms[4], result[:] = 0.0, 1.0, 0.0
+    if gain.size == 0:
+        return
+    blocks = max(1, min(MOST_BLOCKS, gain.size // BLOCK))
+    mean, sums = gain.mean(), np.empty((4, low.shape[1]))
+    for start in range(0, noise.size, low.shape[1]):
+        sums[:3], sums[3] = 0.0, 1.0
+        for b in range(blocks):
+            first = first_of(b, blocks, gain.size, length)
+            fill(place[first : first + length], table, noise, start, low)
+            factorise(low, length)
+            add_forms(low, gain[first : first + length], side, sums)
+        conclude(sums, float(blocks * length), start, forms, result)
+    for b in range(blocks if mean > 0.0 else 0):
+        first = first_of(b, blocks, gain.size, length)
+        add_pairs(place[first : first + length], gain[first : first + length] / mean, table, noise, result)
+
+
+@kernel
+def first_of(block: int, blocks: int, seen: int, length: int) -> int:
+    """The first of the observed entries of a block."""
+    return 0 if blocks == 1 else block * (seen - length) // (blocks - 1)
+
+
+@kernel
+def most_together(seen: int) -> int:
+    """How many of the observed entries of a user are weighed together.
+
+    >>> [most_together(seen) for seen in (5, 31, 32)]
+    [5, 31, 16]
+    """
+    return seen if seen < 2 * BLOCK else BLOCK
 
 
 @kernel
@@ -189,10 +206,15 @@ def weigh_users(
     ``noise_share`` (user,) is η where ``noise`` (hypothesis,) is NaN. ``forms`` (user, 5, hypothesis) is written.
     """
     users, count = gain.shape[0], noise.size
-    result = np.empty((users, count))
-    own = np.empty(count)
+    longest = 1
+    for k in range(users):
+        longest = max(longest, most_together(known[k].sum()))
+    width = width_of(count)
+    low, side = np.ones((packed(longest, 0), width)), np.empty((2, longest, width))
+    result, own = np.empty((users, count)), np.empty(count)
     for k in range(users):
         for h in range(count):
             own[h] = noise_share[k] if np.isnan(noise[h]) else noise[h]
-        result[k] = weigh(gain[k], known[k], place, table, own, forms[k])
+        seen = np.flatnonzero(known[k])
+        weigh(gain[k][seen], place[seen], table, own, low, side, forms[k], result[k])
     return result

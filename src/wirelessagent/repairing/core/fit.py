@@ -11,14 +11,6 @@ from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.repairing.core.hypotheses import Hypotheses
 
-PRIOR_ENTRIES = 8.0
-"""Weight of the users' common factor of the variances in each user's, in observed entries."""
-TAIL = 4.0
-"""Entries taken off: the variance to be expected of a normal error is larger than its likeliest value by n/(n − 2), and
-about half of the entries say something new."""
-LARGEST_SURPRISE = 5.0
-"""Deviations from the estimate, in standard deviations, beyond which an entry counts no more for the correlation."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Relative:
@@ -99,15 +91,13 @@ def estimate(slot: Relative, learnt: Learnt, *, tested: bool) -> FloatArray:
 
     If ``tested``, of observed ones as well, from the others (on long bands of a part of them); 0 elsewhere.
     """
-    from wirelessagent.repairing.core import kriging_kernel, windows_kernel
+    from wirelessagent.repairing.core import kriging_kernel
 
     candidates = learnt.candidates
-    windows = windows_kernel.lay_windows(slot.known)
-    lanes = windows_kernel.lay_lanes(windows, candidates.noise, slot.noise_share, learnt.forms, learnt.chance)
     found = np.zeros((*slot.gain.shape, 3))
     kriging_kernel.krige(
-        slot.gain, slot.known, slot.noise, candidates.place, candidates.table, windows, lanes,
-        windows.tested if tested else 0, found,
+        slot.gain, slot.known, slot.noise, candidates.place, candidates.table, candidates.noise, slot.noise_share,
+        learnt.forms, learnt.chance, tested, found,
     )  # fmt: skip
     return found
 
@@ -115,17 +105,13 @@ def estimate(slot: Relative, learnt: Learnt, *, tested: bool) -> FloatArray:
 def factors(slot: Relative, found: FloatArray) -> tuple[FloatArray, FloatArray]:
     """By what the variances from fading are multiplied for each user, shape (user,), and the surprises that say so.
 
-    The squared errors of the observed entries in units of those expected have a mean that is a user's own, drawn
-    towards the users' common one where the user has shown little. Surprises are errors in standard deviations, shape
-    (user, subcarrier), 0 where nothing was tested.
+    Surprises are errors in standard deviations, shape (user, subcarrier), 0 where nothing was tested.
     """
-    compared = slot.known & (found[..., 0] > 0.0)
-    noise = np.nan_to_num(slot.noise)
-    expected = np.where(compared, found[..., 1] + found[..., 2] + noise, 1.0)
-    surprise = np.where(compared, slot.gain - found[..., 0], 0.0) / np.sqrt(expected)
-    squares, count = (surprise**2).sum(axis=1), compared.sum(axis=1)
-    pool = (squares.sum() + TAIL) / (count.sum() + TAIL)
-    return (squares + PRIOR_ENTRIES * pool) / (count + PRIOR_ENTRIES - TAIL), surprise
+    from wirelessagent.repairing.core import completing_kernel
+
+    factor, surprise = np.empty(slot.level.shape), np.empty(slot.gain.shape)
+    completing_kernel.test_variances(slot.gain, slot.known, slot.noise, found, factor, surprise)
+    return factor, surprise
 
 
 def mean_hypothesis(slot: Relative, learnt: Learnt) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -143,9 +129,7 @@ def with_partners(slot: Relative, learnt: Learnt, surprise: FloatArray, found: F
     """Overwrite the estimates of users whose surprises prove a correlation with others'."""
     from wirelessagent.repairing.core import partners_kernel, users
 
-    tested = surprise != 0.0
-    clipped = np.clip(surprise, -LARGEST_SURPRISE, LARGEST_SURPRISE)
-    correlation = users.correlation_beyond_chance(clipped, tested)
+    correlation = users.correlation_beyond_chance(surprise, surprise != 0.0)
     if not correlation.any():
         return
     table, noise, level = mean_hypothesis(slot, learnt)

@@ -25,200 +25,252 @@ observed are estimated from the others as well, which tells how good all this is
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
-from wirelessagent.repairing.core.evidence_kernel import JITTER
-from wirelessagent.repairing.core.windows_kernel import Lanes, Windows
+from wirelessagent.repairing.core.side_by_side_kernel import (
+    JITTER,
+    backward,
+    factorise,
+    forward,
+    invert,
+    packed,
+    width_of,
+)
+from wirelessagent.repairing.core.windows_kernel import (
+    Lanes,
+    Windows,
+    empty_lanes,
+    keep_likeliest,
+    lay_lanes,
+    lay_windows,
+)
 
-TOGETHER = 64
-"""Lanes worked on together: as many as the cache holds."""
 PHASES = 1.0 / 6.0
 """How much less the variance depends on the gain than that of a Rician power, for small c."""
 LEAST = 1e-13
 """Least V."""
 
 
-@kernel
-def factorise_lanes(place: IntArray, table: FloatArray, lanes: Lanes, first: int, low: FloatArray) -> None:
-    """Write the Cholesky factors of M into the lower half of ``low`` (n, n, lane), inverses on the diagonal.
+class Observed(NamedTuple):
+    """What each lane rests on; shape (entry, lane) but ``size``.
 
-    ``place`` (n, lane) is where the members are, −1 for none. ``first`` is the first lane.
+    Attributes:
+        size: how many members the lane's window has, shape (lane,).
+        place: where they are, times the number of hypotheses: where the row of that distance begins in the table as it
+            lies; beyond the last one, where that is.
+        deviation: x − o, 0 beyond the last one.
+        variance: of the measurement, 0 beyond the last one.
     """
-    size, count = place.shape
-    for i in range(size):
-        for j in range(i + 1):
-            here = low[i, j]
-            for c in range(count):
-                at = first + c
-                if place[i, c] >= 0:  # then the earlier one is there as well
-                    here[c] = (
-                        table[place[i, c] - place[j, c], lanes.hypothesis[at]] + lanes.shared[at] * lanes.grown[at] ** 2
-                    )
-                    here[c] += lanes.noise[at] + JITTER if i == j else 0.0
-                else:
-                    here[c] = 1.0 if i == j else 0.0
-            for m in range(j):
-                left, right = low[i, m], low[j, m]
-                for c in range(count):
-                    here[c] -= left[c] * right[c]
-            if i == j:
-                for c in range(count):
-                    here[c] = 1.0 / np.sqrt(max(here[c], JITTER))
-            else:
-                scale = low[j, j]
-                for c in range(count):
-                    here[c] *= scale[c]
+
+    size: IntArray
+    place: IntArray
+    deviation: FloatArray
+    variance: FloatArray
+
+
+class Estimates(NamedTuple):
+    """What each lane makes of one entry, shape (lane,): ĝ, Σ w², Σ w² times the noise, and the expected error."""
+
+    mean: FloatArray
+    own: FloatArray
+    known: FloatArray
+    error: FloatArray
 
 
 @kernel
-def invert(low: FloatArray, inverse: FloatArray, total: FloatArray) -> None:
-    """Write M⁻¹ (n, n, lane) for its factors, which are overwritten; ``total`` (lane,) is workspace."""
-    size, count = low.shape[0], low.shape[2]
-    for j in range(size):
-        for i in range(j + 1, size):
-            total[:] = 0.0
-            for m in range(j, i):
-                left, right = low[i, m], low[m, j]
-                for c in range(count):
-                    total[c] += left[c] * right[c]
-            scale, here = low[i, i], low[i, j]
-            for c in range(count):
-                here[c] = -total[c] * scale[c]
-    for i in range(size):
-        for j in range(i + 1):
-            here = inverse[i, j]
-            here[:] = 0.0
-            for m in range(i, size):
-                left, right = low[m, i], low[m, j]
-                for c in range(count):
-                    here[c] += left[c] * right[c]
-            if j < i:
-                inverse[j, i] = here
+def load(
+    gain: FloatArray,
+    noise_variance: FloatArray,
+    user: int,
+    place: IntArray,
+    members: IntArray,
+    window: int,
+    lanes: Lanes,
+    begin: int,
+    end: int,
+    observed: Observed,
+) -> None:
+    """Write what the lanes from ``begin`` to ``end`` of a window rest on; see :func:`krige`."""
+    last = 0
+    for i in range(members.shape[1]):
+        n = members[window, i]
+        last = i if n >= 0 else last
+        for c in range(begin, end):
+            observed.place[i, c] = place[members[window, last]]
+            observed.deviation[i, c], observed.variance[i, c] = 0.0, 0.0
+            if n >= 0:
+                own, noise = gain[user, n], noise_variance[user, n]
+                observed.deviation[i, c] = own - lanes.offset[c]
+                observed.variance[i, c] = lanes.noise[c] * lanes.level[c] * own if np.isnan(noise) else noise
+    for c in range(begin, end):
+        observed.size[c] = last + 1
 
 
 @kernel
-def write_targets(known: BoolArray, windows: Windows, target: IntArray) -> int:
-    """Write the missing entries that each window serves, (window, most), −1 for none; returns the most of a window."""
-    most = 0
-    for w in range(windows.user.size):
-        size = 0
-        for n in range(windows.begin[w], windows.end[w]):
-            if not known[windows.user[w], n]:
-                target[w, size] = n
-                size += 1
-        target[w, size:] = -1
-        most = max(most, size)
-    return most
+def fill(table: FloatArray, lanes: Lanes, observed: Observed, low: FloatArray) -> None:
+    """Write M to ``low``, packed; that of the identity beyond the last member. ``table`` is flat."""
+    size, count = observed.place.shape
+    common = lanes.shared * lanes.grown**2
+    for i in range(size):
+        for j in range(i + 1):
+            here = packed(i, j)
+            for c in range(count):
+                at = observed.place[i, c] - observed.place[j, c] + lanes.hypothesis[c]
+                low[here, c] = table[at] + common[c]
+        here = packed(i, i)
+        for c in range(count):
+            low[here, c] += lanes.noise[c] + JITTER
+    for c in range(count):
+        for i in range(observed.size[c], size):
+            for j in range(i):
+                low[packed(i, j), c] = 0.0
+            low[packed(i, i), c] = 1.0
 
 
 @kernel
 def weigh_missing(
     low: FloatArray,
-    where: IntArray,
     at: IntArray,
+    count: int,
     table: FloatArray,
     lanes: Lanes,
-    first: int,
-    towards: FloatArray,
+    observed: Observed,
     weight: FloatArray,
     error: FloatArray,
 ) -> None:
-    """Write w (n, lane) for the place ``at`` (lane,), −1 for none, and its expected squared error (lane,).
+    """Write w (n, lane) for the place ``at`` (lane,), and its expected squared error (lane,), of ``count`` lanes.
 
-    ``low`` holds the factors, ``where`` (n, lane) is where the members are, ``towards`` (n, lane) workspace.
+    ``low`` holds factors, ``table`` is flat, and places are those of :class:`Observed`.
     """
-    size, count = where.shape
     for c in range(count):
-        lane = first + c
-        h, grown = lanes.hypothesis[lane], lanes.grown[lane]
-        s = lanes.shared[lane] * grown * grown
-        error[c] = (table[0, h] + lanes.shared[lane]) * grown * grown
-        for j in range(size):
-            there = where[j, c] >= 0 and at[c] >= 0
-            towards[j, c] = table[abs(where[j, c] - at[c]), h] * grown + s if there else 0.0
-    for i in range(size):
-        ours, scale = towards[i], low[i, i]
-        for j in range(i):
-            left, theirs = low[i, j], towards[j]
-            for c in range(count):
-                ours[c] -= left[c] * theirs[c]
+        h, grown = lanes.hypothesis[c], lanes.grown[c]
+        common = lanes.shared[c] * grown * grown
+        error[c] = table[h] * grown * grown + common
+        for i in range(observed.size[c]):
+            weight[i, c] = table[abs(observed.place[i, c] - at[c]) + h] * grown + common
+        for i in range(observed.size[c], weight.shape[0]):
+            weight[i, c] = 0.0
+    forward(low, weight, count)
+    for i in range(weight.shape[0]):
         for c in range(count):
-            ours[c] *= scale[c]
-            error[c] -= ours[c] * ours[c]
-    for i in range(size - 1, -1, -1):
-        ours, k, scale = weight[i], towards[i], low[i, i]
-        for c in range(count):
-            ours[c] = k[c]
-        for j in range(i + 1, size):
-            left, theirs = low[j, i], weight[j]
-            for c in range(count):
-                ours[c] -= left[c] * theirs[c]
-        for c in range(count):
-            ours[c] *= scale[c]
+            error[c] -= weight[i, c] * weight[i, c]
+    backward(low, weight, count)
     for c in range(count):
-        error[c] /= lanes.grown[first + c] ** 2
+        error[c] /= lanes.grown[c] ** 2
 
 
 @kernel
-def weigh_left_out(
-    inverse: FloatArray, i: int, lanes: Lanes, first: int, begin: int, end: int, weight: FloatArray, error: FloatArray
-) -> None:
-    """Write w (n, lane) of the others for member ``i`` of a window, and its expected squared error (lane,).
+def weigh_left_out(inverse: FloatArray, i: int, lanes: Lanes, weight: FloatArray, error: FloatArray) -> None:
+    """Write w (n, lane) of the others for member ``i``, and its expected squared error (lane,); ``inverse`` packed."""
+    size, count = weight.shape
+    scale = 1.0 / inverse[packed(i, i)]
+    for j in range(size):
+        there = packed(max(i, j), min(i, j))
+        for c in range(count):
+            weight[j, c] = -inverse[there, c] * scale[c]
+    weight[i] = 0.0
+    for c in range(count):
+        error[c] = (scale[c] - lanes.noise[c]) / lanes.grown[c] ** 2
 
-    The window's lanes are those from ``begin`` to ``end``, counted from lane ``first``.
-    """
-    for c in range(begin - first, end - first):
-        scale = 1.0 / inverse[i, i, c]
-        error[c] = (scale - lanes.noise[first + c]) / lanes.grown[first + c] ** 2
-        for j in range(weight.shape[0]):
-            weight[j, c] = -inverse[i, j, c] * scale
-        weight[i, c] = 0.0
+
+@kernel
+def apply(weight: FloatArray, count: int, lanes: Lanes, observed: Observed, estimates: Estimates) -> None:
+    """Write the estimates that the weights (n, lane) make in the first ``count`` lanes."""
+    mean, own, known = estimates.mean, estimates.own, estimates.known
+    mean[:], own[:], known[:] = lanes.offset, 0.0, 0.0
+    for i in range(weight.shape[0]):
+        for c in range(count):
+            w = weight[i, c]
+            mean[c] += w * observed.deviation[i, c]
+            own[c] += w * w
+            known[c] += w * w * observed.variance[i, c]
 
 
 @kernel
 def combine(
-    gain: FloatArray,
-    noise_variance: FloatArray,
-    member: IntArray,
-    lanes: Lanes,
-    first: int,
-    begin: int,
-    end: int,
-    weight: FloatArray,
-    error: FloatArray,
-    found: FloatArray,
+    estimates: Estimates, lanes: Lanes, begin: int, end: int, found: FloatArray, user: int, subcarrier: int
 ) -> None:
-    """Write mean, variance from fading and other variance to ``found`` (3,), from the lanes of a window.
-
-    ``gain`` and ``noise_variance`` are its user's, NaN where the hypothesis says how large the noise is; ``weight``
-    (n, lane) and ``error`` (lane,) those of the lanes from ``begin`` to ``end``, counted from lane ``first``.
-    """
+    """Write mean, variance from fading and other variance of an entry to ``found``, from the lanes of a window."""
     mean, fading, other, total = 0.0, 0.0, 0.0, 0.0
-    for lane in range(begin, end):
-        c = lane - first
-        level, noise, offset, chance = lanes.level[lane], lanes.noise[lane], lanes.offset[lane], lanes.probability[lane]
-        estimate, own, known = offset, 0.0, 0.0
-        for i in range(member.size):
-            n = member[i]
-            if n < 0:
-                break
-            w = weight[i, c]
-            estimate += w * (gain[n] - offset)
-            own += w * w
-            known += w * w * (noise * level * gain[n] if np.isnan(noise_variance[n]) else noise_variance[n])
-        left = max(error[c] - noise * own / lanes.grown[lane] ** 2, LEAST)
+    for c in range(begin, end):
+        level, chance = lanes.level[c], lanes.probability[c]
+        left = max(estimates.error[c] - lanes.noise[c] * estimates.own[c] / lanes.grown[c] ** 2, LEAST)
         share = 1.0 - np.sqrt(1.0 - min(left, 1.0))
         unknown = share * level
-        estimate = max(estimate, unknown)
+        estimate = max(estimates.mean[c], unknown)
         about = estimate + PHASES * (1.0 - share) ** 4 * (level - estimate)
         total += chance
         before = estimate - mean
         mean += before * chance / total
-        other += chance * (before * (estimate - mean) + known)
+        other += chance * (before * (estimate - mean) + estimates.known[c])
         fading += chance * (2.0 * about * unknown - unknown * unknown + max(left - 1.0, 0.0) * level * level)
-    found[0], found[1], found[2] = mean, fading, other
+    found[user, subcarrier, 0], found[user, subcarrier, 1], found[user, subcarrier, 2] = mean, fading, other
+
+
+@kernel
+def estimate_missing(
+    known: BoolArray,
+    row: IntArray,
+    table: FloatArray,
+    windows: Windows,
+    start: int,
+    begin: IntArray,
+    low: FloatArray,
+    lanes: Lanes,
+    observed: Observed,
+    weight: FloatArray,
+    estimates: Estimates,
+    found: FloatArray,
+) -> None:
+    """Estimate the missing entries that the windows from ``start`` on serve, whose lanes begin at ``begin``.
+
+    One of each window at a time, so that ever fewer windows, the first ones, have any left.
+    """
+    at, active = np.zeros(weight.shape[1], np.int64), begin.size - 1
+    cursor = windows.begin[start : start + active].copy()
+    for turn in range(windows.missing[start]):
+        while windows.missing[start + active - 1] <= turn:
+            active -= 1
+        for i in range(active):
+            while known[windows.user[start + i], cursor[i]]:
+                cursor[i] += 1
+            for c in range(begin[i], begin[i + 1]):
+                at[c] = row[cursor[i]]
+        count = width_of(int(begin[active]))
+        weigh_missing(low, at, count, table, lanes, observed, weight, estimates.error)
+        apply(weight, count, lanes, observed, estimates)
+        for i in range(active):
+            combine(estimates, lanes, begin[i], begin[i + 1], found, windows.user[start + i], cursor[i])
+            cursor[i] += 1
+
+
+@kernel
+def estimate_left_out(
+    windows: Windows,
+    start: int,
+    begin: IntArray,
+    low: FloatArray,
+    lanes: Lanes,
+    observed: Observed,
+    weight: FloatArray,
+    estimates: Estimates,
+    found: FloatArray,
+) -> None:
+    """Estimate the observed entries that the windows from ``start`` on serve from the others; ``low`` is used up."""
+    length, count = weight.shape
+    invert(low, length)
+    for member in range(length):
+        weigh_left_out(low, member, lanes, weight, estimates.error)
+        apply(weight, count, lanes, observed, estimates)
+        for i in range(begin.size - 1):
+            w = start + i
+            n = windows.member[w, member]
+            if n >= windows.begin[w] and n < windows.end[w]:
+                combine(estimates, lanes, begin[i], begin[i + 1], found, windows.user[w], n)
 
 
 @kernel
@@ -228,9 +280,11 @@ def krige(
     noise_variance: FloatArray,
     place: IntArray,
     table: FloatArray,
-    windows: Windows,
-    lanes: Lanes,
-    tested: int,
+    noise: FloatArray,
+    noise_share: FloatArray,
+    forms: FloatArray,
+    chance: FloatArray,
+    test: bool,
     found: FloatArray,
 ) -> None:
     """Write mean, variance from fading and other variance of each entry, shape (user, subcarrier, 3).
@@ -238,76 +292,39 @@ def krige(
     Args:
         gain, known: in units of about each user's level, shape (user, subcarrier).
         noise_variance: of the measurements in units of the level squared, NaN where unknown, same shape.
-        place, table: of the hypotheses; see :mod:`.hypotheses`.
-        windows, lanes: see :mod:`.windows_kernel`.
-        tested: of how many windows the observed entries are estimated as well, from the others and without their own
-            noise.
+        place, table, noise: of the hypotheses; see :mod:`.hypotheses`.
+        noise_share, forms: see :func:`.windows_kernel.lay_lanes`.
+        chance: how likely each hypothesis is, shape (user, hypothesis).
+        test: whether observed entries are estimated as well, on long bands those of some windows, from the others and
+            without their own noise.
         found: left alone where nothing is estimated.
     """
-    total, length = windows.user.size, windows.member.shape[1]
-    missing = np.empty((total, known.shape[1] + 1), np.int64)
-    most = write_targets(known, windows, missing)
+    windows, kept = lay_windows(known, test), keep_likeliest(chance, known)
+    total, length = windows.member.shape
+    lane = np.zeros(total + 1, np.int64)
+    for w in range(total):
+        lane[w + 1] = lane[w] + kept.number[windows.user[w]]
+    width = width_of(int(lane[total]))
+    lanes, low, weight = empty_lanes(width), np.empty((packed(length, 0), width)), np.empty((length, width))
+    estimates = Estimates(np.empty(width), np.empty(width), np.empty(width), np.empty(width))
+    observed = Observed(
+        np.zeros(width, np.int64), np.zeros((length, width), np.int64), np.zeros((length, width)),
+        np.zeros((length, width)),
+    )  # fmt: skip
+    row, flat = place * table.shape[1], table.ravel()
     start = 0
     while start < total:
-        stop = start + 1
-        while stop < total and windows.lane[stop + 1] - windows.lane[start] <= TOGETHER:
+        stop, limit = start + 1, windows.tested if start < windows.tested else total
+        while stop < limit and lane[stop + 1] - lane[start] <= width:
             stop += 1
-        first = int(windows.lane[start])
-        count = int(windows.lane[stop]) - first
-        where = np.empty((length, count), np.int64)
-        for c in range(count):
-            for i in range(length):
-                n = windows.member[lanes.window[first + c], i]
-                where[i, c] = place[n] if n >= 0 else -1
-        low = np.empty((length, length, count))
-        towards, weight, error = np.empty((length, count)), np.empty((length, count)), np.empty(count)
-        at = np.empty(count, np.int64)
-        factorise_lanes(where, table, lanes, first, low)
-        for t in range(most):
-            some = False
-            for c in range(count):
-                n = missing[lanes.window[first + c], t]
-                at[c] = place[n] if n >= 0 else -1
-                some |= n >= 0
-            if not some:
-                break
-            weigh_missing(low, where, at, table, lanes, first, towards, weight, error)
-            for w in range(start, stop):
-                n, k = missing[w, t], windows.user[w]
-                if n >= 0:
-                    combine(
-                        gain[k], noise_variance[k], windows.member[w], lanes, first, windows.lane[w],
-                        windows.lane[w + 1], weight, error, found[k, n],
-                    )  # fmt: skip
-        if start < tested:
-            leave_out(gain, known, noise_variance, windows, lanes, start, min(stop, tested), low, weight, error, found)
+        begin = lane[start : stop + 1] - lane[start]
+        for w in range(start, stop):
+            c, k = begin[w - start], windows.user[w]
+            end = lay_lanes(lanes, c, k, kept, noise, noise_share, forms)
+            load(gain, noise_variance, k, row, windows.member, w, lanes, c, end, observed)
+        fill(flat, lanes, observed, low)
+        factorise(low, length)
+        estimate_missing(known, row, flat, windows, start, begin, low, lanes, observed, weight, estimates, found)
+        if start < windows.tested:
+            estimate_left_out(windows, start, begin, low, lanes, observed, weight, estimates, found)
         start = stop
-
-
-@kernel
-def leave_out(
-    gain: FloatArray,
-    known: BoolArray,
-    noise_variance: FloatArray,
-    windows: Windows,
-    lanes: Lanes,
-    start: int,
-    stop: int,
-    low: FloatArray,
-    weight: FloatArray,
-    error: FloatArray,
-    found: FloatArray,
-) -> None:
-    """Estimate the observed entries that the windows from ``start`` to ``stop`` serve; ``low`` is used up."""
-    first = int(windows.lane[start])
-    inverse = np.empty(low.shape)
-    invert(low, inverse, error)
-    for w in range(start, stop):
-        k, begin, end = windows.user[w], windows.lane[w], windows.lane[w + 1]
-        for i in range(windows.member.shape[1]):
-            n = windows.member[w, i]
-            if n >= windows.begin[w] and n < windows.end[w]:
-                weigh_left_out(inverse, i, lanes, first, begin, end, weight, error)
-                combine(
-                    gain[k], noise_variance[k], windows.member[w], lanes, first, begin, end, weight, error, found[k, n]
-                )

@@ -12,7 +12,7 @@ import numpy as np
 
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
-from wirelessagent.repairing.core.evidence_kernel import JITTER
+from wirelessagent.repairing.core.side_by_side_kernel import JITTER
 
 OWN, PARTNERS, THEIRS = 12, 8, 3
 """Gains of the user itself, other users, and gains of each that an estimate rests on at most."""

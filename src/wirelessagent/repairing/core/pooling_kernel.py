@@ -15,7 +15,7 @@ from wirelessagent.model.arrays import FloatArray
 
 SPREADS = np.array([0.05, 0.25, 0.7, 2.0])
 ROUNDS = 4
-FLOOR = 1e-12
+FLOOR, SMALLEST = 1e-12, 1e-300
 PSEUDO_USERS = 1.0
 """Users that stand for equal shares of the kinds."""
 
@@ -23,16 +23,37 @@ PSEUDO_USERS = 1.0
 @kernel
 def delay_priors(delays: int, log_step: float) -> FloatArray:
     """The distribution of a user's delay spread for each (m, s), shape (spread · delay, delay)."""
-    priors = np.empty((SPREADS.size * delays, delays))
+    priors, apart = np.empty((SPREADS.size * delays, delays)), np.empty(delays)
     for s in range(SPREADS.size):
+        for t in range(delays):
+            apart[t] = np.exp(-0.5 * (t * log_step / SPREADS[s]) ** 2) + FLOOR
         for m in range(delays):
-            row = priors[s * delays + m]
-            total = 0.0
+            p, total = s * delays + m, 0.0
             for t in range(delays):
-                row[t] = np.exp(-0.5 * ((t - m) * log_step / SPREADS[s]) ** 2) + FLOOR
-                total += row[t]
-            row[:] /= total
+                total += apart[abs(t - m)]
+            for t in range(delays):
+                priors[p, t] = apart[abs(t - m)] / total
     return priors
+
+
+@kernel
+def log_evidence_of(evidence: FloatArray, log_prior: FloatArray) -> FloatArray:
+    """Σ ln of the users' ``evidence`` (user, prior), between 0 and about 1, and ``log_prior`` (delay,); (prior,).
+
+    With as few logarithms as products allow.
+    """
+    users, count = evidence.shape
+    total = np.empty(count)
+    for p in range(count):
+        product = 1.0
+        total[p] = log_prior[p % log_prior.size]
+        for k in range(users):
+            if product * evidence[k, p] < SMALLEST:
+                total[p] += np.log(product)
+                product = 1.0
+            product *= evidence[k, p]
+        total[p] += np.log(product)
+    return total
 
 
 @kernel
@@ -42,23 +63,21 @@ def posterior_of_delays(likelihood: FloatArray, priors: FloatArray, log_prior: F
     ``log_prior`` (delay,) is that of m.
     """
     users, delays = likelihood.shape
-    log_evidence = np.empty(priors.shape[0])
-    for p in range(priors.shape[0]):
-        log_evidence[p] = log_prior[p % delays]
-    evidence = np.empty((priors.shape[0], users))
-    for p in range(priors.shape[0]):
-        for k in range(users):
-            total = 0.0
-            for t in range(delays):
-                total += priors[p, t] * likelihood[k, t]
-            evidence[p, k] = max(total, 1e-300)
-            log_evidence[p] += np.log(evidence[p, k])
+    count = priors.shape[0]
+    across, evidence = priors.T.copy(), np.zeros((users, count))
+    for k in range(users):
+        for t in range(delays):
+            own = likelihood[k, t]
+            for p in range(count):
+                evidence[k, p] += own * across[t, p]
+    evidence = np.maximum(evidence, SMALLEST)
+    log_evidence = log_evidence_of(evidence, log_prior)
     weight = np.exp(log_evidence - log_evidence.max())
     factor = np.zeros((users, delays))
-    for p in range(priors.shape[0]):
+    for p in range(count):
         if weight[p] > FLOOR:
             for k in range(users):
-                scale = weight[p] / evidence[p, k]
+                scale = weight[p] / evidence[k, p]
                 for t in range(delays):
                     factor[k, t] += scale * priors[p, t]
     return factor

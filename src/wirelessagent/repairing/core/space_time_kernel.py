@@ -12,7 +12,7 @@ import numpy as np
 
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
-from wirelessagent.repairing.core.evidence_kernel import JITTER
+from wirelessagent.repairing.core.side_by_side_kernel import JITTER
 
 SERVED, MARGIN, SHORT = 8, 8, 24
 """Subcarriers that a window of a long band serves, those more that it holds on each side, the longest short band."""

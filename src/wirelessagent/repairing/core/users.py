@@ -14,10 +14,6 @@ from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.repairing.core.frequency import OverFrequency
 from wirelessagent.repairing.core.levels import UserLevels
 
-INDEPENDENT_SHARE = 0.2
-"""Independent comparisons per subcarrier that two users share: neighbouring surprises are not quite
-independent, the less so the shorter the delay spread (measured: 0.2 at 30 ns, 0.9 at 1000 ns)."""
-
 LEAST_SHARE = 0.1
 """The other users may lower a prediction to this share of it, so that no gain becomes negative."""
 
@@ -32,21 +28,7 @@ def correlation_beyond_chance(surprise: FloatArray, known: BoolArray) -> FloatAr
     """
     from wirelessagent.repairing.core import users_kernel
 
-    raw, common_subcarriers = users_kernel.compare_users(surprise, known)
-    count = INDEPENDENT_SHARE * common_subcarriers
-    total = count.sum()
-    if total == 0:
-        return np.zeros_like(raw)
-    mean = float((count * raw).sum() / total)
-    chance = 2.0 / float(total)  # each pair is counted twice
-    common = max(0.0, mean - 4.0 * chance / mean) if mean > 0 else 0.0
-    scatter = float((count * (raw - mean) ** 2).sum() / total)
-    num_pairs = np.count_nonzero(count) / 2.0
-    beyond = max(0.0, scatter - 1.5 * num_pairs * chance)
-    shared = beyond * count / (beyond * count + 1.0)
-    alone = 1.0 - 2.0 * np.log(num_pairs) / np.maximum(count * (raw - mean) ** 2, 1.0)
-    pairs = np.clip(common + np.maximum(shared, alone) * (raw - mean), 0.0, 0.99)
-    return np.where(count > 0, pairs, common) * (1.0 - np.eye(len(raw)))
+    return users_kernel.correlation_beyond_chance(surprise, known)
 
 
 def moved(levels: UserLevels, over: OverFrequency, correlation: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -26,31 +26,45 @@ ENOUGH = 0.95
 
 
 class Windows(NamedTuple):
-    """Windows, one after the other of each user.
+    """Windows, first those that there are to test the estimates on, and of these and the others first those that serve
+    most missing entries.
 
     Attributes:
         user: whose they are, shape (window,).
         member: their observed subcarriers, −1 for none, shape (window, entry).
         begin, end: the subcarriers that they serve, shape (window,).
-        lane: the first lane of each, and the number of lanes, shape (window + 1,).
-        seen: how many entries of each user are observed, shape (user,).
-        tested: how many of the first windows are there to test the estimates on.
+        missing: how many missing entries are among those, shape (window,).
+        tested: how many windows there are to test the estimates on.
     """
 
     user: IntArray
     member: IntArray
     begin: IntArray
     end: IntArray
-    lane: IntArray
-    seen: IntArray
+    missing: IntArray
     tested: int
+
+
+class Kept(NamedTuple):
+    """The hypotheses that count for each user.
+
+    Attributes:
+        number: of them, shape (user,).
+        hypothesis, probability: the likeliest first, the latter with the sum 1, shape (user, hypothesis).
+        long: whether the band is more than one window, shape (user,).
+    """
+
+    number: IntArray
+    hypothesis: IntArray
+    probability: FloatArray
+    long: BoolArray
 
 
 class Lanes(NamedTuple):
     """Windows under hypotheses, what each knows of its user's level, and how likely it is; shape (lane,) each.
 
     Attributes:
-        window, hypothesis: whose.
+        hypothesis: under which.
         noise: η.
         grown: 1 + η where measured gains are conditional means, 1 where the noise is unknown.
         shared, offset: s and o of :mod:`.kriging_kernel`.
@@ -58,7 +72,6 @@ class Lanes(NamedTuple):
         probability: sums to 1 over the lanes of a window.
     """
 
-    window: IntArray
     hypothesis: IntArray
     noise: FloatArray
     grown: FloatArray
@@ -69,95 +82,83 @@ class Lanes(NamedTuple):
 
 
 @kernel
-def lay_windows(known: BoolArray) -> Windows:
-    """The windows of all users for the observed entries ``known`` (user, subcarrier); without lanes yet."""
+def lay_windows(known: BoolArray, test: bool) -> Windows:
+    """The windows of all users for the observed entries ``known`` (user, subcarrier)."""
     users, subcarriers = known.shape
-    total, length, tested = 0, 1, 0
+    total, length = 0, 1
     for k in range(users):
         seen = known[k].sum()
         total += 0 if seen == 0 else 1 if seen <= SHORT else (seen + STEP - 1) // STEP
         length = max(length, seen if seen <= SHORT else STEP + 2 * MARGIN)
     user, begin, end = np.empty(total, np.int64), np.empty(total, np.int64), np.empty(total, np.int64)
-    member = np.full((total, length), -1)
-    at = 0
-    for turn in range(2):
-        for k in range(users):
-            seen = np.flatnonzero(known[k])
-            size = seen.size if seen.size <= SHORT else STEP + 2 * MARGIN
-            step = seen.size if seen.size <= SHORT else STEP
-            for start in range(0, seen.size, max(step, 1)):
-                if (start % (step * TESTED) > 0) != (turn > 0):
-                    continue
-                first = min(max(start - MARGIN, 0), seen.size - size)
-                for i in range(size):
-                    member[at, i] = seen[first + i]
-                user[at] = k
-                begin[at] = 0 if start == 0 else seen[start]
-                end[at] = seen[start + step] if start + step < seen.size else subcarriers
-                at += 1
-        if turn == 0:
-            tested = at
-    return Windows(user, member, begin, end, np.zeros(total + 1, np.int64), seen_of(known), tested)
+    member, missing, turn = np.full((total, length), -1), np.empty(total, np.int64), np.empty(total, np.int64)
+    at, tested = 0, 0
+    for k in range(users):
+        seen = np.flatnonzero(known[k])
+        size = seen.size if seen.size <= SHORT else STEP + 2 * MARGIN
+        step = seen.size if seen.size <= SHORT else STEP
+        for start in range(0, seen.size, max(step, 1)):
+            first = min(max(start - MARGIN, 0), seen.size - size)
+            member[at, :size] = seen[first : first + size]
+            user[at] = k
+            begin[at] = 0 if start == 0 else seen[start]
+            end[at] = seen[start + step] if start + step < seen.size else subcarriers
+            missing[at] = end[at] - begin[at] - min(step, seen.size - start)
+            turn[at] = 0 if test and start % (step * TESTED) == 0 else 1
+            tested += 1 - turn[at]
+            at += 1
+    order = np.argsort(turn * (subcarriers + 1) - missing, kind="mergesort")
+    return Windows(user[order], member[order], begin[order], end[order], missing[order], tested)
 
 
 @kernel
-def seen_of(known: BoolArray) -> IntArray:
-    """How many entries of each user are observed."""
-    count = np.zeros(known.shape[0], np.int64)
-    for k in range(known.shape[0]):
-        count[k] = known[k].sum()
-    return count
+def keep_likeliest(chance: FloatArray, known: BoolArray) -> Kept:
+    """The likeliest hypotheses of each user, until they are enough; ``chance`` (user, hypothesis)."""
+    users, count = chance.shape
+    most = min(LANES, count)
+    kept = Kept(
+        np.zeros(users, np.int64), np.empty((users, most), np.int64), np.empty((users, most)), np.empty(users, np.bool_)
+    )
+    for k in range(users):
+        kept.long[k] = known[k].sum() > SHORT
+        left, total = chance[k].copy(), 0.0
+        for i in range(min(LONG_LANES, most) if kept.long[k] else most):
+            h = np.argmax(left)
+            kept.hypothesis[k, i], kept.probability[k, i], left[h] = h, left[h], -1.0
+            kept.number[k] = i + 1
+            total += kept.probability[k, i]
+            if total > ENOUGH:
+                break
+        kept.probability[k] /= total
+    return kept
 
 
 @kernel
-def keep_likeliest(probability: FloatArray, most: int, kept: IntArray) -> int:
-    """Write the likeliest hypotheses to ``kept``, in order of probability; returns how many are enough."""
-    order = np.argsort(-probability)
-    total = 0.0
-    for i in range(most):
-        kept[i] = order[i]
-        total += probability[order[i]]
-        if total > ENOUGH:
-            return i + 1
-    return most
+def empty_lanes(count: int) -> Lanes:
+    """Workspace for so many lanes; where none is laid, all is harmless."""
+    return Lanes(
+        np.zeros(count, np.int64), np.zeros(count), np.ones(count), np.zeros(count), np.zeros(count), np.ones(count),
+        np.zeros(count),
+    )  # fmt: skip
 
 
 @kernel
 def lay_lanes(
-    windows: Windows, noise: FloatArray, noise_share: FloatArray, forms: FloatArray, chance: FloatArray
-) -> Lanes:
-    """The lanes of all windows, whose ``lane`` is written.
+    lanes: Lanes, first: int, user: int, kept: Kept, noise: FloatArray, noise_share: FloatArray, forms: FloatArray
+) -> int:
+    """Write the lanes of a window of ``user``, from lane ``first`` on; returns the lane after them.
 
     Args:
         noise: η of each hypothesis, NaN where ``noise_share`` (user,) has it, shape (hypothesis,).
         forms: of :func:`.evidence_kernel.weigh`, shape (user, 5, hypothesis).
-        chance: how likely each hypothesis is, shape (user, hypothesis).
     """
-    users, count = chance.shape
-    kept, number = np.empty((users, min(LANES, count)), np.int64), np.zeros(users, np.int64)
-    long = windows.seen > SHORT
-    for w in range(windows.user.size):
-        k = windows.user[w]
-        if number[k] == 0:
-            number[k] = keep_likeliest(chance[k], min(LONG_LANES if long[k] else LANES, count), kept[k])
-        windows.lane[w + 1] = windows.lane[w] + number[k]
-    total = int(windows.lane[-1])
-    lanes = Lanes(
-        np.empty(total, np.int64), np.empty(total, np.int64), np.empty(total), np.empty(total), np.empty(total),
-        np.empty(total), np.empty(total), np.empty(total),
-    )  # fmt: skip
-    for w in range(windows.user.size):
-        k, first = windows.user[w], windows.lane[w]
-        known_chance = 0.0
-        for i in range(number[k]):
-            known_chance += chance[k, kept[k, i]]
-        for i in range(number[k]):
-            c, h = first + i, kept[k, i]
-            lanes.window[c], lanes.hypothesis[c] = w, h
-            lanes.noise[c] = noise_share[k] if np.isnan(noise[h]) else noise[h]
-            lanes.grown[c] = 1.0 + noise_share[k] if np.isnan(noise[h]) else 1.0
-            lanes.shared[c] = 1.0 / (1.0 + forms[k, 0, h]) if long[k] else 1.0
-            lanes.offset[c] = forms[k, 1, h] * lanes.shared[c] if long[k] else 0.0
-            lanes.level[c] = forms[k, 4, h]
-            lanes.probability[c] = chance[k, h] / known_chance
-    return lanes
+    for i in range(kept.number[user]):
+        c, h = first + i, kept.hypothesis[user, i]
+        lanes.hypothesis[c] = h
+        lanes.noise[c] = noise_share[user] if np.isnan(noise[h]) else noise[h]
+        lanes.grown[c] = 1.0 + noise_share[user] if np.isnan(noise[h]) else 1.0
+        lanes.shared[c] = 1.0 / (1.0 + forms[user, 0, h]) if kept.long[user] else 1.0
+        lanes.offset[c] = forms[user, 1, h] * lanes.shared[c] if kept.long[user] else 0.0
+        lanes.level[c] = forms[user, 4, h]
+        lanes.probability[c] = kept.probability[user, i]
+    return first + kept.number[user]
