@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import string
 from collections.abc import Mapping
 from typing import Any
@@ -201,6 +202,15 @@ def test_a_question_about_a_user_is_answered_with_the_user() -> None:
     assert dict(session.request.constraints) == {"leave_out": ("user 2",), "max_power_w": 4.0}
 
 
+def test_a_question_about_nobody_asks_whom() -> None:
+    session, turns = talk(asks("max_rate"), means("question", topic="why_user"))
+    assert turns[1].stage == "asked"
+    assert turns[1].reply == "About which user: user 1, user 2, user 3, user 4?"
+    answered = session.say("3")
+    assert answered.stage == "answered"
+    assert answered.intent.details["user"] == "user 3"
+
+
 def test_a_question_back_hands_what_was_read_to_the_recogniser() -> None:
     script = Scripted(
         [
@@ -316,3 +326,19 @@ def test_another_recogniser_than_the_chosen_one_is_named() -> None:
     _, (turn,) = talk(other)
     assert "offline (no answer in 5 s)" in turn.reply
     assert turn.recogniser == "offline (no answer in 5 s)"
+
+
+def test_the_last_request_is_exported_as_a_standard_has_it() -> None:
+    session, turns = talk(
+        means("command", topic="export"),
+        asks("max_rate", max_power_w=10.0),
+        asks("max_rate", amends=True, max_power_w=5.0),
+        means("question", topic="what_if", details={"missing_share": 0.4}),
+        means("command", topic="export"),
+        means("command", topic="export", details={"format": "tmf921"}),
+        means("command", topic="export", details={"format": "word"}),
+    )
+    assert "nothing yet" in turns[0].reply
+    assert f"{session.id}-3" in str(json.loads(turns[4].reply))
+    assert json.loads(turns[5].reply) != json.loads(turns[4].reply)
+    assert turns[6].stage == "asked"

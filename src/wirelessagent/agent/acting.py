@@ -16,7 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy.special import bdtrc
 
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.run import with_outcome
@@ -24,6 +24,7 @@ from wirelessagent.agent.turn import Run
 from wirelessagent.agent.words import say
 from wirelessagent.explain.report import name_of_figure
 from wirelessagent.model.decision import Decision
+from wirelessagent.model.errors import InputError
 from wirelessagent.model.metrics import RATE_TOLERANCE
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
@@ -97,6 +98,8 @@ def same_allocation(one: Decision, other: Decision) -> bool:
 def _applied(station: BaseStation, decision: Decision, language: str) -> tuple[Outcome | None, str]:
     try:
         return station.apply(decision), ""
+    except InputError:  # what it was made with, or was given, cannot be used; nothing was touched
+        raise
     except Exception as error:  # noqa: BLE001  # equipment of any make must not end the conversation
         return None, say(language, "station_failed", station=station.name, why=error)
 
@@ -134,7 +137,7 @@ def _broken_promises(decision: Decision, outcome: Outcome, tolerance: float, lan
         found.append(say(language, "too_little", carried=human(carried, "bit/s"), promised=of, short=short))
     outage = decision.problem.outage_probability
     missed, served = int(np.count_nonzero(outcome.missed)), int(np.count_nonzero(promised > 0))
-    if outage is not None and missed and float(stats.binom.sf(missed - 1, served, outage)) < _UNLIKELY:
+    if outage is not None and missed and float(bdtrc(missed - 1, served, outage)) < _UNLIKELY:
         found.append(say(language, "too_many", missed=missed, served=served, sure=reliability(outage)))
     return found
 

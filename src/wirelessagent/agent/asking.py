@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from datetime import datetime
 from typing import cast
 
 from wirelessagent import plugins
 from wirelessagent.agent import answers
 from wirelessagent.agent.figures import certificate_line, decision_tables, side_by_side, worded
+from wirelessagent.agent.posing import UnknownUserError
 from wirelessagent.agent.request import Request
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.site import Site
@@ -170,10 +172,31 @@ def explain(state: State, intent: Intent) -> Reply:
     return Reply(text=text, tables=tuple(decision_tables(run.report, run.estimate, intent.language)))
 
 
-def export(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
-    """The request and its fulfilment as a document of a standard."""
-    del turns
-    return Reply(text=say(intent.language, "nothing_yet" if state.run is None else "no_such_answer", help=""))
+def export(intent: Intent, turns: Sequence[Turn]) -> Reply:
+    """The last request and what came of it as a document of a standard; the standards are loaded only here."""
+    from wirelessagent.standards import tmf921, ts28312
+    from wirelessagent.standards.subject import Subject
+
+    language, name = intent.language, str(intent.details.get("format", "ts28312"))
+    if name not in ("ts28312", "tmf921"):
+        return Reply(text=say(language, "export_unknown", format=name), stage="asked")
+    made = [turn for turn in turns if turn.run is not None and turn.intent.kind == "allocate"]
+    if not made or made[-1].run is None:
+        return Reply(text=say(language, "nothing_yet"))
+    last, run = made[-1], made[-1].run
+    before = [turn.run.outcome for turn in made[:-1] if turn.run is not None and turn.stage == "applied"]
+    subject = Subject(
+        name=f"{last.session}-{last.number}",
+        text=last.text,
+        decision=run.decision,
+        at=datetime.fromisoformat(last.at_utc),
+        outcome=run.outcome if last.stage == "applied" else None,
+        language=last.intent.language,
+        current=before[-1] if before else None,
+    )
+    if name == "ts28312":
+        return Reply(text=ts28312.to_json(ts28312.document(subject)))
+    return Reply(text=tmf921.to_json(tmf921.document(subject)))
 
 
 def question(site: Site, state: State, intent: Intent) -> Reply:
@@ -182,5 +205,7 @@ def question(site: Site, state: State, intent: Intent) -> Reply:
         return Reply(text=answers.concept(intent) or say(intent.language, "help"))
     if state.run is None:
         return Reply(text=say(intent.language, "nothing_yet"))
+    if intent.topic == "why_user" and not intent.details.get("user"):
+        raise UnknownUserError("", site.user_names, intent.language)
     text, tables = answers.answer(state.run, intent, site.user_names)
     return Reply(text=text or say(intent.language, "no_such_answer", help=say(intent.language, "help")), tables=tables)

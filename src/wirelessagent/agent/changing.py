@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import Effect, same_allocation
+from wirelessagent.agent.events import Event
 from wirelessagent.agent.figures import certificate_line, decision_tables
 from wirelessagent.agent.request import requested
 from wirelessagent.agent.restating import restated
@@ -17,7 +18,7 @@ from wirelessagent.agent.run import applied_line, with_outcome
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run, Stage
-from wirelessagent.agent.words import say
+from wirelessagent.agent.words import joined, say
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.units import human
 
@@ -27,13 +28,13 @@ def allocate(site: Site, state: State, intent: Intent) -> Reply:
     request = requested(intent, state.request)
     run = site.plan(intent, request)
     new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good)
-    said = " ".join([restated(request, intent.language), *_notes(run), _sentence(run)])
+    said = joined(intent.language, [restated(request, intent.language), *_notes(run), _sentence(run)])
     if not run.decision.is_usable:
-        return _reply(intent, [said, say(intent.language, "not_applied")], "nothing", new, run)
+        return _reply(site, intent, [said, say(intent.language, "not_applied")], "nothing", new, run)
     if state.on_air is not None and same_allocation(run.decision, state.on_air.decision):
         kept = with_outcome(run, state.on_air.outcome)
         new = dataclasses.replace(new, run=kept, on_air=kept)
-        return _reply(intent, [said, say(intent.language, "no_change")], "nothing", new, kept)
+        return _reply(site, intent, [said, say(intent.language, "no_change")], "nothing", new, kept)
     return _carry_or_ask(site, new, intent, run, said)
 
 
@@ -85,12 +86,14 @@ def _undone(site: Site, state: State, intent: Intent, before: State, text: str) 
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
     if good is None:
         said = [text] if state.on_air is None else [text, say(intent.language, "stays")]
-        return _reply(intent, said, "undone", held, before.run)
+        return _reply(site, intent, said, "undone", held, before.run)
     station = site.station(good)
     if station is None or (state.on_air is not None and same_allocation(good.decision, state.on_air.decision)):
-        return _reply(intent, [text], "undone", held, before.run)
+        return _reply(site, intent, [text], "undone", held, before.run)
     if site.asks(station):
-        return _reply(intent, [text, _question(good, before)], "planned", dataclasses.replace(held, planned=good), good)
+        return _reply(
+            site, intent, [text, _question(good, before)], "planned", dataclasses.replace(held, planned=good), good
+        )
     return _put_back(site, before, intent, good, station, [text])
 
 
@@ -104,10 +107,10 @@ def reset(site: Site, state: State, intent: Intent) -> Reply:
 def _carry_or_ask(site: Site, state: State, intent: Intent, run: Run, said: str) -> Reply:
     station = site.station(run)
     if station is None:
-        return _reply(intent, [said, say(intent.language, "no_station")], "planned", state, run)
+        return _reply(site, intent, [said, say(intent.language, "no_station")], "planned", state, run)
     if site.asks(station):
         waiting = dataclasses.replace(state, planned=run)
-        return _reply(intent, [said, say(intent.language, "apply_it")], "planned", waiting, run)
+        return _reply(site, intent, [said, say(intent.language, "apply_it")], "planned", waiting, run)
     return _apply(site, state, intent, run, station, said)
 
 
@@ -120,14 +123,16 @@ def _apply(site: Site, state: State, intent: Intent, run: Run, station: BaseStat
     text = [said] if said else []
     if not effect.faults:
         new = dataclasses.replace(new, on_air=effect.run, last_good=effect.run)
-        return _reply(intent, [*text, _capital(applied_line(effect.run)) + "."], "applied", new, effect.run)
+        return _reply(
+            site, intent, [*text, _whole(intent.language, applied_line(effect.run))], "applied", new, effect.run
+        )
     text.append(_told(effect, state.last_good, intent.language))
     if effect.restored is not None and not effect.trouble:
         new = dataclasses.replace(new, on_air=state.last_good)
-        return _reply(intent, text, "reverted", new, effect.run, effect)
+        return _reply(site, intent, text, "reverted", new, effect.run, effect)
     in_effect = effect.run if effect.as_decided else None
     new = dataclasses.replace(new, on_air=in_effect)
-    return _reply(intent, text, "nothing" if effect.run.outcome is None else "applied", new, effect.run, effect)
+    return _reply(site, intent, text, "nothing" if effect.run.outcome is None else "applied", new, effect.run, effect)
 
 
 def _put_back(site: Site, state: State, intent: Intent, good: Run, station: BaseStation, text: Sequence[str]) -> Reply:
@@ -140,12 +145,12 @@ def _put_back(site: Site, state: State, intent: Intent, good: Run, station: Base
     run = back if state.run is good else state.run
     new = dataclasses.replace(state, run=run, planned=None, on_air=None if trouble else back)
     new = dataclasses.replace(new, last_good=state.last_good if trouble else back)
-    reply = _reply(intent, [*text, told], "undone", new, back)
+    reply = _reply(site, intent, [*text, told], "undone", new, back)
     return dataclasses.replace(reply, restored=outcome)
 
 
 def _told(effect: Effect, last_good: Run | None, language: str) -> str:
-    faults = "".join(effect.faults) if language == "zh" else " ".join(effect.faults)
+    faults = joined(language, effect.faults)
     if effect.restored is not None and not effect.trouble and last_good is not None:
         return _in_effect(language, "reverted", last_good, faults=faults)
     if last_good is None:
@@ -172,8 +177,12 @@ def _notes(run: Run) -> list[str]:
 
 
 def _sentence(run: Run) -> str:
-    language = run.intent.language
-    return say(language, "sentence", line=_capital(certificate_line(run.decision, language)))
+    return _whole(run.intent.language, certificate_line(run.decision, run.intent.language))
+
+
+def _whole(language: str, line: str) -> str:
+    """A line as a sentence of its own."""
+    return say(language, "sentence", line=_capital(line))
 
 
 def _capital(sentence: str) -> str:
@@ -181,12 +190,19 @@ def _capital(sentence: str) -> str:
 
 
 def _reply(
-    intent: Intent, said: Sequence[str], stage: Stage, state: State, run: Run | None, effect: Effect | None = None
+    site: Site,
+    intent: Intent,
+    said: Sequence[str],
+    stage: Stage,
+    state: State,
+    run: Run | None,
+    effect: Effect | None = None,
 ) -> Reply:
-    """What is said of a run, with its tables."""
+    """What is said of a run, with its tables; the last sentence is what was done about it."""
+    site.progress(Event(stage="act", message=said[-1]))
     tables = [] if run is None else decision_tables(run.report, run.estimate, intent.language)
     return Reply(
-        text=("" if intent.language == "zh" else " ").join(said),
+        text=joined(intent.language, said),
         stage=stage,
         state=state,
         run=run,

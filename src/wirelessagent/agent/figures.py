@@ -1,4 +1,4 @@
-"""Decisions and runs in one line and in tables, in the operator's language."""
+"""Decisions in one line, and runs side by side, in the operator's language."""
 
 from __future__ import annotations
 
@@ -8,38 +8,17 @@ import numpy as np
 
 from wirelessagent.agent.turn import Run
 from wirelessagent.agent.words import say
-from wirelessagent.explain.report import Report, cannot_be_served, name_of_figure
+from wirelessagent.explain.report import cannot_be_served, name_of_figure
 from wirelessagent.explain.table import Table
+from wirelessagent.explain.tables import decision_tables as decision_tables
+from wirelessagent.explain.tables import user_table as user_table
 from wirelessagent.model.decision import Decision
-from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.units import human, percent, reliability
 
 _CHINESE: Mapping[str, str] = {
-    "Users": "用户",
-    "user": "用户",
-    "subcarriers": "子载波",
-    "of them repaired": "其中修复的",
-    "power": "功率",
-    "predicted rate": "预测速率",
-    "achieved rate": "实际速率",
-    "promised at {}": "以 {} 承诺",
-    "{} ({} short)": "{}（少 {}）",
     "figure": "指标",
-    "predicted": "预测",
-    "achieved": "实际",
-    "at least": "至少",
-    "at most": "至多",
-    "Predicted on the estimate": "在估计信道上预测",
-    "Predicted on the estimate, achieved on the true channel": "估计信道上的预测与真实信道上的实际",
-    "What it would take": "需要什么",
-    "power that the promised rates need": "承诺速率所需功率",
-    "largest common scaling of the promised rates": "承诺速率的最大共同倍数",
+    "power": "功率",
     "Sum rate": "总速率",
-    "Goodput": "有效吞吐量",
-    "Radiated power": "发射功率",
-    "Energy efficiency": "能效",
-    "Spectral efficiency": "频谱效率",
-    "Jain's fairness index": "Jain 公平指数",
     "Side by side": "并列比较",
     "objective": "目标",
     "status": "状态",
@@ -78,67 +57,6 @@ def certificate_line(decision: Decision, language: str = "en") -> str:
     return say(language, "certificate_note", line=line, note=left_out) if left_out else line
 
 
-def decision_tables(report: Report, estimate: ChannelEstimate, language: str = "en") -> list[Table]:
-    """What people want to see of a decision: users and figures, or what it would take where it cannot be done."""
-    if report.decision.is_usable:
-        return [user_table(report, estimate, language), report_table(report, language)]
-    return [figures_of_infeasibility(report.decision, language)]
-
-
-def figures_of_infeasibility(decision: Decision, language: str = "en") -> Table:
-    """What the request would need and what could be had, each from both sides."""
-    rows: list[tuple[str, str, str]] = []
-    if decision.needed_power_w is not None:
-        need, label = decision.needed_power_w, worded(language, "power that the promised rates need")
-        rows.append((label, human(need.at_least, "W"), human(need.at_most, "W")))
-    if decision.rate_scaling is not None:
-        scale, label = decision.rate_scaling, worded(language, "largest common scaling of the promised rates")
-        rows.append((label, f"{scale.at_least:.3g}", f"{scale.at_most:.3g}"))
-    return _table(language, "What it would take", ("figure", "at least", "at most"), rows)
-
-
-def report_table(report: Report, language: str = "en") -> Table:
-    """Figures of merit, predicted beside achieved."""
-    rows = [(worded(language, label), *figures) for label, *figures in report.figures()]
-    if report.achieved is None:
-        rows = [row[:2] for row, given in zip(rows, report.figures(), strict=True) if given[0] != "Goodput"]
-        return _table(language, "Predicted on the estimate", ("figure", "predicted"), rows)
-    title = "Predicted on the estimate, achieved on the true channel"
-    return _table(language, title, ("figure", "predicted", "achieved"), rows)
-
-
-def user_table(report: Report, estimate: ChannelEstimate | None = None, language: str = "en") -> Table:
-    """Each user's subcarriers, power and rate."""
-    decision = report.decision
-    judged = decision.problem.outage_probability is not None and decision.expected_rate_bps.size > 0
-    rows: list[tuple[str, ...]] = []
-    for user, name in enumerate(decision.user_names):
-        own = decision.owner == user
-        row = [name, str(int(own.sum()))]
-        if estimate is not None:
-            row.append(str(int((own & estimate.repaired[user]).sum())))
-        row.append(human(float(decision.power_w[own].sum()), "W"))
-        row.append(human(decision.rate_bps[user], "bit/s"))
-        if judged:
-            row.append(human(decision.expected_rate_bps[user], "bit/s"))
-        if report.achieved is not None:
-            achieved = human(report.achieved.user_rate_bps[user], "bit/s")
-            short = percent(_shortfall(report, user)) if user in report.missed_users else ""
-            row.append(worded(language, "{} ({} short)", achieved, short) if short else achieved)
-        rows.append(tuple(row))
-    columns = ["user", "subcarriers", *([] if estimate is None else ["of them repaired"]), "power"]
-    if judged:
-        columns.append(worded(language, "promised at {}", reliability(decision.problem.outage_probability or 0.0)))
-    columns += ["predicted rate", *([] if report.achieved is None else ["achieved rate"])]
-    return _table(language, "Users", columns, rows)
-
-
-def _shortfall(report: Report, user: int) -> float:
-    """By how much a user's true rate falls short of the promised one, as a share."""
-    assert report.achieved is not None
-    return float(1 - report.achieved.user_rate_bps[user] / report.decision.rate_bps[user])
-
-
 def side_by_side(runs: Sequence[tuple[str, Run]], language: str = "en") -> Table:
     """Runs beside each other: what each is worth, takes and keeps."""
     columns = [worded(language, label) for label in ("figure",)] + [name for name, _ in runs]
@@ -169,8 +87,3 @@ def _cells(run: Run, language: str) -> dict[str, str]:
         "users served": str(int(np.count_nonzero(decision.rate_bps > 0))) if usable else "–",
         "promises missed": missed,
     }
-
-
-def _table(language: str, title: str, columns: Sequence[str], rows: Sequence[tuple[str, ...]]) -> Table:
-    names = tuple(worded(language, column) for column in columns)
-    return Table(title=worded(language, title), columns=names, rows=tuple(rows))

@@ -39,13 +39,13 @@ class Posed:
 
 
 class UnknownUserError(UnclearRequestError):
-    """Somebody was meant who is not there; the message is the question to the operator."""
+    """Somebody is meant who is not there, or not named at all (""); the message is the question to the operator."""
 
     def __init__(self, reference: str, user_names: tuple[str, ...], language: str) -> None:
         more = len(user_names) - _NAMES_SHOWN
         names = say(language, "comma").join(user_names[:_NAMES_SHOWN])
         known = say(language, "names_and_more", names=names, more=more) if more > 0 else names
-        super().__init__(say(language, "unknown_user", user=reference, known=known))
+        super().__init__(say(language, "unknown_user" if reference else "which_user", user=reference, known=known))
         self.reference = reference
 
 

@@ -61,8 +61,6 @@ def describe(seen: ChannelObservation, language: str = "en") -> str:
 
 def plan(intent: Intent, posed: Posed, sight: Sight, tools: Tools, *, progress: Progress = silent) -> Run:
     """Decide on what was posed; nothing is applied."""
-    for note in posed.notes:
-        progress(Event(stage="note", message=note))
     decision = chain.decide(sight.estimate, posed.problem, posed.cell, tools.method, **tools.method_options)
     progress(Event(stage="decide", message=certificate_line(decision, intent.language)))
     made = report(decision)
@@ -96,17 +94,14 @@ def station_of(tools: Tools, scene: Scene) -> BaseStation | None:
 
 
 def applied_line(run: Run) -> str:
-    """What became of a run on the base station, in one sentence."""
-    language, decision, outcome = run.intent.language, run.decision, run.outcome
-    if not decision.is_usable:
-        return say(language, "not_usable", why=decision.reason)
-    if outcome is None:
-        return say(language, "no_station")
+    """What the base station made of a run, in one sentence."""
+    language, outcome = run.intent.language, run.outcome
+    assert outcome is not None
     if outcome.written_to is not None:
         return say(language, "written", path=outcome.written_to)
     if outcome.achieved is None:
         return say(language, "applied", station=outcome.base_station)
     promised = outcome.promised_bps > 0
     kept, served = int(np.count_nonzero(promised & ~outcome.missed)), int(np.count_nonzero(promised))
-    key = "applied_promised" if decision.problem.promises_rates else "applied_committed"
+    key = "applied_promised" if run.decision.problem.promises_rates else "applied_committed"
     return say(language, key, station=outcome.base_station, kept=kept, served=served)

@@ -28,8 +28,8 @@ from wirelessagent.agent.request import Request
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Missing, Reply, State
 from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Turn
-from wirelessagent.agent.words import say
+from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.agent.words import joined, say
 from wirelessagent.language.intent import Constraint, Detail, Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -66,6 +66,7 @@ class Session:
         tools: the repairer, the method and the base station by name, with their options.
         store: keeps every turn.
         progress: is told of each stage as it happens.
+        raises: raise what goes wrong instead of telling it; questions back are told all the same.
     """
 
     def __init__(
@@ -80,13 +81,14 @@ class Session:
         tools: Tools | None = None,
         store: TurnStore | None = None,
         progress: Progress = silent,
+        raises: bool = False,
     ) -> None:
         self._site = Site(
             scene, losses, seed=seed, tools=tools or Tools(), base_station=base_station, confirm=confirm,
             tolerance=tolerance, progress=progress,
         )  # fmt: skip
         self._recogniser = recogniser or OfflineRecogniser()
-        self._store, self._progress = store, progress
+        self._store, self._progress, self._raises = store, progress, raises
         self._state, self._past = State(), list[State]()
         self._turns: list[Turn] = []
         self._language = ""
@@ -142,10 +144,11 @@ class Session:
                 self._state, planned=None, asked=True, pending=dict(intent.constraints), missing=missing
             )
             return Reply(text=str(question), stage="asked", state=asked)
-        except UnsupportedProblemError as refusal:
-            return Reply(text=say(intent.language, "unsupported", why=refusal), stage="nothing")
         except WirelessAgentError as error:
-            return Reply(text=str(error), stage="nothing")
+            if self._raises:
+                raise
+            key = "unsupported" if isinstance(error, UnsupportedProblemError) else "failed"
+            return Reply(text=say(intent.language, key, why=error), stage="nothing")
 
     def _handled(self, intent: Intent) -> Reply:
         site, state = self._site, self._state
@@ -167,7 +170,7 @@ class Session:
             "history": lambda: asking.history(intent, self._turns),
             "status": lambda: asking.status(state, intent, self._turns),
             "what_if": lambda: asking.what_if(site, state, intent),
-            "export": lambda: asking.export(state, intent, self._turns),
+            "export": lambda: asking.export(intent, self._turns),
             "help": lambda: Reply(text=say(intent.language, "help")),
             "capabilities": lambda: Reply(text=say(intent.language, "help")),
         }
@@ -190,8 +193,8 @@ class Session:
     def _kept(self, text: str, intent: Intent, reply: Reply) -> Turn:
         """The turn, remembered and stored; a store that fails is told of and stops nothing."""
         said = reply.text
-        if intent.recogniser not in (self._recogniser.name, ""):
-            said = f"{say(intent.language, 'fallen_back', recogniser=intent.recogniser)} {said}"
+        if intent.recogniser != self._recogniser.name and not (intent.reply and intent.reply in said):
+            said = joined(intent.language, [said, say(intent.language, "fallen_back", recogniser=intent.recogniser)])
         turn = Turn(
             number=len(self._turns) + 1,
             session=self.id,
@@ -211,7 +214,7 @@ class Session:
             try:
                 self._store.append(turn)
             except WirelessAgentError as error:
-                said = f"{turn.reply} {say(intent.language, 'not_recorded', why=error)}"
+                said = joined(intent.language, [said, say(intent.language, "not_recorded", why=error)])
                 turn = dataclasses.replace(turn, reply=said)
         self._turns.append(turn)
         return turn
@@ -244,3 +247,23 @@ def _renamed(value: Constraint | Detail, reference: str, name: str) -> Any:
     if isinstance(value, tuple):
         return tuple(name if user == reference else user for user in value)
     return name if value == reference else value
+
+
+def ask(
+    text: str,
+    scene: Scene,
+    *losses: Loss,
+    seed: int = 0,
+    tools: Tools | None = None,
+    progress: Progress = silent,
+) -> Run:
+    """Run the chain once on a scene as a sentence asks, with what ``losses`` leave of the channel.
+
+    Raises:
+        UnclearRequestError: the sentence is not clear; the message is the question to the operator.
+    """
+    session = Session(scene, *losses, seed=seed, tools=tools, confirm=False, progress=progress, raises=True)
+    turn = session.say(text)
+    if turn.run is None:
+        raise UnclearRequestError(turn.reply)
+    return turn.run

@@ -12,7 +12,7 @@ from wirelessagent.agent import acting
 from wirelessagent.agent.events import Event, Progress
 from wirelessagent.agent.posing import pose
 from wirelessagent.agent.request import Request
-from wirelessagent.agent.run import Sight, applied_line, look, plan, station_of, with_outcome
+from wirelessagent.agent.run import Sight, look, plan, station_of, with_outcome
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run
 from wirelessagent.language.intent import Intent
@@ -73,6 +73,8 @@ class Site:
             UnsupportedProblemError: the method does not solve it.
         """
         posed = pose(request, self.scene.cell, self.user_names, intent.language)
+        for note in posed.notes:
+            self.progress(Event(stage="note", message=note))
         tools = tools or self.tools
         chain.check_solvable(posed.problem, tools.method)
         return plan(intent, posed, sight or self.sight(intent.language), tools, progress=self.progress)
@@ -87,10 +89,7 @@ class Site:
 
     def carry_out(self, run: Run, station: BaseStation, last_good: Run | None) -> acting.Effect:
         """Apply a run, read back, and go back to the last good one where it is at fault."""
-        effect = acting.carry_out(run, station, last_good, self.tolerance)
-        if effect.run.outcome is not None:
-            self.progress(Event(stage="act", message=applied_line(effect.run)))
-        return effect
+        return acting.carry_out(run, station, last_good, self.tolerance)
 
     def put_back(self, run: Run, station: BaseStation) -> tuple[Outcome | None, str]:
         """Apply again what was in effect before: what was read back, and what went wrong."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 _ENGLISH: Mapping[str, str] = {
     "comma": ", ",
@@ -11,7 +11,7 @@ _ENGLISH: Mapping[str, str] = {
     "value": "value",
     # stages
     "understood": "{reply} ({recogniser}, {sure} sure)",
-    "fallen_back": "(Understood by the {recogniser} recogniser, since the one that was chosen did not answer.)",
+    "fallen_back": "(Understood by: {recogniser}.)",
     "sensed": "{users} users × {subcarriers} subcarriers{history}; {missing} of {entries} gains missing ({share})",
     "history": ", {slots} slots",
     "repaired": "{missing} gains filled by {method}",
@@ -25,7 +25,6 @@ _ENGLISH: Mapping[str, str] = {
     "feasible": "feasible",
     "infeasible": "infeasible",
     "undecided": "undecided",
-    "not_usable": "nothing applied: {why}",
     "no_station": "nothing applied: the true channel is not known; --out FILE writes the allocation",
     "written": "allocation written to {path}",
     "applied": "{station}: applied and read back; what the users get is not measured there",
@@ -45,6 +44,7 @@ _ENGLISH: Mapping[str, str] = {
     "whole_groups": "Subcarriers go in groups of a whole number, not of {size}. How many should be in a group?",
     "impossible": "That can't be asked for: {why}. What should hold instead?",
     "unsupported": "That can't be done together: {why}",
+    "failed": "That failed: {why}",
     "apply_it": "Apply it? (yes or no)",
     "put_it_back": "Put the earlier allocation back ({power}, for: {request})? (yes or no)",
     "nothing_yet": "There is nothing yet to work on. Say what the cell should do, for example "
@@ -105,9 +105,7 @@ _ENGLISH: Mapping[str, str] = {
     "not_installed": "{name} is neither a method nor a repairer that is installed. Methods: {methods}. "
     "Repairers: {repairers}.",
     "refused": "{name}: {why}",
-    "exported": "Written down as {format}.",
     "export_unknown": "I can write ts28312 (3GPP TS 28.312) and tmf921 (TMF921 v5); got {format}. Which one?",
-    "export_missing": "This cannot be exported: {why}",
     "no_such_answer": "I can't answer that yet. {help}",
     "which_user": "About which user: {known}?",
     "help": "Say what the cell should do: the highest total rate, the least power, the most bits per joule, a fair "
@@ -123,7 +121,7 @@ _CHINESE: Mapping[str, str] = {
     "sentence": "{line}。",
     "value": "目标值",
     "understood": "{reply}（{recogniser}，把握 {sure}）",
-    "fallen_back": "（所选的识别器没有回应，由 {recogniser} 识别器理解。）",
+    "fallen_back": "（理解者：{recogniser}。）",
     "sensed": "{users} 个用户 × {subcarriers} 个子载波{history}；{entries} 个增益中缺失 {missing} 个（{share}）",
     "history": "，{slots} 个时隙",
     "repaired": "{method} 修复了 {missing} 个增益",
@@ -137,7 +135,6 @@ _CHINESE: Mapping[str, str] = {
     "feasible": "可行",
     "infeasible": "不可行",
     "undecided": "未定",
-    "not_usable": "未应用：{why}",
     "no_station": "未应用：真实信道未知；--out FILE 可写出分配",
     "written": "分配已写入 {path}",
     "applied": "{station}：已应用并回读；那里不测量用户所得",
@@ -154,6 +151,7 @@ _CHINESE: Mapping[str, str] = {
     "whole_groups": "子载波只能按整数个分组，不能是 {size} 个。每组应有几个？",
     "impossible": "无法这样要求：{why}。应改为什么？",
     "unsupported": "这些不能同时做到：{why}",
+    "failed": "未能完成：{why}",
     "apply_it": "是否应用？（是／否）",
     "put_it_back": "是否恢复先前的分配（{power}，要求：{request}）？（是／否）",
     "nothing_yet": "还没有可操作的内容。请说明小区应做什么，例如“总速率最高，功率不超过 10 W”。",
@@ -210,9 +208,7 @@ _CHINESE: Mapping[str, str] = {
     "nothing_to_compare": "没有更早的决定可以比较。",
     "not_installed": "{name} 既不是已安装的方法，也不是修复器。方法：{methods}。修复器：{repairers}。",
     "refused": "{name}：{why}",
-    "exported": "已按 {format} 写出。",
     "export_unknown": "可写 ts28312（3GPP TS 28.312）和 tmf921（TMF921 v5）；收到 {format}。要哪一种？",
-    "export_missing": "无法导出：{why}",
     "no_such_answer": "这个问题还不能回答。{help}",
     "which_user": "是指哪个用户：{known}？",
     "help": "请说明小区应做什么：总速率最高、功率最低、能效最高、公平分配，或最慢用户的速率最高；"
@@ -225,6 +221,11 @@ _CHINESE: Mapping[str, str] = {
 def say(language: str, key: str, **names: object) -> str:
     """The sentence of this key in the operator's language, with its names filled in."""
     return (_CHINESE if language == "zh" else _ENGLISH)[key].format(**names)
+
+
+def joined(language: str, sentences: Iterable[str]) -> str:
+    """Sentences one after the other, as the language sets them."""
+    return ("" if language == "zh" else " ").join(sentences)
 
 
 def all_words() -> tuple[Mapping[str, str], Mapping[str, str]]:

@@ -56,7 +56,7 @@ class SiteOptions(MethodOptions, RepairerOptions, CellOptions):
             return file_scene(self, self.csi, self.source_options, progress)
         return chain.simulate(self.source, self.cell(), seed=self.seed, **self.source_options)
 
-    def session(self, progress: Progress) -> Session:
+    def session(self, progress: Progress, *, raises: bool = False) -> Session:
         """A conversation about the cell that was not begun yet."""
         default_loss = [] if self.csi else ["random:0.2"]
         return Session(
@@ -67,6 +67,7 @@ class SiteOptions(MethodOptions, RepairerOptions, CellOptions):
             confirm=False if self.yes else None,
             tools=Tools(**{item.name: getattr(self, item.name) for item in dataclasses.fields(Tools)}),
             progress=progress,
+            raises=raises,
         )
 
     def chosen_recogniser(self) -> Recogniser:
