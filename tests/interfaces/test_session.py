@@ -19,6 +19,7 @@ from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
 from wirelessagent.agent.words import all_words
 from wirelessagent.language.intent import CONSTRAINTS, Intent
+from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.model.errors import UnclearRequestError
 
 NAMES = tuple(f"user {number}" for number in range(1, 6))
@@ -44,13 +45,16 @@ def question(objective: str = "max_rate", names: tuple[str, ...] = NAMES, langua
     return str(refusal.value)
 
 
+@pytest.mark.parametrize("name", ["scripted", "offline"])
 @pytest.mark.parametrize("lines", [ENGLISH, CHINESE], ids=["en", "zh"])
-def test_a_conversation_of_fifteen_turns(lines: tuple[Line, ...]) -> None:
-    session = Session(SCENE, LOSS, seed=SEED, recogniser=Scripted(line.intent for line in lines))
+def test_a_conversation_of_fifteen_turns(lines: tuple[Line, ...], name: str) -> None:
+    recogniser = OfflineRecogniser() if name == "offline" else Scripted(line.intent for line in lines)
+    session = Session(SCENE, LOSS, seed=SEED, recogniser=recogniser)
     for number, line in enumerate(lines, start=1):
         on_air = session.state.on_air
         turn = session.say(line.text)
         assert (turn.number, turn.text, turn.stage) == (number, line.text, line.stage), turn.reply
+        assert turn.recogniser == name
         assert session.request is not None
         assert session.request.objective == line.objective
         assert plain(session.request.constraints) == plain(line.constraints)

@@ -17,6 +17,7 @@ from wirelessagent.agent.session import Session
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language.intent import Intent
+from wirelessagent.model.rates import user_rate_bps
 
 YES, NO = means("command", topic="confirm"), means("command", topic="reject")
 UNDO, APPLY, STATUS = (means("command", topic=topic) for topic in ("undo", "apply", "status"))
@@ -165,20 +166,32 @@ def test_what_is_worse_than_before_for_the_same_request_is_taken_back() -> None:
     assert not carry_out(run_of("min_power", min_rate_bps=1e6), Moody(), applied(wasting)).faults
 
 
+def weakened(run: Run) -> Run:
+    """The same plan at a third of its power, with the rates that the true channel then carries."""
+    plain, truth = run.decision, SCENE.current_truth
+    assert truth is not None
+    power = plain.power_w * 0.3
+    rate = user_rate_bps(truth, plain.owner, power, plain.cell)
+    return replace(run, decision=replace(plain, power_w=power, rate_bps=rate, estimate=None))
+
+
 @pytest.mark.parametrize(
-    "constraints",
+    ("constraints", "faults"),
     [
-        {"max_power_w": 5.0},
-        {"leave_out": ("1",)},
-        {"min_rate_bps": {"3": 1e6}},
-        {"subcarrier_max_power_w": 0.3},
-        {"resource_block_group_size": 4},
+        ({}, 1),
+        ({"max_power_w": 12.0}, 0),
+        ({"leave_out": ("2",)}, 0),
+        ({"leave_out": ("3",)}, 1),
+        ({"min_rate_bps": {"3": 1e5}}, 0),
+        ({"subcarrier_max_power_w": 0.8}, 0),
+        ({"resource_block_group_size": 4.0}, 0),
+        ({"max_rate_bps": 5e6}, 0),
     ],
+    ids=str,
 )
-def test_what_was_before_is_no_measure_where_it_does_not_keep_the_request(constraints: dict[str, object]) -> None:
+def test_what_was_before_is_a_measure_where_it_keeps_the_request(constraints: dict[str, object], faults: int) -> None:
     good = applied(run_of("max_rate"))
-    method = "round_robin" if constraints.keys() <= {"max_power_w"} else None
-    assert not carry_out(run_of("max_rate", method, **constraints), Moody(), good).faults
+    assert len(carry_out(weakened(run_of("max_rate", **constraints)), Moody(), good).faults) == faults
 
 
 def test_another_channel_is_no_measure() -> None:
