@@ -67,12 +67,17 @@ def perfect(scene: Scene) -> ChannelEstimate:
     truth = scene.current_truth
     if truth is None:
         raise InputError("the true channel of this scene is not known, so there is no perfect estimate")
+    return certain(truth, scene.sensed.user_names)
+
+
+def certain(gain: FloatArray, user_names: tuple[str, ...]) -> ChannelEstimate:
+    """The estimate of somebody who knows each gain (user, subcarrier)."""
     return ChannelEstimate(
-        gain=truth,
-        gain_variance=np.zeros(truth.shape),
-        repaired=np.zeros(truth.shape, dtype=bool),
-        unobserved_users=np.zeros(len(truth), dtype=bool),
-        user_names=scene.sensed.user_names,
+        gain=gain,
+        gain_variance=np.zeros(gain.shape),
+        repaired=np.zeros(gain.shape, dtype=bool),
+        unobserved_users=np.zeros(len(gain), dtype=bool),
+        user_names=user_names,
         method="perfect",
     )
 

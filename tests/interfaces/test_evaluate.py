@@ -289,9 +289,22 @@ def test_perfect_knowledge_is_the_yardstick(decided: tuple[EvaluateDecision, Eva
     assert (table.where(method=PERFECT).numbers("missed_share") == 0.0).all()
     for name in ("user_mean", "kriging", AVOID):
         assert (table.where(method=name).numbers("goodput_share") < 1.0 + 1e-9).all()
-    for name in ("proportional_fairness", "max_min_rate"):  # goodput takes more draws
+    for name in ("goodput", "proportional_fairness", "max_min_rate"):
         shares = by_method(table, f"{name}_share", loss="random:0.5")
         assert shares["kriging"] > shares["user_mean"]
+
+
+def test_what_goodput_loses_has_three_parts(decided: tuple[EvaluateDecision, Evaluated]) -> None:
+    table = decided[1].table
+    goodput, choice, not_carried = (table.numbers(f"{name}_share") for name in ("goodput", "choice", "not_carried"))
+    caution = 1.0 - goodput - choice - not_carried
+    perfect = np.array([row[table.columns.index("method")] == PERFECT for row in table.rows])
+    for part in (choice, not_carried, caution):
+        assert (part[perfect] == 0.0).all()
+        assert (part[~perfect] >= -1e-12).all()
+    assert (choice[~perfect] > 0.0).all()
+    half = by_method(table, "not_carried_share", loss="random:0.5")
+    assert half["user_mean"] > half["kriging"] + 0.01
 
 
 def test_who_avoids_repaired_entries_keeps_promises_and_pays(decided: tuple[EvaluateDecision, Evaluated]) -> None:

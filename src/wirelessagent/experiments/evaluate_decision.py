@@ -2,7 +2,9 @@
 
 Every strategy decides on the same observations and is judged on the same true channels:
 
-- ``goodput``: the rates committed by a max-rate decision, counted where the true channel carries them;
+- ``goodput``: the rates committed by a max-rate decision, counted where the true channel carries them. What is lost
+  has three parts: ``choice``, since other users and powers would have been better; ``not_carried``, the true rates of
+  users whose commitment was too high; and the rest, caution: what the others could have been sent beyond it;
 - ``proportional_fairness`` and ``max_min_rate``: the geometric mean and the smallest of the users' true rates;
 - ``min_power``: how many users miss the rate that they were promised with an accepted outage probability, among all and
   among those whose allocation rests on a repaired entry, and the power spent.
@@ -45,12 +47,13 @@ OBJECTIVES = ("goodput", "proportional_fairness", "max_min_rate")
 """What is reached is a share of what perfect knowledge reaches."""
 
 _REACHED = slice(0, 3)
-_USERS, _MISSED, _RESTING, _MISSED_RESTING, _POWER, _PERFECT_POWER, _POSED, _REFUSED, _MISSING = range(3, 12)
+_USERS, _MISSED, _RESTING, _MISSED_RESTING, _POWER, _PERFECT_POWER, _POSED, _REFUSED = range(3, 11)
+_SUM_RATE, _NOT_CARRIED, _MISSING = range(11, 14)
 """Places of the sums of a draw."""
 
 FIGURES = (
     *(f"{name}_share" for name in OBJECTIVES), "missed_share", "missed_of_resting_share", "resting_share",
-    "power_ratio", "refused_share",
+    "power_ratio", "refused_share", "choice_share", "not_carried_share",
 )  # fmt: skip
 
 COLUMNS = (
@@ -156,6 +159,7 @@ class DecisionDraw:
             problems = [problem if forbidden is None else _without(problem, forbidden) for problem in self.problems]
             *free, promise = (chain.decide(estimate, problem, drawn.scene.cell) for problem in problems)
             row[_REACHED] = [_reached(at, decision, drawn) for at, decision in enumerate(free)]
+            row[_SUM_RATE], row[_NOT_CARRIED] = _rates(free[0], drawn)
             row[_MISSING] = observation.missing.mean()
             if promised.is_usable:
                 _count_promise(row, promise, promised, estimate, drawn)
@@ -173,8 +177,16 @@ def _without(problem: Problem, forbidden: np.ndarray[Any, np.dtype[np.bool_]]) -
 
 def _achieved(decision: Decision, drawn: Drawn) -> LinkMetrics:
     return link_metrics(
-        drawn.truth, decision.owner, decision.power_w, drawn.scene.cell, committed_bps=decision.rate_bps
+        drawn.truth, decision.owner, decision.power_w, drawn.scene.cell, committed_bps=decision.committed_bps
     )
+
+
+def _rates(decision: Decision, drawn: Drawn) -> tuple[float, float]:
+    """The true sum rate of a decision, and what of it users have whose commitment was too high, in bit/s."""
+    if not decision.is_usable:
+        return 0.0, 0.0
+    rate = _achieved(decision, drawn).user_rate_bps
+    return float(rate.sum()), float(rate[~kept(rate, decision.committed_bps)].sum())
 
 
 def _reached(objective: int, decision: Decision, drawn: Drawn) -> float:
@@ -220,6 +232,8 @@ def _rows(case: tuple[str, str], strategies: tuple[str, ...], sums: FloatArray, 
             total[_RESTING] / total[_USERS],
             total[_POWER] / total[_PERFECT_POWER],
             total[_REFUSED] / total[_POSED],
+            1.0 - total[_SUM_RATE] / total[_SUM_RATE][:, [perfect]],
+            total[_NOT_CARRIED] / total[_SUM_RATE][:, [perfect]],
         ]
     bounded = np.stack([with_interval(figure) for figure in figures], axis=1)
     missing = sums[:, 0, _MISSING].mean()

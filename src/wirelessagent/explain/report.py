@@ -1,4 +1,4 @@
-"""Predicted beside achieved: what a decision promised and what the true channel gave."""
+"""Predicted beside achieved: what a decision promised, what the true channel gave, and what not knowing it cost."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from wirelessagent import chain, plugins
+from wirelessagent.explain.labels import worded
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.metrics import LinkMetrics, jain_index, metrics_of_rates
 from wirelessagent.model.objective import Objective
@@ -30,71 +32,121 @@ class Report:
 
     Attributes:
         decision: what was decided.
-        predicted: metrics on the estimated channel. Its rates are the promised ones; with an outage probability they
-            are the mean ones, and its goodput is what is expected of the promises that are kept.
+        predicted: what is expected: the mean rates under the estimate's posterior, and of the committed ones what is
+            expected to arrive. Where nothing is uncertain these are the decision's rates.
         achieved: metrics on the true channel; None where it is not known.
-        missed_users: numbers of the users whose true rate fell short of the promise, counted from 0.
+        missed_users: numbers of the users whose true rate fell short of the commitment, counted from 0.
+        perfect: what would have been decided, and achieved, with every gain known; None where the truth is not known,
+            or was.
     """
 
     decision: Decision
     predicted: LinkMetrics
     achieved: LinkMetrics | None
     missed_users: tuple[int, ...]
+    perfect: Decision | None = None
 
-    def figures(self) -> list[tuple[str, str, str]]:
-        """(figure, predicted, achieved) as text, "–" where the truth is not known; the objective's own figure first."""
+    @property
+    def regret(self) -> float:
+        """What not knowing cost, as a share of the objective's value with perfect knowledge; NaN where that is unknown.
+
+        Of a maximum it is the share that the achieved value lies below it, of the least power the share above it. It is
+        negative where power was saved at the price of promises. Commitments that the channel did not carry are not in
+        it, since the value counts true rates; see :attr:`goodput_regret`.
+        """
+        if self.perfect is None or self.achieved is None or not self.perfect.value:
+            return np.nan
+        ratio = self._value(self.achieved) / self.perfect.value
+        return ratio - 1.0 if _objective(self.decision).direction == "min" else 1.0 - ratio
+
+    @property
+    def goodput_regret(self) -> float:
+        """The share by which what arrives of the committed rates lies below the sum rate with perfect knowledge."""
+        if self.perfect is None or self.achieved is None or not self.perfect.rate_bps.any():
+            return np.nan
+        return 1.0 - self.achieved.goodput_bps / float(self.perfect.rate_bps.sum())
+
+    def figures(self, language: str = "en") -> list[tuple[str, ...]]:
+        """(figure, predicted, achieved) as text, "–" where the truth is not known; the objective's own figure first.
+
+        Where perfect knowledge would have decided otherwise, what it would have achieved comes last.
+        """
+        known = [self.predicted, self.achieved, *([] if self.perfect is None else [predicted_metrics(self.perfect)])]
         rows = [
-            (
-                label,
-                human(getattr(self.predicted, name), unit),
-                "–" if self.achieved is None else human(getattr(self.achieved, name), unit),
-            )
+            (worded(language, label), *("–" if one is None else human(getattr(one, name), unit) for one in known))
             for label, name, unit in _FIGURES
         ]
-        rows = [*self._promises(), *rows]
-        name = name_of_figure(self.decision)
+        rows = [*self._promises(language), *rows]
+        name = name_of_figure(self.decision, language)
         if not name:
             return rows
-        achieved = "–" if self.achieved is None else self._worth(self.achieved)
+        unit = self.decision.unit
         label = name[:1].upper() + name[1:] if name.isascii() else name  # a capital α reads as an A
-        return [(label, self._worth(self.predicted), achieved), *rows]
+        return [(label, *("–" if one is None else human(self._value(one), unit) for one in known)), *rows]
 
-    def _promises(self) -> list[tuple[str, str, str]]:
+    def _promises(self, language: str) -> list[tuple[str, ...]]:
         """What is promised with which probability, beside how many promises were kept; nothing without an outage."""
         decision = self.decision
         if decision.problem.outage_probability is None:
             return []
         served = decision.rate_bps > 0
-        kept = f"{int(served.sum()) - len(self.missed_users)} of {int(served.sum())} kept"
-        label = f"Promised at {reliability(decision.problem.outage_probability)}"
-        return [(label, human(float(decision.rate_bps.sum()), "bit/s"), "–" if self.achieved is None else kept)]
+        kept = worded(language, "{} of {} kept", int(served.sum()) - len(self.missed_users), int(served.sum()))
+        label = worded(language, "Promised at {}", reliability(decision.problem.outage_probability))
+        perfect = () if self.perfect is None else (human(float(self.perfect.rate_bps.sum()), "bit/s"),)
+        return [
+            (label, human(float(decision.rate_bps.sum()), "bit/s"), "–" if self.achieved is None else kept, *perfect)
+        ]
 
-    def _worth(self, metrics: LinkMetrics) -> str:
+    def _value(self, metrics: LinkMetrics) -> float:
         """The objective's value for these rates and power."""
         decision = self.decision
-        assert isinstance(decision.problem.objective, Objective)
         weight = decision.problem.weights_of(decision.rate_bps.size)
-        value = decision.problem.objective.value(metrics.user_rate_bps, metrics.power_w, decision.cell, weight)
-        return human(value, decision.unit)
+        return _objective(decision).value(metrics.user_rate_bps, metrics.power_w, decision.cell, weight)
 
     def __str__(self) -> str:
-        rows = [("", "predicted", "achieved"), *self.figures()]
-        lines = [f"{label:22} {before:>16} {after:>16}" for label, before, after in rows]
+        head = ("", "predicted", "achieved", *([] if self.perfect is None else ["all gains known"]))
+        lines = [f"{label:22}" + "".join(f" {one:>16}" for one in rest) for label, *rest in (head, *self.figures())]
         if self.achieved is not None:
-            served = int(np.count_nonzero(self.decision.rate_bps > 0))
+            served = int(np.count_nonzero(self.decision.committed_bps > 0))
             rate = "promised" if self.decision.problem.promises_rates else "committed"
             lines.append(f"{len(self.missed_users)} of {served} served users missed their {rate} rate")
         return "\n".join(lines)
 
 
 def report(decision: Decision, outcome: Outcome | None = None) -> Report:
-    """The report of a decision and, if it was applied, of what the base station read back."""
+    """The report of a decision and, if it was applied, of what the base station read back.
+
+    Where the base station knows the true channel and the decision did not, the report also has what the method, with
+    its default options, would have decided with every gain known.
+    """
     return Report(
         decision=decision,
         predicted=predicted_metrics(decision),
         achieved=None if outcome is None else _among_served(outcome.achieved, decision),
         missed_users=() if outcome is None else tuple(int(user) for user in np.flatnonzero(outcome.missed)),
+        perfect=None if outcome is None else _with_perfect_knowledge(decision, outcome),
     )
+
+
+def _with_perfect_knowledge(decision: Decision, outcome: Outcome) -> Decision | None:
+    """The decision on the true channel; None where that is not known, was known, or carries no such decision."""
+    estimate, truth = decision.estimate, outcome.true_gain
+    if estimate is None or truth is None or np.array_equal(estimate.gain, truth):
+        return None
+    registered = {one.name for one in plugins.plugins("method")}
+    made = chain.decide(
+        chain.certain(truth, estimate.user_names),
+        decision.problem,
+        decision.cell,
+        decision.method if decision.method in registered else None,
+    )
+    return made if made.is_usable else None
+
+
+def _objective(decision: Decision) -> Objective:
+    objective = decision.problem.objective
+    assert isinstance(objective, Objective)
+    return objective
 
 
 def cannot_be_served(decision: Decision) -> str:
@@ -120,13 +172,15 @@ def name_of_figure(decision: Decision, language: str = "en") -> str:
 
 
 def predicted_metrics(decision: Decision) -> LinkMetrics:
-    """The decision's metrics on the channel that it was made for."""
-    judged = decision.expected_rate_bps.size > 0
-    rate = decision.expected_rate_bps if judged else decision.rate_bps
-    kept = 1.0 - decision.outage if judged else 1.0
+    """What is expected of the decision on the true channel, by what is known of it."""
+    rate, carried = decision.rate_bps, np.ones(decision.rate_bps.size)
+    if decision.expected_rate_bps.size:
+        rate, carried = decision.expected_rate_bps, 1.0 - decision.outage
+    elif decision.forecast is not None:
+        rate, carried = decision.forecast.mean_bps, decision.forecast.carried
     metrics = metrics_of_rates(
         rate,
-        goodput_bps=float((kept * decision.rate_bps).sum()),
+        goodput_bps=float((carried * decision.committed_bps).sum()),
         power_w=decision.total_power_w,
         num_subcarriers=decision.owner.size,
         cell=decision.cell,

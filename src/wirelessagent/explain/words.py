@@ -9,96 +9,20 @@ import numpy as np
 
 from wirelessagent import chain
 from wirelessagent.explain.report import Report, cannot_be_served, name_of_figure
+from wirelessagent.explain.sentences import sentences
 from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import db, human, percent, reliability
 
-_ENGLISH: Mapping[str, str] = {
-    "allocation": "{used} of {total} subcarriers serve {served} of {users} users with {power} of the {budget} allowed.",
-    "optimal": "This is the optimum on the estimated channel: the bound proves that nothing does better.",
-    "gap": "Nothing on the estimated channel does better than {bound}; this decision is within {gap} of that.",
-    "outage_optimal": "No promises at this probability do better, by what is known here: the bound proves it.",
-    "outage_gap": "No promises at this probability, by what is known of the channel, do better than {bound}; this "
-    "decision is within {gap} of that, part of which is what not knowing costs.",
-    "outage": "Each promised rate is kept with a probability of {sure}, by the joint posterior of the gains that it "
-    "rests on; {promised} are promised in all, and {mean} are expected.",
-    "times": "Nothing on the estimated channel does better than {bound}; this decision is {times:.3g} times that.",
-    "zero_bound": "A value of zero is not ruled out, so how far this is from the best is not known.",
-    "no_bound": "The method {method} gives no bound, so how far this is from the best is not known.",
-    "infeasible": "This cannot be done, and that is proven: {reason}",
-    "undecided": "No allocation was found that does this, and no proof that there is none: {reason}",
-    "figure": "The users' {figure} is to be as large as can be; it is {value}.",
-    "weights": "Users' rates count by their weights, from {least:g} to {most:g}.",
-    "shares": "Users are to get rates in proportion to their weights, from {least:g} to {most:g}; the {figure} is "
-    "per unit of weight.",
-    "starved": "{names} cannot be given any rate here, and that makes the {figure} zero.",
-    "power_max": "One more watt would buy about {price} at the margin.",
-    "power_figure": "One more watt would raise the {figure} by about {price} at the margin.",
-    "rate_price": "One more {step} for {user} would cost about {price} at the margin, the dearest of all.",
-    "rate_figure": "One more {step} promised to {user} would lower the {figure} by about {price} at the margin, "
-    "the dearest of all.",
-    "idle_one": "Nothing for {names}, who is {margin:.1f} dB behind the winner on its best subcarrier.",
-    "groups": "Assigning subcarriers in groups of {size} costs at most {cost} of the {figure}: one by one, "
-    "nothing does better than {bound}.",
-    "idle": "Nothing for {names}; the closest, {closest}, is {margin:.1f} dB behind the winner on its best subcarrier.",
-    "repaired": "Repaired by {method}: {missing} of {entries} gains; "
-    "{resting} of the {used} subcarriers in use rest on a repaired gain.",
-    "guessed": "No gain of {names} was observed: their level is a guess, and so is what is promised on it.",
-    "no_promise": "No rate is promised to anybody, so nothing has to be sent; a minimum rate would change that.",
-    "complete": "No gain was missing, so nothing was repaired.",
-    "kept": "On the true channel every {rate} rate was kept.",
-    "missed": "On the true channel {names} fell short of the {rate} rate, by up to {short}.",
-    "promised": "promised",
-    "committed": "committed",
-    "value": "value",
-    "comma": ", ",
-}
-
-_CHINESE: Mapping[str, str] = {
-    "allocation": "{total} 个子载波中使用了 {used} 个，"
-    "服务 {users} 个用户中的 {served} 个，功率 {power}（上限 {budget}）。",
-    "optimal": "这是估计信道上的最优解：对偶界证明没有更好的分配。",
-    "gap": "在估计信道上任何分配都不会优于 {bound}；本方案与该界相差不超过 {gap}。",
-    "outage_optimal": "在对信道已有的了解下，以此概率作出的任何承诺都不会更优：对偶界已证明。",
-    "outage_gap": "在对信道已有的了解下，以此概率作出的任何承诺都不会优于 {bound}；本方案与该界相差不超过 {gap}，"
-    "其中一部分是信道不确定的代价。",
-    "outage": "按所依据增益的联合后验分布，每个承诺速率以 {sure} 的概率兑现；"
-    "承诺总和为 {promised}，期望总和为 {mean}。",
-    "times": "在估计信道上任何分配都不会优于 {bound}；本方案是该界的 {times:.3g} 倍。",
-    "zero_bound": "尚不能排除零值，因此与最优解的差距未知。",
-    "no_bound": "方法 {method} 不提供界，因此与最优解的差距未知。",
-    "infeasible": "该要求无法满足，并且已被证明：{reason}",
-    "undecided": "没有找到满足要求的分配，也没有证明它不存在：{reason}",
-    "figure": "目标是各用户的{figure}尽可能大，现为 {value}。",
-    "weights": "各用户的速率按权重计，权重从 {least:g} 到 {most:g}。",
-    "shares": "各用户的速率应与其权重成正比，权重从 {least:g} 到 {most:g}；{figure}按单位权重计。",
-    "starved": "这里无法给 {names} 任何速率，因此{figure}为零。",
-    "power_max": "边际上每增加一瓦约可换来 {price}。",
-    "power_figure": "边际上每增加一瓦，{figure}约提高 {price}。",
-    "rate_price": "边际上给 {user} 再增加 {step} 约需 {price}，是所有用户中最贵的。",
-    "rate_figure": "边际上向 {user} 多承诺 {step}，{figure}约降低 {price}，是所有用户中最贵的。",
-    "idle_one": "{names} 没有分到子载波，在其最好的子载波上比胜者低 {margin:.1f} dB。",
-    "groups": "以 {size} 个子载波为一组分配，{figure}的损失最多为 {cost}：逐个分配时任何方案都不会优于 {bound}。",
-    "idle": "{names} 没有分到子载波；其中最接近的 {closest} 在其最好的子载波上仍比胜者低 {margin:.1f} dB。",
-    "repaired": "{entries} 个增益中缺失 {missing} 个，由 {method} 修复；"
-    "使用的 {used} 个子载波中有 {resting} 个依赖修复值。",
-    "guessed": "没有观测到 {names} 的任何增益：其水平只是猜测，基于它的承诺也是。",
-    "no_promise": "没有向任何用户承诺速率，因此无需发送；给出最低速率即可改变这一点。",
-    "complete": "没有缺失的增益，因此无需修复。",
-    "kept": "在真实信道上，所有{rate}速率都已兑现。",
-    "missed": "在真实信道上 {names} 未达到{rate}速率，最多少 {short}。",
-    "promised": "承诺",
-    "committed": "预定",
-    "value": "目标值",
-    "comma": "、",
-}
+_SURE = 0.95
+"""The probability from which a promise without an outage probability goes without a warning."""
 
 
 def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") -> list[str]:
     """Why the decision is what it is, in English or Chinese ("zh"), one sentence per item."""
-    words = _CHINESE if language == "zh" else _ENGLISH
+    words = sentences(language)
     decision = report.decision
     objective = decision.problem.objective
     assert isinstance(objective, Objective)
@@ -109,6 +33,7 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
     figure = name_of_figure(decision, language)
     said = [_allocation(words, decision), *_goal(words, decision, objective, figure), _certificate(words, decision)]
     said += _promised_at(words, decision)
+    said += _forecast(words, decision)
     said += _groups(words, decision, estimate, figure)
     said += [decision.reason] if decision.reason and not cannot_be_served(decision) else []
     said += _prices(words, decision, objective, figure)
@@ -116,6 +41,7 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
     said.append(_repair(words, decision, estimate))
     said += _guesses(words, decision, estimate)
     said += _outcome(words, report)
+    said += _regret(words, report, objective, figure)
     return said
 
 
@@ -146,14 +72,32 @@ def _certificate(words: Mapping[str, str], decision: Decision) -> str:
 
 
 def _promised_at(words: Mapping[str, str], decision: Decision) -> list[str]:
-    """With which probability rates are promised, and what they are beside the mean ones."""
+    """With which probability rates are promised, and how much in all."""
     outage = decision.problem.outage_probability
     if outage is None or not decision.expected_rate_bps.size:
         return []
-    mean, promised = float(decision.expected_rate_bps.sum()), float(decision.rate_bps.sum())
-    return [
-        words["outage"].format(sure=reliability(outage), mean=human(mean, "bit/s"), promised=human(promised, "bit/s"))
-    ]
+    promised = human(float(decision.rate_bps.sum()), "bit/s")
+    return [words["outage"].format(sure=reliability(outage), promised=promised)]
+
+
+def _forecast(words: Mapping[str, str], decision: Decision) -> list[str]:
+    """What is expected of the true channel, how sure that is, and what is committed because of it."""
+    forecast = decision.forecast
+    if forecast is None:
+        return []
+    mean, low, high = float(forecast.mean_bps.sum()), forecast.sum_low_bps, forecast.sum_high_bps
+    shown = {name: human(rate, "bit/s") for name, rate in (("mean", mean), ("low", low), ("high", high))}
+    said = [words["forecast"].format(**shown)]
+    if decision.expected_rate_bps.size:
+        return said
+    least = int(np.argmin(np.where(decision.committed_bps > 0, forecast.carried, np.inf)))
+    sure = percent(float(forecast.carried[least]))
+    if not decision.problem.promises_rates:
+        committed = human(float(decision.committed_bps.sum()), "bit/s")
+        return [*said, words["commitment"].format(committed=committed, sure=sure)]
+    if forecast.carried[least] >= _SURE:
+        return said
+    return [*said, words["unsure"].format(name=decision.user_names[least], sure=sure)]
 
 
 def _groups(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate, figure: str) -> list[str]:
@@ -266,11 +210,37 @@ def _outcome(words: Mapping[str, str], report: Report) -> list[str]:
     if not report.missed_users:
         return [words["kept"].format(rate=rate)]
     missed = list(report.missed_users)
-    promised, carried = report.decision.rate_bps[missed], report.achieved.user_rate_bps[missed]
+    promised, carried = report.decision.committed_bps[missed], report.achieved.user_rate_bps[missed]
     return [
         words["missed"].format(
             names=words["comma"].join(report.decision.user_names[user] for user in missed),
             short=percent(float(np.max(1 - carried / promised))),
             rate=rate,
+        )
+    ]
+
+
+def _regret(words: Mapping[str, str], report: Report, objective: Objective, figure: str) -> list[str]:
+    """What not knowing the channel cost, where that is known."""
+    perfect, achieved = report.perfect, report.achieved
+    if perfect is None or achieved is None or np.isnan(report.regret):
+        return []
+    best = human(perfect.value, perfect.unit)
+    if objective.measure == "power":
+        if report.regret < 0 and report.missed_users:
+            return [words["saved"].format(perfect=best, cost=percent(-report.regret))]
+        return [words["regret_min"].format(perfect=best, cost=percent(max(report.regret, 0.0)))]
+    if figure or report.decision.problem.weights is not None or perfect.unit != "bit/s":
+        return [
+            words["regret_max"].format(
+                figure=figure or words["value"], perfect=best, cost=percent(max(report.regret, 0.0))
+            )
+        ]
+    return [
+        words["regret_goodput"].format(
+            perfect=best,
+            goodput=human(achieved.goodput_bps, "bit/s"),
+            cost=percent(report.goodput_regret),
+            choice=percent(max(report.regret, 0.0)),
         )
     ]

@@ -75,12 +75,12 @@ def forecast(
     mean, low, high, committed = np.zeros(users), np.zeros(users), np.zeros(users), np.zeros(users)
     carried, total = np.ones(users), np.zeros(_DRAWS)
     for user in np.unique(owner[used]).tolist():
-        rate = np.minimum(drawn_rates(estimate, user, used[owner[used] == user], power_w, cell, seed), most_bps[user])
+        rate = drawn_rates(estimate, user, used[owner[used] == user], power_w, cell, seed)
         total += rate
         rate.sort()
         mean[user] = rate.mean()
         low[user], high[user] = np.quantile(rate, _BAND)
-        committed[user], carried[user] = _commitment(rate, float(least_bps[user]))
+        committed[user], carried[user] = _commitment(rate, float(least_bps[user]), float(most_bps[user]))
     sum_low, sum_high = np.quantile(total, _BAND).tolist()
     return Forecast(
         mean_bps=mean,
@@ -106,9 +106,9 @@ def drawn_rates(
     return rate
 
 
-def _commitment(rate: FloatArray, least: float) -> tuple[float, float]:
-    """The R of most R · P(X ≥ R) that is no less than ``least``, and its P, from sorted draws (draw,) of X."""
-    tried = np.maximum(rate, least)
+def _commitment(rate: FloatArray, least: float, most: float) -> tuple[float, float]:
+    """The R of most R · P(X ≥ R) from ``least`` to ``most``, and its P, from sorted draws (draw,) of X."""
+    tried = np.clip(rate, least, most)
     carried = 1.0 - np.searchsorted(rate, tried * (1.0 - RATE_TOLERANCE)) / rate.size
     best = int(np.argmax(tried * carried))
     return float(tried[best]), float(carried[best])

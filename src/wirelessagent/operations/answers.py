@@ -1,4 +1,4 @@
-"""The pieces that records share: an estimate, a decision and a report in JSON and in tables."""
+"""The pieces that records share: an estimate, a decision and a report in JSON."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from wirelessagent.explain.report import Report, cannot_be_served
+from wirelessagent.explain.report import Report, cannot_be_served, predicted_metrics
 from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.forecast import Forecast
 from wirelessagent.model.metrics import LinkMetrics
 from wirelessagent.model.units import human, percent, reliability
-from wirelessagent.operations.record import Integers, Matrix, Record, SwitchMatrix, Table, Vector
+from wirelessagent.operations.record import Integers, Matrix, Record, SwitchMatrix, Vector
 
 
 class EstimateAnswer(Record):
@@ -110,11 +111,35 @@ class MetricsAnswer(Record):
         return cls(**{name: getattr(metrics, name) for name in cls.model_fields})
 
 
+class ForecastAnswer(Record):
+    """What the true channel will carry, by what is known of it: means, 90 % bands, and the rates committed."""
+
+    mean_bps: Vector
+    low_bps: Vector
+    high_bps: Vector
+    sum_low_bps: float
+    sum_high_bps: float
+    committed_bps: Vector
+    carried: Vector
+
+    @classmethod
+    def of(cls, forecast: Forecast | None) -> ForecastAnswer | None:
+        return None if forecast is None else cls(**{name: getattr(forecast, name) for name in cls.model_fields})
+
+
 class ReportAnswer(Record):
-    """Predicted beside achieved; achieved is null where the truth is not known."""
+    """Predicted beside achieved; achieved is null where the truth is not known.
+
+    ``perfect`` is what would have been achieved with every gain known, and the regrets are the shares lost against it:
+    of the objective's value, and of the sum rate in what arrives of the committed rates.
+    """
 
     predicted: MetricsAnswer
     achieved: MetricsAnswer | None
+    perfect: MetricsAnswer | None
+    regret: float | None
+    goodput_regret: float | None
+    forecast: ForecastAnswer | None
     missed_users: list[str]
 
     @classmethod
@@ -122,6 +147,10 @@ class ReportAnswer(Record):
         return cls(
             predicted=MetricsAnswer.of(report.predicted),
             achieved=None if report.achieved is None else MetricsAnswer.of(report.achieved),
+            perfect=None if report.perfect is None else MetricsAnswer.of(predicted_metrics(report.perfect)),
+            regret=_known(report.regret),
+            goodput_regret=_known(report.goodput_regret),
+            forecast=ForecastAnswer.of(report.decision.forecast),
             missed_users=[report.decision.user_names[user] for user in report.missed_users],
         )
 
@@ -143,71 +172,8 @@ def certificate_line(decision: Decision) -> str:
     )
 
 
-def decision_tables(report: Report, estimate: ChannelEstimate) -> list[Table]:
-    """What people want to see of a decision: users and figures, or what it would take where it cannot be done."""
-    if report.decision.is_usable:
-        return [user_table(report, estimate), report_table(report)]
-    return [figures_of_infeasibility(report.decision)]
-
-
-def figures_of_infeasibility(decision: Decision) -> Table:
-    """What the request would need and what could be had, each from both sides."""
-    rows: list[tuple[str, str, str]] = []
-    if decision.needed_power_w is not None:
-        need = decision.needed_power_w
-        rows.append(("power that the promised rates need", human(need.at_least, "W"), human(need.at_most, "W")))
-    if decision.rate_scaling is not None:
-        scale = decision.rate_scaling
-        rows.append(("largest common scaling of the promised rates", f"{scale.at_least:.3g}", f"{scale.at_most:.3g}"))
-    return Table(title="What it would take", columns=("figure", "at least", "at most"), rows=tuple(rows))
-
-
-def report_table(report: Report) -> Table:
-    """Figures of merit, predicted beside achieved."""
-    if report.achieved is None:
-        rows = tuple((label, before) for label, before, _ in report.figures() if label != "Goodput")
-        return Table(title="Predicted on the estimate", columns=("figure", "predicted"), rows=rows)
-    return Table(
-        title="Predicted on the estimate, achieved on the true channel",
-        columns=("figure", "predicted", "achieved"),
-        rows=tuple(report.figures()),
-    )
-
-
-def user_table(report: Report, estimate: ChannelEstimate | None = None) -> Table:
-    """Each user's subcarriers, power and rate."""
-    decision = report.decision
-    judged = decision.problem.outage_probability is not None and decision.expected_rate_bps.size > 0
-    rows: list[tuple[str, ...]] = []
-    for user, name in enumerate(decision.user_names):
-        own = decision.owner == user
-        row = [name, str(int(own.sum()))]
-        if estimate is not None:
-            row.append(str(int((own & estimate.repaired[user]).sum())))
-        row.append(human(float(decision.power_w[own].sum()), "W"))
-        row.append(human(decision.rate_bps[user], "bit/s"))
-        if judged:
-            row.append(human(decision.expected_rate_bps[user], "bit/s"))
-        if report.achieved is not None:
-            missed = f" ({percent(_shortfall(report, user))} short)" if user in report.missed_users else ""
-            row.append(human(report.achieved.user_rate_bps[user], "bit/s") + missed)
-        rows.append(tuple(row))
-    repaired = () if estimate is None else ("of them repaired",)
-    achieved = () if report.achieved is None else ("achieved rate",)
-    predicted = ("predicted rate",)
-    if judged:
-        predicted = (f"promised at {reliability(decision.problem.outage_probability or 0.0)}", "predicted rate")
-    return Table(
-        title="Users",
-        columns=("user", "subcarriers", *repaired, "power", *predicted, *achieved),
-        rows=tuple(rows),
-    )
-
-
-def _shortfall(report: Report, user: int) -> float:
-    """By how much a user's true rate falls short of the promised one, as a share."""
-    assert report.achieved is not None
-    return float(1 - report.achieved.user_rate_bps[user] / report.decision.rate_bps[user])
+def _known(figure: float) -> float | None:
+    return None if np.isnan(figure) else figure
 
 
 def _bracket(bracket: Bracket | None) -> BracketAnswer | None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import uuid
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Annotated
 
@@ -10,24 +12,28 @@ from pydantic import Field
 
 from wirelessagent import __version__, chain
 from wirelessagent.acting.file import FileBaseStation
+from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.explain.tables import decision_tables
+from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import recognise
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
-from wirelessagent.operations.answers import DecisionAnswer, EstimateAnswer, ReportAnswer, decision_tables
+from wirelessagent.operations.answers import DecisionAnswer, EstimateAnswer, ReportAnswer
 from wirelessagent.operations.cell_options import CellOptions
-from wirelessagent.operations.chain_run import Tools, act_on
+from wirelessagent.operations.chain_run import Answer, Tools, act_on
 from wirelessagent.operations.channel_file import file_scene
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions, Positional
 from wirelessagent.operations.intent import IntentRecord
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.outputs import check_allocation, check_picture, draw_run
 from wirelessagent.operations.record import Block, Matrix, Record, Table
+from wirelessagent.operations.recording import RecordingOptions
 from wirelessagent.operations.simulate import LOSS_USAGE
 from wirelessagent.operations.tool_options import MethodOptions, RepairerOptions
 from wirelessagent.sensing.loss import parse as parse_loss
 
 
-class AskRequest(MethodOptions, RepairerOptions, CellOptions):
+class AskRequest(RecordingOptions, MethodOptions, RepairerOptions, CellOptions):
     panel = "Options"
 
     text: Annotated[str, Positional()] = Field(description="what the cell should do, in English or Chinese")
@@ -73,6 +79,7 @@ class AskRecord(Record):
     explanation: list[str] = Field(default_factory=list)
     seed: int
     version: str
+    stored: int | None = None
     out: Path | None = None
     plot: Path | None = None
     tables: list[Table] = Field(default_factory=list[Table], exclude=True)
@@ -96,7 +103,8 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
     intent = recognise(request.text)
     understood = IntentRecord.of(request.text, intent)
     if intent.kind != "allocate" or intent.objective is None:
-        return AskRecord(intent=understood, seed=request.seed, version=__version__)
+        stored = request.remember(_turn(request, intent, None))
+        return AskRecord(intent=understood, seed=request.seed, version=__version__, stored=stored)
     scene = _scene(request, progress)
     default_loss = [] if request.csi else ["random:0.2"]
     losses = [parse_loss(text) for text in (default_loss if request.loss is None else request.loss)]
@@ -119,10 +127,23 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
         explanation=list(answer.explanation),
         seed=request.seed,
         version=__version__,
+        stored=request.remember(_turn(request, intent, answer)),
         out=out,
         plot=request.plot,
-        tables=decision_tables(answer.report, answer.estimate),
+        tables=decision_tables(answer.report, answer.estimate, intent.language),
     )
+
+
+def _turn(request: AskRequest, intent: Intent, answer: Answer | None) -> Turn:
+    """A conversation of one turn, for the record."""
+    usable = answer is not None and answer.decision.is_usable
+    done = "nothing" if not usable else "planned" if answer.outcome is None else "applied"
+    return Turn(
+        number=1, session=uuid.uuid4().hex[:12], text=request.text, intent=intent, reply=intent.reply,
+        stage="asked" if answer is None else done, run=None if answer is None else Run(**vars(answer)),
+        at_utc=datetime.now(UTC).isoformat(timespec="milliseconds"), version=__version__, seed=request.seed,
+        recogniser=intent.recogniser,
+    )  # fmt: skip
 
 
 def _scene(request: AskRequest, progress: Progress) -> Scene:

@@ -122,8 +122,10 @@ class EvaluateDecisionRequest(ChannelsRequest):
     panel = "Options"
 
     min_rate_bps: float = Field(500e3, description="rate promised to each user at the least power, bit/s")
-    outage_probability: float | None = Field(
-        None, description="accepted probability that a user's true rate stays below the promised one"
+    outage_probability: float = Field(
+        0.05,
+        description="accepted probability that a user's true rate stays below the promised one; "
+        "0 promises on the estimate as it stands",
     )
     max_power_w: float | None = Field(None, description="radiated power budget, W; the cell's limit if not given")
 
@@ -133,7 +135,7 @@ class EvaluateDecisionRequest(ChannelsRequest):
             losses=_each_once(self.loss or ["random:0.1", "random:0.2", "random:0.3", "random:0.5"]),
             methods=check_methods(self.methods or comparable_repairers()),
             min_rate_bps=self.min_rate_bps,
-            outage_probability=self.outage_probability,
+            outage_probability=self.outage_probability or None,
             max_power_w=self.max_power_w,
         )
 

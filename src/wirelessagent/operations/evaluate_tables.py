@@ -26,23 +26,23 @@ def repair_tables(table: Figures) -> list[Table]:
 
 
 def decision_tables(table: Figures) -> list[Table]:
-    columns = (
-        "method",
-        "goodput, %",
-        "prop. fair, %",
-        "smallest, %",
-        "missed, %",
-        "of repaired, %",
-        "power",
-        "refused, %",
+    reached = ("method", "goodput, %", "choice", "not carried", "caution", "prop. fair, %", "smallest, %")
+    promised = ("method", "missed, %", "of repaired, %", "power", "refused, %")
+
+    def reaches(row: dict[str, Any]) -> tuple[str, ...]:
+        goodput, *fair = (_figure(row, f"{name}_share", percent=True) for name in OBJECTIVES)
+        caution = 1.0 - row["goodput_share"] - row["choice_share"] - row["not_carried_share"]
+        lost = *(f"−{_share(row, name)}" for name in ("choice_share", "not_carried_share")), f"−{100.0 * caution:.1f}"
+        return (row["method"], goodput, *lost, *fair)
+
+    def promises(row: dict[str, Any]) -> tuple[str, ...]:
+        missed = (_figure(row, name, percent=True) for name in ("missed_share", "missed_of_resting_share"))
+        return (row["method"], *missed, _figure(row, "power_ratio"), _share(row, "refused_share"))
+
+    pairs = zip(
+        _by_case(table, reached, reaches, ": reached"), _by_case(table, promised, promises, ": promises"), strict=True
     )
-
-    def cells(row: dict[str, Any]) -> tuple[str, ...]:
-        names = (*(f"{name}_share" for name in OBJECTIVES), "missed_share", "missed_of_resting_share")
-        shares = (_figure(row, name, percent=True) for name in names)
-        return (row["method"], *shares, _figure(row, "power_ratio"), _share(row, "refused_share"))
-
-    return _by_case(table, columns, cells)
+    return [one for pair in pairs for one in pair]
 
 
 def _figure(row: dict[str, Any], column: str, *, percent: bool = False) -> str:
@@ -69,13 +69,13 @@ def _share(row: dict[str, Any], column: str) -> str:
 
 
 def _by_case(
-    table: Figures, columns: tuple[str, ...], cells: Callable[[dict[str, Any]], tuple[str, ...]]
+    table: Figures, columns: tuple[str, ...], cells: Callable[[dict[str, Any]], tuple[str, ...]], what: str = ""
 ) -> list[Table]:
-    """A table for each channel and loss, a row for each method."""
+    """A table of ``what`` for each channel and loss, a row for each method."""
     made: list[Table] = []
     for channel in table.values("channel"):
         for loss in table.where(channel=channel).values("loss"):
             rows = rows_of(table.where(channel=channel, loss=loss))
-            title = f"{channel}, {loss}: {100.0 * rows[0]['missing_share']:.0f} % missing"
+            title = f"{channel}, {loss}: {100.0 * rows[0]['missing_share']:.0f} % missing{what}"
             made.append(Table(title=title, columns=columns, rows=tuple(cells(row) for row in rows)))
     return made

@@ -1,0 +1,45 @@
+"""The labels of tables in the operator's language; English ones stand for themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+_CHINESE: Mapping[str, str] = {
+    "Users": "用户",
+    "user": "用户",
+    "subcarriers": "子载波",
+    "of them repaired": "其中修复的",
+    "power": "功率",
+    "predicted rate": "预测速率",
+    "predicted rate (90 % band)": "预测速率（90 % 区间）",
+    "committed (kept with)": "预定速率（兑现概率）",
+    "promised (kept with)": "承诺速率（兑现概率）",
+    "achieved rate": "实际速率",
+    "promised at {}": "以 {} 承诺",
+    "Promised at {}": "以 {} 承诺",
+    "{} of {} kept": "{}/{} 兑现",
+    "{} ({})": "{}（{}）",
+    "{} ({} short)": "{}（少 {}）",
+    "figure": "指标",
+    "predicted": "预测",
+    "achieved": "实际",
+    "all gains known": "增益全部已知时",
+    "at least": "至少",
+    "at most": "至多",
+    "Predicted on the estimate": "在估计信道上预测",
+    "Predicted on the estimate, achieved on the true channel": "估计信道上的预测与真实信道上的实际",
+    "What it would take": "需要什么",
+    "power that the promised rates need": "承诺速率所需功率",
+    "largest common scaling of the promised rates": "承诺速率的最大共同倍数",
+    "Sum rate": "总速率",
+    "Goodput": "有效吞吐量",
+    "Radiated power": "发射功率",
+    "Energy efficiency": "能效",
+    "Spectral efficiency": "频谱效率",
+    "Jain's fairness index": "Jain 公平指数",
+}
+
+
+def worded(language: str, label: str, *figures: object) -> str:
+    """A label of a table in the operator's language, with its figures filled in."""
+    return (_CHINESE.get(label, label) if language == "zh" else label).format(*figures)

@@ -1,0 +1,102 @@
+"""A decision and its report as tables, in the operator's language."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from wirelessagent.explain.labels import worded
+from wirelessagent.explain.report import Report
+from wirelessagent.explain.table import Table
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.forecast import Forecast
+from wirelessagent.model.units import human, percent, prefixed, reliability
+
+
+def decision_tables(report: Report, estimate: ChannelEstimate | None, language: str = "en") -> list[Table]:
+    """What people want to see of a decision: users and figures, or what it would take where it cannot be done."""
+    if report.decision.is_usable:
+        return [user_table(report, estimate, language), report_table(report, language)]
+    return [figures_of_infeasibility(report.decision, language)]
+
+
+def figures_of_infeasibility(decision: Decision, language: str = "en") -> Table:
+    """What the request would need and what could be had, each from both sides."""
+    rows: list[tuple[str, ...]] = []
+    if decision.needed_power_w is not None:
+        need, label = decision.needed_power_w, worded(language, "power that the promised rates need")
+        rows.append((label, human(need.at_least, "W"), human(need.at_most, "W")))
+    if decision.rate_scaling is not None:
+        scale, label = decision.rate_scaling, worded(language, "largest common scaling of the promised rates")
+        rows.append((label, f"{scale.at_least:.3g}", f"{scale.at_most:.3g}"))
+    return _table(language, "What it would take", ("figure", "at least", "at most"), rows)
+
+
+def report_table(report: Report, language: str = "en") -> Table:
+    """Figures of merit: predicted, achieved, and what knowing every gain would have achieved."""
+    rows = report.figures(language)
+    if report.achieved is None:
+        certain = report.decision.forecast is None
+        rows = [row[:2] for row in rows if not (certain and row[0] == worded(language, "Goodput"))]
+        return _table(language, "Predicted on the estimate", ("figure", "predicted"), rows)
+    columns = ("figure", "predicted", "achieved", *([] if report.perfect is None else ["all gains known"]))
+    return _table(language, "Predicted on the estimate, achieved on the true channel", columns, rows)
+
+
+def user_table(report: Report, estimate: ChannelEstimate | None = None, language: str = "en") -> Table:
+    """Each user's subcarriers, power and rates: predicted, how sure, committed and achieved."""
+    decision = report.decision
+    unsure, judged = decision.forecast is not None, decision.expected_rate_bps.size > 0
+    kind = "promised (kept with)" if decision.problem.promises_rates else "committed (kept with)"
+    columns = [
+        "user",
+        "subcarriers",
+        *([] if estimate is None else ["of them repaired"]),
+        "power",
+        *([worded(language, "promised at {}", reliability(decision.problem.outage_probability or 0.0))] * judged),
+        "predicted rate (90 % band)" if unsure else "predicted rate",
+        *([kind] * (unsure and not judged)),
+        *([] if report.achieved is None else ["achieved rate"]),
+    ]
+    rows = [_user(report, estimate, language, user) for user in range(len(decision.user_names))]
+    return _table(language, "Users", columns, rows)
+
+
+def _user(report: Report, estimate: ChannelEstimate | None, language: str, user: int) -> tuple[str, ...]:
+    """The row of one user in the columns of :func:`user_table`."""
+    decision, forecast = report.decision, report.decision.forecast
+    own, judged = decision.owner == user, decision.expected_rate_bps.size > 0
+    row = [decision.user_names[user], str(int(own.sum()))]
+    if estimate is not None:
+        row.append(str(int((own & estimate.repaired[user]).sum())))
+    row.append(human(float(decision.power_w[own].sum()), "W"))
+    if judged:
+        row.append(human(decision.rate_bps[user], "bit/s"))
+    predicted = report.predicted.user_rate_bps[user]
+    row.append(human(predicted, "bit/s") if forecast is None else _banded(forecast, user, predicted))
+    if forecast is not None and not judged:
+        rate, sure = decision.committed_bps[user], f"{100 * forecast.carried[user]:.0f} %"
+        row.append(worded(language, "{} ({})", human(rate, "bit/s"), sure) if rate > 0 else human(rate, "bit/s"))
+    if report.achieved is not None:
+        achieved = human(report.achieved.user_rate_bps[user], "bit/s")
+        short = percent(_shortfall(report, user)) if user in report.missed_users else ""
+        row.append(worded(language, "{} ({} short)", achieved, short) if short else achieved)
+    return tuple(row)
+
+
+def _shortfall(report: Report, user: int) -> float:
+    """By how much a user's true rate falls short of the committed one, as a share."""
+    assert report.achieved is not None
+    return float(1 - report.achieved.user_rate_bps[user] / report.decision.committed_bps[user])
+
+
+def _banded(forecast: Forecast, user: int, rate_bps: float) -> str:
+    """A rate with its band, as in "1.21 (1.1–1.3) Mbit/s"; the rate alone where the band does not show."""
+    scale, unit = prefixed(rate_bps, "bit/s")
+    low, rate, high = (f"{one / scale:.3g}" for one in (forecast.low_bps[user], rate_bps, forecast.high_bps[user]))
+    return f"{rate} {unit}" if low == high else f"{rate} ({low}–{high}) {unit}"
+
+
+def _table(language: str, title: str, columns: Sequence[str], rows: Sequence[tuple[str, ...]]) -> Table:
+    names = tuple(worded(language, column) for column in columns)
+    return Table(title=worded(language, title), columns=names, rows=tuple(rows))
