@@ -15,7 +15,9 @@ from wirelessagent.model.arrays import FloatArray
 
 SPREADS = np.array([0.05, 0.25, 0.7, 2.0])
 ROUNDS = 4
-FLOOR, SMALLEST = 1e-12, 1e-300
+FLOOR = 1e-12
+SMALLEST, TOGETHER = 1e-19, 16
+"""Less than any evidence, by the floor of the priors, and how many of its like may be multiplied."""
 PSEUDO_USERS = 1.0
 """Users that stand for equal shares of the kinds."""
 
@@ -38,33 +40,34 @@ def delay_priors(delays: int, log_step: float) -> FloatArray:
 
 @kernel
 def log_evidence_of(evidence: FloatArray, log_prior: FloatArray) -> FloatArray:
-    """Σ ln of the users' ``evidence`` (user, prior), between 0 and about 1, and ``log_prior`` (delay,); (prior,).
+    """Σ ln of the users' ``evidence`` (user, prior), ``SMALLEST`` to about 1, and ``log_prior`` (delay,); (prior,).
 
-    With as few logarithms as products allow.
+    Logarithms are taken of products, as many together as a number holds.
     """
     users, count = evidence.shape
-    total = np.empty(count)
+    total, product = np.empty(count), np.empty(count)
     for p in range(count):
-        product = 1.0
         total[p] = log_prior[p % log_prior.size]
-        for k in range(users):
-            if product * evidence[k, p] < SMALLEST:
-                total[p] += np.log(product)
-                product = 1.0
-            product *= evidence[k, p]
-        total[p] += np.log(product)
+    for first in range(0, users, TOGETHER):
+        product[:] = 1.0
+        for k in range(first, min(first + TOGETHER, users)):
+            for p in range(count):
+                product[p] *= evidence[k, p]
+        total += np.log(product)
     return total
 
 
 @kernel
-def posterior_of_delays(likelihood: FloatArray, priors: FloatArray, log_prior: FloatArray) -> FloatArray:
+def posterior_of_delays(
+    likelihood: FloatArray, priors: FloatArray, across: FloatArray, log_prior: FloatArray
+) -> FloatArray:
     """Factors that turn the likelihood (user, delay) into the pooled posterior, up to each user's total; same shape.
 
-    ``log_prior`` (delay,) is that of m.
+    ``across`` (delay, prior) holds the priors the other way round, ``log_prior`` (delay,) is that of m.
     """
     users, delays = likelihood.shape
     count = priors.shape[0]
-    across, evidence = priors.T.copy(), np.zeros((users, count))
+    evidence = np.zeros((users, count))
     for k in range(users):
         for t in range(delays):
             own = likelihood[k, t]
@@ -96,28 +99,27 @@ def pooled_weights(log_likelihood: FloatArray, families: int, log_step: float, l
     users, count = log_likelihood.shape
     delays = count // families
     priors = delay_priors(delays, log_step)
-    likelihood = np.empty((users, count))
+    across = priors.T.copy()
+    likelihood = np.empty((users, families, delays))
     for k in range(users):
-        likelihood[k] = np.exp(log_likelihood[k] - log_likelihood[k].max())
-    share = np.full(families, 1.0 / families)
-    weight = np.empty((users, count))
+        likelihood[k] = np.exp(log_likelihood[k] - log_likelihood[k].max()).reshape((families, delays))
+    share, part = np.full(families, 1.0 / families), np.empty((users, families))
+    weight = np.empty((users, families, delays))
     for _ in range(ROUNDS):
         mixed = np.zeros((users, delays))
         for k in range(users):
             for f in range(families):
                 for t in range(delays):
-                    mixed[k, t] += share[f] * likelihood[k, f * delays + t]
-        factor = posterior_of_delays(mixed, priors, log_prior)
+                    mixed[k, t] += share[f] * likelihood[k, f, t]
+        factor = posterior_of_delays(mixed, priors, across, log_prior)
         found = np.full(families, PSEUDO_USERS / families)
         for k in range(users):
-            total = 0.0
             for f in range(families):
                 for t in range(delays):
-                    weight[k, f * delays + t] = share[f] * likelihood[k, f * delays + t] * factor[k, t]
-                    total += weight[k, f * delays + t]
-            for f in range(families):
-                for t in range(delays):
-                    weight[k, f * delays + t] /= total
-                    found[f] += weight[k, f * delays + t]
+                    weight[k, f, t] = share[f] * likelihood[k, f, t] * factor[k, t]
+                part[k, f] = weight[k, f].sum()
+            found += part[k] / part[k].sum()
         share = found / found.sum()
-    return weight
+    for k in range(users):
+        weight[k] /= part[k].sum()
+    return weight.reshape((users, count))
