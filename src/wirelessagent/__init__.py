@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from wirelessagent.acting.base_station import BaseStation
     from wirelessagent.acting.file import FileBaseStation
     from wirelessagent.acting.simulated import SimulatedBaseStation
-    from wirelessagent.agent.session import Session
+    from wirelessagent.agent.session import Session, ask
     from wirelessagent.chain import decide, decide_batch, perfect, repair, simulate
     from wirelessagent.comparison import compare
     from wirelessagent.deciding.method import Method
@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from wirelessagent.model.posterior import GammaPosterior, Posterior
     from wirelessagent.model.problem import Problem
     from wirelessagent.model.scene import Scene
-    from wirelessagent.operations.chain_run import ask
     from wirelessagent.repairing.kriging import Kriging
     from wirelessagent.repairing.repairer import Repairer
     from wirelessagent.sensing import loss
@@ -76,7 +75,7 @@ _HOMES = {
     "Session": "agent.session",
     "SimulatedBaseStation": "acting.simulated",
     "WirelessAgentError": "model.errors",
-    "ask": "operations.chain_run",
+    "ask": "agent.session",
     "compare": "comparison",
     "decide": "chain",
     "decide_batch": "chain",

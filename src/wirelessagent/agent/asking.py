@@ -9,15 +9,16 @@ from typing import cast
 
 from wirelessagent import plugins
 from wirelessagent.agent import answers
-from wirelessagent.agent.figures import certificate_line, decision_tables, side_by_side, worded
-from wirelessagent.agent.posing import UnknownUserError
+from wirelessagent.agent.figures import certificate_line, side_by_side
 from wirelessagent.agent.request import Request
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.agent.words import say
+from wirelessagent.explain.labels import worded
 from wirelessagent.explain.table import Table
+from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.units import human, percent
@@ -199,13 +200,12 @@ def export(intent: Intent, turns: Sequence[Turn]) -> Reply:
     return Reply(text=tmf921.to_json(tmf921.document(subject)))
 
 
-def question(site: Site, state: State, intent: Intent) -> Reply:
-    """A question about the decision that holds."""
+def question(site: Site, state: State, intent: Intent, text: str) -> Reply:
+    """A question about a term, or about the decision that holds."""
+    language = intent.language
     if intent.topic == "concept":
-        return Reply(text=answers.concept(intent) or say(intent.language, "help"))
+        return Reply(text=answers.concept(text, language) or say(language, "help"))
     if state.run is None:
-        return Reply(text=say(intent.language, "nothing_yet"))
-    if intent.topic == "why_user" and not intent.details.get("user"):
-        raise UnknownUserError("", site.user_names, intent.language)
-    text, tables = answers.answer(state.run, intent, site.user_names)
-    return Reply(text=text or say(intent.language, "no_such_answer", help=say(intent.language, "help")), tables=tables)
+        return Reply(text=say(language, "nothing_yet"))
+    said, tables = answers.answer(state.run, intent, site.user_names)
+    return Reply(text=said, tables=tables)

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import Effect, same_allocation
 from wirelessagent.agent.events import Event
-from wirelessagent.agent.figures import certificate_line, decision_tables
+from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.request import requested
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.run import applied_line, with_outcome
@@ -19,6 +19,7 @@ from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run, Stage
 from wirelessagent.agent.words import joined, say
+from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.units import human
 

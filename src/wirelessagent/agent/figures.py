@@ -2,42 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wirelessagent.agent.turn import Run
 from wirelessagent.agent.words import say
+from wirelessagent.explain.labels import worded
 from wirelessagent.explain.report import cannot_be_served, name_of_figure
 from wirelessagent.explain.table import Table
-from wirelessagent.explain.tables import decision_tables as decision_tables
-from wirelessagent.explain.tables import user_table as user_table
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
 
-_CHINESE: Mapping[str, str] = {
-    "figure": "指标",
-    "power": "功率",
-    "Sum rate": "总速率",
-    "Side by side": "并列比较",
-    "objective": "目标",
-    "status": "状态",
-    "value": "目标值",
-    "bound": "界",
-    "gap": "差距",
-    "power needed": "所需功率",
-    "lowest rate": "最低速率",
-    "users served": "服务的用户",
-    "promises missed": "未兑现的承诺",
-    "turn": "轮次",
-    "said": "内容",
-    "came to": "结果",
-}
-
-
-def worded(language: str, label: str, *figures: object) -> str:
-    """A label of a table in the operator's language, with its figures filled in."""
-    return (_CHINESE.get(label, label) if language == "zh" else label).format(*figures)
+if TYPE_CHECKING:
+    from wirelessagent.agent.turn import Run
 
 
 def certificate_line(decision: Decision, language: str = "en") -> str:

@@ -117,7 +117,7 @@ class Session:
             sure = f"{intent.confidence:.0%}"
             message = say(intent.language, "understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure)
             self._progress(Event(stage="understand", message=message))
-        reply = self._reply(intent)
+        reply = self._reply(intent, text)
         self._take(reply)
         return self._kept(text, intent, reply)
 
@@ -133,10 +133,10 @@ class Session:
             language=self._language,
         )
 
-    def _reply(self, intent: Intent) -> Reply:
+    def _reply(self, intent: Intent, text: str) -> Reply:
         """What the intent leads to; what cannot be done becomes a reply, and changes nothing."""
         try:
-            return self._handled(intent)
+            return self._handled(intent, text)
         except UnclearRequestError as question:
             reference = question.reference if isinstance(question, UnknownUserError) else None
             missing = None if reference is None else Missing(intent=intent, reference=reference)
@@ -150,7 +150,7 @@ class Session:
             key = "unsupported" if isinstance(error, UnsupportedProblemError) else "failed"
             return Reply(text=say(intent.language, key, why=error), stage="nothing")
 
-    def _handled(self, intent: Intent) -> Reply:
+    def _handled(self, intent: Intent, text: str) -> Reply:
         site, state = self._site, self._state
         if intent.kind == "allocate":
             return changing.allocate(site, state, intent)
@@ -177,7 +177,7 @@ class Session:
         handle = handlers.get(intent.topic or "")
         if handle is not None:
             return handle()
-        return asking.question(site, state, intent) if intent.kind == "question" else Reply(text=intent.reply)
+        return asking.question(site, state, intent, text) if intent.kind == "question" else Reply(text=intent.reply)
 
     def _take(self, reply: Reply) -> None:
         """Let what the reply brought hold, and remember what held before another request."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.tools import Tools
 from wirelessagent.explain.report import Report
 from wirelessagent.explain.table import Table
@@ -48,6 +49,10 @@ class Run:
     notes: tuple[str, ...]
     explanation: tuple[str, ...]
     tools: Tools
+
+    def __str__(self) -> str:
+        line = certificate_line(self.decision, self.intent.language)
+        return "\n".join([line, *self.notes, *self.explanation, str(self.report)])
 
 
 @dataclass(frozen=True, kw_only=True)

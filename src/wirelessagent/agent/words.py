@@ -106,7 +106,6 @@ _ENGLISH: Mapping[str, str] = {
     "Repairers: {repairers}.",
     "refused": "{name}: {why}",
     "export_unknown": "I can write ts28312 (3GPP TS 28.312) and tmf921 (TMF921 v5); got {format}. Which one?",
-    "no_such_answer": "I can't answer that yet. {help}",
     "which_user": "About which user: {known}?",
     "help": "Say what the cell should do: the highest total rate, the least power, the most bits per joule, a fair "
     "share, or the best rate for the slowest; with limits such as 'at most 10 W', '1 Mbit/s each', 'leave user 3 "
@@ -209,7 +208,6 @@ _CHINESE: Mapping[str, str] = {
     "not_installed": "{name} 既不是已安装的方法，也不是修复器。方法：{methods}。修复器：{repairers}。",
     "refused": "{name}：{why}",
     "export_unknown": "可写 ts28312（3GPP TS 28.312）和 tmf921（TMF921 v5）；收到 {format}。要哪一种？",
-    "no_such_answer": "这个问题还不能回答。{help}",
     "which_user": "是指哪个用户：{known}？",
     "help": "请说明小区应做什么：总速率最高、功率最低、能效最高、公平分配，或最慢用户的速率最高；"
     "可附限制，如“功率不超过 10 W”“每用户 1 Mbit/s”“不要用户3”“可靠性 95 %”。更改：“改为 5 W”“取消功率限制”“撤销”。"

@@ -37,6 +37,19 @@ _CHINESE: Mapping[str, str] = {
     "Energy efficiency": "能效",
     "Spectral efficiency": "频谱效率",
     "Jain's fairness index": "Jain 公平指数",
+    "Side by side": "并列比较",
+    "objective": "目标",
+    "status": "状态",
+    "value": "目标值",
+    "bound": "界",
+    "gap": "差距",
+    "power needed": "所需功率",
+    "lowest rate": "最低速率",
+    "users served": "服务的用户",
+    "promises missed": "未兑现的承诺",
+    "turn": "轮次",
+    "said": "内容",
+    "came to": "结果",
 }
 
 

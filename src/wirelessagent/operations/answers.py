@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from wirelessagent.explain.report import Report, cannot_be_served, predicted_metrics
+from wirelessagent.explain.report import Report, predicted_metrics
 from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.forecast import Forecast
 from wirelessagent.model.metrics import LinkMetrics
-from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.operations.record import Integers, Matrix, Record, SwitchMatrix, Vector
 
 
@@ -153,23 +152,6 @@ class ReportAnswer(Record):
             forecast=ForecastAnswer.of(report.decision.forecast),
             missed_users=[report.decision.user_names[user] for user in report.missed_users],
         )
-
-
-def certificate_line(decision: Decision) -> str:
-    """Status, value, bound and gap in one line."""
-    if not decision.is_usable:
-        return f"{decision.status}: {decision.reason} ({decision.method})"
-    value = human(decision.value, decision.unit)
-    if np.isnan(decision.gap):
-        return f"{decision.status}: {value} ({decision.method}; no bound)"
-    left_out = cannot_be_served(decision)
-    outage = decision.problem.outage_probability
-    of = "no allocation on this estimate does" if outage is None else f"no promises kept at {reliability(outage)} do"
-    return (
-        f"{decision.status}: {value}; {of} better than "
-        f"{human(decision.bound, decision.unit)} (gap {percent(decision.gap)}; {decision.method})"
-        + (f". Note: {left_out}" if left_out else "")
-    )
 
 
 def _known(figure: float) -> float | None:

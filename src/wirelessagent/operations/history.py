@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 import numpy as np
 from pydantic import Field
 
+from wirelessagent.agent.figures import certificate_line
 from wirelessagent.explain.report import report
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.model.arrays import whole
 from wirelessagent.model.atomic import writable_target, write_atomically
 from wirelessagent.model.errors import NothingRecordedError
 from wirelessagent.model.units import human, percent
-from wirelessagent.operations.answers import DecisionAnswer, certificate_line
+from wirelessagent.operations.answers import DecisionAnswer
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.record import Block, Record, Table

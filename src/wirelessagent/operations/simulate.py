@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from wirelessagent import chain
+from wirelessagent.agent.run import describe
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.units import db
@@ -86,17 +87,6 @@ def run(request: SimulateRequest, progress: Progress) -> SimulateRecord:
         truth=truth,  # pyright: ignore[reportArgumentType]
         seed=request.seed,
         out=request.out,
-    )
-
-
-def describe(seen: ChannelObservation) -> str:
-    """The size of an observation and what is missing, in one sentence."""
-    missing = int(seen.missing.sum())
-    share = missing / seen.missing.size
-    history = f", {seen.num_slots} slots" if seen.num_slots > 1 else ""
-    return (
-        f"{seen.num_users} users × {seen.num_subcarriers} subcarriers{history}; "
-        f"{missing} of {seen.missing.size} gains missing ({share:.0%})"
     )
 
 

@@ -8,13 +8,14 @@ from pydantic import Field
 
 from wirelessagent import chain
 from wirelessagent.acting.file import FileBaseStation
+from wirelessagent.agent.figures import certificate_line
 from wirelessagent.explain.report import report
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.explain.words import explain
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.scene import Scene
-from wirelessagent.operations.answers import DecisionAnswer, ReportAnswer, certificate_line
+from wirelessagent.operations.answers import DecisionAnswer, ReportAnswer
 from wirelessagent.operations.channel_file import ChannelFile
 from wirelessagent.operations.operation import Event, Operation, Progress
 from wirelessagent.operations.outputs import check_allocation, check_picture, draw_run
