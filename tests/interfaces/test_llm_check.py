@@ -134,10 +134,14 @@ class TestConversation:
     @pytest.mark.parametrize("topic", ["apply", "confirm"])
     def test_only_the_operator_says_yes(self, topic: str) -> None:
         plain = by_rules("command", topic=topic)
-        assert read("yes", plain, kind="command", topic=topic).topic == topic
-        refused("go_ahead", "sounds interesting", by_rules(), kind="command", topic=topic)
+        asked = Context(awaits="confirmation")
+        assert read("yes", plain, asked, kind="command", topic=topic).topic == topic
+        refused("go_ahead", "sounds interesting", by_rules(), asked, kind="command", topic=topic)
         other = "confirm" if topic == "apply" else "apply"
-        refused("go_ahead", "yes", by_rules("command", topic=other), kind="command", topic=topic)
+        refused("go_ahead", "yes", by_rules("command", topic=other), asked, kind="command", topic=topic)
+
+    def test_nothing_is_confirmed_that_was_not_asked(self) -> None:
+        refused("go_ahead", "yes", by_rules("command", topic="confirm"), kind="command", topic="confirm")
 
     def test_other_commands_and_questions_have_details(self) -> None:
         rules = by_rules("question")

@@ -212,9 +212,16 @@ class Case:
             for stated in meaning.constraints
             if (figure := matching(self.figures, stated.figure, KINDS[stated.constraint])) is not None
         }
+        named = {
+            user
+            for users in (meaning.users, meaning.leave_out, *(s.users for s in meaning.constraints))
+            for user in users
+        }
         for figure in self.figures:
             if not figure.quantity or figure.label in used:
                 continue
+            if figure.kind == "unusable" and f"{figure.value:g}" in named:
+                continue  # "users 1, 2 and 4": a number that names
             if figure.label not in meaning.set_aside:
                 raise Objection("left_out", f"{figure.label} ({figure.words!r}) is neither used nor in set_aside")
             if figure.kind == "unusable" and self.offline.kind != "allocate":
@@ -238,7 +245,8 @@ class Case:
         session = [figure for figure in self.figures if figure.label.startswith("S")]
         for name, value in constraints.items():
             kind = KINDS.get(name)
-            if name in rules or kind is None or kind == "number":
+            exact = name == "max_rate_bps" and _same(value, rules.get("min_rate_bps", ()))
+            if name in rules or exact or kind is None or kind == "number":
                 continue
             told = [matching(session, each, kind) for each in _by_user(value).values()]
             if None in told:
@@ -262,7 +270,9 @@ class Case:
         known = COMMANDS if meaning.kind == "command" else QUESTIONS
         if meaning.topic is not None and meaning.topic not in known:
             raise Objection("mixed", f"topics of a {meaning.kind} are {', '.join(known)}")
-        if meaning.topic in ACTING and (self.offline.kind, self.offline.topic) != ("command", meaning.topic):
+        plainly = (self.offline.kind, self.offline.topic) == ("command", meaning.topic)
+        awaited = meaning.topic != "confirm" or self.context.awaits == "confirmation"
+        if meaning.topic in ACTING and not (plainly and awaited):
             raise Objection("go_ahead", f"the operator did not plainly say {meaning.topic}: use clarify")
         details = {**self._details(meaning), **self._supposed(meaning)}
         return Read(kind=meaning.kind, topic=meaning.topic, details=details, language=meaning.language)
