@@ -1,4 +1,4 @@
-"""The conversation on the command line: from a script, a pipe and a terminal, in words and as JSON."""
+"""Conversations on the command line: from a script, a pipe and a terminal, in words and as JSON; and of one turn."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from wirelessagent.acting.file import FileBaseStation
 from wirelessagent.interfaces.cli import run
 from wirelessagent.operations.chat import ChatRequest
 from wirelessagent.operations.chat import run as chat
@@ -102,3 +103,39 @@ def test_without_a_terminal_the_request_says_it_all() -> None:
     assert record.needs_answer
     with pytest.raises(InputError, match="nothing is said"):
         chat(ChatRequest(), silent)
+
+
+def test_a_request_by_itself_asks_as_well(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "allocation.json"
+    command = ["ask", "maximum rate", *CELL, "--base-station", "file", "--path", str(out)]
+    assert run(command) == 2
+    assert "Nothing was applied: --yes applies it." in capsys.readouterr().out
+    assert not out.exists()
+    assert run([*command, "--json"]) == 2
+    record = json.loads(capsys.readouterr().out)
+    assert (record["stage"], record["waits"], record["outcome"]) == ("planned", True, None)
+    assert run([*command, "--yes", "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert (record["stage"], record["waits"], record["outcome"]["base_station"]) == ("applied", False, "file")
+    assert out.exists()
+
+
+def test_a_base_station_that_fails_is_a_failure(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(self: FileBaseStation, decision: object) -> None:
+        raise OSError("the link broke off")
+
+    command = ["ask", "maximum rate", *CELL, "--base-station", "file", "--yes", "--path"]
+    assert run([*command, str(tmp_path / "none" / "allocation.json")]) == 2  # nothing was touched yet
+    assert "create it first" in capsys.readouterr().err
+    monkeypatch.setattr(FileBaseStation, "apply", broken)
+    assert run([*command, str(tmp_path / "allocation.json")]) == 1
+    assert "The base station file failed: the link broke off." in capsys.readouterr().err
+
+
+def test_a_question_by_itself_is_answered_or_asked_back(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["ask", "undo", *CELL, "--json"]) == 2
+    record = json.loads(capsys.readouterr().out)
+    assert (record["stage"], record["decision"]) == ("nothing", None)
+    assert record["reply"] == "There is nothing to undo."

@@ -22,7 +22,7 @@ def certificate_line(decision: Decision, language: str = "en") -> str:
     """Status, value, bound and gap in one line."""
     status, method = say(language, decision.status), decision.method
     if not decision.is_usable:
-        return say(language, "certificate_unusable", status=status, reason=decision.reason, method=method)
+        return say(language, "certificate_unusable", status=status, reason=_reason(decision, language), method=method)
     value = human(decision.value, decision.unit)
     if np.isnan(decision.gap):
         return say(language, "certificate_no_bound", status=status, value=value, method=method)
@@ -33,6 +33,14 @@ def certificate_line(decision: Decision, language: str = "en") -> str:
     )  # fmt: skip
     left_out = cannot_be_served(decision)
     return say(language, "certificate_note", line=line, note=left_out) if left_out else line
+
+
+def _reason(decision: Decision, language: str) -> str:
+    """Why there is no allocation; a decision says so in English, so that its figures are put into other words."""
+    need, budget = decision.needed_power_w, decision.problem.budget_w(decision.cell)
+    if language == "en" or decision.status != "infeasible" or need is None or not need.at_least > budget:
+        return decision.reason
+    return say(language, "needs_power", needed=human(need.at_least, "W"), budget=human(budget, "W"))
 
 
 def side_by_side(runs: Sequence[tuple[str, Run]], language: str = "en") -> Table:
