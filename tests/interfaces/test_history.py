@@ -197,7 +197,7 @@ def test_history_show_tells_a_turn_and_checks_it(
         store.append(turn)
         store.append(random_turn(4, seed=1))
     record = answer(capsys, "history", "show", 1)
-    assert record["faults"] == []
+    assert record["tampering"] == []
     assert record["turn"]["allocation"]["owner"] == turn.run.decision.owner.tolist()
     assert record["turn"]["applied"]["power_w"] == turn.run.decision.power_w.tolist()
     shown = told(capsys, "history", "show", 1)
@@ -215,7 +215,7 @@ def test_history_show_tells_a_turn_and_checks_it(
         connection.execute("DROP TRIGGER audit_turn_no_update")
         connection.execute("UPDATE audit_turn SET text = 'save power' WHERE number = 1")
         connection.commit()
-    assert answer(capsys, "history", "show", 1)["faults"] == [
+    assert answer(capsys, "history", "show", 1)["tampering"] == [
         "the trigger audit_turn_no_update is missing", "turn 1 was changed",
     ]  # fmt: skip
     assert "WARNING: the trigger audit_turn_no_update is missing; turn 1 was changed" in told(
@@ -249,7 +249,16 @@ def test_a_conversation_is_recorded_turn_by_turn(place: Path, capsys: pytest.Cap
         if turn["decision"] is not None:
             assert line["value"] == turn["decision"]["value"]
             assert answer(capsys, "history", "replay", line["number"])["verdict"] == "identical"
-    assert answer(capsys, "history", "show", 4)["faults"] == []
+    assert answer(capsys, "history", "show", 4)["tampering"] == []
+
+
+def test_a_sentence_is_recorded(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    asked = answer(capsys, "ask", "Highest total rate, at most 10 W", "--num-users", 4)
+    assert asked["stored"] == 1
+    assert answer(capsys, "ask", "Highest total rate", "--num-users", 4, "--no-store")["stored"] is None
+    (line,) = answer(capsys, "history")["turns"]
+    assert (line["stage"], line["value"]) == ("applied", asked["decision"]["value"])
+    assert answer(capsys, "history", "replay", 1)["verdict"] == "identical"
 
 
 @pytest.mark.parametrize("how", ["option", "setting"])
@@ -284,7 +293,7 @@ def test_a_replay_in_another_process_is_identical(place: Path, scene: wa.Scene) 
     with Store.open(place, create=True) as store:
         store.append(decided_turn(scene, wa.Problem("min_power", min_rate_bps=2e5), LOST))
     command = [sys.executable, "-m", "wirelessagent", "history", "replay", "1", "--json"]
-    found = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    found = subprocess.run(command, capture_output=True, text=True, timeout=300, check=True)
     assert json.loads(found.stdout)["verdict"] == "identical"
 
 

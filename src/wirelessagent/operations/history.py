@@ -114,7 +114,7 @@ class ShowRecord(Record):
     """All that is recorded of a turn, and what was changed or removed since in its session."""
 
     turn: dict[str, Any]
-    faults: list[str]
+    tampering: list[str]
     paragraphs: list[str | Table] = Field(exclude=True)
 
     def blocks(self) -> list[Block]:
@@ -127,7 +127,7 @@ def show_turn(request: TurnRequest, progress: Progress) -> ShowRecord:
         turn = store.turn(request.number)
         faults = store.faults(turn.session)
         said = [*_said(turn), *_decided(store, turn), *_kept(turn, faults)]
-        return ShowRecord(turn=plain(vars(turn)), faults=faults, paragraphs=said)
+        return ShowRecord(turn=plain(vars(turn)), tampering=faults, paragraphs=said)
 
 
 def _said(turn: StoredTurn) -> Iterator[Block]:
