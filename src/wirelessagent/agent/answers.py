@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.turn import Run
+from wirelessagent.explain.answering import answered
+from wirelessagent.explain.case import Case
+from wirelessagent.explain.glossary import explained
 from wirelessagent.explain.table import Table
-from wirelessagent.explain.tables import user_table
 from wirelessagent.explain.words import explain
 from wirelessagent.language.intent import Intent
 
@@ -16,12 +19,32 @@ def explanation(run: Run, language: str) -> str:
 
 def concept(text: str, language: str) -> str:
     """What the terms in a question mean; empty where none is known."""
-    del text, language
-    return ""
+    return explained(text, language)
 
 
 def answer(run: Run, intent: Intent, user_names: tuple[str, ...]) -> tuple[str, tuple[Table, ...]]:
-    """The answer to a question about a decision, and its tables."""
-    del user_names
-    tables = (user_table(run.report, run.estimate, intent.language),) if intent.topic == "users" else ()
-    return explanation(run, intent.language), tables
+    """The answer to a question about a decision, and its tables; the explanation where there is no closer one.
+
+    Raises:
+        UnclearRequestError: it is about a user who is not there, or does not say which; the message asks back.
+    """
+    case = Case(decision=run.decision, estimate=run.estimate, method=run.tools.method, options=run.tools.method_options)
+    topic, details = intent.topic or "", intent.details
+    figures = {name: float(value) for name, value in details.items() if isinstance(value, int | float)}
+    found = answered(
+        case, run.report, topic, intent.language, user=_user(intent, user_names), figures=figures
+    )  # fmt: skip
+    if found is None:
+        return explanation(run, intent.language), ()
+    text, tables = found
+    return text or explain(run.estimate, run.report, language=intent.language)[0], tables
+
+
+def _user(intent: Intent, user_names: tuple[str, ...]) -> int | None:
+    """The number of the user that a question is about; None for nobody."""
+    reference = intent.details.get("user")
+    if isinstance(reference, str):
+        return user_number(reference, user_names, intent.language)[0]
+    if intent.topic == "why_user":
+        raise UnknownUserError("", user_names, intent.language)
+    return None

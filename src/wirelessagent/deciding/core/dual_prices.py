@@ -14,6 +14,7 @@ from wirelessagent.model.decision import Bracket
 from wirelessagent.model.rates import user_rate_bps
 
 _ROUNDING = 1e-9
+_NEWTON_STEPS = 30
 
 
 def figures_of(form: NormalForm, found: Search, least: Search | None, scaled_by: Effort | None = None) -> Figures:
@@ -88,7 +89,7 @@ def _price_of_rate(form: NormalForm, found: Search) -> FloatArray:
 
 
 def _figure_slope(form: NormalForm, found: Search) -> float:
-    """dfigure/dU at the bound that the search found, by central difference."""
+    """dfigure/dU at the bound that the search found, by central difference; Newton's steps find its U."""
     rate = user_rate_bps(form.estimate.gain, found.owner, found.power_w, form.cell)
     counts = form.weight > 0
     worth = form.weight[counts] * form.objective.utility(rate)[counts]
@@ -96,5 +97,11 @@ def _figure_slope(form: NormalForm, found: Search) -> float:
     if not np.isfinite(joint):
         return 0.0
     total, step = float(form.weight.sum()), 1e-6 * (magnitude if magnitude > 0 else 1e-9)
-    rise = form.objective.figure(joint + step, total) - form.objective.figure(joint - step, total)
-    return rise / (2.0 * step)
+    slope = 0.0
+    for _ in range(_NEWTON_STEPS):
+        rise = form.objective.figure(joint + step, total) - form.objective.figure(joint - step, total)
+        slope, short = rise / (2.0 * step), found.bound - form.objective.figure(joint, total)
+        if not np.isfinite(short) or slope <= 0.0 or abs(short) <= _ROUNDING * abs(found.bound):
+            break
+        joint += short / slope
+    return slope

@@ -1,0 +1,76 @@
+"""Questions about a decision by their topic, each answered by what is computed for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from wirelessagent.explain.case import Case
+from wirelessagent.explain.contested import contested
+from wirelessagent.explain.nearest import nearest
+from wirelessagent.explain.nearest_words import feasible_answer, nearest_answer
+from wirelessagent.explain.proof_words import (
+    certificate_answer,
+    contested_table,
+    prices_answer,
+    prices_table,
+    uncertainty_answer,
+)
+from wirelessagent.explain.report import Report
+from wirelessagent.explain.step_words import no_power_answer, step_answer
+from wirelessagent.explain.steps import power_step, rate_step
+from wirelessagent.explain.table import Table
+from wirelessagent.explain.tables import user_table
+from wirelessagent.explain.user_words import user_answer
+from wirelessagent.explain.users import account
+
+Answer = tuple[str, tuple[Table, ...]]
+
+
+def answered(
+    case: Case, report: Report, topic: str, language: str, *, user: int | None = None, figures: Mapping[str, float]
+) -> Answer | None:
+    """The answer to a question and its tables; None where the topic is none of these.
+
+    Args:
+        case: the decision asked about.
+        report: of the decision.
+        topic: why_user, why_infeasible, certificate, uncertainty, step, prices or users.
+        language: the operator's.
+        user: whom it is about, from 0.
+        figures: power_w or rate_bps of a step.
+    """
+    usable = case.decision.is_usable
+    if topic == "why_user" and user is not None:
+        return user_answer(case, account(case, user), language), ()
+    if topic == "step":
+        return _step(case, language, user, figures), ()
+    if topic == "why_infeasible" or not usable:
+        if usable:
+            return feasible_answer(case, language), ()
+        return nearest_answer(case, nearest(case), language), ()
+    users = user_table(report, case.estimate, language)
+    if topic == "certificate":
+        return certificate_answer(case, language), ()
+    if topic == "uncertainty":
+        return uncertainty_answer(case, language), (users,)
+    if topic == "prices":
+        return prices_answer(case, language), _known(prices_table(case, language), _contests(case, language))
+    if topic == "users":
+        return "", _known(users, _contests(case, language))
+    return None
+
+
+def _step(case: Case, language: str, user: int | None, figures: Mapping[str, float]) -> str:
+    if "rate_bps" in figures:
+        return step_answer(case, rate_step(case, figures["rate_bps"], user), language)
+    step_w = figures.get("power_w", 1.0)
+    step = power_step(case, step_w)
+    return no_power_answer(case, step_w, language) if step is None else step_answer(case, step, language)
+
+
+def _contests(case: Case, language: str) -> Table | None:
+    return contested_table(case, contested(case), language)
+
+
+def _known(*tables: Table | None) -> tuple[Table, ...]:
+    return tuple(table for table in tables if table is not None)

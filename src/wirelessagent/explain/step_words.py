@@ -1,0 +1,150 @@
+"""Finite steps in words, beside what the marginal price makes of them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wirelessagent.explain.case import Case
+from wirelessagent.explain.lexicon import Lexicon, outcome_in_words, paragraph, reason_in_words, value_name
+from wirelessagent.explain.prices import marginal_prices
+from wirelessagent.explain.steps import Step
+from wirelessagent.model.units import human, percent
+
+_NOTHING = 1e-9
+
+WORDS = Lexicon(
+    english={
+        "power": "A budget of {level} instead of {before}, solved anew, would {change}.",
+        "power_idle": "With {level} instead of {before} nothing changes: only {spent} is used as it is.",
+        "power_least": "With {level} instead of {before} nothing changes: the promised rates take {spent} either way.",
+        "rate": "Promising {who} {level}, solved anew, would {change}.",
+        "everybody": "every user",
+        "everybody_more": "every user {step} more, at least",
+        "raise": "raise the {figure} by {size}{share}, to {value}",
+        "lower": "lower the {figure} by {size}{share}, to {value}",
+        "keep": "leave the {figure} as it is, at {value}",
+        "share": " ({share})",
+        "marginal_power": "At the marginal price it would be {size}: prices hold for small steps.",
+        "marginal_rate": "At the marginal price it would be {size}: prices hold for small steps, and users' sets "
+        "change by whole subcarriers.",
+        "bound": "No allocation can {direction} it by more than {size}: that is proven.",
+        "limit": "That is beyond the cell's limit of {limit}, which would have to be raised first.",
+        "no_longer": "With {step}, the request can no longer be met: {reason}.",
+        "now_met": "The request cannot be met now; with {step} it can: {outcome}.",
+        "still_not": "The request cannot be met now, nor with {step}: {reason}.",
+        "no_power": "{step} less leaves no power at all: the budget is {before}.",
+        "of_power": "a budget of {level}",
+        "of_rate": "{level} promised to {who}",
+        "up": "raise",
+        "down": "lower",
+    },
+    chinese={
+        "power": "功率由 {before} 改为 {level}，重新求解，{change}。",
+        "power_idle": "功率由 {before} 改为 {level} 不会有任何变化：现在只用了 {spent}。",
+        "power_least": "功率由 {before} 改为 {level} 不会有任何变化：承诺的速率本来就只需 {spent}。",
+        "rate": "向{who}承诺 {level}，重新求解，{change}。",
+        "everybody": "每个用户",
+        "everybody_more": "每个用户多 {step}，至少",
+        "raise": "{figure}提高 {size}{share}，达到 {value}",
+        "lower": "{figure}降低 {size}{share}，为 {value}",
+        "keep": "{figure}保持 {value} 不变",
+        "share": "（{share}）",
+        "marginal_power": "按边际价格应为 {size}：价格只适用于微小变化。",
+        "marginal_rate": "按边际价格应为 {size}：价格只适用于微小变化，而子载波只能整个改变。",
+        "bound": "任何分配都不能使其{direction}超过 {size}：这已被证明。",
+        "limit": "这超出小区上限 {limit}，须先提高该上限。",
+        "no_longer": "若{step}，要求就无法满足：{reason}。",
+        "now_met": "现在要求无法满足；若{step}则可以：{outcome}。",
+        "still_not": "现在要求无法满足，若{step}也不行：{reason}。",
+        "no_power": "减少 {step} 就没有功率了：预算为 {before}。",
+        "of_power": "预算为 {level}",
+        "of_rate": "向{who}承诺 {level}",
+        "up": "提高",
+        "down": "降低",
+    },
+)
+
+
+def step_answer(case: Case, step: Step, language: str) -> str:
+    """What a step changes, in a paragraph."""
+    before, after = step.before, step.after
+    said: list[str] = []
+    if not (before.is_usable and after.is_usable):
+        said.append(_unmet(case, step, language))
+    elif step.of_power:
+        said.append(_power(case, step, language))
+    else:
+        change = change_in_words(case, step, language)
+        said.append(WORDS.say(language, "rate", who=_who(case, step, language), level=_level(step), change=change))
+    if before.is_usable and after.is_usable:
+        said += _marginal(step, language)
+        said += _bound(case, step, language)
+    if not np.isnan(step.limit_w):
+        said.append(WORDS.say(language, "limit", limit=human(step.limit_w, "W")))
+    return paragraph(said, language)
+
+
+def no_power_answer(case: Case, step_w: float, language: str) -> str:
+    """What there is to say of a step that leaves no power."""
+    budget = human(case.problem.budget_w(case.cell), "W")
+    return WORDS.say(language, "no_power", step=human(-step_w, "W"), before=budget)
+
+
+def change_in_words(case: Case, step: Step, language: str) -> str:
+    """How the value changes, as in "raise the total rate by 1 Mbit/s (3 %), to 34 Mbit/s"."""
+    figure, change, before = value_name(case, language), step.change, step.before.value
+    value = human(step.value_after, step.before.unit)
+    if abs(change) <= _NOTHING * abs(before):
+        return WORDS.say(language, "keep", figure=figure, value=value)
+    share = WORDS.say(language, "share", share=percent(abs(change / before))) if before else ""
+    size = human(abs(change), step.before.unit)
+    return WORDS.say(language, "raise" if change > 0 else "lower", figure=figure, size=size, share=share, value=value)
+
+
+def _power(case: Case, step: Step, language: str) -> str:
+    level, before = human(step.level, "W"), human(case.problem.budget_w(case.cell), "W")
+    if abs(step.change) <= _NOTHING * abs(step.before.value) and not marginal_prices(case).binds:
+        key = "power_least" if case.objective.measure == "power" else "power_idle"
+        spent = human(step.before.total_power_w, "W")
+        return WORDS.say(language, key, level=level, before=before, spent=spent)
+    return WORDS.say(
+        language, "power", level=level, before=before, change=change_in_words(case, step, language)
+    )  # fmt: skip
+
+
+def _unmet(case: Case, step: Step, language: str) -> str:
+    kind = "of_power" if step.of_power else "of_rate"
+    told = WORDS.say(language, kind, level=_level(step), who=_who(case, step, language))
+    if step.before.is_usable:
+        return WORDS.say(language, "no_longer", step=told, reason=reason_in_words(step.after, language))
+    if not step.after.is_usable:
+        return WORDS.say(language, "still_not", step=told, reason=reason_in_words(step.after, language))
+    return WORDS.say(language, "now_met", step=told, outcome=outcome_in_words(case, step.after, language))
+
+
+def _marginal(step: Step, language: str) -> list[str]:
+    if np.isnan(step.marginal) or abs(step.change) <= _NOTHING * abs(step.before.value):
+        return []
+    key = "marginal_power" if step.of_power else "marginal_rate"
+    return [WORDS.say(language, key, size=human(abs(step.marginal), step.before.unit))]
+
+
+def _bound(case: Case, step: Step, language: str) -> list[str]:
+    """What no allocation could do better, where the decision after the step is not proven optimal."""
+    sign = 1.0 if case.objective.direction == "max" else -1.0
+    most = sign * step.most_change
+    if step.after.status == "optimal" or not np.isfinite(most) or most <= 0:
+        return []
+    direction = WORDS.say(language, "up" if sign > 0 else "down")
+    return [WORDS.say(language, "bound", direction=direction, size=human(most, step.before.unit))]
+
+
+def _level(step: Step) -> str:
+    return human(step.level, "W" if step.of_power else "bit/s")
+
+
+def _who(case: Case, step: Step, language: str) -> str:
+    if step.user is not None:
+        return f" {case.estimate.user_names[step.user]} " if language == "zh" else case.estimate.user_names[step.user]
+    spread = np.ptp(case.promised_bps[case.served]) > 0
+    return WORDS.say(language, "everybody_more" if spread else "everybody", step=human(step.step, "bit/s"))

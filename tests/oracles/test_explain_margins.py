@@ -1,0 +1,162 @@
+"""Margins against closed forms, brute force, and problems solved anew with other gains, weights and owners."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import wirelessagent as wa
+from wirelessagent.explain.bids import bids, contests
+from wirelessagent.explain.case import Case
+from wirelessagent.explain.contested import contested
+from wirelessagent.explain.users import account
+
+CELL = wa.Cell(max_power_w=20)
+SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
+ESTIMATE = wa.perfect(SCENE)
+
+
+def certain(gain: Any) -> wa.ChannelEstimate:
+    gain = np.asarray(gain, dtype=float)
+    names = tuple(f"user {user + 1}" for user in range(len(gain)))
+    return replace(
+        ESTIMATE, gain=gain, gain_variance=0 * gain, repaired=gain < 0,
+        unobserved_users=np.zeros(len(gain), dtype=bool), user_names=names,
+    )  # fmt: skip
+
+
+def case_of(objective: str, estimate: wa.ChannelEstimate = ESTIMATE, cell: wa.Cell = CELL, **constraints: Any) -> Case:
+    return Case(decision=wa.decide(estimate, wa.Problem(objective, **constraints), cell), estimate=estimate)
+
+
+def test_with_one_price_the_margin_is_the_ratio_of_gains() -> None:
+    found = bids(case_of("max_rate"))
+    gain = ESTIMATE.gain
+    ratio_db = 10 * np.log10(gain.max(axis=0) / gain)
+    assert found.owner.tolist() == gain.argmax(axis=0).tolist()
+    assert found.behind_db == pytest.approx(ratio_db, abs=1e-9)
+    second = np.sort(ratio_db, axis=0)[1]
+    listed = contests(found)
+    assert [one.margin_db for one in listed] == pytest.approx(np.sort(second), abs=1e-9)
+    assert all(one.winner_bid_w > one.runner_up_bid_w for one in listed)
+
+
+def test_a_bid_is_the_most_that_any_power_makes() -> None:
+    cell = wa.Cell(max_power_w=20, max_spectral_efficiency_bps_per_hz=6.0)
+    case = case_of("max_rate", cell=cell, min_rate_bps=3e5, resource_block_group_size=2, subcarrier_max_power_w=2.0)
+    found, a = bids(case), case.form.snr_per_w
+    power = np.linspace(0.0, 2.0, 20001)
+    for user in range(4):
+        nats = np.minimum(np.log1p(a[user][:, np.newaxis] * power), 6.0 * np.log(2))
+        most = (found.price[user] * nats - power).max(axis=1).reshape(4, 2).sum(axis=1)
+        assert found.bid_w[user] == pytest.approx(most, rel=1e-5, abs=1e-6)
+
+
+def test_at_the_margin_both_bids_are_the_same() -> None:
+    case = case_of("proportional_fairness", resource_block_group_size=2)
+    found = bids(case)
+    for one in contests(found):
+        first, last = found.members(one.group)
+        gain = ESTIMATE.gain.copy()
+        gain[one.runner_up, first : last + 1] *= 10 ** (one.margin_db / 10)
+        raised = bids(Case(decision=case.decision, estimate=certain(gain)))
+        assert raised.bid_w[one.runner_up, one.group] == pytest.approx(one.winner_bid_w, rel=1e-9)
+
+
+def test_a_user_who_gets_nothing_would_with_the_gain_that_it_is_told() -> None:
+    case = case_of("max_rate")
+    idle = np.flatnonzero(case.decision.rate_bps <= 0).tolist()
+    assert idle
+    for user in idle:
+        told = account(case, user)
+        assert told.standing == "outbid"
+        assert told.losses[0].behind_db == min(loss.behind_db for loss in told.losses)
+        closest = 10 * np.log10((ESTIMATE.gain.max(axis=0) / ESTIMATE.gain[user]).min())
+        assert told.losses[0].behind_db == pytest.approx(closest, abs=1e-9)
+        assert told.winning_gain_db == pytest.approx(closest, abs=0.1)
+        for factor, wins in (
+            (10 ** (told.winning_gain_db / 10), True),
+            (10 ** (told.winning_gain_db / 10) / 1.02, False),
+        ):
+            gain = ESTIMATE.gain.copy()
+            gain[user] *= factor
+            found = wa.decide(certain(gain), wa.Problem("max_rate"), CELL)
+            assert bool((found.owner == user).any()) is wins
+        assert told.losses[0].bid_value == pytest.approx(told.losses[0].bid_w * case.decision.price_of_power)
+
+
+def test_the_weight_that_wins_one_subcarrier_is_that_of_equal_worths() -> None:
+    gain = np.array([[4e-11], [1e-11]])
+    a = gain[:, 0] / CELL.noise_power_w
+    told = account(case_of("max_rate", certain(gain), max_power_w=10), 1)
+    exact = np.log1p(10 * a[0]) / np.log1p(10 * a[1])
+    assert exact <= told.winning_weight <= exact * 1.02
+    assert told.promise is not None
+    assert told.promise.after.owner.tolist() == [1]
+    assert told.promise.change == pytest.approx(
+        CELL.subcarrier_bandwidth_hz * np.log2((1 + 10 * a[1]) / (1 + 10 * a[0]))
+    )
+
+
+def test_why_somebody_has_nothing() -> None:
+    assert account(case_of("max_rate", users=(0, 1, 2)), 3).standing == "left_out"
+    assert account(case_of("min_power", min_rate_bps=(1e5, 0, 0, 0)), 2).standing == "no_promise"
+    assert account(case_of("max_rate", weights=(1, 1, 1, 0)), 3).standing == "no_weight"
+    assert account(case_of("max_rate", min_rate_bps=1e9), 0).standing == "nothing_decided"
+    dead = ESTIMATE.gain.copy()
+    dead[1] = 0.0
+    assert account(case_of("max_rate", certain(dead)), 1).standing == "no_gain"
+    crowd = certain(ESTIMATE.gain[:, :3])
+    fair = case_of("proportional_fairness", crowd)
+    starved = int(np.flatnonzero(fair.decision.rate_bps <= 0)[0])
+    assert account(fair, starved).standing == "no_room"
+
+
+def test_who_is_left_out_is_told_what_it_would_get() -> None:
+    told = account(case_of("max_min_rate", users=(0, 1, 2)), 3)
+    alone = wa.decide(ESTIMATE, wa.Problem("max_min_rate"), CELL)
+    assert told.included is not None
+    assert told.included.value == pytest.approx(alone.value, rel=1e-3)
+    assert told.included.rate_bps[3] > 0
+
+
+def test_a_served_user_is_told_what_it_has() -> None:
+    case = case_of("max_rate")
+    user = int(np.argmax(case.decision.rate_bps))
+    told, own = account(case, user), case.decision.owner == user
+    assert (told.standing, told.subcarriers) == ("served", int(own.sum()))
+    assert told.power_w == pytest.approx(case.decision.power_w[own].sum())
+    assert told.rate_bps == case.decision.rate_bps[user]
+    assert all(loss.winner != user for loss in told.losses)
+
+
+def test_the_chance_to_win_is_that_of_the_posterior() -> None:
+    gain, spread = np.array([[4e-11, 4e-11], [1e-11, 1e-12]]), np.zeros((2, 2))
+    spread[1, 0] = 1e-22  # of an exponential gain with the mean 1e-11
+    repaired = spread > 0
+    estimate = replace(certain(gain), gain_variance=spread, repaired=repaired)
+    case = case_of("max_rate", estimate)
+    told = account(case, 1)
+    counted = case.counted.gain[1, 0]
+    assert counted < 1e-11
+    assert told.losses[0].behind_db == pytest.approx(10 * np.log10(4e-11 / counted), abs=1e-9)
+    assert told.losses[0].repaired
+    assert told.losses[0].chance == pytest.approx(np.exp(-4), abs=0.01)
+    assert told.losses[0].low_db == pytest.approx(10 * np.log10(-np.log(0.95) * 1e-11 / counted), abs=0.5)
+    assert told.losses[0].high_db == pytest.approx(10 * np.log10(-np.log(0.05) * 1e-11 / counted), abs=0.2)
+    assert np.isnan(told.losses[1].chance)
+
+
+def test_giving_a_contested_subcarrier_away_costs_what_solving_it_so_says() -> None:
+    for objective, constraints in (("max_rate", {}), ("min_power", {"min_rate_bps": 3e5})):
+        case = case_of(objective, **constraints)
+        for one in contested(case, 3):
+            gain = ESTIMATE.gain.copy()
+            gain[np.arange(4) != one.contest.runner_up, one.first] = 0.0
+            other = wa.decide(certain(gain), case.problem, CELL)
+            worse = abs(other.value - case.decision.value)
+            assert one.cost == pytest.approx(worse, rel=1e-6, abs=1e-9 * case.decision.value) or one.cost == 0.0
+    assert any(one.cost > 0 for one in contested(case_of("max_rate"), 3))
