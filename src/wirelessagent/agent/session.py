@@ -42,6 +42,9 @@ _USER = re.compile(
 )
 """An answer to "whom did you mean?"."""
 
+_LONGEST_NAME = 100
+"""Characters of a line that may be such an answer."""
+
 
 class TurnStore(Protocol):
     """What keeps turns for good."""
@@ -221,7 +224,8 @@ class Session:
 
     def _answered(self, text: str) -> Intent | None:
         """The intent that waits for a user, with the one that this line names; None where it names none."""
-        missing, match = self._state.missing, _USER.fullmatch(text)
+        missing, said = self._state.missing, text.strip()
+        match = _USER.fullmatch(said) if missing is not None and len(said) <= _LONGEST_NAME else None
         if missing is None or match is None:
             return None
         try:

@@ -9,6 +9,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from wirelessagent import chain
+from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.tools import Tools
 from wirelessagent.language.offline import OfflineRecogniser
@@ -45,6 +46,9 @@ class SiteOptions(MethodOptions, RepairerOptions, CellOptions):
         default_factory=dict, description="options of the base station"
     )
     yes: bool = Field(False, description="apply without asking; simulated base stations never ask")
+    tolerance: float = Field(
+        TOLERANCE, ge=0, description="share of what was promised that may be lacking before it is taken back"
+    )
     recogniser: Literal["offline", "llm"] = Field(
         "offline", description="who understands: the offline recogniser, or the LLM of the settings"
     )
@@ -65,6 +69,7 @@ class SiteOptions(MethodOptions, RepairerOptions, CellOptions):
             seed=self.seed,
             recogniser=self.chosen_recogniser(),
             confirm=False if self.yes else None,
+            tolerance=self.tolerance,
             tools=Tools(**{item.name: getattr(self, item.name) for item in dataclasses.fields(Tools)}),
             progress=progress,
             raises=raises,
