@@ -260,3 +260,65 @@ def test_predicted_neighbours_are_wrong_together(late_s: float | None) -> None:
             drawn = np.log1p(1e12 * estimate.posterior.samples_of(user, entries, 500, seed=1)).sum(axis=1)
             below.append(np.log1p(1e12 * slots[-1][user, entries]).sum() < np.quantile(drawn, 0.05))
     assert np.mean(below) < 0.1
+
+
+def test_exact_histories_of_fast_users_are_no_worse_than_the_current_slot_alone() -> None:
+    """Without noise nothing hides what a model of the motion gets wrong, such as gaps in the past."""
+    errors = np.zeros(2)
+    for draw in range(12):
+        scene = wa.simulate(
+            "rayleigh", wa.Cell(), num_users=4, num_subcarriers=20, num_slots=16, rms_delay_spread_s=100e-9,
+            speed_km_per_h=30, seed=draw,
+        )  # fmt: skip
+        truth = scene.current_truth
+        assert truth is not None
+        seen = scene.observe(wa.loss.random(0.2), seed=draw)
+        for i, repairer in enumerate((Predictor(), Kriging())):
+            estimate = repairer.repair(seen)
+            errors[i] += np.sum(((estimate.gain - truth) / truth.mean(axis=1, keepdims=True)) ** 2)
+    assert np.sqrt(errors[0] / errors[1]) < 1.1
+
+
+@pytest.mark.parametrize("strength", [1.0, 4.0])
+def test_entries_that_are_missing_because_they_are_weak_are_estimated_as_weak(strength: float) -> None:
+    """The linear estimate with everything known does not know why entries are missing; kriging finds out."""
+    rng = np.random.default_rng(17)
+    covariance = exponential(300e-9)
+    made, correlation = root(covariance), np.abs(covariance) ** 2
+    errors, below, count = np.zeros(2), 0, 0
+    for _ in range(60):
+        gain = np.abs(normal(rng, (USERS, SUBCARRIERS)) @ made.T) ** 2
+        lost = rng.random(gain.shape) < 0.6 * np.exp(-strength * gain)
+        seen = ChannelObservation(gain=np.where(lost, np.nan, gain), subcarrier_frequencies_hz=FREQUENCIES_HZ)
+        estimate = Kriging().repair(seen)
+        errors[0] += np.sum((estimate.gain - gain)[lost] ** 2)
+        below += int(np.sum(gain[lost] < estimate.posterior.quantile(0.05)[lost]))
+        count += int(lost.sum())
+        for user, hole in enumerate(lost):
+            inner = correlation[np.ix_(~hole, ~hole)] + 1e-6 * np.eye(int((~hole).sum()))
+            linear = 1.0 + correlation[np.ix_(hole, ~hole)] @ np.linalg.solve(inner, gain[user, ~hole] - 1.0)
+            errors[1] += np.sum((linear - gain[user, hole]) ** 2)
+    assert errors[0] < errors[1]
+    assert below / count < 0.16
+
+
+def test_what_is_not_said_to_be_noise_is_part_of_the_gain() -> None:
+    """With variations that no neighbour tells of, a band holds what would be measured; stated noise is left out."""
+    rng = np.random.default_rng(19)
+    made = root(exponential(50e-9))
+    inside, width = 0, np.zeros(2)
+    holes = 0
+    for _ in range(60):
+        smooth = np.abs(normal(rng, (USERS, SUBCARRIERS)) @ made.T) ** 2 + 0.5
+        gain = np.abs(smooth + 0.3 * rng.standard_normal(smooth.shape))
+        lost = lost_at_random(rng, 0.2)
+        seen = ChannelObservation(gain=np.where(lost, np.nan, gain), subcarrier_frequencies_hz=FREQUENCIES_HZ)
+        posterior = Kriging().repair(seen).posterior
+        low, high = posterior.quantile(0.05)[lost], posterior.quantile(0.95)[lost]
+        inside += int(np.sum((gain[lost] >= low) & (gain[lost] <= high)))
+        holes += int(lost.sum())
+        stated = dataclasses.replace(seen, noise_variance=np.where(lost, np.nan, 0.09))
+        known = Kriging().repair(stated).posterior
+        width += np.sum(high - low), np.sum(known.quantile(0.95)[lost] - known.quantile(0.05)[lost])
+    assert inside / holes > 0.85
+    assert width[1] < 0.8 * width[0]

@@ -33,7 +33,9 @@ class Kriging(Repairer):
     (:mod:`wirelessagent.repairing.core.pooling_kernel`), and the likely ones averaged
     (:mod:`wirelessagent.repairing.core.kriging_kernel`). Measurement noise is the observation's, or weighed as well.
     Variances are those of partly known fading coefficients, multiplied by what the observed entries, each left out and
-    estimated, say they should be; the posterior is :class:`wirelessagent.model.fading_posterior.FadingPosterior`.
+    estimated, say they should be; where weak entries get lost more often, that an entry is missing says that it is weak
+    (:mod:`wirelessagent.repairing.core.weak_losses_kernel`). The posterior is
+    :class:`wirelessagent.model.fading_posterior.FadingPosterior`.
     """
 
     name: ClassVar[str] = "kriging"
@@ -42,7 +44,7 @@ class Kriging(Repairer):
         slot = fit.relative(observation)
         learnt = fit.learn(slot, hypotheses(observation))
         found = fit.estimate(slot, learnt, tested=True)
-        factor, surprise = fit.factors(slot, found)
+        factor, surprise = fit.factors(slot, learnt, found)
         if slot.level.size > 1:
             fit.with_partners(slot, learnt, surprise, found)
         return completed(observation, slot, learnt, found, factor)
@@ -54,7 +56,7 @@ class Kriging(Repairer):
         """
         slot = fit.relative(observation)
         learnt = fit.learn(slot, hypotheses(observation))
-        factor, _ = fit.factors(slot, fit.estimate(slot, learnt, tested=True))
+        factor, _ = fit.factors(slot, learnt, fit.estimate(slot, learnt, tested=True))
         return HeldKriging(learnt=learnt, factor=factor)
 
 
@@ -82,7 +84,7 @@ def completed(
     observation: ChannelObservation, slot: fit.Relative, learnt: fit.Learnt, found: FloatArray, factor: FloatArray
 ) -> ChannelEstimate:
     """The estimate for what :func:`.fit.estimate` found, with its posterior; users unseen now get their level."""
-    from wirelessagent.repairing.core import completing_kernel
+    from wirelessagent.repairing.core import completing_kernel, weak_losses_kernel
 
     unseen = np.ones((slot.level.size, 3))
     if slot.seen.min() < FEW:
@@ -91,9 +93,13 @@ def completed(
     gain, variance, mean, mean_variance = (np.empty(slot.gain.shape) for _ in range(4))
     smoothed = np.empty(slot.gain.shape, dtype=np.bool_)
     completing_kernel.complete(
-        observation.current, observation.current_noise_variance, slot.known, slot.level, found, factor, unseen, FEW,
-        slot.seen, gain, variance, mean, mean_variance, smoothed,
+        observation.current, observation.current_noise_variance, slot.known, slot.level, found, factor,
+        fit.unstated(slot, learnt), unseen, FEW, slot.seen, gain, variance, mean, mean_variance, smoothed,
     )  # fmt: skip
+    missing = observation.missing
+    weak_losses_kernel.allow_for_absence(mean, mean_variance, slot.level, missing)
+    np.copyto(gain, mean, where=missing)
+    np.copyto(variance, mean_variance, where=missing)
     measured = observation.measured
     return ChannelEstimate(
         gain=gain,

@@ -39,7 +39,7 @@ class LearnedCovariance(Repairer):
             return dataclasses.replace(Kriging().repair(observation), method=self.name)
         learnt = fit.given(now, better.candidates, better.table, better.noise_share)
         found = fit.estimate(now, learnt, tested=True)
-        factor, surprise = fit.factors(now, found)
+        factor, surprise = fit.factors(now, learnt, found)
         if now.level.size > 1:
             fit.with_partners(now, learnt, surprise, found)
         return dataclasses.replace(completed(observation, now, learnt, found, factor), method=self.name)

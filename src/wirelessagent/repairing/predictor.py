@@ -49,7 +49,8 @@ class Predictor(Repairer):
         over = over_frequency(seen, observation)
         found = estimated(seen, over, doppler(observation), steps(observation, at_s))
         level = seen.level[:, np.newaxis]
-        gain, variance = level * found[..., 0], level * (level * (TAIL * found[..., 1] + found[..., 2]))
+        own = 0.0 if observation.noise_variance is not None else over.noise_share[:, np.newaxis]
+        gain, variance = level * found[..., 0], level * (level * (TAIL * found[..., 1] + found[..., 2] + own))
         unseen = seen.seen == 0
         if unseen.any():
             levels = user_levels(observation)
@@ -112,13 +113,14 @@ def estimated(seen: History, over: OverFrequency, candidates: Doppler, at: float
     bin_of = bins.bins_of(now.time[-1] - now.time + 1.0)
     mean, noise, count = averaged(seen, bin_of)
     time = bins.over_time(now, bin_of, at)
+    slots_of = np.bincount(bin_of)
     users, _, subcarriers = mean.shape
     found = np.empty((users, subcarriers, 3))
     for k in range(users):
         order = np.argsort(-chance[k])
         kept = order[: min(KEPT, 1 + int(np.searchsorted(np.cumsum(chance[k][order]), ENOUGH)))]
         space_time_kernel.estimate_user(
-            mean[k], noise[k], count[k], over.candidates.place, over.table[k], float(over.noise_share[k]),
+            mean[k], noise[k], count[k], slots_of, over.candidates.place, over.table[k], float(over.noise_share[k]),
             float(seen.grown[k]), time.between[kept], time.towards[kept], level[k, kept],
             chance[k, kept] / chance[k, kept].sum(), found[k],
         )  # fmt: skip
@@ -135,7 +137,10 @@ def weighed(over: OverFrequency, now: Doppler) -> tuple[FloatArray, FloatArray]:
     place = over.candidates.place[: bins.BLOCK]
     alike = over.table[:, np.abs(place[:, np.newaxis] - place)]
     likelihood, level = bins.log_evidence(over.filled[:, :, : bins.BLOCK], over.noise_share, alike, between)
-    return pooling_kernel.pooled_weights(evidence_kernel.SHARE * likelihood, 2, now.log_step, now.log_prior), level
+    chance = pooling_kernel.pooled_weights(
+        evidence_kernel.SHARE * likelihood, now.families, now.log_step, now.log_prior
+    )
+    return chance, level
 
 
 def averaged(seen: History, bin_of: IntArray) -> tuple[FloatArray, FloatArray, IntArray]:

@@ -28,12 +28,19 @@ SMALLEST_VARIANCE = 2.2250738585072014e-308
 
 @kernel
 def test_variances(
-    gain: FloatArray, known: BoolArray, noise: FloatArray, found: FloatArray, factor: FloatArray, surprise: FloatArray
+    gain: FloatArray,
+    known: BoolArray,
+    noise: FloatArray,
+    unstated: FloatArray,
+    found: FloatArray,
+    factor: FloatArray,
+    surprise: FloatArray,
 ) -> None:
     """Write each user's factor (user,) and the surprises that say so, in standard deviations, (user, subcarrier).
 
-    ``gain``, ``known`` and ``noise`` are those of :mod:`.relative_kernel`, ``found`` is that of
-    :mod:`.kriging_kernel`. Surprises are 0 where nothing was tested, and clipped.
+    ``gain``, ``known`` and ``noise`` are those of :mod:`.relative_kernel`, ``unstated`` (user,) is of an entry whose
+    noise is not known (:func:`.fit.unstated`), ``found`` is that of :mod:`.kriging_kernel`.
+    Surprises are 0 where nothing was tested, and clipped.
     """
     users, subcarriers = gain.shape
     squares, count = np.zeros(users), np.zeros(users)
@@ -41,7 +48,7 @@ def test_variances(
         for n in range(subcarriers):
             surprise[k, n] = 0.0
             if known[k, n] and found[k, n, 0] > 0.0:
-                own = 0.0 if np.isnan(noise[k, n]) else noise[k, n]
+                own = unstated[k] if np.isnan(noise[k, n]) else noise[k, n]
                 error = (gain[k, n] - found[k, n, 0]) / np.sqrt(found[k, n, 1] + found[k, n, 2] + own)
                 surprise[k, n] = min(max(error, -LARGEST_SURPRISE), LARGEST_SURPRISE)
                 squares[k] += error * error
@@ -58,6 +65,7 @@ def complete(
     level: FloatArray,
     found: FloatArray,
     factor: FloatArray,
+    unstated: FloatArray,
     unseen: FloatArray,
     told_least: int,
     seen: IntArray,
@@ -75,6 +83,7 @@ def complete(
         known, level, seen: see :mod:`.relative_kernel`.
         found: see :mod:`.kriging_kernel`.
         factor: of the variances from fading, (user,).
+        unstated: variance of each entry's own, see :func:`.fit.unstated`, (user,).
         unseen: gain and variance of users without observation, and by what the variances of users with few are
             multiplied, (user, 3).
         told_least: observed entries from which on others tell of measured ones.
@@ -86,7 +95,7 @@ def complete(
     for k in range(users):
         for n in range(subcarriers):
             estimate = level[k] * found[k, n, 0]
-            others = level[k] * (level[k] * (factor[k] * found[k, n, 1] + found[k, n, 2]))
+            others = level[k] * (level[k] * (factor[k] * found[k, n, 1] + found[k, n, 2] + unstated[k]))
             smoothed[k, n] = False
             if np.isnan(current[k, n]):
                 gain[k, n] = estimate if seen[k] > 0 else unseen[k, 0]

@@ -15,12 +15,13 @@ import numpy as np
 
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.observation import ChannelObservation
-from wirelessagent.repairing.core.hypotheses import Hypotheses
 
 SHIFTS = 24
 """Doppler shifts on the grid."""
 SLOWEST, FASTEST = 0.01, 0.6
 """The smallest shift times the length of the history, and the largest times the shortest step, in turns."""
+UNFORESEEN = (1e-3, 1e-2, 1e-1)
+"""Shares of the variance that earlier slots do not tell of: paths move, and each has a Doppler shift of its own."""
 EXPECTED_TURNS, FACTOR = 0.03, 10.0
 """Doppler shift times the step that is expected beforehand, and by what factor it may well be wrong: 30 Hz at a step
 of 1 ms is a user at 9 km/h in a band at 3.5 GHz."""
@@ -34,21 +35,29 @@ class Doppler:
         time: of each slot in units of the shortest step, the last one last, shape (slot,).
         shift: 2πf_d in turns per step times 2π, of each hypothesis, shape (hypothesis,).
         gaussian: whether the spectrum is Gaussian, shape (hypothesis,).
+        unforeseen: share of the gain's variance that no earlier slot tells of, shape (hypothesis,).
         log_step, log_prior: see :class:`.hypotheses.Hypotheses`.
     """
 
     time: FloatArray
     shift: FloatArray
     gaussian: FloatArray
+    unforeseen: FloatArray
     log_step: float
     log_prior: FloatArray
+
+    @property
+    def families(self) -> int:
+        """How many kinds there are; hypotheses of one kind follow each other."""
+        return self.shift.size // SHIFTS
 
     def correlation(self, distance: FloatArray) -> FloatArray:
         """Of gains that lie ``distance`` (any shape) steps apart, that shape and (hypothesis,)."""
         from scipy.special import j0
 
         angle = np.multiply.outer(distance, self.shift)
-        return np.where(self.gaussian > 0, np.exp(-0.5 * angle**2), j0(angle) ** 2)
+        smooth = np.where(self.gaussian > 0, np.exp(-0.5 * angle**2), j0(angle) ** 2)
+        return np.where(angle > 0, (1.0 - self.unforeseen) * smooth, 1.0)
 
 
 def doppler(observation: ChannelObservation) -> Doppler:
@@ -62,21 +71,9 @@ def doppler(observation: ChannelObservation) -> Doppler:
     turns = slowest * (FASTEST / slowest) ** np.linspace(0.0, 1.0, SHIFTS)
     return Doppler(
         time=time,
-        shift=np.tile(2.0 * np.pi * turns, 2),
-        gaussian=np.repeat([0.0, 1.0], SHIFTS),
+        shift=np.tile(2.0 * np.pi * turns, 2 * len(UNFORESEEN)),
+        gaussian=np.tile(np.repeat([0.0, 1.0], SHIFTS), len(UNFORESEEN)),
+        unforeseen=np.repeat(UNFORESEEN, 2 * SHIFTS),
         log_step=float(np.log(turns[1] / turns[0])),
         log_prior=-0.5 * (np.log(turns / EXPECTED_TURNS) / np.log(FACTOR)) ** 2,
-    )
-
-
-def as_hypotheses(candidates: Doppler, noise: float) -> Hypotheses:
-    """The same over a raster of slots, for :func:`.fit.learn`-like weighing; slots must be equidistant to a step."""
-    place = np.rint(candidates.time - candidates.time[0]).astype(np.int64)
-    return Hypotheses(
-        place=place,
-        table=candidates.correlation(np.arange(int(place[-1]) + 1, dtype=np.float64)),
-        noise=np.full(candidates.shift.size, noise),
-        families=2,
-        log_step=candidates.log_step,
-        log_prior=candidates.log_prior,
     )

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
-from wirelessagent.repairing.core.fit import Learnt, Relative, mean_hypothesis
+from wirelessagent.repairing.core.fit import Learnt, Relative, mean_hypothesis, unstated
 
 BLOCK = 320
 """Subcarriers whose errors are treated together; blocks of longer bands count as independent."""
@@ -33,7 +33,7 @@ class ErrorRoots:
 
     def __call__(self) -> FloatArray:
         """L with L Lᵀ the correlation, shape (user, subcarrier, subcarrier)."""
-        table, noise = self._mean
+        table, noise, own = self._mean
         place = self.learnt.candidates.place
         users, subcarriers = self.slot.known.shape
         root = np.broadcast_to(np.eye(subcarriers), (users, subcarriers, subcarriers)).copy()
@@ -45,7 +45,7 @@ class ErrorRoots:
                 wanted = ~known | self.smoothed[k, block]
                 if wanted.any():
                     there = start + np.flatnonzero(wanted)
-                    left = _left(table[k][distance], wanted, known, float(noise[k]))
+                    left = _left(table[k][distance], wanted, known, float(noise[k]), float(own[k]))
                     root[k, there[:, np.newaxis], there] = _root(left)
         return root
 
@@ -54,7 +54,7 @@ class ErrorRoots:
 
         Given the observed entries about them alone, as the others would add next to nothing.
         """
-        table, noise = self._mean
+        table, noise, own = self._mean
         place, known = self.learnt.candidates.place, self.slot.known[user]
         correlation = np.eye(subcarriers.size)
         places = np.flatnonzero((~known | self.smoothed[user])[subcarriers])
@@ -64,16 +64,17 @@ class ErrorRoots:
             near = np.clip(first[:, np.newaxis] + np.arange(-NEAREST, NEAREST), 0, max(observed.size - 1, 0))
             about = np.union1d(observed[np.unique(near)] if observed.size else observed, wanted)
             distance = np.abs(place[about, np.newaxis] - place[about])
-            left = _left(table[user][distance], np.isin(about, wanted), known[about], float(noise[user]))
+            wanted_here = np.isin(about, wanted)
+            left = _left(table[user][distance], wanted_here, known[about], float(noise[user]), float(own[user]))
             order = np.argsort(wanted, kind="stable")
             correlation[np.ix_(places[order], places[order])] = left
         return correlation
 
     @functools.cached_property
-    def _mean(self) -> tuple[FloatArray, FloatArray]:
-        """Correlation at each distance (user, distance) and η (user,) of the mean hypothesis."""
+    def _mean(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Correlation at each distance (user, distance), η and its part that is no noise (user,), on average."""
         table, noise, _ = mean_hypothesis(self.slot, self.learnt)
-        return table, noise
+        return table, noise, unstated(self.slot, self.learnt)
 
 
 def _root(correlation: FloatArray) -> FloatArray:
@@ -89,8 +90,11 @@ def _root(correlation: FloatArray) -> FloatArray:
     return np.eye(size)
 
 
-def _left(correlation: FloatArray, wanted: BoolArray, known: BoolArray, noise: float) -> FloatArray:
-    """Correlation of the errors of the ``wanted`` entries given the ``known`` ones, shape (wanted, wanted)."""
+def _left(correlation: FloatArray, wanted: BoolArray, known: BoolArray, noise: float, own: float) -> FloatArray:
+    """Correlation of the errors of the ``wanted`` entries given the ``known`` ones, shape (wanted, wanted).
+
+    ``own`` is the variance that each entry has to itself.
+    """
     from scipy.linalg import cho_factor, cho_solve
 
     left = correlation[np.ix_(wanted, wanted)]
@@ -98,7 +102,7 @@ def _left(correlation: FloatArray, wanted: BoolArray, known: BoolArray, noise: f
         across = correlation[np.ix_(known, wanted)]
         seen = correlation[np.ix_(known, known)] + (noise + JITTER) * np.eye(int(known.sum()))
         left = left - across.T @ cho_solve(cho_factor(seen, lower=True), across)
-    scale = np.sqrt(np.maximum(np.diagonal(left), JITTER))
+    scale = np.sqrt(np.maximum(np.diagonal(left) + own, JITTER))
     normal = left / scale / scale[:, np.newaxis]
     np.fill_diagonal(normal, 1.0)
     return normal

@@ -14,7 +14,7 @@ from wirelessagent.repairing.core.hypotheses import Hypotheses
 
 @dataclass(frozen=True, kw_only=True)
 class Relative:
-    """A slot in units of the users' levels; see :mod:`.relative_kernel`."""
+    """A slot in units of the users' levels; see :mod:`.relative_kernel`. ``states_noise``: the observation does."""
 
     gain: FloatArray
     known: BoolArray
@@ -22,6 +22,7 @@ class Relative:
     level: FloatArray
     noise_share: FloatArray
     seen: IntArray
+    states_noise: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,6 +46,7 @@ def relative(observation: ChannelObservation) -> Relative:
 
     gain = observation.current
     users = observation.num_users
+    unknown = observation.noise_variance is None
     result = Relative(
         gain=np.empty(gain.shape),
         known=np.empty(gain.shape, dtype=np.bool_),
@@ -52,8 +54,8 @@ def relative(observation: ChannelObservation) -> Relative:
         level=np.empty(users),
         noise_share=np.empty(users),
         seen=np.empty(users, dtype=np.int64),
+        states_noise=not unknown,
     )
-    unknown = observation.noise_variance is None
     noise = np.full(gain.shape, np.nan) if unknown else observation.current_noise_variance
     relative_kernel.relate(
         gain, noise, result.gain, result.known, result.noise, result.level, result.noise_share, result.seen
@@ -102,7 +104,17 @@ def estimate(slot: Relative, learnt: Learnt, *, tested: bool) -> FloatArray:
     return found
 
 
-def factors(slot: Relative, found: FloatArray) -> tuple[FloatArray, FloatArray]:
+def unstated(slot: Relative, learnt: Learnt) -> FloatArray:
+    """Variance in units of the level squared that an entry has to itself and that nobody says is noise, shape (user,).
+
+    What is not said to be measurement noise counts as the gain's own: the estimate is of what would be measured.
+    """
+    if slot.states_noise:
+        return np.zeros(slot.level.size)
+    return np.asarray((learnt.chance * learnt.candidates.noise).sum(axis=1))
+
+
+def factors(slot: Relative, learnt: Learnt, found: FloatArray) -> tuple[FloatArray, FloatArray]:
     """By what the variances from fading are multiplied for each user, shape (user,), and the surprises that say so.
 
     Surprises are errors in standard deviations, shape (user, subcarrier), 0 where nothing was tested.
@@ -110,7 +122,7 @@ def factors(slot: Relative, found: FloatArray) -> tuple[FloatArray, FloatArray]:
     from wirelessagent.repairing.core import completing_kernel
 
     factor, surprise = np.empty(slot.level.shape), np.empty(slot.gain.shape)
-    completing_kernel.test_variances(slot.gain, slot.known, slot.noise, found, factor, surprise)
+    completing_kernel.test_variances(slot.gain, slot.known, slot.noise, unstated(slot, learnt), found, factor, surprise)
     return factor, surprise
 
 

@@ -2,7 +2,8 @@
 
 The correlation of two gains of a user is the product of that over frequency and that over time. Observations are means
 over bins of slots, narrow ones near the last slot and wider ones before, so that a few stand for a long history:
-their covariance is the mean over the slots of both bins, exactly, but that gaps within a bin are left out of account.
+their covariance is the mean over the slots of both bins. Where m of a bin's M slots were observed, their mean is off
+that of all by a variance of (1/m − 1/M)(1 − r̄), for a mean correlation r̄ of the bin's slots, which counts like noise.
 Formulas are those of :mod:`.kriging_kernel` for one window, with the bins' observations side by side.
 """
 
@@ -85,6 +86,7 @@ def estimate_user(
     mean: FloatArray,
     mean_noise: FloatArray,
     count: IntArray,
+    slots_of: IntArray,
     place: IntArray,
     over_frequency: FloatArray,
     noise: float,
@@ -99,6 +101,7 @@ def estimate_user(
 
     Args:
         mean, mean_noise, count: of :func:`average`, shape (bin, subcarrier).
+        slots_of: how many slots each bin has, shape (bin,).
         place: of the subcarriers, shape (subcarrier,).
         over_frequency: |ρ|² at each distance, shape (distance,).
         noise, grown: η of one slot, and 1 + η where measured gains are conditional means, else 1.
@@ -131,7 +134,10 @@ def estimate_user(
                 for j in range(i + 1):
                     c, m = member[j]
                     matrix[i, j] = shared + between[h, b, c] * over_frequency[abs(place[n] - place[m])]
-                matrix[i, i] += noise / count[b, n] + JITTER
+                gaps = 0.0
+                if slots_of[b] > 1:
+                    gaps = (slots_of[b] / count[b, n] - 1.0) * (1.0 - between[h, b, b]) / (slots_of[b] - 1.0)
+                matrix[i, i] += noise / count[b, n] + gaps + JITTER
             factorise(matrix, size)
             for n in range(begin, end):
                 for i in range(size):
