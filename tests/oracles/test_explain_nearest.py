@@ -117,6 +117,41 @@ def test_the_budgets_of_the_seeds_ask_for_one_and_for_two_to_be_left_out() -> No
     assert left >= {1, 2}
 
 
+def _cheapest(_case: Case, rest: list[int], _left: list[int]) -> int:
+    """For seed 1, where only leaving out user 1 helps: the others first."""
+    return rest[-1]
+
+
+def _second(_case: Case, rest: list[int], _left: list[int]) -> int:
+    """For seed 3, where leaving out user 3 helps: user 1 first, then user 3."""
+    return rest[0] if len(rest) == USERS else rest[-1]
+
+
+def test_a_bad_order_is_mended_by_trying_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("wirelessagent.explain.nearest._dearest", _cheapest)
+    answer = found(1)[2].fewer_users
+    assert answer is not None
+    assert answer.left_out == (0,)
+    assert answer.is_fewest
+
+
+def test_whoever_fits_after_all_is_taken_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("wirelessagent.explain.nearest._dearest", _second)
+    monkeypatch.setattr("wirelessagent.explain.nearest._MOST_SETS", 0)
+    answer = found(3)[2].fewer_users
+    assert answer is not None
+    assert answer.left_out == (2,)
+
+
+def test_what_was_not_tried_is_not_said_to_be_proven(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert found(2)[2].fewer_users.is_fewest  # type: ignore[union-attr]
+    monkeypatch.setattr("wirelessagent.explain.nearest._MOST_SETS", 0)
+    answer = found(2)[2].fewer_users
+    assert answer is not None
+    assert len(answer.left_out) == 2
+    assert not answer.is_fewest
+
+
 def test_no_power_helps_more_users_than_subcarriers() -> None:
     estimate = wa.perfect(wa.simulate("rayleigh", CELL, num_users=3, num_subcarriers=2, seed=1))
     decision = wa.decide(estimate, wa.Problem("min_power", min_rate_bps=1e3), CELL)

@@ -86,6 +86,8 @@ def test_a_method_without_prices_is_told_those_of_the_problem() -> None:
     assert plain.power == pytest.approx(dual.power, rel=1e-3)
     assert plain.rate == pytest.approx(dual.rate, rel=1e-3)
     assert dual.power > 0
+    alone = marginal_prices(case_of("max_rate", "round_robin")).power
+    assert alone == pytest.approx(case_of("max_rate").decision.price_of_power, rel=1e-6)
 
 
 @pytest.mark.parametrize("objective", ["max_rate", "max_min_rate", "max_energy_efficiency"])

@@ -64,6 +64,7 @@ def test_a_user_who_gets_nothing_is_told_why_and_what_would_help(language: str) 
         f"{found.winning_gain_db:.1f} dB", f"{found.winning_weight:.3g}", SEEN.user_names[loss.winner], "100 kbit/s",
     ):  # fmt: skip
         assert figure in said
+    assert (f"subcarrier {loss.first + 1}," if language == "en" else f"子载波 {loss.first + 1}，") in said
     assert found.promise is not None
     assert human(abs(found.promise.change), "bit/s") in said
 
@@ -193,7 +194,7 @@ def test_terms_are_found_as_people_say_them() -> None:
     ):
         assert glossary.explained(asked, "zh").startswith(start), asked
     assert glossary.explained("what is the weather like", "en") == ""
-    assert glossary.explained("upfront", "en") == ""
+    assert glossary.explained("once again upfront", "en") == ""
 
 
 def test_every_term_is_found_by_each_of_its_names_and_told_in_both_languages() -> None:

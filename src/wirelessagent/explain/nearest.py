@@ -130,14 +130,29 @@ def lower_rates(case: Case) -> LowerRates | None:
 
 def fewer_users(case: Case) -> FewerUsers | None:
     """The users to leave out so that the rest gets its rates."""
-    served = np.flatnonzero(case.served)
-    bearing = [int(user) for user in served if case.promised_bps[user] > 0]
+    bearing = [int(user) for user in np.flatnonzero(case.served) if case.promised_bps[user] > 0]
+    left, decision = _dearest_first(case, bearing)
+    proven = case.decision.status == "infeasible"
+    for size in range(1, len(left) if decision else len(bearing)):
+        if math.comb(len(bearing), size) > _MOST_SETS:
+            proven = False
+            break
+        for some in itertools.combinations(bearing, size):
+            found = _without(case, some)
+            if found.is_usable:
+                return FewerUsers(left_out=some, decision=found, is_fewest=proven)
+            proven = proven and found.status == "infeasible"
+    return FewerUsers(left_out=tuple(sorted(left)), decision=decision, is_fewest=proven) if decision else None
+
+
+def _dearest_first(case: Case, bearing: list[int]) -> tuple[list[int], Decision | None]:
+    """Users left out until the rest fits, without those who fit after all; no decision where it never does."""
     left: list[int] = []
     decision = case.decision
     while not decision.is_usable:
         rest = [user for user in bearing if user not in left]
         if len(rest) < 2:
-            return None
+            return left, None
         left.append(_dearest(case, rest, left))
         decision = _without(case, left)
     for user in left[:-1]:
@@ -145,21 +160,7 @@ def fewer_users(case: Case) -> FewerUsers | None:
         again = _without(case, fewer)
         if again.is_usable:
             left, decision = fewer, again
-    return _fewest(case, bearing, left, decision)
-
-
-def _fewest(case: Case, bearing: list[int], left: list[int], decision: Decision) -> FewerUsers:
-    """Fewer users than ``left``, if any do; and whether all of the smaller sets are proven not to."""
-    proven = case.decision.status == "infeasible"
-    for size in range(1, len(left)):
-        if math.comb(len(bearing), size) > _MOST_SETS:
-            return FewerUsers(left_out=tuple(sorted(left)), decision=decision, is_fewest=False)
-        for some in itertools.combinations(bearing, size):
-            found = _without(case, some)
-            if found.is_usable:
-                return FewerUsers(left_out=some, decision=found, is_fewest=proven)
-            proven = proven and found.status == "infeasible"
-    return FewerUsers(left_out=tuple(sorted(left)), decision=decision, is_fewest=proven)
+    return left, decision
 
 
 def _dearest(case: Case, rest: list[int], left: list[int]) -> int:
