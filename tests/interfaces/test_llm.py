@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from llm_stub import Reply, StubLlm, call, case_of, error, meaning, raw, refuse, say, truthful
 from pydantic import ValidationError
 
-from wirelessagent.language.intent import Intent
+from wirelessagent.language.intent import COMMANDS, QUESTIONS, Intent
 from wirelessagent.language.llm import LlmRecogniser
 from wirelessagent.language.llm_settings import LlmSettings
 from wirelessagent.language.offline import OfflineRecogniser
@@ -101,6 +101,19 @@ def test_answer_in_json(asked: Asked, output: str) -> None:
     arguments = right().message["tool_calls"][0]["function"]["arguments"]  # type: ignore[index]
     intent = asked([say(arguments)], output=output)
     assert (intent.recogniser, intent.objective, dict(intent.constraints)) == ("llm", "min_power", TRUE_CONSTRAINTS)
+
+
+@pytest.mark.parametrize("language", ["en", "zh", "fr"])
+@pytest.mark.parametrize("kind", ["question", "command"])
+def test_every_topic_has_something_to_say(kind: str, language: str) -> None:
+    topics = [None, *({*QUESTIONS} if kind == "question" else {*COMMANDS} - {"apply", "confirm"})]
+    replies = [meaning(kind=kind, topic=topic, language=language) for topic in topics]
+    with StubLlm(replies) as stub:
+        recogniser = LlmRecogniser(LlmSettings(base_url=stub.url, model="m"))
+        intents = [recogniser.recognise("something nobody has a rule for") for _ in topics]
+    assert [(intent.kind, intent.topic, intent.recogniser) for intent in intents] == [(kind, t, "llm") for t in topics]
+    assert all(intent.reply for intent in intents)
+    assert all(any(sign >= "\u4e00" for sign in intent.reply) == (language == "zh") for intent in intents)
 
 
 def test_a_question_back_keeps_what_was_read() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conversations import CHINESE, ENGLISH, LOSS, SCENE, SEED, Line, Scripted
+from conversations import CHINESE, ENGLISH, LOSS, SCENE, SEED, Line
 from llm_stub import StubLlm, truthful
 
 from wirelessagent.agent.session import Session
@@ -40,8 +40,7 @@ def unmapped(values: Any) -> Any:
 @pytest.mark.parametrize("lines", [ENGLISH, CHINESE], ids=["en", "zh"])
 def test_a_conversation_of_fifteen_turns(lines: tuple[Line, ...]) -> None:
     with StubLlm(truthful(map(row, lines))) as stub:
-        rules = Scripted(line.intent for line in lines)
-        recogniser = LlmRecogniser(LlmSettings(base_url=stub.url, model="m"), rules)
+        recogniser = LlmRecogniser(LlmSettings(base_url=stub.url, model="m"))
         session = Session(SCENE, LOSS, seed=SEED, recogniser=recogniser)
         for line in lines:
             turn = session.say(line.text)

@@ -25,11 +25,11 @@ from wirelessagent.language.llm_settings import LlmSettings
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Voice
+from wirelessagent.language.sentence import labels_of, own_words
 from wirelessagent.model.objective import Objective
 
 NAME = "llm"
 _MAX_CHARACTERS = 2000
-SAID = ("max_power_w", "min_rate_bps", "max_rate_bps", "circuit_power_w", "outage_probability")
 _AGREED, _ALONE = 0.95, 0.8  # how sure: both recognisers read the same kind, objective and topic, or the LLM alone
 _log = logging.getLogger(__name__)
 
@@ -118,9 +118,11 @@ def _reply(read: Read) -> str:
     """What to say to a sentence that the rules read otherwise."""
     if read.kind == "clarify":
         return read.question
-    labels = {offer.name: offer.called(read.language) for offer in offered()}
-    voice = Voice(read.language, labels)
-    if read.objective is None:
-        return voice.say(read.kind)
-    plain = {name: value for name, value in read.constraints.items() if isinstance(value, float) and name in SAID}
-    return voice.restated(read.objective, plain, ())
+    voice = Voice(read.language, labels_of(own_words(), read.language))
+    if read.objective is not None and read.amends:
+        return voice.amended(read.constraints, read.dropped)
+    if read.objective is not None:
+        return voice.restated(read.objective, read.constraints, ())
+    if read.kind == "out_of_scope" or read.topic is None:
+        return voice.say("out_of_scope" if read.kind == "out_of_scope" else "help")
+    return voice.say(f"{read.kind}.{read.topic}", user=voice.user(str(read.details.get("user", ""))))

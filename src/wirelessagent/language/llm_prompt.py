@@ -64,11 +64,6 @@ class Offer:
         said = "; ".join(f"{language}: {', '.join(words)}" for language, words in self.phrases.items() if words)
         return f"- {self.name}: {self.summary}" + (f" ({said})" if said else "")
 
-    def called(self, language: str) -> str:
-        """What to call it in a language: its first phrase there, else in English, else its name."""
-        spoken = self.phrases.get(language) or self.phrases.get("en") or (self.name.replace("_", " "),)
-        return spoken[0]
-
 
 def instructions(offers: Iterable[Offer]) -> str:
     """The task, with the objectives that are registered."""
