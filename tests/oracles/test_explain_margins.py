@@ -45,12 +45,15 @@ def test_with_one_price_the_margin_is_the_ratio_of_gains() -> None:
 
 
 def test_a_bid_is_the_most_that_any_power_makes() -> None:
-    cell = wa.Cell(max_power_w=20, max_spectral_efficiency_bps_per_hz=6.0)
-    case = case_of("max_rate", cell=cell, min_rate_bps=3e5, resource_block_group_size=2, subcarrier_max_power_w=2.0)
+    cell = wa.Cell(max_power_w=20, max_spectral_efficiency_bps_per_hz=8.0)
+    limits = {"resource_block_group_size": 2, "subcarrier_max_power_w": 0.1, "max_power_w": 0.3}
+    case = case_of("max_rate", cell=cell, weights=(1.0, 2.0, 1.0, 1.5), **limits)
     found, a = bids(case), case.form.snr_per_w
-    power = np.linspace(0.0, 2.0, 20001)
+    assert case.decision.is_usable
+    assert 0.0 < found.price.max() < 10.0  # so that power counts
+    power = np.linspace(0.0, 0.1, 20001)
     for user in range(4):
-        nats = np.minimum(np.log1p(a[user][:, np.newaxis] * power), 6.0 * np.log(2))
+        nats = np.minimum(np.log1p(a[user][:, np.newaxis] * power), 8.0 * np.log(2))
         most = (found.price[user] * nats - power).max(axis=1).reshape(4, 2).sum(axis=1)
         assert found.bid_w[user] == pytest.approx(most, rel=1e-5, abs=1e-6)
 

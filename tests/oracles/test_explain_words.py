@@ -124,6 +124,9 @@ def test_what_cannot_be_met_is_told_with_what_can(language: str) -> None:
         assert all(SEEN.user_names[user] in said for user in found.fewer_users.left_out)
         assert len(said.splitlines()) == 4
     assert human(case_of("max_rate").decision.value, "bit/s") in told(case_of("max_rate"), "why_infeasible", language)
+    beyond = told(case_of("max_rate", min_rate_bps=3e7), "why_infeasible", language)
+    assert human(1e12, "W") in beyond
+    assert "e+" not in beyond.replace(human(1e12, "W"), "")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -25,6 +25,9 @@ class Lexicon:
         return (self.chinese if language == "zh" else self.english)[key].format(**names)
 
 
+_MOST_TOLD_W = 1e12
+"""Powers beyond this are told as that much at least."""
+
 WORDS = Lexicon(
     english={
         "power": "radiated power",
@@ -92,8 +95,8 @@ def reason_in_words(decision: Decision, language: str) -> str:
     need, budget = decision.needed_power_w, decision.problem.budget_w(decision.cell)
     if need is None or not budget < need.at_least < np.inf:
         return decision.reason
-    least, most = human(need.at_least, "W"), human(need.at_most, "W")
-    key = "needs_found" if np.isfinite(need.at_most) else "needs"
+    least, most = (human(min(one, _MOST_TOLD_W), "W") for one in (need.at_least, need.at_most))
+    key = "needs_found" if need.at_most <= _MOST_TOLD_W else "needs"
     return WORDS.say(language, key, least=least, most=most, budget=human(budget, "W"))
 
 

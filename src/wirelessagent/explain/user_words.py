@@ -12,6 +12,8 @@ from wirelessagent.explain.users import PROMISE_BPS, Account, Loss
 from wirelessagent.model.units import human, percent
 
 _TIE_DB = 0.05
+_MOST_BUDGETS = 10.0
+"""A bid of more than so many budgets tells nothing."""
 _STEP_BPS = 100e3
 _FACTOR = 1.0005
 
@@ -36,8 +38,8 @@ WORDS = Lexicon(
         "no_promise": "{name} gets nothing: it is promised nothing, and the least power sends only what is promised.",
         "no_room": "{name} gets nothing: {places} subcarriers (or groups of them) cannot serve {users} users.",
         "outbid": "{name} gets nothing: on every subcarrier others make more of the power.",
-        "behind": "It came closest on {place}, which went to {winner}: its gain there is {behind:.1f} dB too low. "
-        "At the prices it is worth {bid} to {name} and {winning} to {winner}.",
+        "behind": "It came closest on {place}, which went to {winner}: its gain there is {behind:.1f} dB too low.",
+        "worths": "At the prices it is worth {bid} to {name} and {winning} to {winner}.",
         "tie": "On {place} it is level with {winner}, who got it (within {behind:.2g} dB): whole subcarriers "
         "cannot be shared.",
         "more": "At the prices it would bid more for {place} than {winner}, who got it ({bid} against {winning}); "
@@ -72,8 +74,8 @@ WORDS = Lexicon(
         "no_promise": "{name} 没有得到任何速率：没有对它的承诺，而功率最低时只发送承诺的部分。",
         "no_room": "{name} 没有得到任何速率：{places} 个子载波（或子载波组）无法服务 {users} 个用户。",
         "outbid": "{name} 没有得到任何速率：在每个子载波上，别的用户都能更好地利用功率。",
-        "behind": "它最接近的是{place}，该处给了 {winner}：它在那里的增益低 {behind:.1f} dB。按价格计，该处对 "
-        "{name} 值 {bid}，对 {winner} 值 {winning}。",
+        "behind": "它最接近的是{place}，该处给了 {winner}：它在那里的增益低 {behind:.1f} dB。",
+        "worths": "按价格计，该处对 {name} 值 {bid}，对 {winner} 值 {winning}。",
         "tie": "在{place}上它与得到者 {winner} 持平（相差 {behind:.2g} dB 以内）：整个子载波不能共享。",
         "more": "按价格它对{place}的出价高于得到者 {winner}（{bid} 对 {winning}）；但整个子载波不能共享，整体上这样"
         "分配更好。",
@@ -161,20 +163,18 @@ def _served(case: Case, account: Account, language: str) -> list[str]:
 
 def _loss(case: Case, loss: Loss, name: str, language: str) -> list[str]:
     key = "tie" if abs(loss.behind_db) < _TIE_DB else "behind" if loss.behind_db > 0 else "more"
-    said = [
-        WORDS.say(
-            language,
-            key,
-            name=name,
-            place=place(loss.first, loss.last, language),
-            winner=case.estimate.user_names[loss.winner],
-            behind=abs(loss.behind_db),
-            bid=_bid(case, loss.bid_w, loss.bid_value, language),
-            winning=_bid(case, loss.winning_bid_w, loss.winning_bid_value, language),
-        )
-    ]
+    names = {
+        "name": name,
+        "place": place(loss.first, loss.last, language),
+        "winner": case.estimate.user_names[loss.winner],
+        "bid": _bid(case, loss.bid_w, loss.bid_value, language),
+        "winning": _bid(case, loss.winning_bid_w, loss.winning_bid_value, language),
+    }
+    said = [WORDS.say(language, key, behind=abs(loss.behind_db), **names)]
     if key != "behind":
         return said
+    if loss.winning_bid_w <= _MOST_BUDGETS * case.problem.budget_w(case.cell):  # else power is next to free
+        said.append(WORDS.say(language, "worths", **names))
     if np.isnan(loss.chance):
         return [*said, WORDS.say(language, "gain_measured")]
     kind = "gain_repaired" if loss.repaired else "gain_noisy"
