@@ -212,3 +212,46 @@ def test_no_text_breaks_the_parser(text: str) -> None:
 def test_absurd_numbers_are_infinite_not_errors() -> None:
     assert only("99999 dBm").value == math.inf
     assert only("9" * 400 + " W").value == math.inf
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "value"),
+    [
+        ("cinco vatios", "power", 5.0), ("veinticinco vatios", "power", 25.0), ("dix watts", "power", 10.0),
+        ("zehn Watt", "power", 10.0), ("200 milivatios", "power", 0.2), ("0,08 kW", "power", 80.0),
+        ("al menos 1.500 kbit/s por usuario", "rate", 1.5e6), ("3 megabits por segundo", "rate", 3e6),
+        ("2 mégabits par seconde", "rate", 2e6), ("4 Megabit pro Sekunde", "rate", 4e6),
+        ("vingt pour cent", "ratio", 0.2), ("5 por ciento", "ratio", 0.05), ("99 Prozent", "ratio", 0.99),
+        ("a quarter of a megabit", "rate", 250e3), ("a half watt", "power", 0.5),
+        ("每人2M", "rate", 2e6), ("每人五百k", "rate", 5e5), ("不低于100 kbit/s的", "rate", 1e5),
+    ],
+)  # fmt: skip
+def test_plain_figures_of_other_languages_and_of_the_trade(text: str, kind: str, value: float) -> None:
+    found = only(text)
+    assert (found.kind, found.value) == (kind, value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["4M瓦", "每人2M赫兹", "the most bits out of one watt", "一瓦换最多的比特", "every joule counts"],
+)
+def test_what_is_no_figure_of_a_rate_or_a_power(text: str) -> None:
+    assert not [found for found in parse_quantities(text) if found.kind in ("rate", "power")]
+
+
+@pytest.mark.parametrize(
+    ("text", "comparator"),
+    [
+        ("como mucho 10 W", "at_most"), ("10 W como máximo", "at_most"), ("al menos 1 Mbit/s", "at_least"),
+        ("au plus 10 W", "at_most"), ("10 W au maximum", "at_most"), ("au moins 1 Mbit/s", "at_least"),
+        ("höchstens 10 W", "at_most"), ("mindestens 1 Mbit/s", "at_least"), ("nicht mehr als 10 W", "at_most"),
+        ("封顶八兆", "at_most"), ("没人掉到100 kbit/s以下", "at_least"), ("128 kbit/s or better", "at_least"),
+    ],
+)  # fmt: skip
+def test_comparators_of_other_languages(text: str, comparator: str) -> None:
+    assert only(text).comparator == comparator
+
+
+@pytest.mark.parametrize("text", ["entre 1 y 2 Mbit/s", "entre 1 et 2 Mbit/s", "zwischen 1 und 2 Mbit/s"])
+def test_ranges_of_other_languages(text: str) -> None:
+    assert [(q.value, q.comparator) for q in parse_quantities(text)] == [(1e6, "at_least"), (2e6, "at_most")]

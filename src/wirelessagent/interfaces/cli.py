@@ -151,12 +151,15 @@ def _command(operation: AnyOperation, parameters: Parameters | None) -> Callable
         request = _request(operation, parameters.values(values))
         if operation.converse is not None:
             return converse(operation, request, as_json=as_json)
-        if as_json:
-            record = operation.run(request, silent)
+        with Listener() as listener:
+            record = operation.run(request, silent if as_json else listener)
+        for fault in record.faults:
+            _fail(fault, 2)
+        if record.lines is not None:
+            print(*record.lines, sep="\n", end="\n" if record.lines else "")  # noqa: T201
+        elif as_json:
             print(record.model_dump_json(indent=2))  # noqa: T201
         else:
-            with Listener() as listener:
-                record = operation.run(request, listener)
             show(record)
         return 2 if record.needs_answer else 0
 

@@ -1,80 +1,24 @@
 """Which constraint each figure of a sentence means, or the question that it raises.
 
-A power is the budget unless the words around it say circuit; a rate is promised to every user unless it is bounded
-from above; a percentage is an outage or a reliability. Everything that does not fit (a total rate, one user's rate, an
-amount to save, a figure without a unit, zero watts) raises a doubt instead of being dropped or bent.
+A power is the budget unless the words around it say circuit or subcarrier; a rate is promised to whoever stands beside
+it, to everybody otherwise, unless it is bounded from above; a percentage is an outage, a reliability or a share of the
+power. Everything that does not fit (a total rate, an amount to save, a figure without a unit, zero watts) raises a
+doubt instead of being dropped or bent.
 """
 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from wirelessagent.language import figure_words
+from wirelessagent.language.allotments import Allotments, Target, target_of
+from wirelessagent.language.intent import Constraint
+from wirelessagent.language.mentions import mentions
+from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.surroundings import describes_all, is_calculated, is_cells_power
-from wirelessagent.language.text import CLAUSE_END
-
-_HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
-
-_CIRCUIT = re.compile(
-    r"(?i)\b(?:circuit|static|fixed|idle|overhead|baseline)\b(?:\s+(?:power|energy|consumption|draw)\b)*|\bp_?c\b|"
-    r"(?:电路|静态|固定)(?:功率|功耗|能耗|消耗)?"
-)
-_CORRECTION = re.compile(
-    r"(?i)\b(?:no,? wait|wait|sorry|i mean|i meant|make that|scratch that|rather|correction|oops)\b|"
-    r"不对|应该是|改成|算了"
-)
-_PER_USER = re.compile(
-    r"(?i)\s*(?:each\b|apiece\b|(?:per|a|for (?:each|every))\s+(?:user|ue|person|head|subscriber|device|sensor|"
-    r"subcarrier|channel|carrier|antenna)|/\s*(?:user|ue)|每)"
-)
-_TOTAL_BEFORE = re.compile(
-    r"(?i)(?:\b(?:total|sum|overall|aggregate|combined|cell|network)\s+(?:data\s+)?(?:rate|throughput|speed|capacity)|"
-    r"总速率|总吞吐量?|和速率|总共|合计|一共)[\w\s:=]{0,8}$"
-)
-_TOTAL_AFTER = re.compile(r"(?i)\s*(?:of\s+)?(?:in\s+total|total|altogether|overall|combined|in\s+sum)\b")
-_CHANGE_BEFORE = re.compile(
-    r"(?i)(?:\b(?:by|save|saves|saving|cut|another|extra|additional|reduce|plus|increase)\s*(?:about|around|roughly)?|"
-    r"(?:减少|降低|节省|省下?|增加|提高|再加|多给|下降|提升|升高)了?)\s*$"
-)
-_CHANGE_AFTER = re.compile(
-    r"(?i)\s*(?:(?:of\s+)?(?:more|less|lower|higher|faster|extra)\b|of\s+(?:the\s+)?\w*\s?(?:power|energy)\b)"
-)
-_SET_TO = re.compile(
-    r"(?i)(?:\b(?:reduce|lower|cut|drop|bring|decrease|turn|raise|increase|set|limit)\s+(?:down\s+|up\s+)?(?:the\s+)?"
-    r"(?:total\s+|max\w*\s+)?(?:transmit\s+|tx\s+|radiated\s+)?(?:power|budget)(?:\s+budget)?\s+(?:down\s+|up\s+)?(?:to|at)|"
-    r"(?:总?发?射?功率)(?:降低?|减[小少]?|调|提高|升|增加?|设)(?:到|至|为)|(?:降低?|减[小少]?|提高)(?:总?发?射?功率)(?:到|至))\s*$"
-)
-_RATE_SET_TO = re.compile(
-    r"(?i)\b(?:raise|increase|bring|set|lift|boost|push|lower|reduce)\s+(?:the\s+|each\s+|every\s+|their\s+)*"
-    r"(?:min\w*\s+|user\w*\s+|data\s+|bit\s+)*(?:rates?|speeds?|throughput)\s+(?:up\s+|down\s+)?to\s+$|"
-    r"(?:速率|速度|网速)(?:提高|提升|增加|升|调|设)(?:到|至|为)\s*$"
-)
-_STATUS = re.compile(
-    r"(?i)\b(?:currently|right now|at the moment|at present|only (?:get|gets|getting|have))\b|目前|当前|现在只|只有"
-)
-_OUTAGE = re.compile(r"(?i)\b(?:outage|fail\w*|miss(?:es)?|risk|violat\w*|drop\w*)\b|中断|失败|违约|风险")
-_RELIABLE = re.compile(
-    r"(?i)\b(?:reliab\w*|availab\w*|confiden\w*|certain\w*|sure|guarantee\w*|probability|success)\b|可靠|把握|置信|成功|概率"
-)
-_MISSING = re.compile(r"(?i)\b(?:missing|lost|loss|unknown|holes?|absent)\b|缺失|丢失|缺少|丢包|未知")
-_NAMED_USER = re.compile(
-    r"(?i)\b(?:users?|ues?|subscribers?|subcarriers?|channels?|carriers?|slots?|devices?|sensors?)\s*(?:no\.?\s*|number\s*|#\s*)?"
-    r"(?P<number>[0-9]+)|#\s*(?P<hash>[0-9]+)|(?:用户|子载波|信道|时隙)\s*(?P<zh>[0-9一二三四五六七八九十]+)|(?P<hao>[0-9]+)\s*号"
-    r"|\b(?:first|second|third|last)\s+(?:user|ue|subcarrier)\b|第[0-9一二三四五六七八九十]+个"
-)
-_COUNTED_USERS = re.compile(
-    r"(?i)(?<![\w.,/^*-])(?:[0-9]+|two|three|four|five|six|seven|eight|nine|ten|twelve|sixteen|twenty) (?:users|ues|"
-    r"subscribers|devices|sensors|terminals|subcarriers|channels)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|设备|传感器|子载波)"
-)
-_SOME_USERS = re.compile(
-    r"(?i)\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
-    r"(?:部分|一些|某些|某个)用户"
-)
-_HALVED = re.compile(r"(?i)\bby (?:a )?(?:half|third|quarter)\b|\bhalf (?:the|of the|as much)\b|\bhalve\b|减半|一半")
-_CUT = re.compile(CLAUSE_END)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,20 +35,31 @@ class Reading:
 
     ``masked`` are the spans that are used up, so that their words do not count as wishes again; ``not_used`` are
     figures that describe the channel rather than ask for something, ``counted`` the spans of those that count.
+    ``missing`` is a share of the channel that is said to be missing, ``steps`` amounts to add, by detail name, ``back``
+    users to be taken in again, ``named`` everybody who is named.
     """
 
-    values: Mapping[str, float]
+    values: Mapping[str, Constraint]
     evidence: Mapping[str, str]
     doubts: Sequence[Doubt]
     not_used: Sequence[str]
     masked: Sequence[tuple[int, int]]
     counted: Sequence[tuple[int, int]]
     exact: frozenset[str]
+    missing: float | None = None
+    steps: Mapping[str, float] = field(default_factory=dict[str, float])
+    back: tuple[str, ...] = ()
+    named: tuple[str, ...] = ()
 
 
-def read_constraints(text: str, plain: str, quantities: Sequence[Quantity]) -> Reading:
-    """The constraints in a sentence: its original text, the same normalised, and its quantities."""
-    reader = _Reader(text, plain, quantities)
+def read_constraints(
+    text: str, plain: str, quantities: Sequence[Quantity], *, names: Sequence[str] = (), max_power_w: float = 20.0
+) -> Reading:
+    """The constraints in a sentence: its original text, the same normalised, and its quantities.
+
+    ``names`` are the channel's users, ``max_power_w`` what shares of the power refer to.
+    """
+    reader = _Reader(text, plain, quantities, names, max_power_w)
     for index in range(len(quantities)):
         reader.take(index)
     reader.take_users()
@@ -114,8 +69,11 @@ def read_constraints(text: str, plain: str, quantities: Sequence[Quantity]) -> R
 class _Reader:
     """One pass over the figures of a sentence."""
 
-    def __init__(self, text: str, plain: str, quantities: Sequence[Quantity]) -> None:
+    def __init__(
+        self, text: str, plain: str, quantities: Sequence[Quantity], names: Sequence[str], max_power_w: float
+    ) -> None:
         self._text, self._plain, self._quantities = text, plain, quantities
+        self._max_power_w = max_power_w
         self._values: dict[str, float] = {}
         self._evidence: dict[str, str] = {}
         self._last_end: dict[str, int] = {}
@@ -124,26 +82,43 @@ class _Reader:
         self._masked: list[tuple[int, int]] = []
         self._counted: list[tuple[int, int]] = []
         self._exact: set[str] = set()
+        self._steps: dict[str, float] = {}
+        self._missing: float | None = None
         self._used_to = 0
+        self._spoken_for: list[tuple[int, int]] = []
+        self._take_blocks()
+        self._take_share()
+        figures = [(figure.start, figure.end) for figure in quantities if figure.kind != "bare"]
+        self._mentions = mentions(plain, names, [*figures, *self._spoken_for])
+        self._allotments = Allotments(text, plain, self._mentions, quantities)
 
     def result(self) -> Reading:
-        low, high = self._values.get("min_rate_bps"), self._values.get("max_rate_bps")
-        if low is not None and high is not None and low > high:
-            names = {"low": self._evidence["min_rate_bps"], "high": self._evidence["max_rate_bps"]}
-            self._doubts.append(Doubt(key="rates_crossed", names=names))
+        allotted = self._allotments
+        for one, other, key in allotted.crossed():
+            names = {"low": one, "high": other} if key == "rates_crossed" else {"one": one, "other": other}
+            self._doubts.append(Doubt(key=key, names=names))
+        values: dict[str, Constraint] = {**self._values, **allotted.values()}
         return Reading(
-            values=self._values, evidence=self._evidence, doubts=self._doubts, not_used=self._not_used,
-            masked=self._masked, counted=self._counted, exact=frozenset(self._exact),
+            values=values, evidence=self._evidence | allotted.evidence(), doubts=self._doubts, not_used=self._not_used,
+            masked=[*self._masked, *allotted.spans], counted=self._counted,
+            exact=frozenset(self._exact | allotted.exact), missing=self._missing, steps=self._steps,
+            back=allotted.back, named=allotted.named,
         )  # fmt: skip
 
     def take(self, index: int) -> None:
         figure = self._quantities[index]
+        if any(start < figure.end and figure.start < end for start, end in self._spoken_for):
+            return
+        if figure.kind == "bare" and any(m.role == "named" and m.start < figure.end <= m.end for m in self._mentions):
+            return
         before_from = max(self._quantities[index - 1].end, self._used_to) if index else 0
         after_to = self._quantities[index + 1].phrase_start if index + 1 < len(self._quantities) else len(self._plain)
-        cuts = [cut.end() for cut in _CUT.finditer(self._plain, before_from, figure.start)]
+        cuts = [cut.end() for cut in figure_words.CUT.finditer(self._plain, before_from, figure.start)]
         before = self._plain[max([before_from, *cuts]) : figure.start]
-        cut = _CUT.search(self._plain, figure.end, after_to)
+        cut = figure_words.CUT.search(self._plain, figure.end, after_to)
         after = self._plain[figure.end : cut.start() if cut else after_to]
+        if self._allotments.is_weight(figure):
+            return
         self._masked.append((figure.phrase_start, figure.phrase_end))
         if figure.kind == "bare" and 0 < figure.value < 1 and _is_probability(before, after):
             self._take_ratio(figure, before, after)
@@ -162,12 +137,13 @@ class _Reader:
         elif figure.kind == "power":
             self._take_power(figure, before, after)
         else:
-            self._take_rate(figure, before, after)
+            self._take_rate(index, before, after)
 
     def take_users(self) -> None:
-        """How many users there are is the channel's affair; a user or subcarrier that is named can't be served yet."""
-        for match in _COUNTED_USERS.finditer(self._plain):
-            if any(figure.start <= match.start() < figure.end for figure in self._quantities):
+        """How many users there are is the channel's affair; a user who is named and gets nothing raises a doubt."""
+        for match in figure_words.COUNTED_USERS.finditer(self._plain):
+            taken = [(figure.start, figure.end) for figure in self._quantities] + self._spoken_for
+            if any(start <= match.start() < end for start, end in [*taken, *self._allotments.spans]):
                 continue
             words = self._text[match.start() : match.end()]
             self._counted.append(match.span())
@@ -175,19 +151,55 @@ class _Reader:
                 self._not_used.append(words)
             else:
                 self._doubts.append(Doubt(key="some_users", names={"text": words}))
-        some = _SOME_USERS.search(self._plain)
+        some = figure_words.SOME_USERS.search(self._plain)
         if some is not None:
             self._doubts.append(Doubt(key="some_users", names={"text": self._text[some.start() : some.end()]}))
-        halved = _HALVED.search(self._plain)
-        if halved is not None:
+        halved = figure_words.HALVED.search(self._plain)
+        if halved is not None and not any(
+            start <= halved.start() < end for start, end in [*self._spoken_for, *self._allotments.spans]
+        ):
             self._doubts.append(Doubt(key="change", names={"text": self._text[halved.start() : halved.end()]}))
-        for match in _NAMED_USER.finditer(self._plain):
-            group = match.lastgroup
-            place = match.start(group) if group is not None else match.start()
-            if not any(figure.start <= place < figure.end for figure in self._quantities):
-                name = self._text[match.start() : match.end()]
-                self._doubts.append(Doubt(key="named_user", names={"text": name}))
-                return
+        nobody = figure_words.NOBODY.search(self._plain)
+        if nobody is not None:
+            self._doubts.append(Doubt(key="some_users", names={"text": self._text[nobody.start() : nobody.end()]}))
+        for start, end in self._allotments.take_users():
+            self._doubts.append(Doubt(key="named_user", names={"text": self._text[start:end]}))
+        step = figure_words.STEP.search(self._plain)
+        if step is not None:
+            self._steps.setdefault("power_w", 1.0)
+
+    def _take_blocks(self) -> None:
+        match = figure_words.BLOCKS.search(self._plain)
+        if match is None or match.lastgroup is None:
+            return
+        word = match[match.lastgroup].lower()
+        size = int(word) if word.isdigit() else figure_words.BLOCK_WORDS.get(word) or int(chinese_value(word) or 0)
+        self._spoken_for.append(match.span())
+        self._masked.append(match.span())
+        words = self._text[match.start() : match.end()]
+        if size < 1:
+            self._doubts.append(Doubt(key="impossible", names={"text": words}))
+        else:
+            self._values["resource_block_group_size"] = float(size)
+            self._evidence["resource_block_group_size"] = words
+
+    def _take_share(self) -> None:
+        """A share of the power, of the cell's limit: "with half the power"."""
+        match = figure_words.SHARE.search(self._plain)
+        before = self._plain[: match.start()] if match is not None else ""
+        if match is None or figure_words.CHANGE_BEFORE.search(before) or figure_words.MOVE_BEFORE.search(before):
+            return
+        group = match.lastgroup or ""
+        share = figure_words.SHARES.get(group) or float(match[group]) / 100
+        words = self._text[match.start() : match.end()]
+        self._spoken_for.append(match.span())
+        self._masked.append(match.span())
+        if not 0 < share <= 1:
+            self._doubts.append(Doubt(key="impossible", names={"text": words}))
+            return
+        self._values["max_power_w"] = share * self._max_power_w
+        self._evidence["max_power_w"] = words
+        self._last_end["max_power_w"] = match.end()
 
     def _clause_around(self, start: int, end: int) -> tuple[str, str]:
         """What stands before and after a span within its clause, figures being borders too."""
@@ -195,25 +207,28 @@ class _Reader:
         to = min(
             [len(self._plain), *(figure.phrase_start for figure in self._quantities if figure.phrase_start >= end)]
         )
-        cuts = [cut.end() for cut in _CUT.finditer(self._plain, from_, start)]
-        cut = _CUT.search(self._plain, end, to)
+        cuts = [cut.end() for cut in figure_words.CUT.finditer(self._plain, from_, start)]
+        cut = figure_words.CUT.search(self._plain, end, to)
         return self._plain[max([from_, *cuts]) : start], self._plain[end : cut.start() if cut else to]
 
     def _take_power(self, figure: Quantity, before: str, after: str) -> None:
-        circuit = _CIRCUIT.search(before) or _CIRCUIT.search(after)
-        setting = _SET_TO.search(before)
+        circuit = figure_words.CIRCUIT.search(before) or figure_words.CIRCUIT.search(after)
+        setting = figure_words.SET_TO.search(before)
         if circuit is not None:
-            offset = figure.start - len(before) if _CIRCUIT.search(before) else figure.end
+            offset = figure.start - len(before) if figure_words.CIRCUIT.search(before) else figure.end
             self._masked.append((offset + circuit.start(), offset + circuit.end()))
             self._used_to = offset + circuit.end()
             self._set("circuit_power_w", figure.value, figure)
-        elif figure.value > _HUGE_POWER_W:
+        elif figure.value > figure_words.HUGE_POWER_W:
             self._doubt("huge", figure)
-        elif _PER_USER.match(after):
+        elif figure_words.SUBCARRIER.match(after) or figure_words.SUBCARRIER_BEFORE.search(before):
+            self._set("subcarrier_max_power_w", figure.value, figure)
+        elif figure_words.PER_USER.match(after):
             self._doubt("power_per_user", figure)
         elif figure.comparator == "at_least":
             self._doubt("power_floor", figure)
         elif _is_change(before, after):
+            self._steps["power_w"] = figure.value
             self._doubt("change", figure)
         elif not is_cells_power(before, after):
             self._doubt("whose_power", figure)
@@ -222,37 +237,52 @@ class _Reader:
                 self._masked.append((figure.start - len(before) + setting.start(), figure.end))
             self._set("max_power_w", figure.value, figure)
 
-    def _take_rate(self, figure: Quantity, before: str, after: str) -> None:
+    def _take_rate(self, index: int, before: str, after: str) -> None:
+        figure = self._quantities[index]
         lead = (
             before[: len(before) - (figure.start - figure.phrase_start)]
             if figure.phrase_start < figure.start
             else before
         )
-        setting = _RATE_SET_TO.search(before)
+        setting = figure_words.RATE_SET_TO.search(before)
         if setting is not None:
             self._masked.append((figure.start - len(before) + setting.start(), figure.end))
-        if not _PER_USER.match(after) and (_TOTAL_BEFORE.search(lead) or _TOTAL_AFTER.match(after)):
+        target = target_of(self._plain, self._mentions, self._quantities, index, self._allotments.roles)
+        if (
+            not figure_words.PER_USER.match(after)
+            and target.role == "everybody"
+            and (figure_words.TOTAL_BEFORE.search(lead) or figure_words.TOTAL_AFTER.match(after))
+        ):
             self._doubt("total_rate", figure)
         elif _is_change(before, after):
+            self._steps["rate_bps"] = figure.value
             self._doubt("change", figure)
-        elif figure.comparator is None and _STATUS.search(before + after):
+        elif figure.comparator is None and figure_words.STATUS.search(before + after):
             self._doubt("status", figure)
         elif figure.comparator == "at_most":
-            self._set("max_rate_bps", figure.value, figure)
+            self._allot("max_rate_bps", target, figure)
         else:
-            self._set("min_rate_bps", figure.value, figure)
+            self._allot("min_rate_bps", target, figure)
             if figure.comparator == "exactly":
-                self._set("max_rate_bps", figure.value, figure)
+                self._allot("max_rate_bps", target, figure)
+
+    def _allot(self, name: str, target: Target, figure: Quantity) -> None:
+        earlier = self._allotments.give(name, target, figure, corrects=figure_words.CORRECTION)
+        if earlier is not None:
+            self._doubts.append(Doubt(key="conflict", names={"one": earlier, "other": figure.text}))
 
     def _take_ratio(self, figure: Quantity, before: str, after: str) -> None:
         around = before + " " + after
-        if _MISSING.search(around):
+        if figure_words.MISSING.search(around):
+            self._missing = figure.value
             self._not_used.append(figure.text)
             return
-        if _is_change(before, after) or not (_OUTAGE.search(around) or _RELIABLE.search(around)):
+        if _is_change(before, after) or not (
+            figure_words.OUTAGE.search(around) or figure_words.RELIABLE.search(around)
+        ):
             self._doubt("share", figure)
             return
-        outage = figure.value if _OUTAGE.search(around) else round(1 - figure.value, 15)
+        outage = figure.value if figure_words.OUTAGE.search(around) else round(1 - figure.value, 15)
         if not 0 < outage < 1:
             self._doubt("impossible", figure)
         else:
@@ -262,7 +292,7 @@ class _Reader:
         """Take a value, the later one after words of correction; two values without them are a doubt."""
         if name in self._values and self._values[name] != value:
             between = self._plain[self._last_end[name] : figure.start]
-            correction = _CORRECTION.search(between)
+            correction = figure_words.CORRECTION.search(between)
             if correction is None:
                 names = {"one": self._evidence[name], "other": figure.text}
                 self._doubts.append(Doubt(key="conflict", names=names))
@@ -280,9 +310,12 @@ class _Reader:
 
 
 def _is_probability(before: str, after: str) -> bool:
-    return any(pattern.search(before + " " + after) for pattern in (_OUTAGE, _RELIABLE, _MISSING))
+    return any(
+        pattern.search(before + " " + after)
+        for pattern in (figure_words.OUTAGE, figure_words.RELIABLE, figure_words.MISSING)
+    )
 
 
 def _is_change(before: str, after: str) -> bool:
     """Whether the figure is an amount to save or to add, not a limit."""
-    return _CHANGE_BEFORE.search(before) is not None or _CHANGE_AFTER.match(after) is not None
+    return figure_words.CHANGE_BEFORE.search(before) is not None or figure_words.CHANGE_AFTER.match(after) is not None

@@ -155,7 +155,8 @@ def _unclear(positive: dict[str, float], negated: set[str]) -> Goal:
     if served:
         best = max(served, key=lambda name: positive[name])
         return Goal(verdict="weak", objective=best, options=(best,))
-    return Goal(verdict="none")
+    opposed = [name for name in positive if name in _UNSERVED]
+    return Goal(verdict="opposite" if opposed else "none", options=tuple(opposed))
 
 
 def _signals(found: Sequence[Found]) -> list[Signal]:
@@ -345,7 +346,12 @@ def _balanced(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     concepts = {item.term.concept for item in found}
     for_rate = concepts & {"rate", "stream", "performance"} or "max_rate" in wishes
     for_power = concepts & {"power", "battery"} or "min_power" in wishes
-    if not words or not for_rate or not for_power or any(signal.negated for signal in signals):
+    if any(signal.negated for signal in signals):
+        return signals
+    if words and for_rate and not for_power and "proportional_fairness" in wishes:  # "a balance of speed and fairness"
+        kept = [s for s in signals if s.objective not in ("max_rate", *_UNSERVED)]
+        return [*kept, _signal(words[0], words[-1], "proportional_fairness", 1.5)]
+    if not words or not for_rate or not for_power:
         return signals
     kept = [s for s in signals if s.objective not in ("max_rate", "min_power", *_UNSERVED)]
     return [*kept, _signal(words[0], words[-1], "max_energy_efficiency", 1.5)]

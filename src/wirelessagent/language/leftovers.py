@@ -21,9 +21,33 @@ _NAMES = re.compile(
     r"(?i)(?<![A-Za-z0-9.])(?:[2-6]G|[248]K|(?:720|1080|1440|2160)p|wi-?fi\s?[4-7]|24/7)(?![A-Za-z0-9])"
     r"(?!\s*(?:each|per|apiece|every|for (?:each|every))\b)"
 )
+_TIMES = re.compile(
+    r"(?i)(?<![\w.,])[0-9]{1,2}(?::[0-9]{2})?\s?(?:a\.?m\.?|p\.?m\.?|o'clock|uhr)(?![A-Za-z])|"
+    r"(?<![\w.,])[0-9]{1,2}:[0-9]{2}(?![0-9])|"
+    r"\b(?:for|in|within|after|until|during|next|last|past|every)\s+(?:the\s+)?(?:next\s+|last\s+)?(?:[0-9]{1,3}|"
+    r"two|three|four|five|six|ten|twelve|thirty)\s+"
+    r"(?:hours?|minutes?|mins?|days?|weeks?|months?|years?)\b|[0-9一二两三四五六七八九十半]{1,3}(?:点钟?|小时|分钟|"
+    r"个小时|天|周|个月|年)(?!\s*[W瓦])|"
+    r"(?:周|星期|礼拜)[一二三四五六日天]|[一二三四五六七八九十0-9]{1,2}月|[一二三四五六七八九十0-9]{1,2}[日]"
+)
+_OF_THE_YEAR = re.compile(r"(?i)\b(?:this|last|next|each|every|per|the) (?:first |last )?quarter\b(?! of)")
+_PAIRS = re.compile(
+    r"(?i)\b(?:between|of|the|these|those|either|in|both|or|my|our|by)\s+(?:the\s+)?(?:two|three)(?=\s*(?:$|"
+    r"[.,;:!?)]|of\s+(?:them|us)|sides?|extremes?|ends?|goals?|things?|worlds?|"
+    r"aims?|plans?|results?|wishes|objectives))|[两]者|两个都|两头|两全|两边|一举两得|三心二意|四面八方|十足|"
+    r"第[一二三]|万一|一二"
+)
 _VAGUE = re.compile(
-    r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|many|lots|plenty|"
-    r"number)\s+(?:of\s+)?"
+    r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
+    r"(?<=a )number)\s+(?:of\s+)?"
+)
+_COUNTS = re.compile(  # "sixty thousand people", "three in the morning"
+    r"(?i)\s+(?:more\s+|other\s+|good\s+|big\s+|small\s+)?(?:people|persons|fans|guests|visitors|students|men|"
+    r"women|kids|children|cars|cameras|robots|"
+    r"meters|phones|passengers|spectators|viewers|customers|employees|machines|tickets|times a day|hours?|minutes?|"
+    r"days?|weeks?|months?|years?|floors?|rooms?|"
+    r"of (?:us|them|you)|in the (?:morning|afternoon|evening|night)|at night|o'clock|sharp|or so people|"
+    r"hundred people)\b"
 )
 _IDIOMS = ("a", "an", "one")
 _CHINESE_FIGURE = re.compile(r"[二三四五六七八九]|十(?!分)|两(?=\s*[个名位台倍])")
@@ -38,7 +62,8 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
     >>> text[start:end]
     '43 dB'
     """
-    known = [*covered, *((match.start(), match.end()) for match in _NAMES.finditer(plain))]
+    harmless = (match.span() for pattern in (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR) for match in pattern.finditer(plain))
+    known = [*covered, *harmless]
     places = sorted(place for place in _numbers_at(plain) if not _inside(place, known))
     if not places:
         return None
@@ -60,7 +85,8 @@ def _is_figure(plain: str, number: Number) -> bool:
     if number.value is None:
         return False
     if number.form == "words":
-        return plain[number.start : number.end].lower() not in _IDIOMS
+        counts = _COUNTS.match(plain, number.end) is not None
+        return not counts and plain[number.start : number.end].lower() not in _IDIOMS
     return number.form == "chinese" and _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None
 
 

@@ -20,7 +20,7 @@ DIRECT: dict[str, str] = {
         "is_slow slow sluggish buffering buffers stutters stuttering lagging laggy lags not_fast_enough "
         "isnt_fast_enough more_data really_fast very_fast super_fast fast_network fast_internet fast_wifi "
         "spectral_efficiency spectrum_efficiency spectrally_efficient rate_maximisation rate_maximization rmax 快 "
-        "更快 "
+        "更快 冲速度 冲速率 冲吞吐 冲网速 拼速度 飙速 "
         " "
         "快一点 快点 快些 快一些 最快 越快越好 要快 加速 提速 高速 高速率 太慢 太卡 很慢 好慢 慢 网速慢 卡顿 很卡 "
         "好卡 "
@@ -28,6 +28,8 @@ DIRECT: dict[str, str] = {
         "缓冲 流畅 更流畅 不够快 频谱效率 谱效"
     ),
     "min_power": (
+        "radiate_as_little transmit_as_little emit_as_little radiate_little emit_little transmit_little radiate_less "
+        "transmit_less emit_less radiate_as_weakly transmit_as_weakly as_little_power 少发射 少辐射 "
         "green greener go_green eco eco_mode low_power low_energy power_saving energy_saving battery_saving "
         "drain_too_fast drains_too_fast draining_too_fast drain_fast drains_fast too_much_power "
         "too_much_energy too_much_electricity economical power_minimisation power_minimization pmin 省电 省点电 节能 "
@@ -46,6 +48,8 @@ DIRECT: dict[str, str] = {
         "slow_down slowing_down slower slowest slowly throttle 放慢 慢一点 慢点 慢一些 降速 限速 最慢 更慢 慢慢 慢下来"
     ),
     "proportional_fairness": (
+        "log_rates log_rate log_utility sum_of_logs sum_of_log_rates sum_log_rate sum_of_the_logs logarithmic_utility "
+        "geometric_mean geometric_mean_of_the_rates nash_bargaining 对数和 对数效用 几何平均 "
         "fair fairer fairest fairness equitable equitably proportionally_fair proportional_fair pf 公平 公平性 更公平 "
         "公平一点 公平一些 公平对待 按比例公平"
     ),
@@ -146,11 +150,15 @@ POWER = (
     "功率 功耗 能耗 电 电量 电力 耗电量 发射功率 能量 能源 电费 总功率 能源消耗 能量消耗 用电"
 )
 BATTERY = "battery batteries battery_life battery_lifetime 电池 续航 电池寿命 电池续航"
-WORST = "最慢用户 最慢的用户 最慢的人 最差用户 最差的用户 最弱用户 最弱的用户 " + " ".join(
-    f"{worst}_{user}{plural}"
-    for worst in ("slowest", "weakest", "worst", "poorest", "worst_off", "worst_served", "most_disadvantaged")
-    for user in ("user", "ue", "subscriber", "device", "terminal", "customer")
-    for plural in ("", "s")
+WORST = (
+    "最小用户速率 最低用户速率 最小用户的速率 最低用户的速率 最差那个用户 最慢那个用户 最差的那个用户 最慢的那个用户 "
+    "最弱的那个用户 最慢的那个人 最差的那个人 最慢用户 最慢的用户 最慢的人 最差用户 最差的用户 最弱用户 最弱的用户 "
+    + " ".join(
+        f"{worst}_{user}{plural}"
+        for worst in ("slowest", "weakest", "worst", "poorest", "worst_off", "worst_served", "most_disadvantaged")
+        for user in ("user", "ue", "subscriber", "device", "terminal", "customer")
+        for plural in ("", "s")
+    )
 )
 EFFICIENCY = "efficiency efficient efficiently 效率 高效"
 
@@ -172,21 +180,24 @@ NOT_AFTER = (
     "is_off are_off off turned_off switched_off is_disabled disabled is_out is_over is_unwanted unwanted undesired "
     "excluded forbidden not_wanted not_desired not_allowed out_of_the_question 关了 已关闭 已关 除外 免了 "
     "doesnt_matter does_not_matter dont_matter do_not_matter not_important isnt_important unimportant irrelevant "
+    "就别用了 别用了 就别用 就算了 就免了 不用了 不要了 就不要了 先不用 就不用了 别搞了 先别用 别用 "
     "no_object no_concern not_a_concern isnt_a_concern not_a_priority isnt_a_priority not_needed isnt_needed "
     "not_necessary 无所谓 不重要 没关系 不要紧 不是问题 随便"
 )
 POLITE = (
-    "fair_enough fair_point fair_amount fair_bit fair_chance fair_warning to_be_fair no_matter_what regardless "
+    "quick_question quick_check quick_look quick_word fair_enough fair_point fair_amount fair_bit fair_chance "
+    "fair_warning to_be_fair no_matter_what regardless "
     "whatever_it_takes off_peak no_doubt 无论如何 不管怎样 不管怎么样 "
     "can could would will shall please lets let_us how_about what_about why_not why_dont is_it_possible_to "
     "i_want_you_to dont_forget do_not_forget not_only no_wait nothing_but make_sure green_light high_speed_train "
     "at_high_speed 能不能 能否 能 哪怕 赶快 尽快 可以 可不可以 请 帮 麻烦 要不要 不但 不仅 别忘了 不错 大家 大约 "
-    "差不多 不好意思 大概 多个"
+    "差不多 不好意思 大概 多个 快递 快乐 快照 快餐 愉快 凉快 痛快 快讯 快手 快车 慢性 慢跑 慢慢来"
 )
 SPLIT = "but instead however yet while whereas 但 但是 而 而是 不过"
 JOIN = "and or nor plus 和 与 及 或 以及"
 BALANCE = (
-    "balance balanced balancing tradeoff trade_off trade_offs compromise sweet_spot middle_ground 平衡 均衡 兼顾 "
+    "折个中 取个中间 取个中 取中间 找个平衡 平衡一下 balance balanced balancing tradeoff trade_off trade_offs "
+    "compromise sweet_spot middle_ground 平衡 均衡 兼顾 "
     "权衡  "
     "折中 折衷 两全 取舍"
 )
@@ -224,7 +235,7 @@ _NO_DATA = (
 )
 STRANGE = (
     "fastest_user fastest_users strongest_user strongest_users best_user best_users 最快的用户 最快用户 最好的用户 "
-    "max_min_power unfair unfairly unfairness 不公平 alpha_fair alpha_fairness alpha_fairly α_fair α_fairness α公平 "
+    "max_min_power alpha_fair alpha_fairness alpha_fairly α_fair α_fairness α公平 "
     "jain jains jain_index "
     "weighted_fair weighted_fairness min_max round_robin same_rate_as same_speed_as keep_the_same_rate "
     "keep_the_same_speed at_the_same_rate at_the_same_speed with_the_same_rate with_the_same_speed packet_loss "
@@ -232,7 +243,8 @@ STRANGE = (
     + " ".join(f"{kind}_rate {kind}_rates" for kind in _NO_DATA.split())
 )
 DOMAIN = (
-    "power_cut power_outage power_failure 比特 比例 user users ue subcarrier subcarriers channel channels csi cell "
+    "unfair unfairly unfairness 不公平 公不公平 power_cut power_outage power_failure 比特 比例 user users ue "
+    "subcarrier subcarriers channel channels csi cell "
     "cells network base_station allocation spectrum  "
     "signal snr sensor sensors iot device devices wireless internet wifi 5g 6g gain repair waterfilling 用户 小区 "
     "电路  "

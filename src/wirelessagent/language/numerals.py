@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 
+from wirelessagent.language.text import language_of
+
 _ONES = (
     "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen "
     "eighteen nineteen"
@@ -26,6 +28,30 @@ _SCALES = {"hundred": Decimal(100), "thousand": Decimal(10**3), "million": Decim
 _VAGUE = ("few", "several", "couple", "dozen", "dozens", "hundreds", "thousands", "third", "tenth")
 _PARTS = {"half": Decimal("0.5"), "quarter": Decimal("0.25"), "quarters": Decimal("0.25")}
 
+# Number words of other languages, which count only in front of a unit: "once" is also English.
+_FOREIGN = {
+    "en_es": "uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince dieciséis diecisiete "
+    "dieciocho diecinueve veinte",
+    "en_fr": "un deux trois quatre cinq six sept huit neuf dix onze douze treize quatorze quinze seize dix-sept "
+    "dix-huit dix-neuf vingt",
+    "en_de": "ein zwei drei vier fünf sechs sieben acht neun zehn elf zwölf dreizehn vierzehn fünfzehn sechzehn "
+    "siebzehn achtzehn neunzehn zwanzig",
+}
+_FOREIGN_WORDS = {
+    **{word: Decimal(place) for listing in _FOREIGN.values() for place, word in enumerate(listing.split(), start=1)},
+    "una": Decimal(1), "une": Decimal(1), "eine": Decimal(1), "einen": Decimal(1), "eins": Decimal(1),
+    "medio": Decimal("0.5"), "media": Decimal("0.5"), "demi": Decimal("0.5"), "halbes": Decimal("0.5"),
+    "treinta": Decimal(30), "trente": Decimal(30), "dreißig": Decimal(30), "cuarenta": Decimal(40),
+    "quarante": Decimal(40), "vierzig": Decimal(40), "cincuenta": Decimal(50), "cinquante": Decimal(50),
+    "fünfzig": Decimal(50), "cien": Decimal(100), "cent": Decimal(100), "hundert": Decimal(100),
+    "veinticinco": Decimal(25), "vingt-cinq": Decimal(25), "fünfundzwanzig": Decimal(25),
+    "doscientos": Decimal(200), "quinientos": Decimal(500), "zweihundert": Decimal(200), "fünfhundert": Decimal(500),
+}  # fmt: skip
+_FOREIGN_UNIT = (
+    r"(?=[\s-]+(?:mili|milli|kilo|mega|méga|giga)?-?(?:vatios?|watts?|bits?|mbit|kbit|mbps|kbps|mb/s|"
+    r"kb/s|gbit|mw|kw|w|dbm|dbw|prozent|por\s+ciento|pour\s+cent|%)(?![a-z]))"
+)
+
 _CHINESE_DIGITS = {c: d for d, c in enumerate("零一二三四五六七八九")} | {"〇": 0, "两": 2}
 _CHINESE_SCALES = {"十": 10, "百": 100, "千": 1000}
 _CHINESE_BIG = {"万": 10**4, "亿": 10**8}
@@ -39,8 +65,10 @@ _WORD = (
 )
 _NUMBER = re.compile(
     rf"(?P<minus>(?<![A-Za-z0-9_)])-(?=[0-9.])|(?i:\b(?:minus|negative)\s+)|负\s*)?"
-    rf"(?:(?P<digits>(?<![A-Za-z0-9_.]){_DIGITS})(?:\s?(?P<scale>(?i:hundred|thousand|million|billion)\b|[百千]?万|百|亿|千(?!瓦时|赫|米)))?"
-    rf"|(?P<words>(?i:(?<!\bas\s)\b{_WORD}(?:[\s-]+{_WORD})*\b))"
+    rf"(?:(?P<digits>(?<![A-Za-z0-9_.]){_DIGITS})(?:\s?(?P<scale>(?i:hundred|thousand|million|billion)\b|[百千]?万|"
+    rf"百|亿|千(?!瓦时|赫|米)))?"
+    rf"|(?P<foreign>(?i:\b(?:{'|'.join(sorted(_FOREIGN_WORDS, key=len, reverse=True))}){_FOREIGN_UNIT}))"
+    rf"|(?P<words>(?i:(?!(?<=\bas\s)(?:an?|one|few|several)\b)\b{_WORD}(?:[\s-]+{_WORD})*\b))"
     rf"|(?P<chinese>[几零〇一二两三四五六七八九十百千万亿半][零〇一二两三四五六七八九十百千万亿点半]*))"
 )
 
@@ -57,11 +85,11 @@ class Number:
 
 def numbers(text: str) -> Iterator[Number]:
     """Every number in normalised text, from left to right, not overlapping."""
-    position = 0
+    position, points_group = 0, language_of(text) in ("es", "de")
     while match := _NUMBER.search(text, position):
         position = match.end()
-        form = "digits" if match["digits"] else "words" if match["words"] else "chinese"
-        start, end, value = match.start(), match.end(), _value_of(match, form)
+        form = next(name for name in ("digits", "foreign", "words", "chinese") if match[name])
+        start, end, value = match.start(), match.end(), _value_of(match, form, points_group=points_group)
         if form == "words":
             start, end, value = _trim_words(match)
         if value is not None and match["minus"]:
@@ -70,15 +98,17 @@ def numbers(text: str) -> Iterator[Number]:
             yield Number(value=value, start=start, end=end, form=form)
 
 
-def _value_of(match: re.Match[str], form: str) -> Decimal | None:
+def _value_of(match: re.Match[str], form: str, *, points_group: bool) -> Decimal | None:
     if form == "chinese":
         return chinese_value(match["chinese"])
+    if form == "foreign":
+        return _FOREIGN_WORDS[match["foreign"].lower()]
     if form == "words":
         return None
     digits = match["digits"]
     if re.match(r"[1-9][0-9]{0,2}(?:,[0-9]{3})+(?![0-9])", digits):
         digits = digits.replace(",", "")
-    elif re.match(r"[1-9][0-9]{0,2}(?:\.[0-9]{3}){2,}(?![0-9])", digits):
+    elif re.match(rf"[1-9][0-9]{{0,2}}(?:\.[0-9]{{3}}){{{1 if points_group else 2},}}(?![0-9])", digits):
         digits = digits.replace(".", "")
     if len(re.findall(r"[.,]", digits)) > 1:
         return None  # "1,23,456": what the marks mean is anybody's guess
@@ -119,7 +149,7 @@ def words_value(words: list[str]) -> Decimal | None:
         elif word in ("and", "of") or (word in ("a", "an") and index):
             continue
         elif word in _PARTS:
-            times = word == "quarters" and group is not None
+            times = word == "quarters" or words[:index] in (["a"], ["an"])  # "three quarters", "a quarter of a megabit"
             group = group * _PARTS[word] if times and group is not None else (group or 0) + _PARTS[word]
         elif word in _SCALES:
             group = (Decimal(1) if group is None else group) * _SCALES[word]

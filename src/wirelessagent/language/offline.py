@@ -1,267 +1,348 @@
-"""The offline recogniser: a lexicon and rules, no model, no network. It acts only when it is sure, and asks otherwise.
+"""The offline recogniser: no network, no language model. It acts only when it is sure, and asks otherwise.
 
-Figures first (``quantities``, ``constraints``), then the objective from the words that remain (``vocabulary``,
-``goals``). There is one default: a rate for each user under a power limit, with no wish, means the highest total rate
-with both; a rate or a limit alone is asked about. Any registered objective is understood by its name, its aliases and
-its own phrases.
+Figures and users come from the parsers alone (``quantities``, ``constraints``). What the sentence wants is judged
+twice: by a lexicon with rules (``goals``: precise, but blind to what it does not list) and by a small linear model
+(``linear_model``: seldom at a loss, never quite certain). Where both agree little certainty is needed, where only the
+model speaks much; where they disagree the operator is asked. There is one default: a rate for each user under a power
+limit, with no wish, means the highest total rate with both. Any registered objective is understood by its name, its
+aliases and its own phrases.
 """
 
 from __future__ import annotations
 
-import functools
 import re
 from collections.abc import Mapping, Sequence
-from typing import cast
+from typing import Any
 
-from wirelessagent import plugins
-from wirelessagent.language import goals
-from wirelessagent.language.constraints import Reading, read_constraints
-from wirelessagent.language.goals import Goal
-from wirelessagent.language.intent import CONSTRAINTS, Intent, IntentKind
+from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
+from wirelessagent.language.intent import COMMANDS, CONSTRAINTS, Constraint, Detail, Intent, IntentKind
+from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
-from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Voice
-from wirelessagent.language.text import language_of, normalise
-from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
-from wirelessagent.model.objective import Objective
+from wirelessagent.language.sentence import Sentence, labels_of, own_words
+from wirelessagent.language.text import language_of
+from wirelessagent.language.topics import details_of
+from wirelessagent.language.vocabulary import OwnWords
 
 NAME = "offline"
 _MAX_CHARACTERS = 2000
 _DEFAULT_CONFIDENCE = 0.75
-_BUILT_IN_ORDER = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
-_COMPARE = ("compare", "比较", "对比")
+_CHANGING = ("apply", "confirm", "undo", "reset")
+_SURE_OF_A_COMMAND = 0.6
+_CUES = {  # a command that changes something has one of these in it
+    "reset": re.compile(
+        r"(?i)reset|clear|wip|eras|forget|delet|start over|again|scratch|afresh|anew|zero|new|fresh|slate|"
+        r"square one|back|drop|scrap|"
+        r"flush|beginning|defaults?|restart|top|重|清|忘|新|初始|零|默认|出厂|归|reinici|borr|cero|empe|olvid|"
+        r"recommen|effac|zéro|réinit|"
+        r"oubli|zurück|vorn|neu|lösch|vergiss|anfang"
+    ),
+    "undo": re.compile(
+        r"(?i)undo|rever|roll|back|restor|previous|before|cancel|retract|mistake|wrong|old|withdraw|oops|撤|回|退|"
+        r"还原|恢复|取消|后悔|错|"
+        r"deshac|deshaz|vuelve|revier|restaura|annul|retour|revien|défai|rückgängig|zurück|alten"
+    ),
+    "apply": re.compile(
+        r"(?i)appl|deploy|activ|implement|execut|roll|push|commit|install|enact|\buse\b|send|live|effect|operation|"
+        r"happen|on air|"
+        r"production|\bgo\b|proceed|do it|let's|carry|make it|engage|run with|ship|put it|write|load|take it|应用|"
+        r"执行|下发|部署|生效|启用|实施|"
+        r"落地|采用|提交|办|定|上线|开|推|动手|搞|走|就|用|按|照|做|发|adelante|hazlo|ponlo|aplíca|aplica|ejec|"
+        r"despl|activa|vas-y|mets|exéc|"
+        r"déplo|envoie|anwend|wende|übern|ausf|ausroll|spiel|mach|leg|setz|aktiv|damit"
+    ),
+}
+_SETTLED = {"fair": 0.95, "same": 0.5, "fairly": 0.8}  # how sure the model must be that these words are clear
 _REFUSED = re.compile(
     r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$"
 )  # "max rate? no"
-_ABOUT_THE_NETWORK = (
-    "rate", "stream", "power", "battery", "efficiency", "performance", "domain", "direct", "fair", "fairly", "same",
-    "worst",
-)  # fmt: skip
+_ASKED = re.compile(r"[?\uff1f]\s*$")
 
 
 class OfflineRecogniser(Recogniser):
-    """Recognises intents from words alone, in English and Chinese."""
+    """Recognises intents in English and Chinese, and plain ones in Spanish, French and German."""
 
     name = NAME
 
     def recognise(self, text: str, context: Context | None = None) -> Intent:
         """What the operator means; never raises, whatever the text."""
-        del context
-        own = _own_words()
-        language = language_of(text[:_MAX_CHARACTERS])
-        voice = Voice(language, _labels(own, language))
+        own = own_words()
+        language = _language(text[:_MAX_CHARACTERS], context)
+        voice = Voice(language, labels_of(own, language))
         if len(text) > _MAX_CHARACTERS:
-            return _Answer(voice).ask("too_long")
-        return _Understanding(text, own, voice).intent()
+            return _Answer(voice, language).ask("too_long")
+        return _Understanding(text, own, voice, context, language).intent()
 
 
-def recognise(text: str) -> Intent:
+def recognise(text: str, context: Context | None = None) -> Intent:
     """What the operator means, by the offline recogniser.
 
     >>> intent = recognise("Save power for sensors, 200 kbit/s each")
     >>> intent.objective, dict(intent.constraints)
     ('min_power', {'min_rate_bps': 200000.0})
     """
-    return OfflineRecogniser().recognise(text)
+    return OfflineRecogniser().recognise(text, context)
+
+
+def _language(text: str, context: Context | None) -> str:
+    """The sentence's own language; that of the conversation where hardly a word is said ("10 W")."""
+    words = re.findall(r"[^\W\d_]{3,}", text)
+    if context is not None and context.language and language_of(text) == "en" and len(words) < 2:
+        return context.language
+    return language_of(text)
 
 
 class _Answer:
     """Intents in one operator's language."""
 
-    def __init__(self, voice: Voice) -> None:
-        self.voice = voice
+    def __init__(self, voice: Voice, language: str) -> None:
+        self.voice, self.language = voice, language
 
-    def ask(self, key: str, confidence: float = 0.5, **names: str) -> Intent:
-        return self.tell("clarify", key, confidence, **names)
+    def ask(
+        self, key: str, confidence: float = 0.5, pending: Mapping[str, Constraint] | None = None, **names: str
+    ) -> Intent:
+        return self.tell("clarify", key, confidence, names, pending=pending)
 
-    def tell(self, kind: IntentKind, key: str, confidence: float, **names: str) -> Intent:
-        return Intent(
-            kind=kind, objective=None, constraints={}, language=self.voice.language, confidence=confidence, evidence={},
-            reply=self.voice.say(key, **names), recogniser=NAME,
+    def tell(
+        self,
+        kind: IntentKind,
+        key: str,
+        confidence: float,
+        names: Mapping[str, str] | None = None,
+        *,
+        topic: str | None = None,
+        details: Mapping[str, Detail] | None = None,
+        pending: Mapping[str, Constraint] | None = None,
+    ) -> Intent:
+        return self._intent(
+            kind=kind, objective=None, constraints={}, confidence=confidence, evidence={}, topic=topic,
+            reply=self.voice.say(key, **(names or {})), details=details or {}, pending=pending or {},
         )  # fmt: skip
 
-    def allocate(self, objective: str, reading: Reading, words: str, confidence: float) -> Intent:
-        dropped = reading.exact & {"max_rate_bps"} if objective == "min_power" else frozenset[str]()
-        values = {name: reading.values[name] for name in CONSTRAINTS if name in reading.values and name not in dropped}
-        evidence = {name: reading.evidence[name] for name in values}
-        if words:
-            evidence = {"objective": words} | evidence
-        if reading.not_used:
-            evidence["not_used"] = " … ".join(reading.not_used)
-        return Intent(
-            kind="allocate", objective=objective, constraints=values, language=self.voice.language, evidence=evidence,
-            confidence=confidence, reply=self.voice.restated(objective, values, reading.not_used), recogniser=NAME,
+    def allocate(
+        self, objective: str, values: Mapping[str, Constraint], evidence: Mapping[str, str], reply: str,
+        confidence: float, *, amends: bool = False, dropped: tuple[str, ...] = (),
+    ) -> Intent:  # fmt: skip
+        ordered = {name: values[name] for name in CONSTRAINTS if name in values}
+        return self._intent(
+            kind="allocate", objective=objective, constraints=ordered, confidence=confidence, reply=reply,
+            evidence={name: words for name, words in evidence.items() if name not in CONSTRAINTS or name in ordered},
+            amends=amends, dropped=dropped,
         )  # fmt: skip
+
+    def _intent(self, **fields: Any) -> Intent:
+        return Intent(language=self.language, recogniser=NAME, **fields)
 
 
 class _Understanding:
-    """One sentence, read once: its figures, its terms, and what they amount to."""
+    """One sentence within a conversation, and what it amounts to."""
 
-    def __init__(self, text: str, own: tuple[OwnWords, ...], voice: Voice) -> None:
-        self._text, self._own, self._voice, self._answer = text, own, voice, _Answer(voice)
-        plain = normalise(text)
-        quantities = parse_quantities(text)
-        self._has_figures = bool(quantities)
-        self._reading = read_constraints(text, plain, quantities)
-        self._units: list[Unit] = units_of(plain, self._reading.masked)
-        self._found: list[Found] = _vocabulary(own).find(self._units)
-        self._concepts = {item.term.concept for item in self._found}
-        read = [*self._reading.masked, *self._reading.counted, *self._named_spans()]
-        self._unread = unread(plain, read)
-        self._goal: Goal = goals.goal_of(self._found)
-
-    def _named_spans(self) -> list[tuple[int, int]]:
-        """Where the words of wishes stand, such as "P1"; "5G" is left to be told from "5G each"."""
-        return [(item.start, item.end) for item in self._found if item.term.concept != "domain"]
+    def __init__(
+        self, text: str, own: tuple[OwnWords, ...], voice: Voice, context: Context | None, language: str
+    ) -> None:
+        self._text, self._voice, self._answer, self._context = text, voice, _Answer(voice, language), context
+        names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
+        self._sentence = Sentence(text, own, names=names, max_power_w=limit)
+        self._reading, self._goal = self._sentence.reading, self._sentence.goal
+        self._dropped, dropped_spans = dropped_in(self._sentence.plain, context)
+        named = [(item.start, item.end) for item in self._sentence.found if item.term.concept != "domain"]
+        self._unread = unread(
+            self._sentence.plain, [*self._reading.masked, *self._reading.counted, *named, *dropped_spans]
+        )
+        self._judged: Judgement = judge(self._sentence, set(voice.labels))
 
     def intent(self) -> Intent:
-        if not self._units:
+        if not self._sentence.units:
             return self._answer.ask("empty", confidence=1.0)
-        return self._not_a_request() or self._unfulfillable() or self._request()
+        return self._follow_up() or self._not_a_request() or self._unfulfillable() or self._request()
+
+    def _follow_up(self) -> Intent | None:
+        """A change of the current request that names no wish of its own: "now with 10 W", "leave user 3 out"."""
+        context, reading = self._context, self._reading
+        changes = bool(reading.values or self._dropped or reading.back)
+        if (
+            context is None
+            or context.objective is None
+            or not changes
+            or self._judged.kind not in ("clarify", "command", "allocate")
+        ):
+            return None
+        if (
+            self._judged.acts and (self._goal.verdict != "none" or self._judged.certainty > 0.85)
+        ) or self._judged.objective_clear:
+            return None
+        if (self._judged.kind == "command" and self._judged.topic not in (*_CHANGING, "reject")) or _ASKED.search(
+            self._text
+        ):
+            return None
+        doubt = self._unfulfillable()
+        if doubt is not None:
+            return doubt
+        values, dropped = with_users_back(reading, context) if reading.back else (dict(reading.values), ())
+        dropped = tuple(dict.fromkeys((*self._dropped, *dropped)))
+        if context.awaits == "clarification":
+            values = merged(context.pending, values)
+        if not values and not dropped:
+            return None
+        return self._answer.allocate(
+            context.objective, values, reading.evidence, self._voice.amended(values, dropped), 0.85, amends=True,
+            dropped=dropped,
+        )  # fmt: skip
 
     def _not_a_request(self) -> Intent | None:
-        """Commands, questions and what has nothing to do with a cell."""
-        signalled = self._goal.verdict in ("clear", "contradiction")
-        first = self._found[0] if self._found else None
-        leads = first is not None and first.first == 0
-        about_network = bool(self._concepts & set(_ABOUT_THE_NETWORK)) or self._has_figures
-        if "help" in self._concepts and not signalled:
-            return self._answer.tell("question", "help", 0.9)
-        if first is not None and leads and not first.corrected and self._commands(first, signalled):
-            return self._answer.tell("command", "command", 0.85)
-        if self._is_question(leads):
-            if about_network:
-                return self._answer.tell("question", "question", 0.8)
-            if len(self._units) >= 3:
-                return self._answer.tell("out_of_scope", "out_of_scope", 0.8)
-        if "off_topic" in self._concepts and not signalled and not self._reading.values:
-            return self._answer.tell("out_of_scope", "out_of_scope", 0.9)
-        if "unsupported" in self._concepts and self._goal.verdict in ("none", "weak", "opposite"):
-            return self._answer.tell("out_of_scope", "unsupported", 0.8, text=self._words_for("unsupported"))
+        """Commands, questions, and what has nothing to do with a cell."""
+        judged, topic = self._judged, self._judged.topic
+        if judged.kind == "question":
+            details = details_of(topic, self._sentence)
+            user = self._voice.user(str(details.get("user", "")))
+            return self._answer.tell(
+                "question", f"question.{topic}", judged.certainty, {"user": user}, topic=topic, details=details
+            )
+        if judged.kind == "command":
+            cue = _CUES.get(topic)
+            sure = judged.certainty >= _SURE_OF_A_COMMAND and (cue is None or cue.search(self._sentence.plain))
+            if topic in _CHANGING and not sure:
+                return self._answer.ask("unsure_command", judged.certainty, text=self._voice.say(f"command.{topic}"))
+            assert topic in COMMANDS
+            details = details_of(topic, self._sentence)
+            return self._answer.tell("command", f"command.{topic}", judged.certainty, topic=topic, details=details)
+        unsupported = "unsupported" in self._sentence.concepts and self._goal.verdict in ("none", "weak", "opposite")
+        if unsupported and judged.kind == "clarify" and not self._reading.values:
+            text = self._words_for("unsupported")
+            return self._answer.tell("out_of_scope", "unsupported", judged.certainty, {"text": text})
+        if judged.kind == "out_of_scope" and "strange" not in self._sentence.concepts:
+            if "unsupported" in self._sentence.concepts:
+                return self._answer.tell(
+                    "out_of_scope", "unsupported", judged.certainty, {"text": self._words_for("unsupported")}
+                )
+            return self._answer.tell("out_of_scope", "out_of_scope", judged.certainty)
         return None
-
-    def _commands(self, first: Found, signalled: bool) -> bool:
-        """Whether the sentence begins with a command about an earlier allocation, and names no wish of its own."""
-        if first.term.concept == "undo":
-            return self._goal.verdict in ("none", "weak")
-        return first.term.concept == "command" and (not signalled or self._text_of(first).lower() in _COMPARE)
-
-    def _is_question(self, leads: bool) -> bool:
-        asked = [item for item in self._found if item.term.concept == "question"]
-        if not asked or (leads and self._found[0].term.concept == "polite"):
-            return False
-        at_the_start = asked[0].first == 0 and not asked[0].corrected
-        return at_the_start or self._voice.language == "zh"
 
     def _unfulfillable(self) -> Intent | None:
         """The first thing in the sentence that can't be done as said, put as a question."""
+        pending = self._reading.values
         if self._reading.doubts:
             doubt = self._reading.doubts[0]
-            return self._answer.ask(doubt.key, 0.8, **doubt.names)
+            return self._answer.ask(doubt.key, 0.8, pending, **doubt.names)
         if self._unread is not None:
-            return self._answer.ask("unread", 0.8, text=self._text[slice(*self._unread)].strip())
-        if "strange" in self._concepts:
-            return self._answer.ask("strange", 0.8, text=self._words_for("strange"))
+            return self._answer.ask("unread", 0.8, pending, text=self._text[slice(*self._unread)].strip())
+        if "strange" in self._sentence.concepts:
+            return self._answer.ask("strange", 0.8, pending, text=self._words_for("strange"))
         if self._is_vaguely_fair():
             offered = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
             if not offered:
-                return self._answer.ask("unclear", 0.8)
-            return self._answer.ask("fairness", 0.8, both=self._voice.both(offered, "or"))
-        if "unsupported" in self._concepts and self._goal.verdict == "clear":
+                return self._answer.ask("unclear", 0.8, pending)
+            return self._answer.ask("fairness", 0.8, pending, both=self._voice.both(offered, "or"))
+        if "unsupported" in self._sentence.concepts and self._goal.verdict == "clear":
             goal = self._voice.label(self._goal.objective)
-            return self._answer.ask("unsupported_with_goal", 0.8, text=self._words_for("unsupported"), goal=goal)
-        exact_power = "max_power_w" in self._reading.exact and self._goal.objective == "min_power"
-        if exact_power:
-            return self._answer.ask("exact_power", 0.8, text=self._reading.evidence["max_power_w"])
+            return self._answer.ask(
+                "unsupported_with_goal", 0.8, pending, text=self._words_for("unsupported"), goal=goal
+            )
+        if "max_power_w" in self._reading.exact and self._judged.objective == "min_power":
+            return self._answer.ask("exact_power", 0.8, pending, text=self._reading.evidence["max_power_w"])
         return None
 
     def _is_vaguely_fair(self) -> bool:
-        """Whether something is to be equal or fair, and it is not said what or how."""
-        settled = any(name in _FAIR_OBJECTIVES for name in self._goal.options)
-        return "fair" in self._concepts or (bool(self._concepts & {"fairly", "same"}) and not settled)
+        """Whether something is to be equal or fair, and neither the words nor the model say in what way."""
+        concepts, judged = self._sentence.concepts, self._judged
+        if any(name in _FAIR_OBJECTIVES for name in self._goal.options):
+            return "fair" in concepts and not (judged.acts and judged.likeliest > 0.8)
+        sure = judged.likeliest if judged.acts else 0.0
+        of_whom = "everyone" in concepts or self._reading.named
+        settled = {concept for concept, least in _SETTLED.items() if sure > least and (concept != "same" or of_whom)}
+        return bool(concepts & (_SETTLED.keys() - settled))
 
     def _request(self) -> Intent:
-        goal, ask = self._goal, self._answer.ask
+        goal, judged, pending = self._goal, self._judged, self._reading.values
         offered = [name for name in goal.options if name in self._voice.labels or goal.verdict == "opposite"]
-        if _REFUSED.search(normalise(self._text)):
-            return ask("negated")
-        if goal.verdict == "clear" and goal.objective in self._voice.labels:
-            words = " … ".join(self._text[start:end] for start, end in _merged(goal.spans))
-            return self._answer.allocate(goal.objective, self._reading, words, goal.confidence)
+        if _REFUSED.search(self._sentence.plain):
+            return self._answer.ask("negated", pending=pending)
+        if judged.acts and judged.objective in self._voice.labels:
+            words = (
+                " … ".join(self._text[start:end] for start, end in _merged(goal.spans)) if goal.spans else self._text
+            )
+            return self._allocate(judged.objective, words, judged.certainty)
+        default = self._default()
+        if default is not None:
+            return default
         if goal.verdict == "contradiction" and len(offered) > 1:
             key = "contradiction" if set(offered) == {"max_rate", "min_power"} else "rivals"
-            return ask(key, both=self._voice.both(offered))
-        if goal.verdict == "negated":
-            return ask("negated")
+            return self._answer.ask(key, pending=pending, both=self._voice.both(offered))
+        if goal.verdict == "negated" or judged.topic == "negated":
+            return self._answer.ask("negated", pending=pending)
         if goal.verdict == "opposite":
-            return ask("opposite", goal=self._voice.both([n for n in offered if n not in self._voice.labels]))
-        return self._from_limits() or self._unclear()
+            names = [name for name in offered if name not in self._voice.labels]
+            return self._answer.ask("opposite", pending=pending, goal=self._voice.both(names))
+        return self._limits_alone() or self._unclear()
 
-    def _from_limits(self) -> Intent | None:
-        """Limits without a wish: a promised rate under a power limit has one sensible reading, the others are asked."""
+    def _allocate(self, objective: str, words: str, confidence: float) -> Intent:
+        context, reading = self._context, self._reading
+        values, dropped = dict(reading.values), self._dropped
+        evidence = {"objective": words} if words else {}
+        evidence |= reading.evidence
+        if reading.not_used:
+            evidence["not_used"] = " … ".join(reading.not_used)
+        amends = False
+        if context is not None and context.awaits == "clarification":
+            values = merged(context.pending, values)
+        if context is not None and context.objective is not None:
+            amends = bool(dropped or reading.back) or keeps_the_limits(self._sentence.plain)
+            if reading.back:
+                values, gone = with_users_back(reading, context)
+                dropped = tuple(dict.fromkeys((*dropped, *gone)))
+        reply = self._voice.restated(objective, values, reading.not_used)
+        return self._answer.allocate(
+            objective, values, evidence, reply, confidence, amends=amends, dropped=dropped if amends else ()
+        )
+
+    def _default(self) -> Intent | None:
+        """A promised rate under a power limit has one sensible reading."""
+        values, judged = self._reading.values, self._judged
+        plain_wish = self._goal.verdict in ("none", "weak") and self._goal.objective in ("", "max_rate")
+        free = (
+            plain_wish
+            and judged.topic in ("limits", "vague", "")
+            and (judged.objective == "max_rate" or judged.likeliest < 0.45)
+        )
+        if {"min_rate_bps", "max_power_w"} <= set(values) and free and "max_rate" in self._voice.labels:
+            return self._allocate("max_rate", "", _DEFAULT_CONFIDENCE)
+        return None
+
+    def _limits_alone(self) -> Intent | None:
+        """Limits without a wish, and changes of a request that there is not."""
         values = self._reading.values
-        if not values:
-            return None
-        no_other_wish = self._goal.verdict == "none" or self._goal.objective == "max_rate"
-        if {"min_rate_bps", "max_power_w"} <= set(values) and no_other_wish and "max_rate" in self._voice.labels:
-            return self._answer.allocate("max_rate", self._reading, "", _DEFAULT_CONFIDENCE)
-        key = "rate_only" if "min_rate_bps" in values else "limits_only"
-        return self._answer.ask(key, constraints=self._quoted(values))
+        if values and self._goal.verdict in ("none", "weak"):
+            key = "rate_only" if "min_rate_bps" in values else "limits_only"
+            return self._answer.ask(key, 0.5, values, constraints=self._quoted(values))
+        if self._dropped or self._reading.back:
+            return self._answer.ask("nothing_yet", 0.5, text=f"“{self._text.strip()}”")
+        return None
 
     def _unclear(self) -> Intent:
-        if self._goal.verdict == "weak" and self._goal.objective in self._voice.labels:
-            guess = self._goal.objective
+        values = self._reading.values
+        guess = self._goal.objective if self._goal.verdict == "weak" else self._judged.objective
+        if guess in self._voice.labels and (self._goal.verdict == "weak" or self._judged.likeliest > 0.4):
             others = self._voice.choices(without=guess)
-            return self._answer.ask("weak", 0.6, goal=self._voice.label(guess), choices=others)
-        return self._answer.ask("greeting" if "greeting" in self._concepts else "unclear")
+            return self._answer.ask("weak", 0.6, values, goal=self._voice.label(guess), choices=others)
+        return self._answer.ask("greeting" if "greeting" in self._sentence.concepts else "unclear", 0.5, values)
 
-    def _quoted(self, values: Mapping[str, float]) -> str:
+    def _quoted(self, values: Mapping[str, Constraint]) -> str:
         """The limits as the operator wrote them."""
         return self._voice.both([self._reading.evidence[name] for name in values])
 
-    def _text_of(self, item: Found) -> str:
-        return self._text[item.start : item.end]
-
     def _words_for(self, concept: str) -> str:
-        return next(self._text_of(item) for item in self._found if item.term.concept == concept)
+        item = next(item for item in self._sentence.found if item.term.concept == concept)
+        return self._text[item.start : item.end]
 
 
 def _merged(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
     """Spans from left to right, those that overlap made one."""
-    merged: list[tuple[int, int]] = []
+    merged_spans: list[tuple[int, int]] = []
     for start, end in sorted(spans):
-        if merged and start < merged[-1][1]:
-            merged[-1] = (merged[-1][0], max(end, merged[-1][1]))
+        if merged_spans and start < merged_spans[-1][1]:
+            merged_spans[-1] = (merged_spans[-1][0], max(end, merged_spans[-1][1]))
         else:
-            merged.append((start, end))
-    return merged
-
-
-def _own_words() -> tuple[OwnWords, ...]:
-    """The words of every objective that loads, the built-in ones first."""
-    own: list[OwnWords] = []
-    for found in plugins.plugins("objective"):
-        if found.cls is None:
-            continue
-        cls = cast("type[Objective]", found.cls)
-        spoken = tuple((language, tuple(words)) for language, words in cls.phrases.items())
-        own.append(OwnWords(objective=found.name, names=(found.name, *cls.aliases), phrases=spoken))
-    order = {name: place for place, name in enumerate(_BUILT_IN_ORDER)}
-    return tuple(sorted(own, key=lambda words: (order.get(words.objective, len(order)), words.objective)))
-
-
-def _labels(own: Sequence[OwnWords], language: str) -> dict[str, str]:
-    """What to call each objective: its first phrase in the language, else in any, else its name."""
-    labels: dict[str, str] = {}
-    for words in own:
-        phrases = dict(words.phrases)
-        spoken = phrases.get(language) or phrases.get("en") or next(iter(phrases.values()), ())
-        labels[words.objective] = spoken[0] if spoken else words.objective.replace("_", " ")
-    return labels
-
-
-@functools.lru_cache(maxsize=8)
-def _vocabulary(own: tuple[OwnWords, ...]) -> Vocabulary:
-    return Vocabulary(own)
+            merged_spans.append((start, end))
+    return merged_spans

@@ -21,26 +21,42 @@ QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
 
 # A bare number may be followed by these; any other word makes it a count of that word or an unknown unit.
 _AFTER_BARE = re.compile(
-    r"\s*(?:$|[,;:!?。\uff0c\uff1b、)\]]|\.(?![0-9])|(?i:(?:please|and|or|for|each|per|max|maximum|min|minimum|with|at|but|then|now|thanks|"
+    r"\s*(?:$|[,;:!?。\uff0c\uff1b、)\]]|\.(?![0-9])|(?i:(?:please|and|or|for|each|per|max|maximum|min|minimum|"
+    r"with|at|but|then|now|thanks|"
     rf"to|in|on|the|while|when|apiece)\b)|[{CJK}])"
 )
 _SUFFIX = re.compile(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9/])")
+_CHINESE_SUFFIX = re.compile(
+    r"\s?(?P<suffix>[kKM])(?!\s*[A-Za-z0-9/瓦赫焦伏安米克])"
+)  # "每人2M": so are rates written there
+_CJK = re.compile(f"[{CJK}]")
 _SUFFIXES = {"k": Decimal(10**3), "K": Decimal(10**3), "M": Decimal(10**6), "G": Decimal(10**9)}
 _NAMES = re.compile(
-    r"(?i:(?:\b(?:users?|ues?|slots?|subcarriers?|channels?|carrier|cells?|number|numbers|no\.?|and|to|release|version|mode"
+    r"(?i:(?:\b(?:users?|ues?|slots?|subcarriers?|channels?|carrier|cells?|number|numbers|no\.?|and|to|release|"
+    r"version|mode"
     r"|device|sensor|band|seed|step|case|at|day|room)|[#№])\s*$)|(?:用户|子载波|信道|小区|第|方案|模式|时隙)\s*$"
 )
 _CHINESE_COUNTED = re.compile(
     r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
 )
 _GENERATION = re.compile(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
+_PICTURE = re.compile(r"[248]K")
 _HUNDREDTHS = re.compile(r"百分之$")
 _FOREIGN_UNIT = re.compile(r"\s?[A-Za-zμ][A-Za-zμ/]*")
 _FOREIGN_APIECE = re.compile(
     r"(?i)\s?(?!users?\b|ues?\b)[A-Za-zμ][A-Za-zμ/]*\s*(?:each\b|apiece\b|per\s+(?:user|person|head)\b|每)"
 )
-_RANGE = re.compile(r"\s*(?:-|–|—|~|(?i:to\b|and\b|through\b)|到|至)\s*$")
+_RANGE = re.compile(r"\s*(?:-|–|—|~|(?i:to\b|and\b|through\b|y\b|et\b|à\b|und\b|bis\b)|到|至)\s*$")
 _TRAILING_HALF = re.compile(r"半(?!小时)")
+_PRICE_BEFORE = re.compile(r"(?i)(?:\b(?:per|each|every|out of|from|for|of|pro|je|par|por|cada|chaque|aus)\s+|每)$")
+_PRICE_AFTER = re.compile(
+    r"(?i)\s*(?:should\s+|can\s+|must\s+)?(?:buys?|brings?|carr(?:y|ies)|gives?|yields?|delivers?|moves?|"
+    r"fetch(?:es)?)\b|[的]?(?:电|功率)?(?:都|要|能|可以)?(?:换|传|产|带来|跑|花得)"
+)
+_OWN_NOUN = re.compile(  # "each user's rate no lower than" bounds the rate, and wishes for none
+    r"(?:用户|每人|人均|每个|每户|各|UE|终端|大家|的)的?(?P<noun>(?:下行|数据)?(?:速率|速度|网速|吞吐量?))(?:都|"
+    r"也)?(?:要|得|必须|应|须)?$"
+)
 _APIECE = re.compile(r"(?i)\s*(?:each|apiece|per\s+(?:user|person|head))\b")
 
 
@@ -132,6 +148,12 @@ def _read(plain: str, number: Number) -> _Reading:
             end += 1
         return _Reading(number=number, unit=unit, start=number.start, end=end)
     suffix = _SUFFIX.match(plain, number.end) if number.form == "digits" else None
+    spoken = number.form == "chinese" and number.value is not None and number.end - number.start > 1
+    written = (number.form == "digits" or spoken) and _CJK.search(plain)
+    chinese = _CHINESE_SUFFIX.match(plain, number.end) if written else None
+    if chinese is not None and not _PICTURE.match(plain, number.start):
+        unit = Unit(kind="rate", end=chinese.end(), factor=_SUFFIXES[chinese["suffix"]])
+        return _Reading(number=number, unit=unit, start=number.start, end=chinese.end())
     if suffix is not None and not _GENERATION.match(plain, number.start):
         return _Reading(
             number=number, unit=None, start=number.start, end=suffix.end(), factor=_SUFFIXES[suffix["suffix"]]
@@ -146,11 +168,11 @@ def _joined(plain: str, lower: _Reading, upper: _Reading) -> bool:
         return False
     if lower.unit is not None and (upper.unit is None or upper.unit.kind != lower.unit.kind):
         return False
-    if "and" not in gap.lower():
+    if re.fullmatch(r"\s*(?:and|y|et|und)\s*", gap.lower()) is None:
         return upper.unit is not None and not (
             lower.unit is None and _NAMES.search(plain, max(0, lower.start - 16), lower.start)
         )
-    return re.search(r"(?i)between\s*$", plain[max(0, lower.start - 12) : lower.start]) is not None
+    return re.search(r"(?i)(?:between|entre|zwischen)\s*$", plain[max(0, lower.start - 12) : lower.start]) is not None
 
 
 def _range(text: str, lower: _Reading, upper: _Reading) -> list[Quantity]:
@@ -180,24 +202,37 @@ def _bounded(text: str, plain: str, reading: _Reading, *, after: int, until: int
         kind = kind_or_none
     elif number.value is None and bounds.comparator is None and unit is None:
         return None
+    if kind == "power" and number.value == 1 and bounds.comparator is None and _is_price(plain, reading):
+        return None
     if _is_article(plain, reading) and not (unit is not None and (bounds.comparator or _apiece(plain, unit))):
         return None
     value = 0.0
     if number.value is not None and kind != "other":
         value = unit.value(number.value) if unit is not None else float(number.value * reading.factor)
     end = reading.end
+    own = (
+        _OWN_NOUN.search(plain, max(0, bounds.start - 12), bounds.start)
+        if bounds.comparator and kind == "rate"
+        else None
+    )
     foreign = _FOREIGN_UNIT.match(plain, end, until) if kind == "other" and unit is None else None
     if foreign is not None:
         end = foreign.end()
     return Quantity(
         value=value, kind=kind, text=text[reading.start : end], start=reading.start, end=end,
-        comparator=bounds.comparator, phrase_start=bounds.start, phrase_end=max(end, bounds.end),
-        doubtful=unit is not None and unit.doubtful,
+        comparator=bounds.comparator, phrase_start=max(after, own.start("noun")) if own else bounds.start,
+        phrase_end=max(end, bounds.end), doubtful=unit is not None and unit.doubtful,
     )  # fmt: skip
 
 
 def _is_article(plain: str, reading: _Reading) -> bool:
     return plain[reading.number.start : reading.number.end].lower() in ("a", "an")
+
+
+def _is_price(plain: str, reading: _Reading) -> bool:
+    """Whether one watt is what bits are counted for: "the most out of one watt", 一瓦换多少比特."""
+    before, after = plain[max(0, reading.start - 16) : reading.start], plain[reading.end : reading.end + 12]
+    return _PRICE_BEFORE.search(before) is not None or _PRICE_AFTER.match(after) is not None
 
 
 def _apiece(plain: str, unit: Unit) -> bool:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from wirelessagent.language.intent import EVERYBODY, Constraint
+
 GOALS: dict[str, dict[str, str]] = {
     "en": {
         "max_rate": "the highest total rate",
@@ -38,6 +40,13 @@ _CONSTRAINTS: dict[str, dict[str, str]] = {
         "max_rate_bps": "at most {} for each user",
         "circuit_power_w": "{} of circuit power",
         "outage_probability": "an outage of at most {}",
+        "subcarrier_max_power_w": "at most {} on each subcarrier",
+        "resource_block_group_size": "{} subcarriers to a group",
+        "min_rate_bps.user": "at least {figure} for {user}",
+        "max_rate_bps.user": "at most {figure} for {user}",
+        "weights.user": "weight {figure} for {user}",
+        "users": "serving only {}",
+        "leave_out": "without {}",
     },
     "zh": {
         "max_power_w": "发射功率不超过 {}",
@@ -45,6 +54,13 @@ _CONSTRAINTS: dict[str, dict[str, str]] = {
         "max_rate_bps": "每个用户不超过 {}",
         "circuit_power_w": "电路功率 {}",
         "outage_probability": "中断概率不超过 {}",
+        "subcarrier_max_power_w": "每个子载波不超过 {}",
+        "resource_block_group_size": "每 {} 个子载波一组",
+        "min_rate_bps.user": "{user}至少 {figure}",
+        "max_rate_bps.user": "{user}不超过 {figure}",
+        "weights.user": "{user}权重 {figure}",
+        "users": "只服务{}",
+        "leave_out": "不服务{}",
     },
 }
 
@@ -54,7 +70,26 @@ _UNITS = {
     "max_rate_bps": "bit/s",
     "circuit_power_w": "W",
     "outage_probability": "%",
+    "subcarrier_max_power_w": "W",
+    "resource_block_group_size": "",
+    "weights": "",
 }
+
+_DROPPED = {
+    "en": {
+        "max_power_w": "the power limit", "min_rate_bps": "the minimum rate", "max_rate_bps": "the rate cap",
+        "circuit_power_w": "the circuit power", "outage_probability": "the outage limit", "weights": "the weights",
+        "users": "the choice of "
+            "users", "leave_out": "leaving users out", "subcarrier_max_power_w": "the subcarrier cap",
+        "resource_block_group_size": "the groups of subcarriers",
+    },
+    "zh": {
+        "max_power_w": "功率上限", "min_rate_bps": "最低速率", "max_rate_bps": "速率上限",
+        "circuit_power_w": "电路功率",
+        "outage_probability": "中断概率", "weights": "权重", "users": "用户选择", "leave_out": "排除的用户",
+        "subcarrier_max_power_w": "子载波功率上限", "resource_block_group_size": "子载波分组",
+    },
+}  # fmt: skip
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
@@ -82,7 +117,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         ),
         "calculated": "I don't calculate with {text}. What does it come to: which single figure should I use?",
         "whose_power": "Is {text} the most that the cell may radiate, or something else?",
-        "some_users": "Does {text} mean every user of the cell, or only some of them, which I can't treat apart yet?",
+        "some_users": "Does {text} mean every user of the cell, or only some of them? Which ones: user 1, user 2, …?",
         "strange": "I can't steer {text}. What should the cell aim for: {choices}?",
         "limits_only": "With {constraints}: what should the cell aim for, {choices}?",
         "rate_only": (
@@ -103,10 +138,38 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "status": "Is {text} what users have now, or the rate that each should get at least?",
         "conflict": "You gave both {one} and {other} for the same thing. Which one should I use?",
         "rates_crossed": "At least {low} and at most {high} can't both hold. Which rates did you mean?",
-        "named_user": "I can't treat {text} differently from the others yet. Shall I apply the request to all users?",
+        "named_user": "What about {text}: a rate, a weight, left out, or served alone? What should the cell aim "
+            "for, {choices}?",
         "exact_power": "Exactly {text} and the least power don't go together. Did you mean at most {text}?",
-        "question": "I carry out requests and can't answer questions yet; each result brings its figures. {offers}",
-        "command": "There is no earlier allocation to work on: each request stands by itself. {offers}",
+        "sentence": "{text}.",
+        "no_longer": "without {text}",
+        "question.why_user": "A question about why {user} got what they got.",
+        "question.why_infeasible": "A question about why it cannot be done.",
+        "question.certificate": "A question about how good the result is.",
+        "question.uncertainty": "A question about what was missing and how sure the estimate is.",
+        "question.what_if": "A what-if question; nothing is changed.",
+        "question.step": "A question about what a little more would buy.",
+        "question.prices": "A question about prices.",
+        "question.users": "A question about the users.",
+        "question.capabilities": "{help}",
+        "question.concept": "A question about what a word means.",
+        "question.other": "A question about the cell.",
+        "command.apply": "Apply the plan.",
+        "command.confirm": "Yes.",
+        "command.reject": "No.",
+        "command.undo": "Undo the last change.",
+        "command.reset": "Start afresh.",
+        "command.compare": "Compare the results.",
+        "command.explain": "Explain the result.",
+        "command.history": "Show what was asked before.",
+        "command.status": "Show the state of the cell.",
+        "command.help": "{help}",
+        "command.export": "Export the result.",
+        "nothing_yet": "There is no request yet that {text} would change. {offers}",
+        "unsure_command": "Did you mean: {text} Please say yes, or say it in other words; or what should the cell "
+            "aim for, {choices}?",
+        "unsure_question": "I am not sure whether that is a question or a request. What should the cell aim for: "
+            "{choices}?",
         "help": "I allocate the subcarriers and the power of a cell. {offers}",
         "out_of_scope": "That is outside what I do: I allocate the subcarriers and the power of a cell. {offers}",
         "unsupported": "I can't steer {text}. {offers}",
@@ -130,7 +193,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "unread": "{text} 指什么？可用带单位的数值：功率（W、dBm）、速率（bit/s）或中断概率（%），是哪个？",
         "calculated": "我不会用 {text} 做运算。结果应是哪个数值？",
         "whose_power": "{text} 是小区发射功率的上限，还是别的功率？",
-        "some_users": "{text} 是指小区的所有用户，还是只指其中一部分（暂不能单独对待）？",
+        "some_users": "{text} 是指小区的所有用户，还是只指其中一部分？是哪几个用户？",
         "strange": "我不能控制{text}。小区应以什么为目标：{choices}？",
         "limits_only": "在{constraints}的条件下，应以什么为目标：{choices}？",
         "rate_only": "在{constraints}的条件下，是用最低功率满足它，还是在此之上总速率最高，或其他目标（{choices}）？",
@@ -148,10 +211,35 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "status": "{text} 是现在的速率，还是每个用户至少应得的速率？",
         "conflict": "同一项给出了 {one} 和 {other} 两个数值。用哪一个？",
         "rates_crossed": "至少 {low} 与不超过 {high} 不能同时成立。您指的是哪些速率？",
-        "named_user": "暂时不能单独对待{text}。是否对所有用户执行该请求？",
+        "named_user": "{text}要怎样：速率、权重、不服务，还是只服务它？小区应以什么为目标：{choices}？",
         "exact_power": "正好 {text} 与功率最低不能并存。您是指不超过 {text} 吗？",
-        "question": "我执行请求，暂不能回答问题；每个结果都附有数据。{offers}",
-        "command": "这里没有可操作的先前分配：每个请求都是独立的。{offers}",
+        "sentence": "{text}。",
+        "no_longer": "取消{text}",
+        "question.why_user": "问{user}为何得到这样的结果。",
+        "question.why_infeasible": "问为何做不到。",
+        "question.certificate": "问结果有多好。",
+        "question.uncertainty": "问缺了什么、估计有多可靠。",
+        "question.what_if": "假设性的问题，不作任何改动。",
+        "question.step": "问再多一点能换来什么。",
+        "question.prices": "问代价。",
+        "question.users": "问用户的情况。",
+        "question.capabilities": "{help}",
+        "question.concept": "问一个词的意思。",
+        "question.other": "问小区的情况。",
+        "command.apply": "应用该方案。",
+        "command.confirm": "是。",
+        "command.reject": "否。",
+        "command.undo": "撤销上一次改动。",
+        "command.reset": "重新开始。",
+        "command.compare": "比较结果。",
+        "command.explain": "解释结果。",
+        "command.history": "显示之前的请求。",
+        "command.status": "显示小区状态。",
+        "command.help": "{help}",
+        "command.export": "导出结果。",
+        "nothing_yet": "还没有可以用{text}来修改的请求。{offers}",
+        "unsure_command": "您是指“{text}”吗？请回答是，或换个说法；或者小区应以什么为目标：{choices}？",
+        "unsure_question": "我不确定这是问题还是请求。小区应以什么为目标：{choices}？",
         "help": "我为小区分配子载波和功率。{offers}",
         "out_of_scope": "这超出了我的范围：我为小区分配子载波和功率。{offers}",
         "unsupported": "我不能控制{text}。{offers}",
@@ -177,7 +265,8 @@ class Voice:
         """The sentence of this key with its names filled in; {choices} and {offers} list what is on offer."""
         sentences = _SENTENCES[self.language]
         offers = sentences["offers"].format(choices=self.choices("either"))
-        return sentences[key].format(**({"choices": self.choices(), "offers": offers} | names))
+        given = {"choices": self.choices(), "offers": offers, "help": sentences["help"].format(offers=offers)}
+        return sentences[key].format(**(given | names))
 
     def choices(self, last: str = "or", *, without: str = "") -> str:
         """The objectives on offer, "a, b or c"."""
@@ -189,14 +278,40 @@ class Voice:
     def both(self, objectives: Sequence[str], last: str = "and") -> str:
         return self._listed([self.label(name) for name in objectives], last)
 
-    def constraints(self, values: Mapping[str, float]) -> str:
+    def constraints(self, values: Mapping[str, Constraint]) -> str:
         """The constraints with figures and units, "at least 1 Mbit/s for each user, at most 10 W …"."""
-        parts = [
-            _CONSTRAINTS[self.language][name].format(_figure(value, _UNITS[name])) for name, value in values.items()
-        ]
+        parts = [part for name, value in values.items() for part in self._constraint(name, value)]
         return _SENTENCES[self.language]["comma"].join(parts)
 
-    def restated(self, objective: str, values: Mapping[str, float], not_used: Sequence[str]) -> str:
+    def _constraint(self, name: str, value: Constraint) -> list[str]:
+        words = _CONSTRAINTS[self.language]
+        if isinstance(value, tuple):
+            return [words[name].format(self._listed([self.user(user) for user in value], "and"))]
+        if not isinstance(value, Mapping):
+            return [words[name].format(_figure(value, _UNITS[name]))]
+        return [
+            words[f"{name}.user"].format(figure=_figure(figure, _UNITS[name]), user=self.user(user))
+            for user, figure in value.items()
+        ]
+
+    def user(self, reference: str) -> str:
+        """What to call a user: "user 3" for "3", "everyone else" for everybody who is not named."""
+        if reference == EVERYBODY:
+            return "其余用户" if self.language == "zh" else "everyone else"
+        if not reference.isdigit():
+            return reference
+        return f"用户{reference}" if self.language == "zh" else f"user {reference}"
+
+    def amended(self, values: Mapping[str, Constraint], dropped: Sequence[str]) -> str:
+        """What changes in the current request, as one sentence."""
+        gone = [_DROPPED[self.language][name] for name in dropped if name not in values]
+        parts = [*([self.constraints(values)] if values else [])]
+        if gone:
+            parts.append(self.say("no_longer", text=self._listed(gone, "and")))
+        said = _SENTENCES[self.language]["comma"].join(parts)
+        return self.say("sentence", text=said[:1].upper() + said[1:])
+
+    def restated(self, objective: str, values: Mapping[str, Constraint], not_used: Sequence[str]) -> str:
         """What was understood, as one sentence."""
         label = self.label(objective)
         limits = self.constraints(values)
@@ -214,6 +329,8 @@ class Voice:
 
 def _figure(value: float, unit: str) -> str:
     """A figure as the operator may check it: six digits, an SI prefix."""
+    if not unit:
+        return f"{value:g}"
     if unit == "%":
         return f"{100 * value:.6g} %"
     scale, prefix = next(((scale, prefix) for scale, prefix in _PREFIXES if value >= scale), _PREFIXES[-1])

@@ -9,8 +9,9 @@ from wirelessagent.language import lexicon
 
 _OPERATOR = r"\^*×·⋅∙÷+±√∛"
 _CALCULATED_BEFORE = re.compile(
-    rf"(?i)(?:[{_OPERATOR}/]|(?<![a-z])x|\b(?:twice|thrice|double|triple|quadruple|times|half|thirds?|quarters?|"
-    r"tenths?|fraction|part|(?<!at )most|some|all but|portion|share|multiple|plus|minus|square|root|sqrt|sum)"
+    rf"(?i)(?:[{_OPERATOR}]|(?<![wW])/|(?<![a-z])x|\b(?:twice|thrice|double|triple|quadruple|times|half|thirds?|"
+    rf"quarters?|"
+    r"tenths?|fraction|part|(?<!at )most|some|all but|portion|share|multiple|(?<!au )plus|minus|square|root|sqrt|sum)"
     r"(?:\s+(?:of|the|an?))*"
     r"|[倍半加减乘除]之?[一二三]?[的以上去]?|分之[一二三]的?)\s*$"
 )
@@ -21,12 +22,17 @@ _CALCULATED_AFTER = re.compile(
 
 # Words beside a power which say that it isn't the cell's to radiate.
 _SPARED = re.compile(
-    r"(?i)\b(?:unused|reserved?|reserves|spare|aside|headroom|leave|leaves|leaving|left|remaining|remains|untouched|lost|"
+    r"(?i)\b(?:unused|reserved?|reserves|spare|aside|headroom|leave|leaves|leaving|left|remaining|remains|"
+    r"untouched|lost|"
     r"lose|losing|behind|free|wasted?|wasting|margin)\b|[留剩余]|备用|闲置"
 )
 _HELD = re.compile(r"(?i)\b(?:keep|keeping|hold|hold back|retain|lose|losing|steal|donate)\s+(?:the\s+|about\s+)?$")
 _DRAWN = re.compile(
-    r"(?i)(?P<by>[a-z]+)\s+(?:uses?|draws?|consumes?|takes?|needs?|burns?|emits?|radiates?|has)\s+(?:about\s+|around\s+)?$"
+    r"(?i)(?P<by>[a-z]+)\s+(?:uses?|draws?|consumes?|takes?|needs?|burns?|emits?|radiates?|has|swallows?|eats?|"
+    r"gobbles?|guzzles?|sucks?)\s+(?:about\s+|around\s+)?$"
+)
+_DETERMINED = re.compile(  # "a 100 W bulb", against "thirty watts permit"
+    r"(?i)\b(?:an?|the|another|his|her|their|my|this|that|some|every|each|one|un|una|une|ein|eine|einen|einer)\s+$"
 )
 _OURS = (
     "it we they you i that which to can may cell cells network system station transmitter amplifier not dont and or "
@@ -67,7 +73,9 @@ def is_cells_power(before: str, after: str) -> bool:
     if drawn is not None and drawn["by"].lower() not in _OURS.split():
         return False
     word = _FIRST_WORD.match(after)
-    return word is None or word[1].lower().replace("'", "") in _known_words()
+    if word is None or _DETERMINED.search(before) is None:
+        return True
+    return word[1].lower().replace("'", "") in _known_words()
 
 
 def describes_all(before: str, after: str) -> bool:

@@ -26,6 +26,30 @@ _TABLE = str.maketrans(_SAME_LENGTH)
 CJK = "\u3400-\u9fff\uf900-\ufaff"
 _CJK = re.compile(f"[{CJK}]")
 
+_WORD = re.compile(r"[^\W\d_]+")
+_SMALL: dict[str, str] = {
+    "en": (
+        "the and to of is for with no not it we you at in on my our all as each every a an that this be please "
+        "min max what who how why if most least power rate user users die more"
+    ),
+    "es": (
+        "el la los las de que y en un una por para con del al lo como más menos es son cada usuario usuarios "
+        "todos nadie sin mucho máxima máximo mínima mínimo potencia velocidad vatios tasa caudal energía pon haz "
+        "reparte no"
+    ),
+    "fr": (
+        "le la les de des du et en un une pour par avec au aux est ce que qui plus moins possible puissance débit "
+        "chaque chacun tous tout sans pas je nous on utilisateur vitesse énergie maximal maximale minimale donne "
+        "fais"
+    ),
+    "de": (
+        "der die das den dem und in ein eine einen für mit auf aus ist sind nicht so wie viel möglich alle jeder "
+        "jeden kein keine bitte leistung rate nutzer soll sollen mach zu bei höchstens mindestens energie strom"
+    ),
+}
+_SMALL_WORDS = {language: frozenset(words.split()) for language, words in _SMALL.items()}
+_LETTERS = {"es": "ñ¿¡", "fr": "çêœàùèîû", "de": "ßäöü"}
+
 CLAUSE_END = r"[,;:!?()\n\uff0c\uff1b。、…—]|\.(?![0-9])"
 
 
@@ -39,9 +63,17 @@ def normalise(text: str) -> str:
 
 
 def language_of(text: str) -> str:
-    """The language to answer in: "zh" where a Chinese character stands, "en" otherwise.
+    """The language of a sentence: "zh" where a Chinese character stands, else "es", "fr" or "de" where its small words
+    or letters outweigh those of English, else "en".
 
-    >>> language_of("boost 速度"), language_of("boost the speed")
-    ('zh', 'en')
+    >>> language_of("boost 速度"), language_of("boost the speed"), language_of("la potencia más baja")
+    ('zh', 'en', 'es')
     """
-    return "zh" if _CJK.search(text) else "en"
+    if _CJK.search(text):
+        return "zh"
+    words = _WORD.findall(text.lower())
+    counts = {language: sum(word in known for word in words) for language, known in _SMALL_WORDS.items()}
+    for language, letters in _LETTERS.items():
+        counts[language] += 2 * sum(letter in letters for letter in text.lower())
+    best = max(counts, key=lambda language: counts[language])
+    return best if counts[best] > counts["en"] else "en"

@@ -18,17 +18,22 @@ from wirelessagent.model.units import dbm_to_w
 UnitKind: TypeAlias = Literal["power", "rate", "ratio"]
 
 _PREFIXES = {
-    "": 0, "n": -9, "nano": -9, "纳": -9, "u": -6, "μ": -6, "micro": -6, "微": -6, "m": -3, "milli": -3, "毫": -3,
-    "k": 3, "K": 3, "kilo": 3, "千": 3, "M": 6, "mega": 6, "兆": 6, "G": 9, "g": 9, "giga": 9, "吉": 9,
+    "": 0, "n": -9, "nano": -9, "纳": -9, "u": -6, "μ": -6, "micro": -6, "微": -6, "m": -3, "milli": -3, "mili": -3,
+    "毫": -3,
+    "k": 3, "K": 3, "kilo": 3, "千": 3, "M": 6, "mega": 6, "méga": 6, "兆": 6, "G": 9, "g": 9, "giga": 9, "吉": 9,
     "T": 12, "t": 12, "tera": 12, "太": 12,
 }  # fmt: skip
 
-_PER_SECOND = r"(?:\s*(?:/|\bper\b|\ba\b|\bp\b|每)\s*(?:seconds?\b|secs?\b|s\b|秒钟?)|ps\b)"
+_PER_SECOND = (
+    r"(?:\s*(?:/|\bper\b|\ba\b|\bp\b|\bpor\b|\bpar\b|\bpro\b|\bje\b|每)\s*"
+    r"(?:(?:seconds?|secs?|segundos?|secondes?|sekunden?|sek|s)(?![A-Za-z0-9_])|秒钟?)|ps(?![A-Za-z0-9_]))"
+)
 _END = r"(?![A-Za-z0-9])"
 
 _LEVEL = re.compile(rf"(?i:(?P<level>dbmw|dbm|dbw){_END})|(?P<zh_level>分贝毫瓦|毫瓦分贝|分贝瓦)")
 _WATT = re.compile(
-    rf"(?P<symbol>[nuμmkKMG]?)[wW]{_END}|(?i:(?P<word>nano|micro|milli|kilo|mega|giga)?[ -]?watts?{_END})"
+    rf"(?P<symbol>[nuμmkKMG]?)[wW]{_END}|(?i:(?P<word>nano|micro|milli|mili|kilo|mega|giga)?[ -]?(?:watts?|vatios?|"
+    rf"watios?){_END})"
     r"|(?P<zh>[纳微毫千兆]?)瓦特?(?!时|分贝)"
 )
 _BIT = re.compile(
@@ -36,16 +41,17 @@ _BIT = re.compile(
     rf"|(?P<core>(?i:bits?|bytes?)|[bB])(?:(?i:{_PER_SECOND})(?P<per>)|{_END}))"
 )
 _BIT_WORD = re.compile(
-    rf"(?i:(?P<word>kilo|mega|giga|tera)[ -]?(?P<core>bits?|bytes?)(?:{_PER_SECOND}(?P<per>)|{_END}))"
+    rf"(?i:(?P<word>kilo|mega|méga|giga|tera)[ -]?(?P<core>bits?|bytes?)(?:{_PER_SECOND}(?P<per>)|{_END}))"
 )
 _BIT_ZH = re.compile(
-    rf"(?:(?P<prefix>[千兆吉太kKmMgG]?)\s?(?P<core>比特|字节)|(?P<mega>兆)(?P<latin>(?i:bits?|b|(?=ps))?)(?![瓦赫焦]|\s*(?i:hz|w|b)))"
+    rf"(?:(?P<prefix>[千兆吉太kKmMgG]?)\s?(?P<core>比特|字节)|(?P<mega>兆)(?P<latin>(?i:bits?|b|"
+    rf"(?=ps))?)(?![瓦赫焦]|\s*(?i:hz|w|b)))"
     rf"(?P<per>(?i:{_PER_SECOND}|ps{_END}))?"
 )
-_RATIO = re.compile(rf"%|(?i:(?:percent|per\s+cent|pct){_END})")
+_RATIO = re.compile(rf"%|(?i:(?:percent|per\s+cent|pct|prozent|por\s+ciento|pour\s+cent){_END})")
 _NOT_A_RATE_OR_POWER = re.compile(
     r"\s*(?:/|每)\s*(?!user|ue\b|person|device|sensor|人|用户|subscriber|head|each)(?=[A-Za-z])"
-    r"|\s*(?i:per\s+(?:\w?hz|hertz|megahertz|kilohertz|joules?|j|watts?|w|hours?|symbol|bit)\b)"
+    r"|\s*(?i:(?:per|pro|par|por)\s+(?:\w?hz|hertz|megahertz|kilohertz|joules?|j|watts?|w|hours?|symbol|bit)\b)"
     r"|[\s·-]*(?i:h|hrs?|hours?)\b|小时|\s*/?每?(?:赫兹?|焦耳?)"
 )
 

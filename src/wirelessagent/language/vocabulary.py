@@ -13,12 +13,14 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from wirelessagent.language import lexicon
+from wirelessagent.language.spelling import nearest
 from wirelessagent.language.text import CJK, CLAUSE_END, normalise
 
 MASK = "#"
 
 _UNIT = re.compile(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|(?P<cut>{CLAUSE_END})")
-_SHORTEST_CORRECTED = 5
+_SIGN = 0.6  # a single Chinese character may be part of another word: 快 of 快递
+_SHORTEST_CORRECTED, _LONG = 5, 8
 _RIGHT_WORDS = frozenset(lexicon.RIGHT_WORDS.split())
 
 
@@ -93,7 +95,10 @@ class Vocabulary:
         for concept, listing in lexicon.CONCEPTS.items():
             known |= {_entry(item): Term(concept=concept) for item in listing.split()}
         for objective, listing in lexicon.DIRECT.items():
-            known |= {_entry(item): Term(concept="direct", objective=objective) for item in listing.split()}
+            known |= {
+                _entry(item): Term(concept="direct", objective=objective, weight=_SIGN if len(item) == 1 else 1.0)
+                for item in listing.split()
+            }
         for words in own:
             spoken = [*words.names, *(phrase for _, phrases in words.phrases for phrase in phrases)]
             term = Term(concept="direct", objective=words.objective, weight=2.0)
@@ -107,6 +112,7 @@ class Vocabulary:
             self._words.update(phrase)
         for entries in self._by_first.values():
             entries.sort(key=lambda entry: -len(entry[0]))
+        self._long = sorted(word for word in self._words if len(word) >= _LONG - 1 and word.isascii())
         self._slips: dict[str, set[str]] = {}
         for word in self._words:
             if len(word) >= _SHORTEST_CORRECTED:
@@ -154,7 +160,9 @@ class Vocabulary:
             return word
         near = {known for variant in _deletions(word) for known in self._slips.get(variant, ())}
         close = [known for known in near if known[0] == word[0] and _one_edit(word, known)]
-        return close[0] if len(close) == 1 else word
+        if close or len(word) < _LONG:
+            return close[0] if len(close) == 1 else word
+        return nearest(word, self._long) or word
 
 
 def _entry(item: str) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ from wirelessagent.operations.ask import ASK
 from wirelessagent.operations.chat import CHAT
 from wirelessagent.operations.compare import COMPARE
 from wirelessagent.operations.evaluate import EVALUATE_DECISION, EVALUATE_REPAIR
+from wirelessagent.operations.evaluate_intents import EVALUATE_INTENTS
 from wirelessagent.operations.export import EXPORT
 from wirelessagent.operations.history import HISTORY, HISTORY_EXPORT, HISTORY_REPLAY, HISTORY_SHOW
 from wirelessagent.operations.intent import INTENT
@@ -17,7 +18,8 @@ from wirelessagent.operations.simulate import SIMULATE
 from wirelessagent.operations.solve import SOLVE
 
 OPERATIONS: tuple[AnyOperation, ...] = (
-    ASK, CHAT, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, EVALUATE_REPAIR, EVALUATE_DECISION, PLUGINS,
+    ASK, CHAT, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, EVALUATE_REPAIR, EVALUATE_DECISION, EVALUATE_INTENTS,
+    PLUGINS,
     HISTORY, HISTORY_SHOW, HISTORY_REPLAY, HISTORY_EXPORT, EXPORT,
 )  # fmt: skip
 

@@ -1,20 +1,28 @@
-"""intent: what a sentence is understood to mean, without doing anything."""
+"""intent: what sentences are understood to mean, without doing anything."""
 
 from __future__ import annotations
 
-from typing import Annotated
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, cast
 
 from pydantic import Field
 
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.offline import recognise
+from wirelessagent.language.intent import Constraint, Detail, Intent
+from wirelessagent.language.recogniser import Recogniser
+from wirelessagent.model.errors import InputError
 from wirelessagent.operations.fields import Positional
-from wirelessagent.operations.operation import Operation, Progress, Request
+from wirelessagent.operations.operation import Operation, Progress
+from wirelessagent.operations.recognisers import RecogniserOption
 from wirelessagent.operations.record import Block, Record, Table
 
 
-class IntentRequest(Request):
-    text: Annotated[str, Positional()] = Field(description="what the cell should do, in English or Chinese")
+class IntentRequest(RecogniserOption):
+    text: Annotated[str | None, Positional()] = Field(
+        None, description="what the cell should do, in English or Chinese; plain requests in Spanish, French and German"
+    )
+    batch: Path | None = Field(None, description='file of JSON lines, {"text": …} each; answered with a JSON line each')
 
 
 class IntentRecord(Record):
@@ -23,19 +31,24 @@ class IntentRecord(Record):
     text: str
     kind: str
     objective: str | None
-    constraints: dict[str, float]
+    constraints: dict[str, Any]
     language: str
     confidence: float
     evidence: dict[str, str]
     reply: str
     recogniser: str
+    topic: str | None = None
+    details: dict[str, Any] = Field(default_factory=dict)
+    amends: bool = False
+    dropped: list[str] = Field(default_factory=list)
+    pending: dict[str, Any] = Field(default_factory=dict)
 
     @classmethod
     def of(cls, text: str, intent: Intent) -> IntentRecord:
         names = set(cls.model_fields) - {"text"}
-        values = {name: getattr(intent, name) for name in names}
-        values["constraints"] = dict(intent.constraints)
-        values["evidence"] = dict(intent.evidence)
+        values: dict[str, Any] = {name: getattr(intent, name) for name in names}
+        values |= {name: plain(values[name]) for name in ("constraints", "details", "pending", "evidence")}
+        values["dropped"] = list(intent.dropped)
         return cls(text=text, **values)
 
     @property
@@ -44,17 +57,97 @@ class IntentRecord(Record):
 
     def blocks(self) -> list[Block]:
         rows = [("objective", self.objective or "–", self.evidence.get("objective", ""))]
-        rows += [(name, f"{value:g}", self.evidence.get(name, "")) for name, value in self.constraints.items()]
+        rows += [(name, shown(value), self.evidence.get(name, "")) for name, value in self.constraints.items()]
         table = Table(title="Understood", columns=("field", "value", "from the words"), rows=tuple(rows))
         return [table, self.reply] if self.kind == "allocate" else [self.reply]
 
 
-def run(request: IntentRequest, progress: Progress) -> IntentRecord:
+class IntentsRecord(Record):
+    """What each line of a file was understood to mean; a line that could not be read has its error instead."""
+
+    intents: list[IntentRecord | dict[str, Any]]
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        return tuple(str(each["error"]) for each in self.intents if isinstance(each, dict))
+
+    @property
+    def needs_answer(self) -> bool:
+        return bool(self.faults)
+
+    @property
+    def lines(self) -> list[str]:
+        return [
+            json.dumps(each, ensure_ascii=False) if isinstance(each, dict) else each.model_dump_json()
+            for each in self.intents
+        ]
+
+
+def plain(value: Constraint | Detail | Mapping[str, Any]) -> Any:
+    """A value as JSON has it."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(each) for key, each in value.items()}
+    return list(value) if isinstance(value, tuple) else value
+
+
+def shown(value: Any) -> str:
+    """A constraint's value on one line: "2e+06", "user 3: 2e+06", "3, 5"."""
+    if isinstance(value, dict):
+        return ", ".join(f"{user}: {figure:g}" for user, figure in cast("dict[str, float]", value).items())
+    return ", ".join(cast("list[str]", value)) if isinstance(value, list) else f"{value:g}"
+
+
+def run(request: IntentRequest, progress: Progress) -> Record:
     del progress
-    return IntentRecord.of(request.text, recognise(request.text))
+    if (request.text is None) == (request.batch is None):
+        raise InputError("say either a sentence or --batch FILE, one of the two")
+    recogniser = request.chosen_recogniser()
+    if request.text is not None:
+        return IntentRecord.of(request.text, recogniser.recognise(request.text))
+    assert request.batch is not None
+    return IntentsRecord(intents=[
+        _understood(line, number, recogniser)
+        for number, line in enumerate(lines_of(request.batch), start=1) if line.strip()
+    ])  # fmt: skip
 
 
-INTENT = Operation(
+def lines_of(path: Path) -> list[str]:
+    """The lines of a text file.
+
+    Raises:
+        InputError: the file cannot be read.
+    """
+    try:
+        return path.read_text(encoding="utf-8-sig", errors="replace").split("\n")
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror or error}") from error
+
+
+def text_of(line: str) -> str:
+    """The text of a line {"text": …}.
+
+    Raises:
+        ValueError: it is no such line; the message says what is wrong.
+    """
+    try:
+        row = json.loads(line)
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"not JSON ({getattr(error, 'msg', 'nested too deep')})") from error
+    text = cast("dict[str, Any]", row).get("text") if isinstance(row, dict) else None
+    if not isinstance(text, str):
+        raise ValueError('no {"text": "…"}')
+    return text.encode("utf-8", "replace").decode("utf-8")
+
+
+def _understood(line: str, number: int, recogniser: Recogniser) -> IntentRecord | dict[str, Any]:
+    try:
+        text = text_of(line)
+    except ValueError as error:
+        return {"line": number, "error": f"line {number}: {error}"}
+    return IntentRecord.of(text, recogniser.recognise(text))
+
+
+INTENT = Operation[IntentRequest, Record](
     name="intent",
     summary="Show what a sentence is understood to mean, without doing anything",
     request=IntentRequest,

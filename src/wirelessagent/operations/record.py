@@ -26,6 +26,16 @@ class Record(BaseModel):
         """Whether nothing was done and the user has to say more."""
         return False
 
+    @property
+    def lines(self) -> list[str] | None:
+        """What is printed as it stands, one line each, in the place of blocks and of JSON; None for most records."""
+        return None
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """What went wrong in parts, for the error output."""
+        return ()
+
 
 def _as_list(value: Any) -> Any:
     return cast("Any", value).tolist() if isinstance(value, np.ndarray | np.generic) else value

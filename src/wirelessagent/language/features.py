@@ -1,0 +1,76 @@
+"""A sentence as hashed n-grams: of words, of letters within words, of Chinese characters, and of concepts.
+
+Figures and users have been made placeholders before, so that the model knows no numbers. The hash is CRC-32: the same
+on every machine and in every process.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+import zlib
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from wirelessagent.language.spelling import SOUND_OF
+from wirelessagent.language.text import CJK
+
+BUCKETS = 1 << 15
+_MAX_TOKENS = 120
+_TOKEN = re.compile(rf"@[a-z]+|[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|[?\uff1f]")
+_IS_CJK = re.compile(f"[{CJK}]")
+
+
+def buckets(text: str, concepts: Sequence[str] = ()) -> npt.NDArray[np.int64]:
+    """The distinct buckets that a sentence falls into, ascending."""
+    found = {zlib.crc32(gram.encode("utf-8", "replace")) % BUCKETS for gram in _grams(text, concepts)}
+    return np.fromiter(sorted(found), dtype=np.int64, count=len(found))
+
+
+def word_hashes(text: str) -> npt.NDArray[np.uint32]:
+    """The hashes of a sentence's words and Chinese characters, placeholders aside."""
+    words = [token for token in _tokens(text) if token[0] not in "@?\uff1f"]
+    return np.fromiter(
+        (zlib.crc32(word.encode("utf-8", "replace")) for word in words), dtype=np.uint32, count=len(words)
+    )
+
+
+def _tokens(text: str) -> list[str]:
+    return [match.group() for match in _TOKEN.finditer(_plain(text))][:_MAX_TOKENS]
+
+
+def _plain(text: str) -> str:
+    """Lower case without accents, so that "máximo" and "maximo" are one."""
+    lowered = unicodedata.normalize("NFD", text.lower()) if not text.isascii() else text.lower()
+    return "".join(letter for letter in lowered if unicodedata.category(letter) != "Mn") if lowered != text else lowered
+
+
+def _grams(text: str, concepts: Sequence[str]) -> Iterator[str]:
+    tokens = _tokens(text)
+    padded = ["<", *tokens, ">"]
+    for place, token in enumerate(padded):
+        yield "w" + token
+        if place + 1 < len(padded):
+            yield f"b{token} {padded[place + 1]}"
+        if place + 2 < len(padded):
+            yield f"t{token} {padded[place + 1]} {padded[place + 2]}"
+            yield f"s{token} _ {padded[place + 2]}"
+        if place + 3 < len(padded) and _IS_CJK.match(token):
+            yield f"q{''.join(padded[place : place + 4])}"
+    heard = [SOUND_OF.get(token, token) for token in tokens if _IS_CJK.match(token)]
+    for place in range(len(heard) - 1):
+        yield f"h{heard[place]}{heard[place + 1]}"
+        if place + 2 < len(heard):
+            yield f"i{heard[place]}{heard[place + 1]}{heard[place + 2]}"
+    for token in set(tokens):
+        if len(token) > 3 and token.isalpha() and not _IS_CJK.match(token):
+            word = f"^{token[:20]}$"
+            for size in (3, 4, 5):
+                for start in range(len(word) - size + 1):
+                    yield "c" + word[start : start + size]
+    for place, concept in enumerate(concepts):
+        yield "C" + concept
+        for other in concepts[place + 1 : place + 3]:
+            yield f"D{concept} {other}"

@@ -1,0 +1,127 @@
+"""The words around a figure or a user that say what it means, as patterns: circuits, corrections, totals, changes."""
+
+from __future__ import annotations
+
+import re
+
+from wirelessagent.language.text import CLAUSE_END
+
+HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
+
+CIRCUIT = re.compile(
+    r"(?ia)\b(?:circuits?|circuitry|static|fixed|idle|overhead|baseline|stand-?by|quiescent|electronics|hardware|"
+    r"cooling|constant)\b"
+    r"(?:\s+(?:power|energy|consumption|draw|load)\b)*|(?<![A-Za-z])p[_ ]?c(?:ircuit)?(?![A-Za-z])|\b(?:fij[oa]s?|"
+    r"circuitos?|fixe|statique|schaltung\w*|"
+    r"fest\w{0,2}|grundlast|grundverbrauch|ruheverbrauch|elektronik)\b|(?:\b(?:cabinet|rack|baseband|bbu|boards?|"
+    r"equipment|shelter|fans?|rectifier)\b)|\b(?:regardless of (?:the )?(?:traffic|load)|no matter the load|"
+    r"even (?:when |while )?idle|by itself|on its own|at zero load|without any traffic)\b|(?:机柜|基带|主设备|空载|"
+    r"风扇|电路|静态|固定|基础|设备自身|待机|硬件|板子|整机|器件|本底)"
+    r"(?:功率|功耗|能耗|消耗|耗电|损耗)?"
+)
+CORRECTION = re.compile(
+    r"(?ia)\b(?:no|nope|wait|sorry|i mean|i meant|make (?:that|it)|scratch that|rather|correction|oops|actually|"
+    r"better|pardon|er|"
+    r"non|nein|perdón|pardon|mejor|plutôt|lieber|besser|doch|digo|ich meine|je veux dire|quiero decir|strike that|"
+    r"let's say)\b|"
+    r"不对|不是|应该是|改成|改为|算了|错了|说错|还是|哦不|不不|口误|更正|纠正"
+)
+PER_USER = re.compile(
+    r"(?i)\s*(?:each\b|apiece\b|(?:per|a|for (?:each|every))\s+(?:user|ue|person|head|subscriber|device|sensor|"
+    r"subcarrier|channel|carrier|antenna|tone)|/\s*(?:user|ue)|每|(?:por|par|pro|je)\s+(?:usuario|utilisateur|nutzer))"
+)
+TOTAL_BEFORE = re.compile(
+    r"(?i)(?:\b(?:total|sum|overall|aggregate|combined|cell|network)\s+(?:data\s+)?(?:rate|throughput|speed|capacity)|"
+    r"总速率|总吞吐量?|和速率|总共|合计|一共)[\w\s:=]{0,8}$"
+)
+TOTAL_AFTER = re.compile(r"(?i)\s*(?:of\s+)?(?:in\s+total|total|altogether|overall|combined|in\s+sum)\b")
+CHANGE_BEFORE = re.compile(
+    r"(?i)(?:\b(?:by|save|saves|saving|cut|another|extra|additional|reduce|(?<!au )plus|increase)\s*(?:about|"
+    r"around|roughly)?|"
+    r"(?:减少|降低|节省|省下?|增加|提高|再加|(?<![最至])多给|下降|提升|升高)了?)\s*$"
+)
+CHANGE_AFTER = re.compile(r"(?i)\s*(?:(?:of\s+)?(?:more|less|lower|higher|faster|extra)\b)")
+SET_TO = re.compile(
+    r"(?i)(?:\b(?:reduce|lower|cut|drop|bring|decrease|turn|raise|increase|set|limit)\s+(?:down\s+|up\s+)?(?:the\s+)?"
+    r"(?:total\s+|max\w*\s+)?(?:transmit\s+|tx\s+|radiated\s+)?(?:power|budget)(?:\s+budget)?\s+(?:down\s+|"
+    r"up\s+)?(?:to|at)|"
+    r"(?:总?发?射?功率)(?:降低?|减[小少]?|调|提高|升|增加?|设)(?:到|至|为)|(?:降低?|减[小少]?|"
+    r"提高)(?:总?发?射?功率)(?:到|至))\s*$"
+)
+RATE_SET_TO = re.compile(
+    r"(?i)\b(?:raise|increase|bring|set|lift|boost|push|lower|reduce)\s+(?:the\s+|each\s+|every\s+|their\s+)*"
+    r"(?:min\w*\s+|user\w*\s+|data\s+|bit\s+)*(?:rates?|speeds?|throughput)\s+(?:up\s+|down\s+)?to\s+$|"
+    r"(?:速率|速度|网速)(?:提高|提升|增加|升|调|设)(?:到|至|为)\s*$"
+)
+STATUS = re.compile(
+    r"(?ia)\b(?:currently|right now|at the moment|at present|only (?:get|gets|getting|have))\b|目前|当前|现在只|只有"
+)
+OUTAGE = re.compile(
+    r"(?ia)\b(?:outage|corte|coupure|ausfall\w*|fail\w*|miss(?:es)?|risk|violat\w*|drop\w*)\b|中断|失败|违约|风险|"
+    r"达不到|掉话"
+)
+RELIABLE = re.compile(
+    r"(?ia)\b(?:reliab\w*|availab\w*|confiden\w*|certain\w*|sure|guarantee\w*|probability|success|fiab\w*|"
+    r"confianza|confiance|zuverlässig\w*|verlässlich\w*|sicherheit)\b|可靠|把握|置信|成功|概率|保证率|达标率"
+)
+MISSING = re.compile(
+    r"(?ia)\b(?:missing|lost|loss|unknown|holes?|absent|gone|faltar\w*|falta\w*|perd\w*|manqu\w*|fehl\w*|"
+    r"verloren)\b|缺失|丢失|缺少|丢包|未知|缺|丢"
+)
+COUNTED_USERS = re.compile(
+    r"(?i)(?<![\w.,/^*-])(?:[0-9]+|two|three|four|five|six|seven|eight|nine|ten|twelve|sixteen|twenty) (?:users|ues|"
+    r"subscribers|devices|sensors|terminals|subcarriers|channels)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|设备|"
+    r"传感器|子载波)"
+)
+SOME_USERS = re.compile(
+    r"(?i)\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
+    r"(?:部分|一些|某些|某个)用户"
+)
+NOBODY = re.compile(
+    r"(?i)\bserv(?:e|ing) (?:nobody|no one|none of (?:them|the users)|no users?(?! (?:below|under|above|with)))\b|"
+    r"\bleav(?:e|ing) (?:everyone|everybody|all users|all of them) out\b|"
+    r"(?:所有|全部|全体)(?:用户|人|终端)(?:一个)?(?:都|全)?不(?:服务|带|管)|(?:一个|谁)(?:用户)?都不(?:服务|带|管)"
+)
+HALVED = re.compile(
+    r"(?i)\bby (?:a )?(?:half|third|quarter)\b|\bhalf (?:the|of the|as much)\b|\bhalve\b|\b(?:double|twice) the\b|"
+    r"减半|一半|翻倍"
+)
+SHARE = re.compile(
+    r"(?i)(?<!save )(?<!by )(?<!saving )(?<!cut )(?:(?P<half>\bhalf\b|\bla mitad\b|\bla moitié\b|\bhalbe[rn]?\b)|"
+    r"(?P<third>\b(?:a|one) third\b)|"
+    r"(?P<quarter>\b(?:a|one) quarter\b)|(?P<thirds>\btwo thirds\b)|(?P<quarters>\bthree quarters\b)|"
+    r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:\.[0-9]+)?)\s*(?:%|percent|per cent))\s*(?:of\s+|de\s+)?"
+    r"(?:(?:the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|der|die)\s+)*(?:power|budget|watts|"
+    r"wattage|potencia|puissance|leistung|"
+    r"sendeleistung)\b(?:\s+(?:budget|limit))?"
+    r"|(?:用|以|只用|最多用|不超过)(?:(?P<zh_half>一半)|(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|"
+    r"百分之(?P<zh_word>[0-9]{1,3}))的?(?:发射|总)?(?:功率|预算)"
+)
+SHARES = {"half": 1 / 2, "zh_half": 1 / 2, "third": 1 / 3, "quarter": 1 / 4, "thirds": 2 / 3, "quarters": 3 / 4}
+SUBCARRIER = re.compile(
+    r"(?i)\s*(?:of\s+power\s+)?(?:/|per|on (?:each|every|any|a)|for (?:each|every)|each|any)\s*(?:sub-?carrier|"
+    r"tone|carrier|rb|resource block)\b|\s*(?:per|on any) (?:sub-?carrier|tone)"
+)
+SUBCARRIER_BEFORE = re.compile(
+    r"(?i)(?:\b(?:each|every|any|per|no|single)\s+(?:single\s+)?(?:sub-?carrier|tone|carrier)\b|(?:每个|每|单个|"
+    r"任一|各)子载波)[^,;.，。]{0,40}$"
+)
+BLOCKS = re.compile(
+    r"(?i)(?:\b(?:groups?|blocks?|bundles?|chunks?|clusters?|packs?|rbgs?)\s+of\s+(?P<of>[0-9]{1,3}|two|three|four|"
+    r"six|eight|twelve|sixteen)(?:\s+(?:adjacent\s+|neighbouring\s+)?(?:sub-?carriers?|tones?|carriers?|rbs?|"
+    r"resource blocks?))?"
+    r"|\b(?P<per>[0-9]{1,3}|two|three|four|six|eight|twelve|sixteen)\s+(?:adjacent\s+|"
+    r"neighbouring\s+)?(?:sub-?carriers?|tones?|rbs?)\s+(?:per|in (?:a|each|every)|to a|each)\s+(?:group|block|"
+    r"bundle|rbg)"
+    r"|\b(?:rbg|resource[- ]block[- ]group|block|group)\s+size\s*(?:of|=|:|is)?\s*(?P<size>[0-9]{1,3})"
+    r"|(?:每|按)?(?P<zh>[0-9]{1,3}|[二两三四六八十]{1,2})个?子载波(?:一组|为一组|一块|为一块|捆绑|绑定|分组|一个组|"
+    r"成组))"
+)
+BLOCK_WORDS = {"two": 2, "three": 3, "four": 4, "six": 6, "eight": 8, "twelve": 12, "sixteen": 16}
+STEP = re.compile(
+    r"(?i)\b(?:one|an?|another|an? (?:extra|additional|further))\s+(?:more\s+|extra\s+|"
+    r"additional\s+)?watt(?:\s+more)?\b|(?:再?多|再加|加)一瓦|"
+    r"\bun vatio más\b|\bun watt de plus\b|\bein(?: weiteres)? watt mehr\b|\bein weiteres watt\b"
+)
+MOVE_BEFORE = re.compile(r"(?i)\b(?:reduce|lower|cut|save|drop|decrease|less)\b[\w\s]*$")
+CUT = re.compile(CLAUSE_END)

@@ -1,0 +1,103 @@
+"""What a sentence means within a conversation: limits that go, users who come back, wishes that keep the limits."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from wirelessagent.language.constraints import Reading
+from wirelessagent.language.intent import CONSTRAINTS, Constraint
+from wirelessagent.language.recogniser import Context
+
+_GO = (
+    r"(?:without|drop|remove|lift|forget(?:\s+about)?|no\s+more|no|cancel|get\s+rid\s+of|take\s+away|delete|ignore|"
+    r"scrap|waive|"
+    r"abolish|clear|relax|undo|loosen|sin|quita|elimina|sans|supprime|enlève|ohne|entferne|streiche|lass)"
+    r"(?:\s+(?:the|any|all|my|our|that|those|el|la|los|las|le|les|die|den|das|de))*\s+"
+)
+_LIMITS: tuple[tuple[str, str, str], ...] = (
+    ("subcarrier_max_power_w", (r"(?:per[- ])?sub-?carrier\s+(?:power\s+)?(?:limit|cap|"
+        r"ceiling)s?"), "子载波(?:功率)?(?:限制|上限)"),
+    ("max_power_w", (r"(?:power|transmit power|tx power|watt)\s*(?:limit|cap|budget|ceiling|restriction|constraint|"
+        r"bound)s?|limit\s+(?:on|of|for)\s+(?:the\s+)?power|"
+     r"l[ií]mite\s+de\s+potencia|limite\s+de\s+puissance|leistungs(?:grenze|limit|"
+     r"begrenzung)"), "(?:总|发射)?功率(?:的)?(?:限制|上限|约束|预算|封顶)"),
+    ("max_rate_bps", (r"(?:max(?:imum)?\s+rates?|rate\s+(?:cap|limit|ceiling)s?|speed\s+(?:cap|"
+        r"limit)s?)"), "速率(?:的)?(?:上限|封顶|限制)|最高速率|限速"),
+    ("min_rate_bps", (r"(?:min(?:imum)?\s+(?:data\s+)?(?:rates?|speeds?)|rate\s+(?:floor|guarantee|promise|"
+        r"requirement)s?|guarantees?|promises?|floors?|guaranteed\s+rates?|"
+     r"(?:tasa|velocidad)\s+mínima|débit\s+minim(?:al|um)|"
+     r"mindestrate)"), "最低速率|保底(?:速率)?|速率(?:保证|要求|下限)|最小速率"),
+    ("outage_probability", (r"(?:outage(?:\s+probability|\s+limit)?|reliability(?:\s+requirement|"
+        r"\s+target)?)"), "中断概率(?:限制|要求)?|可靠性(?:要求)?"),
+    ("weights", r"(?:weights?|weighting|priorit(?:y|ies))", "权重|优先级"),
+    ("circuit_power_w", r"circuit\s+power", "电路功率"),
+    ("resource_block_group_size", r"(?:groups?|blocks?|grouping)(?:\s+of\s+subcarriers)?", "(?:子载波)?分组"),
+)  # fmt: skip
+_ALL = re.compile(
+    rf"(?i)\b{_GO}(?:limits?|constraints?|restrictions?|conditions?|caps?|ceiling|límites?|limites?|grenzen?)\b|"
+    r"(?:去掉|取消|不要|解除|拿掉|撤掉|放开|删除|没有)(?:所有|全部|一切)?的?(?:限制|约束|条件|上限)(?!为|在)"
+)
+_ZH_GO = "(?:去掉|取消|不要|解除|拿掉|撤掉|放开|删除|删掉|撤销|不用|忽略|别管|没有|不设|移除)(?:了|掉)?"
+_ZH_GONE = "(?:去掉|取消|不要了|解除|拿掉|撤掉|放开|删掉|不设|没有了|免了|作废)"
+_GENERAL = ("max_power_w", "min_rate_bps", "max_rate_bps", "outage_probability", "subcarrier_max_power_w")
+_SAME = re.compile(
+    r"(?i)\b(?:same|instead|keep(?:ing)?\s+(?:the\s+)?(?:limits?|rest|everything\s+else|constraints?|figures)|"
+    r"otherwise|rather|but\s+with|still|also|too|switch|change)\b|"
+    r"^\s*(?:and|now|but|then|plus|ok,?\s+now|what\s+about|how\s+about)\b|条件不变|其他不变|其余不变|限制不变|改为|"
+    r"改成|改用|换成|换为|换用|切换|同样的?(?:条件|限制)|还是"
+)
+
+
+def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tuple[tuple[int, int], ...]]:
+    """The constraints that a sentence lifts, and the spans of the words that say so.
+
+    >>> dropped_in("without the power limit", None)[0]
+    ('max_power_w',)
+    """
+    names: list[str] = []
+    spans: list[tuple[int, int]] = []
+    for name, english, chinese in _LIMITS:
+        match = re.search(
+            rf"(?i)(?<![A-Za-z]){_GO}(?:{english})(?![A-Za-z])|{_ZH_GO}(?:{chinese})|(?:{chinese})(?:也|都|"
+            rf"就)?{_ZH_GONE}"
+            rf"|(?<![A-Za-z])(?:{english})\s+(?:is|are)\s+(?:gone|off|lifted|no\s+longer\s+\w+|void)",
+            plain,
+        )  # fmt: skip
+        if match is not None and not any(start < match.end() and match.start() < end for start, end in spans):
+            names.append(name)
+            spans.append(match.span())
+    match = _ALL.search(plain) or re.search("功率(?:不设限|不限制|不限|没有上限|随便用)|不限功率", plain)
+    if match is not None and not names:
+        held = tuple(context.constraints) if context is not None else ()
+        power = "功率" in match.group()
+        names = ["max_power_w"] if power else [name for name in _GENERAL if name in held] or ["max_power_w"]
+        spans.append(match.span())
+    return tuple(name for name in CONSTRAINTS if name in names), tuple(spans)
+
+
+def with_users_back(reading: Reading, context: Context) -> tuple[dict[str, Constraint], tuple[str, ...]]:
+    """What taking users in again changes: constraints to state, and those to drop before."""
+    values = dict(reading.values)
+    dropped: list[str] = []
+    numbers = {str(place): name for place, name in enumerate(context.user_names, start=1)}
+    back = {form for user in reading.back for form in (user, numbers.get(user, user))}
+    left_out, served = context.constraints.get("leave_out"), context.constraints.get("users")
+    if isinstance(left_out, tuple):
+        remaining = tuple(user for user in left_out if user not in back and numbers.get(user, user) not in back)
+        dropped.append("leave_out")
+        if remaining:
+            values["leave_out"] = remaining
+    if isinstance(served, tuple):
+        values["users"] = (*served, *(user for user in reading.back if user not in served))
+    return values, tuple(dropped)
+
+
+def keeps_the_limits(plain: str) -> bool:
+    """Whether a sentence with a wish changes the request at hand rather than replacing it."""
+    return _SAME.search(plain) is not None
+
+
+def merged(earlier: Mapping[str, Constraint], later: Mapping[str, Constraint]) -> dict[str, Constraint]:
+    """Constraints read before a question, with those of its answer."""
+    return {**earlier, **later}

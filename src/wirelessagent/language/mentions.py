@@ -1,0 +1,224 @@
+"""Who is spoken of: named users, everybody, and the others, in every language that the recogniser reads.
+
+A reference is what the operator says: "3" for "user 3", "users 1 to 3" are ("1", "2", "3"). Names of the channel's own
+users count as they are. Whether a user is to be served, left out or promised something is not decided here.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from wirelessagent.language.numerals import chinese_value
+from wirelessagent.language.units import unit_at
+
+Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
+
+_WORDS = (
+    "one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen "
+    "eighteen nineteen twenty"
+)
+_ORDINALS = {
+    word: str(place)
+    for listing in (
+        "first second third fourth fifth sixth seventh eighth ninth tenth",
+        "primer segundo tercer cuarto quinto sexto séptimo octavo noveno décimo",
+        "premier deuxième troisième quatrième cinquième sixième septième huitième neuvième dixième",
+        "erste zweite dritte vierte fünfte sechste siebte achte neunte zehnte",
+        "ersten zweiten dritten vierten fünften sechsten siebten achten neunten zehnten",
+    )
+    for place, word in enumerate(listing.split(), start=1)
+}
+_NUMBER_WORDS = {
+    word: str(place)
+    for listing in (
+        _WORDS,
+        "uno dos tres cuatro cinco seis siete ocho nueve diez",
+        "un deux trois quatre cinq six sept huit neuf dix",
+        "eins zwei drei vier fünf sechs sieben acht neun zehn",
+    )
+    for place, word in enumerate(listing.split(), start=1)
+}
+
+_NOUN = (
+    r"(?:users?|ues?|subscribers?|terminals?|customers?|clients?|devices?|phones?|handsets?|sensors?|stations?|"
+    r"usuari[oa]s?|abonad[oa]s?|terminales|clientes?|utilisat(?:eur|rice)s?|abonnés?|nutzer(?:n|in|s)?|"
+    r"teilnehmer(?:n|in|s)?|kunden?|endgeräte?)"
+)
+_WORD_NUMBER = "(?:" + "|".join(sorted(_NUMBER_WORDS, key=len, reverse=True)) + ")"
+_NUMBER = rf"(?:[0-9]{{1,4}}(?![0-9.,]*[0-9%])|{_WORD_NUMBER}\b)"
+_AND = r"(?:\s*(?:,|&|\+|/)\s*(?:and\s+|y\s+|et\s+|und\s+|or\s+)?|\s+(?:and|or|plus|nor|y|e|o|et|ou|und|oder)\s+)"
+_TO = r"(?:\s*(?:-|–|~)\s*|\s+(?:to|through|a|à|bis)\s+)"
+_LIST = rf"{_NUMBER}(?:(?:{_AND}|{_TO})(?:(?:no\.?|number|#)\s*)?{_NUMBER})*"
+_NAMED = re.compile(
+    rf"(?i)(?<![A-Za-z0-9]){_NOUN}[\s_-]*(?:ids?\s*|(?:no|nr|num)\.?\s*|numbers?\s+|número\s+|numéro\s+|nummer\s+|"
+    rf"[#№])?\s*(?P<list>{_LIST})"
+    rf"|(?<![A-Za-z0-9])(?:u|ue)(?P<short>[0-9]{{1,4}})(?![A-Za-z0-9])|"
+    rf"#\s?(?P<hash>[0-9]{{1,4}}(?:{_AND}#?\s?[0-9]{{1,4}})*)"
+    rf"|(?<![A-Za-z])(?:numbers?|number|no\.)\s+(?P<number>{_LIST})"
+    rf"|(?<![A-Za-z])(?P<ordinal>{'|'.join(sorted(_ORDINALS, key=len, reverse=True))})\s+{_NOUN}(?![A-Za-z])"
+)
+_ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
+_ZH_NOUN = r"(?:用户|终端|UE|ue|客户|设备|手机|节点)"
+_ZH_LIST = rf"{_ZH_NUMBER}(?:\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*{_ZH_NUMBER})*"
+_ZH = re.compile(
+    rf"{_ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户])号?"
+    rf"|(?P<hao>{_ZH_LIST})\s*号(?!线|楼|院|机房|站|小区|基站)\s*{_ZH_NOUN}?"
+    rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{_ZH_NOUN}"
+)
+_OTHERS = re.compile(
+    r"(?i)\b(?:everyone else|everybody else|every other (?:one|user|person|subscriber)|"
+    r"all (?:the )?others?(?: users?)?|(?:the )?others?(?: users?| ones)?|each of the "
+    r"(?:rest|others)|(?:the )?(?:rest|remaining users?|remainder)(?: of (?:them|the users|us))?|anyone else|"
+    r"los demás|el resto|los otros|los restantes|les autres|tous les autres|le reste|die (?:anderen|übrigen|"
+    r"restlichen)|"
+    r"alle (?:anderen|übrigen)|der rest|allen anderen)\b|(?:其他|其它|其余|剩下|剩余|另外)的?(?:所有)?(?:的)?(?:人|"
+    r"用户|终端)?(?:都)?|别人|旁人"
+)
+_EVERYBODY = re.compile(
+    r"(?i)\b(?:everyone|everybody|every (?:single )?(?:one|user|ue|person|subscriber|customer|terminal|device|"
+    r"client|head)|"
+    r"each (?:and every )?(?:one|user|ue|person|subscriber|customer|terminal|device|client|of them|of the users)|"
+    r"each|apiece|all(?: the| our)? (?:users|ues|"
+    r"subscribers|customers|terminals|devices|clients|phones|people)|all of them|all|(?:per|a|/)\s?(?:user|ue|"
+    r"person|head|subscriber|customer|capita|"
+    r"device|terminal)|nobody|no one|noone|no user|none|anyone|anybody|people|users|(?:para |"
+    r"a )?todos(?: los usuarios)?|"
+    r"cada (?:uno|usuario)|por usuario|nadie|tous(?: les utilisateurs)?|tout le monde|chacun|chaque utilisateur|par "
+    r"utilisateur|personne|alle(?: nutzer)?|jeder?[nm]?(?: nutzer| einzelne[nr]?)?|(?:pro|je) (?:nutzer|kopf|"
+    r"teilnehmer)|niemand|keiner|"
+    r"für alle)\b|(?:每个|每位|每一个|每名|每|各|所有|全部|全体)(?:的)?(?:用户|人|终端|UE|户|客户|设备|位)?|人人|"
+    r"大家|人均|没人|谁也"
+)
+_PRONOUN = re.compile(
+    r"(?i)\b(?:him|her|he|she|them|(?:those|these)(?: two| three| four| five| users)?|that one|él|ella|lui|elle|"
+    r"ihm|ihr|ihn)\b|[他她它]们?(?!人)"
+)
+_JOINT = re.compile(r"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|or|and|nor|plus|y|et|und)+\s*(?:also\s+|the\s+)?")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mention:
+    """Somebody named at characters [start, end); ``users`` as the operator refers to them, () unless named."""
+
+    role: Role
+    users: tuple[str, ...]
+    start: int
+    end: int
+
+
+def mentions(plain: str, names: Sequence[str] = (), taken: Sequence[tuple[int, int]] = ()) -> list[Mention]:
+    """Everybody spoken of in a normalised sentence, from left to right, where no ``taken`` span is.
+
+    >>> [(m.role, m.users) for m in mentions("user 3 and user 5 get 1 Mbit/s, everyone else less")]
+    [('named', ('3', '5')), ('others', ())]
+    """
+    found: list[Mention] = []
+    for mention in [*_own_names(plain, names), *_named(plain), *_collective(plain)]:
+        clear = not any(mention.start < end and start < mention.end for start, end in taken)
+        if clear and not any(mention.start < other.end and other.start < mention.end for other in found):
+            found.append(mention)
+    return _merged(plain, sorted(found, key=lambda mention: mention.start))
+
+
+def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
+    for name in sorted(names, key=len, reverse=True):
+        if re.fullmatch(r"(?i)(?:user|ue)?[\s_-]*[0-9]+", name) or len(name) < 2:
+            continue  # "user 3" is read as any other number
+        for match in re.finditer(rf"(?i)(?<![^\W_]){re.escape(name)}(?![^\W_])", plain):
+            yield Mention(role="named", users=(name,), start=match.start(), end=match.end())
+
+
+def _named(plain: str) -> Iterator[Mention]:
+    for match in _NAMED.finditer(plain):
+        group = match.lastgroup or ""
+        end = _without_quantity(plain, match, group)
+        users = _listed(plain[match.start(group) : min(end, match.end(group))])
+        if users and end > match.start(group):
+            yield Mention(role="named", users=users, start=match.start(), end=end)
+    for match in _ZH.finditer(plain):
+        group = match.lastgroup or ""
+        end = _without_quantity(plain, match, group)
+        users = _listed(
+            match.group(group)[: end - match.start(group)] if end < match.end(group) else match.group(group)
+        )
+        if users and end > match.start(group):
+            yield Mention(role="named", users=users, start=match.start(), end=max(end, match.start(group)))
+
+
+def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
+    """Where the list ends when its last number belongs to a unit: "users 1 and 2, 10 W"."""
+    if group in ("ordinal", "short", "nth"):
+        return match.end()
+    parts = list(re.finditer(rf"(?i)[0-9]+|{_WORD_NUMBER}\b|[一二三四五六七八九十]+", match.group(group)))
+    offset = match.start(group)
+    if parts and unit_at(plain, offset + parts[-1].end()) is not None:
+        return offset + parts[-2].end() if len(parts) > 1 else offset
+    return match.end()
+
+
+def _listed(text: str) -> tuple[str, ...]:
+    """The users of a list such as "1, 2 and 5" or "1 to 4"."""
+    users: list[str] = []
+    previous, previous_end = "", 0
+    for part in re.finditer(
+        rf"(?i)[0-9]+|\b(?:{'|'.join(_ORDINALS)})\b|{_WORD_NUMBER}\b|[一二三四五六七八九十]+", text
+    ):
+        user = _number(part.group().lower())
+        if not user:
+            continue
+        between = text[previous_end : part.start()]
+        if (
+            previous
+            and re.fullmatch(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*", between)
+            and int(previous) < int(user) < int(previous) + 1000
+        ):
+            users.extend(str(number) for number in range(int(previous) + 1, int(user)))
+        users.append(user)
+        previous, previous_end = user, part.end()
+    return tuple(dict.fromkeys(users))
+
+
+def _number(word: str) -> str:
+    if word.isdigit():
+        return str(int(word))
+    if word in _ORDINALS or word in _NUMBER_WORDS:
+        return _ORDINALS.get(word) or _NUMBER_WORDS[word]
+    value = chinese_value(word)
+    return str(int(value)) if value is not None else ""
+
+
+def _collective(plain: str) -> Iterator[Mention]:
+    roles: tuple[tuple[Role, re.Pattern[str]], ...] = (
+        ("others", _OTHERS), ("everybody", _EVERYBODY), ("pronoun", _PRONOUN),
+    )  # fmt: skip
+    for role, pattern in roles:
+        for match in pattern.finditer(plain):
+            yield Mention(role=role, users=(), start=match.start(), end=match.end())
+
+
+def _lists(plain: str, last: Mention, mention: Mention) -> bool:
+    """Whether two neighbours are items of one list: an "and" joins them, or a comma where the list goes on."""
+    if re.search(r"(?i)[a-z和与跟及&/、]", plain[last.end : mention.start]):
+        return True
+    return re.match(r"(?i)\s*(?:$|[,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)", plain[mention.end :]) is not None
+
+
+def _merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
+    """Neighbours that an "and" joins made one: "user 3 and user 5"."""
+    merged: list[Mention] = []
+    for mention in found:
+        last = merged[-1] if merged else None
+        if (
+            last is not None
+            and last.role == mention.role == "named"
+            and _lists(plain, last, mention)
+            and _JOINT.fullmatch(plain, last.end, mention.start)
+        ):
+            users = tuple(dict.fromkeys([*last.users, *mention.users]))
+            merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
+        else:
+            merged.append(mention)
+    return merged

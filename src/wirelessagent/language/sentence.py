@@ -1,0 +1,82 @@
+"""One sentence, read once: its figures, its users, its terms, and what the lexicon makes of them."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping, Sequence
+from typing import cast
+
+from wirelessagent import plugins
+from wirelessagent.language import goals
+from wirelessagent.language.constraints import Reading, read_constraints
+from wirelessagent.language.goals import Goal
+from wirelessagent.language.mentions import mentions
+from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.spelling import respelt
+from wirelessagent.language.text import language_of, normalise
+from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
+from wirelessagent.model.objective import Objective
+
+BUILT_IN = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
+_PLACEHOLDERS = {"power": " @power ", "rate": " @rate ", "ratio": " @ratio ", "bare": " @number ", "other": " @number "}
+
+
+class Sentence:
+    """What an operator said, with everything that can be read off its words."""
+
+    def __init__(
+        self, text: str, own: tuple[OwnWords, ...], *, names: Sequence[str] = (), max_power_w: float = 20.0
+    ) -> None:
+        self.text, self.plain, self.language = text, normalise(text), language_of(text)
+        self.quantities = parse_quantities(text)
+        self.reading: Reading = read_constraints(
+            text, self.plain, self.quantities, names=names, max_power_w=max_power_w
+        )
+        self._spelt = respelt(self.plain)
+        self.units: list[Unit] = units_of(self._spelt, self.reading.masked)
+        self.found: list[Found] = _vocabulary(own).find(self.units)
+        self.concepts = {item.term.concept for item in self.found}
+        self.goal: Goal = goals.goal_of(self.found)
+
+    def for_model(self) -> tuple[str, list[str]]:
+        """The words with placeholders for figures and users, and the concepts in their order."""
+        spans = [(q.phrase_start, q.phrase_end, _PLACEHOLDERS[q.kind]) for q in self.quantities]
+        taken = [(start, end) for start, end, _ in spans]
+        spans += [(m.start, m.end, " @user ") for m in mentions(self.plain, (), taken) if m.role == "named"]
+        parts: list[str] = []
+        place = 0
+        for start, end, placeholder in sorted(spans):
+            if start >= place:
+                parts += [self._spelt[place:start], placeholder]
+                place = end
+        terms = [item.term.objective or item.term.concept for item in self.found]
+        goal = f"goal:{self.goal.verdict}:{self.goal.objective}"
+        return "".join([*parts, self._spelt[place:]]), [*terms, goal]
+
+
+def own_words() -> tuple[OwnWords, ...]:
+    """The words of every objective that loads, the built-in ones first."""
+    own: list[OwnWords] = []
+    for found in plugins.plugins("objective"):
+        if found.cls is None:
+            continue
+        cls = cast("type[Objective]", found.cls)
+        spoken = tuple((language, tuple(words)) for language, words in cls.phrases.items())
+        own.append(OwnWords(objective=found.name, names=(found.name, *cls.aliases), phrases=spoken))
+    order = {name: place for place, name in enumerate(BUILT_IN)}
+    return tuple(sorted(own, key=lambda words: (order.get(words.objective, len(order)), words.objective)))
+
+
+def labels_of(own: Sequence[OwnWords], language: str) -> Mapping[str, str]:
+    """What to call each objective: its first phrase in the language, else in any, else its name."""
+    labels: dict[str, str] = {}
+    for words in own:
+        phrases = dict(words.phrases)
+        spoken = phrases.get(language) or phrases.get("en") or next(iter(phrases.values()), ())
+        labels[words.objective] = spoken[0] if spoken else words.objective.replace("_", " ")
+    return labels
+
+
+@functools.lru_cache(maxsize=8)
+def _vocabulary(own: tuple[OwnWords, ...]) -> Vocabulary:
+    return Vocabulary(own)

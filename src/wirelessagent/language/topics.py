@@ -1,0 +1,89 @@
+"""What a question or a command is about: its user, its figures, what to compare with."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from wirelessagent.language.intent import Constraint, Detail
+from wirelessagent.language.numerals import chinese_value
+from wirelessagent.language.sentence import Sentence
+
+_COMPARED = (
+    "dual", "exact", "greedy", "paper_bisection", "paper_inversion", "paper_scan", "paper", "equal_power",
+    "round_robin", "kriging", "linear", "nncf_paper", "nncf", "user_mean", "learned_covariance", "predictor",
+    "max_rate", "min_power",
+    "max_energy_efficiency", "proportional_fairness", "max_min_rate",
+)  # fmt: skip
+_SPOKEN = {"论文": "paper", "贪心": "greedy", "等功率": "equal_power", "equal "
+    "power": "equal_power", "round robin": "round_robin",
+           "轮询": "round_robin", "user mean": "user_mean", "exact": "exact"}  # fmt: skip
+_NUMBER = re.compile(
+    r"(?i)(?:numbers?|turn|no\.?|#|request|entry|step|run|record|第|轮)\s*(?P<n>[0-9]+|[一二三四五六七八九十]+)|"
+    r"\bhistory\s+(?:show\s+)?(?P<m>[0-9]+)"
+)
+_FORMATS = (("tmf921", re.compile(r"(?i)tmf\s*-?921")), ("ts28312", re.compile(r"(?i)28\.?312|3gpp")))
+_HALF_MISSING = re.compile(
+    r"(?i)\bhalf\b.{0,30}\b(?:missing|lost|unknown|gone)\b|(?:一半.{0,12}(?:缺|丢)|(?:缺|丢).{0,8}一半)"
+)
+_MISSING_OF = re.compile(r"(?i)\b(?:missing|lost|unknown|gone|loss)\b|缺|丢|falt|manqu|fehl|perd|verlor")
+
+
+def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
+    """The figures and names of a question or command of this topic."""
+    reading = sentence.reading
+    if topic in ("why_user", "users"):
+        return {"user": reading.named[0]} if reading.named else {}
+    if topic == "what_if":
+        return _what_if(sentence)
+    if topic == "step":
+        user: dict[str, Detail] = {"user": reading.named[0]} if reading.named else {}
+        steps: Mapping[str, Detail] = reading.steps or _stated(reading.values) or {"power_w": 1.0}
+        return {**steps, **(user if "rate_bps" in steps else {})}
+    if topic == "compare":
+        return {"with": _compared(sentence.plain)}
+    if topic == "history":
+        match = _NUMBER.search(sentence.plain)
+        word = (match["n"] or match["m"]) if match is not None else ""
+        number = int(word) if word.isdigit() else int(chinese_value(word) or 0) if word else 0
+        return {"number": float(number)} if number else {}
+    if topic == "export":
+        return {"format": next((name for name, pattern in _FORMATS if pattern.search(sentence.plain)), "ts28312")}
+    return {}
+
+
+def _what_if(sentence: Sentence) -> dict[str, Detail]:
+    reading, details = sentence.reading, dict[str, Detail]()
+    share = reading.missing
+    if share is None and _HALF_MISSING.search(sentence.plain):
+        share = 0.5
+    if share is not None and 0 <= share < 1:
+        details["missing_share"] = share
+    values = dict(reading.values)
+    if reading.named and not values and not reading.back and share is None:
+        values["leave_out"] = reading.named  # "what if user 3 were gone?"
+    if values:
+        details["constraints"] = values
+    if sentence.goal.verdict == "clear":
+        details["objective"] = sentence.goal.objective
+    return details
+
+
+def _stated(values: Mapping[str, Constraint]) -> dict[str, Detail]:
+    power, rate = values.get("max_power_w"), values.get("min_rate_bps")
+    if isinstance(power, float):
+        return {"power_w": power}
+    if isinstance(rate, float):
+        return {"rate_bps": rate}
+    if isinstance(rate, Mapping):
+        return {"rate_bps": next(iter(rate.values()))}
+    return {}
+
+
+def _compared(plain: str) -> str:
+    """The method or repairer that is named, else the last result."""
+    lowered = plain.lower().replace("-", "_")
+    for spoken, name in _SPOKEN.items():
+        if spoken in lowered:
+            return name
+    return next((name for name in _COMPARED if re.search(rf"(?<![a-z_]){name}(?![a-z_])", lowered)), "last")

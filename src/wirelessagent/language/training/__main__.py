@@ -1,0 +1,38 @@
+"""Make the model anew: ``python -m wirelessagent.language.training [FILE]``; the same file for the same templates."""
+
+from __future__ import annotations
+
+import logging
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+from wirelessagent.language.linear_model import MODEL_FILE
+from wirelessagent.language.training.compose import sentences
+from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save
+
+
+def main(path: Path) -> None:
+    """Draw, fit, write, and say how well the drawn sentences are told apart."""
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    log = logging.getLogger(__name__)
+    start = time.perf_counter()
+    drawn = sorted(set(sentences(Path(__file__).parent)))
+    texts, labels = [text for text, _ in drawn], [label for _, label in drawn]
+    names = sorted(set(labels))
+    log.info("%d sentences, %d labels (%.0f s)", len(texts), len(names), time.perf_counter() - start)
+    read = read_by_rules(texts)
+    rows = matrix_of(read)
+    log.info("%d n-grams (%.0f s)", rows.nnz, time.perf_counter() - start)
+    weights, intercepts = fit(rows, labels, names)
+    told: list[int] = np.argmax(np.asarray(rows @ weights) + intercepts, axis=1).tolist()
+    right = sum(names[guess] == label for guess, label in zip(told, labels, strict=True)) / len(labels)
+    save(path, names, weights, intercepts, known_words(read))
+    log.info("%.1f %% of them told apart; %s: %d kB (%.0f s)", 100 * right, path.name, path.stat().st_size // 1000,
+             time.perf_counter() - start)  # fmt: skip
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else MODEL_FILE)

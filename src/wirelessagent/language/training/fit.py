@@ -1,0 +1,81 @@
+"""The fit: multinomial logistic regression by L-BFGS, weights rounded to eight bits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+from scipy import optimize, sparse
+
+from wirelessagent.language.features import BUCKETS, buckets, word_hashes
+from wirelessagent.language.sentence import Sentence, own_words
+
+_RIDGE = 2e-6
+_STEPS = 120
+
+
+def matrix_of(read: Sequence[tuple[str, list[str]]]) -> sparse.csr_matrix:
+    """(sentence, bucket) of sentences as the model sees them: every row has length one."""
+    columns = [buckets(*each) for each in read]
+    sizes = np.array([len(each) for each in columns])
+    values = np.repeat(1 / np.sqrt(sizes), sizes)
+    starts = np.concatenate([[0], np.cumsum(sizes)])
+    return sparse.csr_matrix((values.astype(np.float32), np.concatenate(columns), starts), shape=(len(read), BUCKETS))
+
+
+def read_by_rules(texts: Sequence[str]) -> list[tuple[str, list[str]]]:
+    """What the parsers and the lexicon make of each sentence, as the model gets it at run time."""
+    own = own_words()
+    return [Sentence(text, own).for_model() for text in texts]
+
+
+def known_words(read: Sequence[tuple[str, list[str]]]) -> npt.NDArray[np.uint32]:
+    """The hashes of the words that stand in at least two sentences, ascending."""
+    words, counts = np.unique(np.concatenate([np.unique(word_hashes(text)) for text, _ in read]), return_counts=True)
+    return words[counts > 1]
+
+
+def fit(
+    rows: sparse.csr_matrix, labels: Sequence[str], names: Sequence[str]
+) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+    """Weights (bucket, label) and intercepts (label,) that make the labels likeliest, with a ridge."""
+    target = np.array([names.index(label) for label in labels])
+    count, classes = rows.shape[0], len(names)
+    share = np.bincount(target, minlength=classes)
+    importance = (count / classes / share[target]) ** 0.4  # rare labels count more, though not equally
+    importance /= importance.sum()
+    columns = rows.T.tocsr()
+
+    def loss(flat: npt.NDArray[np.float64]) -> tuple[float, npt.NDArray[np.float64]]:
+        weights = flat[: BUCKETS * classes].reshape(BUCKETS, classes)
+        score = np.asarray(rows @ weights.astype(np.float32), dtype=np.float64) + flat[BUCKETS * classes :]
+        score -= score.max(axis=1, keepdims=True)
+        likely = np.exp(score)
+        likely /= likely.sum(axis=1, keepdims=True)
+        value = -float(importance @ np.log(likely[np.arange(count), target] + 1e-300))
+        likely[np.arange(count), target] -= 1
+        likely *= importance[:, None]
+        slope = np.asarray(columns @ likely.astype(np.float32), dtype=np.float64) + 2 * _RIDGE * weights
+        return value + _RIDGE * float((weights**2).sum()), np.concatenate([slope.ravel(), likely.sum(axis=0)])
+
+    start = np.zeros((BUCKETS + 1) * classes)
+    found = optimize.minimize(loss, start, jac=True, method="L-BFGS-B", options={"maxiter": _STEPS, "maxcor": 5})
+    flat = np.asarray(found.x, dtype=np.float32)
+    return flat[: BUCKETS * classes].reshape(BUCKETS, classes), flat[BUCKETS * classes :]
+
+
+def save(
+    path: Path,
+    names: Sequence[str],
+    weights: npt.NDArray[np.float32],
+    intercepts: npt.NDArray[np.float32],
+    known: npt.NDArray[np.uint32],
+) -> None:
+    """Write the model, the weights as int8 with a scale per label."""
+    scales = np.asarray(np.abs(weights).max(axis=0) / 127, dtype=np.float32)
+    rounded = np.asarray(np.rint(weights / scales), dtype=np.int8)
+    np.savez_compressed(
+        path, labels=np.array(names), weights=rounded, scales=scales, intercepts=intercepts, known=known
+    )

@@ -1,0 +1,104 @@
+"""The templates, the sentences drawn from them, and the model that they made."""
+
+from __future__ import annotations
+
+import itertools
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from wirelessagent.language import training
+from wirelessagent.language.features import BUCKETS, buckets
+from wirelessagent.language.intent import COMMANDS, QUESTIONS
+from wirelessagent.language.linear_model import MODEL_FILE, shipped_model
+from wirelessagent.language.sentence import BUILT_IN
+from wirelessagent.language.spelling import nearest, respelt
+from wirelessagent.language.training.compose import LANGUAGES, SLOTS, SURROUNDINGS, sentences
+from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save
+from wirelessagent.language.training.grammar import Grammar
+
+FOLDER = Path(training.__file__).parent
+
+
+@pytest.fixture(scope="module")
+def drawn() -> list[tuple[str, str]]:
+    return list(sentences(FOLDER))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_template_can_be_drawn(language: str) -> None:
+    grammar = Grammar.read(FOLDER / f"{language}.txt")
+    chance = random.Random(1)
+    free = {"other": lambda _: "x", "wish": lambda _: "x"}
+    for label, templates in grammar.templates.items():
+        kind, _, topic = label.partition(".")
+        assert kind in (*BUILT_IN, *SURROUNDINGS, "question", "command", "clarify", "out_of_scope")
+        assert kind != "command" or topic in COMMANDS
+        assert kind != "question" or topic in (*QUESTIONS, "fact")
+        for template in templates:
+            text = grammar.draw(template, chance, {**SLOTS[language], **free})
+            assert text or label == "opener"
+            assert not set(text) & set("<>|"), (template, text)
+
+
+def test_a_template_stands_for_its_alternatives() -> None:
+    grammar = Grammar(language="en", templates={}, lists={"noun": ("(rate|speed)",)})
+    texts = {grammar.draw("(max|best) (a|) <noun>", random.Random(seed), {}) for seed in range(60)}
+    expected = {
+        " ".join(filter(None, words)) for words in itertools.product(("max", "best"), ("a", ""), ("rate", "speed"))
+    }
+    assert texts == expected
+
+
+def test_the_same_sentences_for_a_seed(drawn: list[tuple[str, str]]) -> None:
+    assert drawn == list(sentences(FOLDER))
+    assert drawn != list(sentences(FOLDER, seed=2))
+    assert len(drawn) > 20_000
+
+
+def test_no_sentence_of_the_test_set_is_trained_on(drawn: list[tuple[str, str]]) -> None:
+    path = Path(__file__).parents[1] / "intents" / "development.jsonl"
+    said = path.read_text(encoding="utf-8").lower()
+    long = {text for text, _ in drawn if len(text) > (12 if not text.isascii() else 40)}
+    assert not [text for text in long if f'"text": "{text.lower()}"' in said]
+
+
+def test_the_shipped_model_knows_the_labels_of_the_templates(drawn: list[tuple[str, str]]) -> None:
+    model = shipped_model()
+    assert set(model.labels) == {label for _, label in drawn}
+    assert model.weights.shape == (BUCKETS, len(model.labels))
+    assert MODEL_FILE.stat().st_size < 2_000_000
+    shares = model.probabilities(*read_by_rules(["maximise the total rate"])[0])
+    assert sum(shares.values()) == pytest.approx(1.0)
+    assert max(shares, key=lambda label: shares[label]) == "max_rate"
+    assert model.familiarity("xqzt vbnm") == 0.0
+    assert model.familiarity("") == 0.0
+
+
+def test_a_fit_tells_its_sentences_apart(tmp_path: Path) -> None:
+    texts = ["save power", "less power please", "max rate", "highest rate now"]
+    labels = ["min_power", "min_power", "max_rate", "max_rate"]
+    read = read_by_rules(texts)
+    weights, intercepts = fit(matrix_of(read), labels, ["max_rate", "min_power"])
+    told = np.asarray(matrix_of(read) @ weights + intercepts).argmax(axis=1)
+    assert told.tolist() == [1, 1, 0, 0]
+    save(tmp_path / "model.npz", ["max_rate", "min_power"], weights, intercepts, known_words(read))
+    with np.load(tmp_path / "model.npz") as arrays:
+        assert arrays["weights"].dtype == np.int8
+        assert np.allclose(arrays["weights"] * arrays["scales"], weights, atol=arrays["scales"].max())
+
+
+def test_features_are_the_same_everywhere() -> None:
+    assert buckets("save power").tolist() == buckets("SAVE  Power").tolist()
+    assert buckets("máximo").tolist() == buckets("maximo").tolist()
+    assert set(buckets("max rate").tolist()) != set(buckets("rate max").tolist())
+    assert buckets("a").tolist() == [329, 2316, 3283, 11264, 24677, 29937, 30858]
+
+
+def test_slips_of_the_pen() -> None:
+    assert respelt("比列公平,功律最抵") == "比例公平,功率最低"
+    assert respelt("公里数") == "公里数"
+    assert nearest("effiency", ["efficiency", "everyone"]) == "efficiency"
+    assert nearest("zebra", ["efficiency"]) == ""

@@ -1,0 +1,109 @@
+"""Who gets what: rates, weights and service of single users, and limits of subcarriers, from words alone."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from wirelessagent.experiments.evaluate_intents import same_constraints
+from wirelessagent.language.constraints import Reading, read_constraints
+from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.text import normalise
+
+STATED: list[tuple[str, dict[str, Any]]] = [
+    ("user 3 at least 2 Mbit/s and everyone else 500 kbit/s", {"min_rate_bps": {"3": 2e6, "all": 5e5}}),
+    ("2 Mbit/s for user 3 and 1 Mbit/s for user 5, max 10 W",
+     {"max_power_w": 10.0, "min_rate_bps": {"3": 2e6, "5": 1e6}}),
+    ("users 1 and 4 get 2 Mbit/s each", {"min_rate_bps": {"1": 2e6, "4": 2e6}}),
+    ("1 Mbit/s each but users 2 and 3 should have 3 Mbit/s each", {"min_rate_bps": {"all": 1e6, "2": 3e6, "3": 3e6}}),
+    ("the third user must have 2 Mbit/s", {"min_rate_bps": {"3": 2e6}}),
+    ("give user 3 a 5 Mbit/s floor", {"min_rate_bps": {"3": 5e6}}),
+    ("cap user 7 at 5 Mbit/s", {"max_rate_bps": {"7": 5e6}}),
+    ("user 3 doesn't need more than 2 Mbit/s", {"max_rate_bps": {"3": 2e6}}),
+    ("user3 and UE5 need 1 Mbps", {"min_rate_bps": {"3": 1e6, "5": 1e6}}),
+    ("1号和2号用户至少2兆,其他人500k", {"min_rate_bps": {"1": 2e6, "2": 2e6, "all": 5e5}}),
+    ("al menos 500 kbps por usuario y 2 Mbps para el usuario 4", {"min_rate_bps": {"all": 5e5, "4": 2e6}}),
+    ("Nutzer 4 braucht mindestens 2 Mbit/s", {"min_rate_bps": {"4": 2e6}}),
+    # weights
+    ("weight 2 for user 1 and 0.5 for user 4", {"weights": {"1": 2.0, "4": 0.5}}),
+    ("user 5 counts twice, user 6 has weight 3", {"weights": {"5": 2.0, "6": 3.0}}),
+    ("User 9 is the chief, so weigh her four times", {"weights": {"9": 4.0}}),
+    ("用户4权重2,用户5权重0.5", {"weights": {"4": 2.0, "5": 0.5}}),
+    ("5号权重翻倍", {"weights": {"5": 2.0}}),
+    ("l'utilisateur 3 compte double", {"weights": {"3": 2.0}}),
+    ("Nutzer 4 zählt doppelt", {"weights": {"4": 2.0}}),
+    # who is served
+    ("leave user 3 out", {"leave_out": ("3",)}),
+    ("without users 2 and 3, 1 Mbit/s each", {"min_rate_bps": 1e6, "leave_out": ("2", "3")}),
+    ("user 6 is not to be served", {"leave_out": ("6",)}),
+    ("all users except number 4", {"leave_out": ("4",)}),
+    ("skip #3 and #7", {"leave_out": ("3", "7")}),
+    ("除了用户3,大家都至少1兆", {"min_rate_bps": 1e6, "leave_out": ("3",)}),
+    ("7号先别管", {"leave_out": ("7",)}),
+    ("sans servir l'utilisateur 6", {"leave_out": ("6",)}),
+    ("ohne Nutzer 2 und 3", {"leave_out": ("2", "3")}),
+    ("serve only users 1, 2 and 5 with 10 W", {"max_power_w": 10.0, "users": ("1", "2", "5")}),
+    ("only users 1 to 4", {"users": ("1", "2", "3", "4")}),
+    ("只带1号和4号,每个人保底1.5兆", {"users": ("1", "4"), "min_rate_bps": 1.5e6}),
+    # subcarriers, shares, circuits
+    ("at most 0.5 W per subcarrier, groups of 4 subcarriers",
+     {"subcarrier_max_power_w": 0.5, "resource_block_group_size": 4.0}),
+    ("no subcarrier above 200 mW", {"subcarrier_max_power_w": 0.2}),
+    ("每4个子载波一组", {"resource_block_group_size": 4.0}),
+    ("with half the power", {"max_power_w": 10.0}),
+    ("use 40 % of the power budget", {"max_power_w": 8.0}),
+    ("only 6 W available, a fixed 35 watts for the electronics", {"max_power_w": 6.0, "circuit_power_w": 35.0}),
+    ("P_c取1W,Pmax 33dBm", {"circuit_power_w": 1.0, "max_power_w": 10**0.3}),
+    ("10 W, non, 12 W maximum", {"max_power_w": 12.0}),
+    ("最多60W……算了,50W吧", {"max_power_w": 50.0}),
+    ("höchstens 18 Watt, mit 99 % Zuverlässigkeit", {"max_power_w": 18.0, "outage_probability": 0.01}),
+    ("43 dBm como mucho", {"max_power_w": 10**1.3}),
+]  # fmt: skip
+
+DOUBTED = [
+    ("user 3 and 1 Mbit/s at most 10 W for sensors, user 9 too", "named_user"),
+    ("serve only user 4 and leave user 4 out", "conflict"),
+    ("user 2 at least 5 Mbit/s, user 2 at most 1 Mbit/s", "rates_crossed"),
+    ("user 2 gets 5 Mbit/s, user 2 gets 1 Mbit/s", "conflict"),
+    ("with an extra 2 W", "change"),
+    ("groups of 0 subcarriers", "impossible"),
+    ("120 % of the power", "impossible"),
+    ("a 100 W bulb next door", "whose_power"),
+]
+
+
+def reading(text: str) -> Reading:
+    return read_constraints(text, normalise(text), parse_quantities(text))
+
+
+@pytest.mark.parametrize(("text", "stated"), STATED)
+def test_what_is_stated(text: str, stated: dict[str, Any]) -> None:
+    found = reading(text)
+    assert not found.doubts
+    assert same_constraints(found.values, stated), found.values
+
+
+@pytest.mark.parametrize(("text", "key"), DOUBTED)
+def test_what_is_asked_about(text: str, key: str) -> None:
+    assert key in [doubt.key for doubt in reading(text).doubts]
+
+
+def test_a_share_is_of_the_cells_limit() -> None:
+    text = "with a quarter of the power"
+    found = read_constraints(text, text, parse_quantities(text), max_power_w=40.0)
+    assert found.values["max_power_w"] == 10.0
+
+
+def test_the_channels_own_names_are_users() -> None:
+    text = "leave the lobby camera out, meter-7 gets 2 Mbit/s"
+    found = read_constraints(text, text, parse_quantities(text), names=("meter-7", "lobby camera"))
+    assert dict(found.values) == {"min_rate_bps": {"meter-7": 2e6}, "leave_out": ("lobby camera",)}
+    assert not found.doubts
+
+
+def test_amounts_to_add_and_missing_shares_are_kept_for_questions() -> None:
+    assert reading("what would one more watt buy?").steps == {"power_w": 1.0}
+    assert reading("what would another 3 W bring?").steps == {"power_w": 3.0}
+    assert reading("what if 40 % were missing?").missing == 0.4
+    assert reading("bring user 3 back").back == ("3",)
