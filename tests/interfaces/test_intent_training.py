@@ -81,7 +81,7 @@ def test_a_fit_tells_its_sentences_apart(tmp_path: Path) -> None:
     texts = ["save power", "less power please", "max rate", "highest rate now"]
     labels = ["min_power", "min_power", "max_rate", "max_rate"]
     read = read_by_rules(texts)
-    weights, intercepts = fit(matrix_of(read), labels, ["max_rate", "min_power"])
+    weights, intercepts = fit(matrix_of(read), labels, ["max_rate", "min_power"], np.ones(len(labels)))
     told = np.asarray(matrix_of(read) @ weights + intercepts).argmax(axis=1)
     assert told.tolist() == [1, 1, 0, 0]
     save(tmp_path / "model.npz", ["max_rate", "min_power"], weights, intercepts, known_words(read))

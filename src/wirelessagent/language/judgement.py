@@ -16,14 +16,15 @@ from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.sentence import BUILT_IN, Sentence
 from wirelessagent.language.vocabulary import MASK
 
-_AGREED, _ALONE, _AGAINST, _AGAINST_RATE = 0.1, 0.5, 0.9, 0.55
-_DOUBTED = {"contradiction": 0.8, "negated": 0.75, "opposite": 0.95, "weak": 0.6, "none": _ALONE}
+_AGREED, _ALONE, _AGAINST, _AGAINST_RATE = 0.1, 0.45, 0.9, 0.55
+_DOUBTED = {"contradiction": 0.8, "negated": 0.75, "opposite": 0.95, "weak": 0.5, "none": _ALONE}
 _FOR_THE_SLOWEST = 0.8  # "make the slowest …" sounds like a wish for slowness
 _SURE_OF_NO_WISH, _SURE_WITHOUT_FORM, _QUESTION_BY_FORM = 0.5, 0.8, 0.3
 _OWN_PHRASE_ASKED = 0.8
-_FAMILIAR, _FOREIGN = 0.4, 0.05
-_FRAGMENT, _SURE_OF_A_FRAGMENT = 4, 0.85
+_FAMILIAR, _FOREIGN = 0.25, 0.05
+_FRAGMENT, _SURE_OF_A_FRAGMENT = 4, 0.7
 _KINDS: tuple[IntentKind, ...] = ("allocate", "question", "command", "clarify", "out_of_scope")
+_WHAT_IF = "question.what_if"
 _KIND_OF: dict[str, IntentKind] = {kind: kind for kind in _KINDS}
 _ABOUT_THE_CELL = {
     "rate", "stream", "power", "battery", "efficiency", "performance", "domain", "direct", "fair", "fairly", "same",
@@ -91,12 +92,15 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
         )  # fmt: skip
     kind = _kind(sentence, shares, objective)
     acts = kind == "allocate"
+    topic = "" if acts else shares.topics[kind]
+    if topic == "what_if" and sentence.reading.steps and shares.labels["question.step"] > shares.labels[_WHAT_IF] / 2:
+        topic = "step"
     agreed = goal.confidence if goal.verdict == "clear" and goal.objective == objective else 0.0
     sure = agreed or share
     if not acts:
         sure = max(shares.kinds[kind], 1.0 - shares.kinds["allocate"] if kind in ("question", "out_of_scope") else 0.0)
     return Judgement(
-        kind=kind, topic="" if acts else shares.topics[kind], objective=objective, likeliest=share,
+        kind=kind, topic=topic, objective=objective, likeliest=share,
         certainty=round(min(1.0, sure), 4), acts=acts,
     )  # fmt: skip
 
@@ -122,6 +126,8 @@ def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
     """The likeliest kind, by the model and by the sentence's form; "allocate" only where that may be acted on."""
     kinds, goal, plain = shares.kinds, sentence.goal, sentence.plain
     likeliest = max(_KINDS, key=lambda name: kinds[name])
+    if likeliest == "command" and (sentence.reading.back or kinds["command"] < _SURE_OF_NO_WISH):
+        likeliest = "clarify"  # "bring user 3 back" changes a request, it undoes none
     asked = forms.is_asked(plain) or (forms.begins_like_a_question(plain) and shares.labels[objective] < _AGAINST)
     if likeliest in ("allocate", "clarify") and asked:
         likeliest = "question"
@@ -184,6 +190,8 @@ def _needed(sentence: Sentence, objective: str) -> float:
         return _SURE_OF_A_FRAGMENT
     if goal.verdict == "weak" and goal.objective == "max_rate" != objective:
         return _ALONE
+    if goal.verdict == "opposite" and "less_efficiency" in goal.options and objective == "max_energy_efficiency":
+        return math.inf
     if goal.verdict == "opposite" and objective == "max_min_rate":
         return _FOR_THE_SLOWEST
     return _DOUBTED[goal.verdict]

@@ -49,6 +49,16 @@ _COUNTS = re.compile(  # "sixty thousand people", "three in the morning"
     r"of (?:us|them|you)|in the (?:morning|afternoon|evening|night)|at night|o'clock|sharp|or so people|"
     r"hundred people)\b"
 )
+_OF_THINGS = re.compile(  # "24 élèves", "350 guests", "14 Endgeräte": a number of things that are no unit
+    r"(?i)(?<![\w.,^+*/×·-])[0-9]{1,3}(?:[.,' ]?[0-9]{3})*\s+(?!(?:watts?|vatios?|"
+    r"milli|kilo|mega|giga|tera|deci|dezi|déci|bits?|bytes?|octets?|joules?|percent|prozent|por|pour|volts?|volt|amp|hertz|times|veces|fois|mal|"
+    r"out|plus|minus|squared|power|units?|points?|steps?|more|less|than|notches|zeros?)\b|mega|kilo|giga|milli)"
+    r"[^\W\d_]{4,}"
+)
+_SETS_A_LIMIT = re.compile(
+    r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max\w*|min\w*|most|least|than|under|below|over|above|to|at|is|"
+    r"exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥])\s*$"
+)
 _IDIOMS = ("a", "an", "one")
 _CHINESE_FIGURE = re.compile(r"[二三四五六七八九]|十(?!分)|两(?=\s*[个名位台倍])")
 _TO_THE_RIGHT = re.compile(r"[^\s,;:!?\uff0c\uff1b。、)]*(?:\s*[\^*×·/+÷x]\s*[^\s,;]+)*(?:\s?(?:of\s+)?[A-Za-zμΩ/]+)?")
@@ -63,7 +73,10 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
     '43 dB'
     """
     harmless = (match.span() for pattern in (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR) for match in pattern.finditer(plain))
-    known = [*covered, *harmless]
+    things = (
+        match.span() for match in _OF_THINGS.finditer(plain) if _SETS_A_LIMIT.search(plain, 0, match.start()) is None
+    )
+    known = [*covered, *harmless, *things]
     places = sorted(place for place in _numbers_at(plain) if not _inside(place, known))
     if not places:
         return None

@@ -12,6 +12,10 @@ import numpy as np
 from wirelessagent.language.linear_model import MODEL_FILE
 from wirelessagent.language.training.compose import sentences
 from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save
+from wirelessagent.language.training.spoken import spoken
+
+SPOKEN = 30.0
+"""What a spoken sentence counts beside one that was drawn."""
 
 
 def main(path: Path) -> None:
@@ -19,16 +23,20 @@ def main(path: Path) -> None:
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     log = logging.getLogger(__name__)
     start = time.perf_counter()
-    drawn = sorted(set(sentences(Path(__file__).parent)))
-    texts, labels = [text for text, _ in drawn], [label for _, label in drawn]
-    names = sorted(set(labels))
+    folder = Path(__file__).parent
+    drawn, said = sorted(set(sentences(folder))), list(spoken(folder / "spoken"))
+    names = sorted({label for _, label in drawn})
+    texts, labels = [text for text, _ in (*drawn, *said)], [label for _, label in (*drawn, *said)]
+    weight = np.array([1.0] * len(drawn) + [SPOKEN] * len(said))
     log.info("%d sentences, %d labels (%.0f s)", len(texts), len(names), time.perf_counter() - start)
     read = read_by_rules(texts)
     rows = matrix_of(read)
     log.info("%d n-grams (%.0f s)", rows.nnz, time.perf_counter() - start)
-    weights, intercepts = fit(rows, labels, names)
+    weights, intercepts = fit(rows, labels, names, weight)
     told: list[int] = np.argmax(np.asarray(rows @ weights) + intercepts, axis=1).tolist()
-    right = sum(names[guess] == label for guess, label in zip(told, labels, strict=True)) / len(labels)
+    right = sum(
+        names[guess].partition(".")[0] == label.partition(".")[0] for guess, label in zip(told, labels, strict=True)
+    ) / len(labels)
     save(path, names, weights, intercepts, known_words(read))
     log.info("%.1f %% of them told apart; %s: %d kB (%.0f s)", 100 * right, path.name, path.stat().st_size // 1000,
              time.perf_counter() - start)  # fmt: skip

@@ -38,13 +38,18 @@ def known_words(read: Sequence[tuple[str, list[str]]]) -> npt.NDArray[np.uint32]
 
 
 def fit(
-    rows: sparse.csr_matrix, labels: Sequence[str], names: Sequence[str]
+    rows: sparse.csr_matrix, labels: Sequence[str], names: Sequence[str], weight: npt.NDArray[np.float64]
 ) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
-    """Weights (bucket, label) and intercepts (label,) that make the labels likeliest, with a ridge."""
-    target = np.array([names.index(label) for label in labels])
-    count, classes = rows.shape[0], len(names)
-    share = np.bincount(target, minlength=classes)
-    importance = (count / classes / share[target]) ** 0.4  # rare labels count more, though not equally
+    """Weights (bucket, label) and intercepts (label,) that make the labels likeliest, with a ridge.
+
+    A label such as "question" stands for all that begin with it. ``weight`` (sentence,) says how much each counts.
+    """
+    classes = len(names)
+    meant = {label: [name == label or name.startswith(label + ".") for name in names] for label in set(labels)}
+    target = np.array([meant[label] for label in labels], dtype=np.float64)
+    even = target / target.sum(axis=1, keepdims=True)
+    share = even @ (weight @ even) / weight.sum()
+    importance = weight * (classes * share) ** -0.4  # rare labels count more, though not equally
     importance /= importance.sum()
     columns = rows.T.tocsr()
 
@@ -54,8 +59,10 @@ def fit(
         score -= score.max(axis=1, keepdims=True)
         likely = np.exp(score)
         likely /= likely.sum(axis=1, keepdims=True)
-        value = -float(importance @ np.log(likely[np.arange(count), target] + 1e-300))
-        likely[np.arange(count), target] -= 1
+        right = likely * target
+        total = right.sum(axis=1, keepdims=True) + 1e-300
+        value = -float(importance @ np.log(total[:, 0]))
+        likely -= right / total
         likely *= importance[:, None]
         slope = np.asarray(columns @ likely.astype(np.float32), dtype=np.float64) + 2 * _RIDGE * weights
         return value + _RIDGE * float((weights**2).sum()), np.concatenate([slope.ravel(), likely.sum(axis=0)])
