@@ -254,3 +254,17 @@ def test_the_literal_rule_refuses_weights_that_mean_nothing() -> None:
         NncfPaper(frequency_weight=-1.0)
     with pytest.raises(InputError, match="both 0"):
         NncfPaper(frequency_weight=0.0, user_weight=0.0)
+
+
+@pytest.mark.parametrize("repairer", [Kriging(), Predictor(), LearnedCovariance()], ids=lambda one: one.name)
+def test_frequencies_closer_than_a_raster_tells_apart(repairer: Repairer) -> None:
+    """Carriers of several operators: a few hertz apart in one place, a gigahertz elsewhere."""
+    rng = np.random.default_rng(3)
+    frequencies = np.sort(np.concatenate([1e9 + 10.0 * np.arange(4), rng.uniform(1.1e9, 2e9, 96)]))
+    gain = rng.exponential(size=(3, 100))
+    lost = rng.random(gain.shape) < 0.3
+    seen = ChannelObservation(gain=np.where(lost, np.nan, gain), subcarrier_frequencies_hz=frequencies)
+    estimate = repairer.repair(seen)
+    assert np.isfinite(estimate.gain).all()
+    assert (estimate.gain >= 0).all()
+    assert (estimate.gain_variance[lost] > 0).all()

@@ -108,7 +108,7 @@ def _on_raster(place: tuple[int, ...], step_hz: float, known_noise: bool) -> Hyp
     places = np.array(place)
     width = int(places[-1])
     distance = np.arange(width + 1, dtype=np.float64)
-    smallest = int(np.diff(places).min()) if width else 1
+    smallest = max(int(np.diff(places).min()), 1) if width else 1  # close ones may share a place
     delays = np.geomspace(FLATTEST / max(width, 1), ROUGHEST / smallest, DELAYS)
     x = 2.0 * np.pi * np.multiply.outer(distance, delays)
     kinds = [
