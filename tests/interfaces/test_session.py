@@ -243,7 +243,9 @@ def test_a_question_back_hands_what_was_read_to_the_recogniser() -> None:
 
 
 def test_users_are_found_by_name_and_place() -> None:
-    found = posed(min_rate_bps={"all": 1e5, "3": 2e5}, weights={"User 1": 2}, leave_out=("2",))
+    found = posed(
+        min_rate_bps={"all": 1e5, "3": 2e5}, weights={"User 1": 2}, leave_out=("2",), outage_probability=0.1
+    )
     assert found.problem.min_rate_bps.tolist() == [1e5, 1e5, 2e5, 1e5, 1e5]
     assert found.problem.weights.tolist() == [2, 1, 1, 1, 1]
     assert found.problem.users == (0, 2, 3, 4)
@@ -253,6 +255,16 @@ def test_users_are_found_by_name_and_place() -> None:
     assert len(others.notes) == 1
     assert "place 1" in others.notes[0]
     assert posed(users=("1", "2", "3"), leave_out=("2",)).problem.users == (0, 2)
+
+
+def test_promises_are_made_with_a_probability_unless_it_is_said() -> None:
+    assumed = posed(min_rate_bps=1e5)
+    assert assumed.problem.outage_probability == 0.05
+    assert "95 %" in assumed.notes[0]
+    assert posed(min_rate_bps=1e5, outage_probability=0.2).problem.outage_probability == 0.2
+    nothing_promised = posed(max_power_w=10.0)
+    assert nothing_promised.problem.outage_probability is None
+    assert nothing_promised.notes == ()
 
 
 def test_what_fits_no_channel_is_asked_about() -> None:

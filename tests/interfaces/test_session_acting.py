@@ -138,7 +138,7 @@ def test_a_revert_that_fails_is_told_and_what_is_in_effect_is_not_known() -> Non
 
 
 def test_a_few_missed_promises_are_chance_and_many_are_not() -> None:
-    for outage, faults in ((0.05, 1), (0.9, 0), (None, 0)):
+    for outage, faults in ((0.05, 1), (0.9, 0), (None, 1)):
         constraints = {} if outage is None else {"outage_probability": outage}
         run = run_of("min_power", min_rate_bps=1e6, **constraints)
         effect = carry_out(run, Moody(moods=["dip"]), None)
@@ -147,7 +147,7 @@ def test_a_few_missed_promises_are_chance_and_many_are_not() -> None:
 
 
 def test_the_tolerance_is_as_it_was_set() -> None:
-    run = run_of("min_power", min_rate_bps=1e6)
+    run = run_of("min_power", min_rate_bps=1e6, outage_probability=0.9)
     assert not carry_out(run, Moody(moods=["dip"]), None, tolerance=0.1).faults
     assert len(carry_out(run, Moody(moods=["dip"]), None, tolerance=0.01).faults) == 1
     assert not carry_out(run, Moody(moods=["fade"]), None, tolerance=0.3).faults

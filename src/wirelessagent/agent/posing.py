@@ -18,10 +18,13 @@ from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError, UnclearRequestError
 from wirelessagent.model.problem import Problem
-from wirelessagent.model.units import human
+from wirelessagent.model.units import human, reliability
 
 ASSUMED_MIN_RATE_BPS = 200e3
 """Rate promised to each user where the least power is asked for and no rate was named."""
+
+ASSUMED_OUTAGE_PROBABILITY = 0.05
+"""Accepted where rates are promised and nobody named a probability: promised as estimated, half of them would fail."""
 
 _UNNAMED: Mapping[str, float] = {"min_rate_bps": 0.0, "max_rate_bps": np.inf, "weights": 1.0}
 """What holds for users who are not named in figures by user."""
@@ -74,6 +77,7 @@ class _Posing:
             self._cell = dataclasses.replace(self._cell, circuit_power_w=cast(float, circuit_power_w))
         self._check_power()
         self._check_rates()
+        self._check_outage()
         fields: dict[str, Any] = {"users": self._served()}
         for name, value in self._given.items():
             fields[name] = self._by_user(name, value) if name in FIGURES_OF_USERS else value
@@ -107,6 +111,11 @@ class _Posing:
             self._note("assumed_rate", rate=human(ASSUMED_MIN_RATE_BPS, "bit/s"))
         if self._given.pop("weights", None) is not None:
             self._note("weights_mean_nothing")
+
+    def _check_outage(self) -> None:
+        if "min_rate_bps" in self._given and "outage_probability" not in self._given:
+            self._given["outage_probability"] = ASSUMED_OUTAGE_PROBABILITY
+            self._note("assumed_outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))
 
     def _served(self) -> tuple[int, ...] | None:
         """Numbers of the users to serve; None for all."""

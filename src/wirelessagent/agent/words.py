@@ -35,6 +35,8 @@ _ENGLISH: Mapping[str, str] = {
     "above_the_limit": "{asked} is above the cell's limit of {limit}, which holds; --cell-max-power-w changes it",
     "assumed_rate": "no rate was named, so {rate} for each user is assumed; say for example '500 kbit/s each' to "
     "change it",
+    "assumed_outage": "no probability was named, so rates are promised at {sure}; say for example 'kept with 99 %' to "
+    "change it",
     "weights_mean_nothing": "weights mean nothing to the least power, and are left out",
     "user_by_place": "nobody is called 'user {number}': the user at place {number}, {name}, is meant",
     # questions back
@@ -143,6 +145,7 @@ _CHINESE: Mapping[str, str] = {
     "applied_committed": "{station}：已应用并回读；{served} 个预定速率中兑现 {kept} 个",
     "above_the_limit": "{asked} 超过小区上限 {limit}，以上限为准；--cell-max-power-w 可更改",
     "assumed_rate": "未指定速率，假定每个用户 {rate}；例如说“每用户 500 kbit/s”即可更改",
+    "assumed_outage": "未指定概率，速率按 {sure} 的概率承诺；例如说“以 99 % 的概率兑现”即可更改",
     "weights_mean_nothing": "权重对功率最低没有意义，已略去",
     "user_by_place": "没有叫“user {number}”的用户：指第 {number} 个用户 {name}",
     "unknown_user": "这里没有用户 {user}，有 {known}。您指的是哪一个？",
