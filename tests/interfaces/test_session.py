@@ -243,9 +243,7 @@ def test_a_question_back_hands_what_was_read_to_the_recogniser() -> None:
 
 
 def test_users_are_found_by_name_and_place() -> None:
-    found = posed(
-        min_rate_bps={"all": 1e5, "3": 2e5}, weights={"User 1": 2}, leave_out=("2",), outage_probability=0.1
-    )
+    found = posed(min_rate_bps={"all": 1e5, "3": 2e5}, weights={"User 1": 2}, leave_out=("2",), outage_probability=0.1)
     assert found.problem.min_rate_bps.tolist() == [1e5, 1e5, 2e5, 1e5, 1e5]
     assert found.problem.weights.tolist() == [2, 1, 1, 1, 1]
     assert found.problem.users == (0, 2, 3, 4)
