@@ -379,6 +379,35 @@ def test_the_opposite_of_a_wish_gets_a_question(text: str, form: str) -> None:
     assert intent.kind == "clarify", intent
 
 
+@pytest.mark.parametrize(
+    ("text", "objective"),
+    [
+        ("least power please, the lab next door fears interference", "min_power"),
+        ("all equally fast, as fast as possible", "max_min_rate"),
+        ("公平我不在乎,总速率最高", "max_rate"),
+        ("fairness I don't care about, highest total rate", "max_rate"),
+        ("ne dépasse pas 10 W, débit total maximal", "max_rate"),
+    ],
+)
+def test_what_is_said_beside_a_wish_does_not_hide_it(text: str, objective: str) -> None:
+    assert recognise(text).objective == objective
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("equal rates and maximum total rate", "clarify"),
+        ("max rate, less interference", "clarify"),
+        ("Je ne veux pas le débit maximal", "clarify"),
+        ("no maximices el caudal", "clarify"),
+        ("Encárgame unas flores para mañana", "out_of_scope"),
+        ("为啥3号的速率这么低", "question"),
+    ],
+)
+def test_nothing_is_done_about_what_is_refused_asked_or_not_ours(text: str, kind: str) -> None:
+    assert recognise(text).kind == kind
+
+
 @pytest.mark.parametrize(("text", "objective"), SAME_WORDS_BUT_WISHED)
 def test_the_same_words_turned_the_right_way_round_are_a_wish(text: str, objective: str) -> None:
     assert recognise(text).objective == objective

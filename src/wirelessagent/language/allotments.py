@@ -204,13 +204,21 @@ class Allotments:
             if set(figures) == {EVERYBODY}:
                 values[name] = figures[EVERYBODY]
             elif figures:
-                values[name] = figures
-        if self._weights:
-            values["weights"] = {user: value for user, (value, _) in self._weights.items()}
+                values[name] = self._of_all_served(figures)
+        weights = {user: value for user, (value, _) in self._weights.items()}
+        if weights.get(EVERYBODY) == 1 or set(weights) == {EVERYBODY}:
+            del weights[EVERYBODY]  # "all others 1" is what they count anyway
+        if weights:
+            values["weights"] = weights
         for name in ("users", "leave_out"):
             if self._lists[name]:
                 values[name] = tuple(self._lists[name])
         return values
+
+    def _of_all_served(self, figures: dict[str, float]) -> Constraint:
+        """Rates by user; one figure where it is that of everybody who is served."""
+        same = len(set(figures.values())) == 1 and set(figures) == set(self._lists["users"])
+        return next(iter(figures.values())) if same else figures
 
     def evidence(self) -> dict[str, str]:
         words = {
@@ -236,7 +244,7 @@ class Allotments:
     def _read_weights(self) -> Iterator[tuple[str, tuple[float, tuple[int, int]]]]:
         if not _WEIGHTY.search(self._plain):
             return
-        open_ = [mention for mention in self._found if mention.role == "named" and mention not in self._used]
+        open_ = [m for m in self._found if m.role in ("named", "others") and m not in self._used]
         figures = [(value, start, end) for value, start, end in self._factors() if not self._in_quantity(start, end)]
         taken: set[Mention] = set()
         for value, start, end in figures:
@@ -249,7 +257,7 @@ class Allotments:
                 taken.add(mention)
                 self._used.add(mention)
                 self.spans.append((start, end))
-                for user in mention.users:
+                for user in mention.users or (EVERYBODY,):
                     yield user, (value, (start, end))
 
     def _factors(self) -> Iterator[tuple[float, int, int]]:

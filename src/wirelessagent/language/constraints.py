@@ -212,10 +212,13 @@ class _Reader:
         return self._plain[max([from_, *cuts]) : start], self._plain[end : cut.start() if cut else to]
 
     def _take_power(self, figure: Quantity, before: str, after: str) -> None:
-        circuit = figure_words.CIRCUIT.search(before) or figure_words.CIRCUIT.search(after)
+        ahead = figure_words.CIRCUIT.search(before)
+        if ahead is not None and figure_words.RADIATED.search(before, ahead.end()):
+            ahead = None  # "for the fixed site a transmit power of 43 dBm"
+        circuit = ahead or figure_words.CIRCUIT.search(after)
         setting = figure_words.SET_TO.search(before)
         if circuit is not None:
-            offset = figure.start - len(before) if figure_words.CIRCUIT.search(before) else figure.end
+            offset = figure.start - len(before) if ahead is not None else figure.end
             self._masked.append((offset + circuit.start(), offset + circuit.end()))
             self._used_to = offset + circuit.end()
             self._set("circuit_power_w", figure.value, figure)

@@ -9,7 +9,8 @@ from wirelessagent.language.text import CLAUSE_END
 HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
 
 CIRCUIT = re.compile(
-    r"(?ia)\b(?:circuits?|circuitry|static|fixed|idle|overhead|baseline|stand-?by|quiescent|electronics|hardware|"
+    r"(?ia)\b(?:circuits?|circuitry|static|fixed|idle|overhead|baseline(?= (?:power|consumption|draw|load|"
+    r"energy))|stand-?by|quiescent|electronics|hardware|"
     r"cooling|constant)\b"
     r"(?:\s+(?:power|energy|consumption|draw|load)\b)*|(?<![A-Za-z])p[_ ]?c(?:ircuit)?(?![A-Za-z])|\b(?:fij[oa]s?|"
     r"circuitos?|fixe|statique|schaltung\w*|"
@@ -18,6 +19,11 @@ CIRCUIT = re.compile(
     r"even (?:when |while )?idle|by itself|on its own|at zero load|without any traffic)\b|(?:机柜|基带|主设备|空载|"
     r"风扇|电路|静态|固定|基础|设备自身|待机|硬件|板子|整机|器件|本底)"
     r"(?:功率|功耗|能耗|消耗|耗电|损耗)?"
+)
+RADIATED = re.compile(
+    r"(?i)\b(?:transmit|transmission|transmitted|tx|radiated|output|p_?max|sendeleistung|strahl\w*|"
+    r"puissance d'émission|"
+    r"potencia (?:de transmisión|radiada))\b|发射|辐射"
 )
 CORRECTION = re.compile(
     r"(?ia)\b(?:no|nope|wait|sorry|i mean|i meant|make (?:that|it)|scratch that|rather|correction|oops|actually|"
@@ -28,10 +34,12 @@ CORRECTION = re.compile(
 )
 PER_USER = re.compile(
     r"(?i)\s*(?:each\b|apiece\b|(?:per|a|for (?:each|every))\s+(?:user|ue|person|head|subscriber|device|sensor|"
-    r"subcarrier|channel|carrier|antenna|tone)|/\s*(?:user|ue)|每|(?:por|par|pro|je)\s+(?:usuario|utilisateur|nutzer))"
+    r"subcarrier|channel|carrier|antenna|tone)|/\s*(?:user|ue)|每|(?:por|par|pro|je)\s+(?:usuario|utilisateur|"
+    r"nutzer))"
 )
 TOTAL_BEFORE = re.compile(
-    r"(?i)(?:\b(?:total|sum|overall|aggregate|combined|cell|network)\s+(?:data\s+)?(?:rate|throughput|speed|capacity)|"
+    r"(?i)(?:\b(?:total|sum|overall|aggregate|combined|cell|network)\s+(?:data\s+)?(?:rate|throughput|speed|"
+    r"capacity)|"
     r"总速率|总吞吐量?|和速率|总共|合计|一共)[\w\s:=]{0,8}$"
 )
 TOTAL_AFTER = re.compile(r"(?i)\s*(?:of\s+)?(?:in\s+total|total|altogether|overall|combined|in\s+sum)\b")

@@ -36,22 +36,52 @@ _ANSWERS = {
     "confirm": re.compile(
         r"(?i)\s*(?:yes|yeah|yep|yup|ok|okay|sure|of course|yes,? please|confirm(?:ed)?|agreed|do that|sí|si|vale|"
         r"oui|d'accord|ja|jawohl|jawoll|"
-        r"是|是的|对|对的|好|好的|好吧|好啊|行|行吧|可以|可以的|确认|确定|同意|没错|没问题|嗯|嗯嗯)\s*[.!。\uff01~]*\s*"
+        r"是|是的|对|对的|好|好的|好吧|好啊|行|行吧|可以|可以的|确认|确定|同意|没错|没问题|嗯|"
+        r"嗯嗯)\s*[.!。\uff01~]*\s*"
     ),
     "reject": re.compile(
-        r"(?i)\s*(?:no|nope|nah|no thanks|no,? thank you|not now|better not|non|nein|no,? gracias|non merci|nein danke|"
+        r"(?i)\s*(?:no|nope|nah|no thanks|no,? thank you|not now|better not|non|nein|no,? gracias|non merci|"
+        r"nein danke|"
         r"不|不要|不用|不用了|不行|不是|不对|不了|否|别|算了|不同意|先不|不必)\s*[.!。\uff01~]*\s*"
     ),
 }
 _COMPARES = re.compile(r"(?i)\s*(?:please\s+|请)?(?:compare|vergleiche?|compara|比较|对比)(?![A-Za-z])")
 _CODE = re.compile(  # programs and mark-up are no wishes
     r"<[|/!a-zA-Z]|\{\{|\}\}|\$\(|--\s*$|\\x|__\w+__|"
-    r"(?i:\b(?:select|delete|drop|insert|update)\b.*\b(?:from|table|into|set)\b.*[;*=]|;\s*commit\b|\bbegin\b.*\bdelet|\b(?:os|"
+    r"(?i:\b(?:select|delete|drop|insert|update)\b.*\b(?:from|table|into|set)\b.*[;*=]|;\s*commit\b|"
+    r"\bbegin\b.*\bdelet|\b(?:os|"
     r"sys)\.\w+\()"
 )
 _ASKS_IN_CHINESE = re.compile(
-    r"^\s*(?:我?想)?(?:请教|请问|问一下|打听)|(?:多少|什么|怎么|为什么|谁|哪[个些里]|几[个瓦位]|"
+    r"^\s*(?:我?想)?(?:请教|请问|问一下|打听)|^\s*(?:为啥|为什么|为何|凭什么|咋)(?![不别])|(?:多少|什么|怎么|"
+    r"为什么|谁|哪[个些里]|几[个瓦位]|"
     r"啥)[^\uff0c。,]{0,8}[\uff1f?]\s*$"
+)
+_REFUSES = re.compile(  # "n'optimise pas le débit", "no maximices …", "ich will keinen …"
+    r"(?i)\bn(?:e\s+|')(?:(?:me|nous)\s+)?(?:optimis|maximis|minimis|cherch|vis|privilégi|augment|rédui|économis|veu|"
+    r"voul|pouss)\w*\s+(?:surtout\s+)?(?:pas|plus|jamais)\b|"
+    r"\bno\s+(?:me\s+)?(?:optimi[cz]|maximi[cz]|minimi[cz]|bus[cq]|prior|aument|redu[czj]|ahorr|quier|quer|sub|"
+    r"baj)\w*|"
+    r"\b(?:optimier|maximier|minimier|erhöh|senk|spar)\w*\s+(?:\w+\s+){0,4}nicht\b|\bwill\s+(?:\w+\s+){0,2}kein"
+)
+_INSTEAD = re.compile(
+    r"(?i)\b(?:mais|plutôt|seulement|uniquement|au contraire|sino|pero|mejor|solo|sólo|sondern|aber|lieber|nur|"
+    r"stattdessen|más que|que de)\b|[,.;:]\s*\w+\s+\w+\s+\w+"
+)
+_OF_THE_TRADE = re.compile(
+    r"(?i)poten[ct]|puissan|leistung|watt|vatio|veloc|vites|rapid|lent|schnell|langsam|tempo|flott|flink|tasa|caudal|"
+    r"débit|durchsatz|rate|rendi|capaci|kapazit|datos|donnée|daten|bit|mega|giga|ancho|bande|usuari|usager|utilis|"
+    r"abon|nutzer|teilnehm|kund|client|equi|équi|just|gerecht|fair|gleich|igual|égal|parej|repart|répart|verteil|"
+    r"energ|énerg|electr|électr|corriente|courant|strom|luz|spar|ahorr|économ|consum|consom|verbrauch|bater|"
+    r"batter|akku|"
+    r"\bred(?:es)?\b|réseau|netz|celda|célula|cellul|zelle|funk|send|émett|émis|emit|emis|radi|rayon|strahl|transm|"
+    r"antena|antenn|señal|signal|internet|wifi|wlan|móvil|mobil|handy|teléfon|téléph|telefon|optimi|maxim|minim|"
+    r"mejor|meilleur|mieux|besser|ajust|réglag|einstell|änder|cambi|chang|peor|pire|schwäch|débil|faible|effiz|efici|"
+    r"effic|video|vidéo|stream|descarg|téléch|download|upload|subida|bajada|plan|result|résult|ergeb|ferm|grün|"
+    r"vert|verd|"
+    r"eco|öko|todo|tous|tout|alle|jede|cada|chacun|nadie|personne|niemand|leis|voll|plein|tope|mach|mehr|más|"
+    r"plus|menos|"
+    r"moins|wenig"
 )
 _STATED = re.compile(
     r"(?i)\s*(?:the|our|this|that|your)\s+[\w -]{2,30}?\s+(?:is|are|looks?|seems?|was|feels?)\s+(?:good|fine|ok|"
@@ -82,6 +112,16 @@ def is_built_like_a_question(plain: str) -> bool:
     return _STRONG_FORM.search(plain) is not None
 
 
+def is_a_refusal(plain: str) -> bool:
+    """Whether a sentence in Spanish, French or German says what not to aim for, and nothing instead."""
+    return _REFUSES.search(plain) is not None and _INSTEAD.search(plain) is None
+
+
+def speaks_of_the_trade(plain: str) -> bool:
+    """Whether a Spanish, French or German word of radio, power, rates or sharing stands in a sentence."""
+    return _OF_THE_TRADE.search(plain) is not None
+
+
 def is_polite(plain: str) -> bool:
     """Whether a sentence begins with "could you …" or the like, which asks for something to be done."""
     return _POLITE.match(plain) is not None
@@ -89,7 +129,14 @@ def is_polite(plain: str) -> bool:
 
 def asks_you(plain: str) -> bool:
     """Whether a sentence begins with "could you …", whatever is asked for."""
-    return re.match(r"(?i)\s*(?:can|could|would|will)\s+you\s+(?!tell|explain|say|describe|show)", plain) is not None
+    return (
+        re.match(
+            r"(?i)\s*(?:can|could|would|will)\s+you\s+(?!tell|explain|say|describe|show|handle|support|"
+            r"understand|cope|deal)",
+            plain,
+        )
+        is not None
+    )
 
 
 def is_no_wish(text: str) -> bool:

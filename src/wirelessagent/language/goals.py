@@ -8,6 +8,7 @@ and says why.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
@@ -17,6 +18,7 @@ from wirelessagent.language.vocabulary import Found
 Verdict: TypeAlias = Literal["clear", "none", "weak", "contradiction", "negated", "opposite"]
 
 ENOUGH = 0.7
+_WHOLE_PREDICATE = 3  # "不在乎", "dont care about": words enough to stand behind what they refer to
 _REACH_BEFORE, _REACH_AFTER, _REACH_OF_NOT, _REACH_TO_TURN = 4, 3, 6, 2
 
 _DIRECTIONS = ("up", "down", "want", "keep", "waste", "bad")
@@ -58,6 +60,11 @@ _PAIRS: dict[tuple[str, str], tuple[str, float]] = {
     ("bad", "battery"): ("more_power", 0.5),
     ("bad", "efficiency"): ("less_efficiency", 1.0),
 }
+_EQUALLY = re.compile(r"(?i)\bequally fast\b|\bequal (?:rates|speeds)\b|(?:一样|同样)快")
+_IN_TOTAL = re.compile(
+    r"(?i)\b(?:total|sum|overall|aggregate|combined|versus|or|than|not|no)\b|总|和速率|合计|不(?!超过|高于)|别|还是|比"
+)
+_SAME_WISH = 0.8
 # Readings that yield to a nearer or plainer one: "save as much power as you can" asks for less of it.
 _VAGUE = {("want", "rate"): 1.5, ("want", "battery"): 1.5, ("want", "efficiency"): 1.5, ("up", "power"): 3.0}
 _ALONE: dict[str, tuple[str, float]] = {
@@ -128,6 +135,17 @@ def goal_of(found: Sequence[Found]) -> Goal:
     best = max(s.weight for s in signals if s.objective == strong[0] and not s.negated)
     confidence = 0.8 + 0.075 * min(best, 2.0) - 0.1 * slips - 0.1 * min(others, 1.0)
     return Goal(verdict="clear", objective=strong[0], options=tuple(strong), spans=spans, confidence=confidence)
+
+
+def equally_fast(goal: Goal, plain: str) -> Goal:
+    """The goal, where wishes for speed and for equal speeds are one wish: "all equally fast, and very fast"."""
+    if goal.verdict != "contradiction" or set(goal.options) != {"max_rate", "max_min_rate"}:
+        return goal
+    if _EQUALLY.search(plain) is None or _IN_TOTAL.search(plain) is not None:
+        return goal
+    return Goal(
+        verdict="clear", objective="max_min_rate", options=("max_min_rate",), spans=goal.spans, confidence=_SAME_WISH
+    )
 
 
 def _speaks_of_the_worst(signals: Sequence[Signal], objective: str, found: Sequence[Found]) -> bool:
@@ -310,13 +328,14 @@ def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
 
 
 def _is_predicate(negation: Found, found: Sequence[Found]) -> bool:
-    """Whether a negation says something of what stands before it: "power saving is not the goal"."""
+    """Whether a negation says something of what stands before it: "power saving is not the goal", "公平我不在乎"."""
     is_not = any(item.term.concept == "question" and item.last == negation.first for item in found)
     directed = any(
         item.term.concept in _DIRECTIONS and item.clause == negation.clause and 0 <= item.first - negation.last <= 1
         for item in found
     )
-    return negation.term.concept == "isnt" or (negation.term.concept == "not" and (is_not or directed))
+    whole = negation.term.concept == "not" and negation.last - negation.first >= _WHOLE_PREDICATE
+    return negation.term.concept == "isnt" or whole or (negation.term.concept == "not" and (is_not or directed))
 
 
 def _prefers(found: Sequence[Found], over: Found) -> bool:

@@ -19,6 +19,8 @@ from wirelessagent.language.vocabulary import MASK
 _AGREED, _ALONE, _AGAINST, _AGAINST_RATE = 0.1, 0.45, 0.9, 0.55
 _DOUBTED = {"contradiction": 0.8, "negated": 0.75, "opposite": 0.95, "weak": 0.5, "none": _ALONE}
 _FOR_THE_SLOWEST = 0.8  # "make the slowest …" sounds like a wish for slowness
+_SURE_BESIDE_A_WISH = 0.9
+_SOMETHING_INSTEAD = 0.55  # "never mind fairness, …"
 _SURE_OF_NO_WISH, _SURE_WITHOUT_FORM, _QUESTION_BY_FORM = 0.5, 0.8, 0.3
 _OWN_PHRASE_ASKED = 0.8
 _FAMILIAR, _FOREIGN = 0.25, 0.05
@@ -126,8 +128,10 @@ def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
     """The likeliest kind, by the model and by the sentence's form; "allocate" only where that may be acted on."""
     kinds, goal, plain = shares.kinds, sentence.goal, sentence.plain
     likeliest = max(_KINDS, key=lambda name: kinds[name])
-    if likeliest == "command" and (sentence.reading.back or kinds["command"] < _SURE_OF_NO_WISH):
+    if likeliest == "command" and sentence.reading.back:
         likeliest = "clarify"  # "bring user 3 back" changes a request, it undoes none
+    elif likeliest == "command" and kinds["command"] < _SURE_OF_NO_WISH:
+        likeliest = max((name for name in _KINDS if name != "command"), key=lambda name: kinds[name])
     asked = forms.is_asked(plain) or (forms.begins_like_a_question(plain) and shares.labels[objective] < _AGAINST)
     if likeliest in ("allocate", "clarify") and asked:
         likeliest = "question"
@@ -138,9 +142,12 @@ def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
     if likeliest != "out_of_scope" and forms.is_no_wish(sentence.text):
         return "clarify"
     if likeliest in ("allocate", "clarify"):
-        acts = shares.familiar and shares.labels[objective] >= _needed(sentence, objective)
-        return "allocate" if acts else "clarify"
-    unsure = kinds[likeliest] < _SURE_OF_NO_WISH and goal.verdict != "none" and not asked
+        if shares.familiar and shares.labels[objective] >= _needed(sentence, objective):
+            return "allocate"
+        foreign = kinds["out_of_scope"] > _FOREIGN and shares.labels[objective] < _ALONE
+        return "out_of_scope" if foreign and _is_of_another_trade(sentence) else "clarify"
+    sure_of_none = _SURE_BESIDE_A_WISH if likeliest == "out_of_scope" and goal.verdict == "clear" else _SURE_OF_NO_WISH
+    unsure = kinds[likeliest] < sure_of_none and goal.verdict != "none" and not asked
     strange = not shares.familiar and kinds["out_of_scope"] < _ALONE
     return "clarify" if unsure or strange else likeliest
 
@@ -175,9 +182,19 @@ def _is_of_the_cell(sentence: Sentence, topic: str) -> bool:
     return topic not in ("other", "concept") or sentence.language not in ("en", "zh") or len(sentence.units) < 4
 
 
+def _is_of_another_trade(sentence: Sentence) -> bool:
+    """Whether a longer sentence in Spanish, French or German has no word, figure or user of ours in it."""
+    reading = sentence.reading
+    ours = sentence.concepts or reading.values or reading.named or reading.doubts
+    long = sentence.language in ("es", "fr", "de") and len(sentence.units) >= _FRAGMENT
+    return long and not ours and not forms.speaks_of_the_trade(sentence.plain)
+
+
 def _needed(sentence: Sentence, objective: str) -> float:
     """How likely the objective has to be for acting on it."""
     goal = sentence.goal
+    if goal.verdict == "none" and forms.is_a_refusal(sentence.plain):
+        return math.inf
     if goal.verdict == "clear":
         if goal.objective == objective:
             return 0.0 if forms.is_polite(sentence.plain) else _AGREED
@@ -186,12 +203,16 @@ def _needed(sentence: Sentence, objective: str) -> float:
         return math.inf  # "speed" alone is no wish
     if goal.verdict == "none" and not _says_more_than_limits(sentence):
         return math.inf
-    if goal.verdict == "none" and len(sentence.units) < _FRAGMENT:
+    if goal.verdict in ("none", "weak") and len(sentence.units) < _FRAGMENT:
         return _SURE_OF_A_FRAGMENT
     if goal.verdict == "weak" and goal.objective == "max_rate" != objective:
         return _ALONE
     if goal.verdict == "opposite" and "less_efficiency" in goal.options and objective == "max_energy_efficiency":
         return math.inf
+    if goal.verdict == "negated" and objective not in goal.options and len(sentence.units) > _FRAGMENT:
+        return _SOMETHING_INSTEAD
+    if goal.verdict == "contradiction" and goal.options == ("max_rate",) and objective != "max_rate":
+        return _SURE_OF_A_FRAGMENT
     if goal.verdict == "opposite" and objective == "max_min_rate":
         return _FOR_THE_SLOWEST
     return _DOUBTED[goal.verdict]

@@ -19,7 +19,8 @@ DIRECT: dict[str, str] = {
         "speeding_up accelerate full_speed full_throttle top_speed high_speed too_slow so_slow very_slow really_slow "
         "is_slow slow sluggish buffering buffers stutters stuttering lagging laggy lags not_fast_enough "
         "isnt_fast_enough more_data really_fast very_fast super_fast fast_network fast_internet fast_wifi "
-        "spectral_efficiency spectrum_efficiency spectrally_efficient rate_maximisation rate_maximization rmax 快 "
+        "most_data_overall most_data_in_total most_bits_in_total spectral_efficiency spectrum_efficiency "
+        "spectrally_efficient rate_maximisation rate_maximization rmax 快 "
         "更快 冲速度 冲速率 冲吞吐 冲网速 拼速度 飙速 "
         " "
         "快一点 快点 快些 快一些 最快 越快越好 要快 加速 提速 高速 高速率 太慢 太卡 很慢 好慢 慢 网速慢 卡顿 很卡 "
@@ -39,8 +40,10 @@ DIRECT: dict[str, str] = {
         "每瓦 速率功耗比 per_unit_energy per_unit_of_energy energy_efficiency energy_efficient energy_efficiently "
         "power_efficiency "
         "power_efficient ee bits_per_joule  "
-        "bit_per_joule bits_joule bit_j per_joule energy_per_bit joules_per_bit joule_per_bit power_per_bit "
+        "bit_per_joule bits_joule bit_j bits_j mbit_j kbit_j bits_per_j bit_per_j per_kwh per_kilowatt_hour "
+        "per_joule energy_per_bit joules_per_bit joule_per_bit power_per_bit "
         "every_joule each_joule bits_per_watt rate_per_watt per_watt each_watt every_watt 每比特能耗 每焦耳 每焦 "
+        "单位能耗传 单位能耗下 单位能耗能传 单位能量 每单位能量 每度电 每一度电 每一焦耳 每一瓦 "
         "能效  "
         "能效比 能量效率 能源效率 高能效 又快又省电 又快又省 又省电又快 既快又省电 既快又省 既省电又快"
     ),
@@ -48,9 +51,11 @@ DIRECT: dict[str, str] = {
         "slow_down slowing_down slower slowest slowly throttle 放慢 慢一点 慢点 慢一些 降速 限速 最慢 更慢 慢慢 慢下来"
     ),
     "proportional_fairness": (
-        "log_rates log_rate log_utility sum_of_logs sum_of_log_rates sum_log_rate sum_of_the_logs logarithmic_utility "
+        "log_rates log_rate log_utility sum_of_logs sum_of_log_rates sum_log_rate sum_of_the_logs "
+        "logarithmic_utility "
         "geometric_mean geometric_mean_of_the_rates nash_bargaining 对数和 对数效用 几何平均 "
-        "fair fairer fairest fairness equitable equitably proportionally_fair proportional_fair pf 公平 公平性 更公平 "
+        "fair fairer fairest fairness equitable equitably proportionally_fair proportional_fair pf 公平 公平性 "
+        "更公平 "
         "公平一点 公平一些 公平对待 按比例公平"
     ),
     "max_min_rate": (
@@ -98,7 +103,8 @@ UP = (
     "enhance fast quick best greatest better good great greater bigger biggest larger largest lots_of as_much up "
     "push  "
     "crank double extend extending prolong longer not_enough top upgrade 提高 提升 增加 加大 增大 最大化 最大 最高 "
-    "更高 更大 更多 高 大 高一点 改善 加快 尽量高 越高越好 越大越好 越多越好 尽可能高 尽可能大 不够 延长 更长 更好 多"
+    "更高 更大 更多 高 大 高一点 改善 加快 尽量高 越高越好 越大越好 越多越好 尽可能高 尽可能大 抬 抬高 拉高 "
+    "往上拉 补上 补齐 补 不够 延长 更长 更好 多"
 )
 DOWN = (
     "is_minimised is_minimized too_high is_too_high 太高 太大 drop less fewer fewest as_few lower low lowest "
@@ -151,6 +157,8 @@ POWER = (
 )
 BATTERY = "battery batteries battery_life battery_lifetime 电池 续航 电池寿命 电池续航"
 WORST = (
+    "unluckiest least_fortunate 谁最慢 谁最差 谁最弱 谁垫底 短板 短版 "
+    "whoever_is_slowest whoever_is_worst_off whoevers_slowest "
     "最小用户速率 最低用户速率 最小用户的速率 最低用户的速率 最差那个用户 最慢那个用户 最差的那个用户 最慢的那个用户 "
     "最弱的那个用户 最慢的那个人 最差的那个人 最慢用户 最慢的用户 最慢的人 最差用户 最差的用户 最弱用户 最弱的用户 "
     + " ".join(
@@ -169,7 +177,9 @@ NOT = (
     "does_not didnt never without anything_but anything_except anything_other_than everything_but everything_except "
     "all_but "
     "except except_for apart_from other_than 除了 除 wont cant cannot shouldnt neednt no_need  "
-    "no_need_to dont_need_to forget forget_about ignore nevermind never_mind dont_care dont_care_about do_not_care "
+    "no_need_to dont_need_to forget forget_about ignore nevermind never_mind dont_care dont_care_about "
+    "do_not_care couldnt_care_less "
+    "couldnt_care_less_about could_not_care_less "
     "dont_worry_about no_matter stop instead_of rather_than regardless_of avoid skip not_interested_in 不要 别 不用 "
     "不必 无需 不需要 不在乎 不关心 不在意 不管 不考虑 不 无须 无论 不管多少 无论多少 没必要 不想 停止 先不 "
     "忽略  "
@@ -179,13 +189,15 @@ ISNT = "isnt arent wasnt 不是 并非 并不是"  # negates what follows, or el
 NOT_AFTER = (
     "is_off are_off off turned_off switched_off is_disabled disabled is_out is_over is_unwanted unwanted undesired "
     "excluded forbidden not_wanted not_desired not_allowed out_of_the_question 关了 已关闭 已关 除外 免了 "
+    "的我不在乎 的我不关心 的我不在意 的我不管 的不重要 我都不在乎 我都不管 我都不关心 "
     "doesnt_matter does_not_matter dont_matter do_not_matter not_important isnt_important unimportant irrelevant "
     "就别用了 别用了 就别用 就算了 就免了 不用了 不要了 就不要了 先不用 就不用了 别搞了 先别用 别用 "
     "no_object no_concern not_a_concern isnt_a_concern not_a_priority isnt_a_priority not_needed isnt_needed "
     "not_necessary 无所谓 不重要 没关系 不要紧 不是问题 随便"
 )
 POLITE = (
-    "quick_question quick_check quick_look quick_word fair_enough fair_point fair_amount fair_bit fair_chance "
+    "can_spare could_spare quick_question quick_check quick_look quick_word fair_enough fair_point fair_amount "
+    "fair_bit fair_chance "
     "fair_warning to_be_fair no_matter_what regardless "
     "whatever_it_takes off_peak no_doubt 无论如何 不管怎样 不管怎么样 "
     "can could would will shall please lets let_us how_about what_about why_not why_dont is_it_possible_to "
@@ -243,6 +255,8 @@ STRANGE = (
     + " ".join(f"{kind}_rate {kind}_rates" for kind in _NO_DATA.split())
 )
 DOMAIN = (
+    "out_of_the_antenna from_the_antenna at_the_antenna through_the_antenna leave_the_antenna leaves_the_antenna "
+    "leaving_the_antenna leaving_that_antenna "
     "unfair unfairly unfairness 不公平 公不公平 power_cut power_outage power_failure 比特 比例 user users ue "
     "subcarrier subcarriers channel channels csi cell "
     "cells network base_station allocation spectrum  "
@@ -251,6 +265,7 @@ DOMAIN = (
     "子载波 信道 网络 基站 频谱 传感器 物联网 设备 信号 资源"
 )
 OFF_TOPIC = (
+    "drop_table delete_from insert_into select_from "
     "weather joke football soccer pizza poem song music movie recipe stock stocks news president translate dinner "
     "lunch coffee cook holiday essay homework 天气 笑话 足球 比赛 电影 唱歌 诗 新闻 股票 星期 几点 吃饭 做饭 翻译 "
     "披萨  "

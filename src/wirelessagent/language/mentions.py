@@ -44,7 +44,7 @@ _NUMBER_WORDS = {
 
 _NOUN = (
     r"(?:users?|ues?|subscribers?|terminals?|customers?|clients?|devices?|phones?|handsets?|sensors?|stations?|"
-    r"usuari[oa]s?|abonad[oa]s?|terminales|clientes?|utilisat(?:eur|rice)s?|abonnés?|nutzer(?:n|in|s)?|"
+    r"usuari[oa]s?|abonad[oa]s?|terminales|clientes?|utilisat(?:eur|rice)s?|usagers?|abonnés?|nutzer(?:n|in|s)?|"
     r"teilnehmer(?:n|in|s)?|kunden?|endgeräte?)"
 )
 _WORD_NUMBER = "(?:" + "|".join(sorted(_NUMBER_WORDS, key=len, reverse=True)) + ")"
@@ -62,9 +62,12 @@ _NAMED = re.compile(
 )
 _ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
 _ZH_NOUN = r"(?:用户|终端|UE|ue|客户|设备|手机|节点)"
-_ZH_LIST = rf"{_ZH_NUMBER}(?:\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*{_ZH_NUMBER})*"
+_ZH_LIST = (
+    rf"{_ZH_NUMBER}(?:\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*{_ZH_NUMBER}|"
+    rf"\s*号\s*{_ZH_NUMBER}(?=\s*号))*"
+)
 _ZH = re.compile(
-    rf"{_ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户])号?"
+    rf"(?<!其他)(?<!其它)(?<!其余){_ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户])号?"
     rf"|(?P<hao>{_ZH_LIST})\s*号(?!线|楼|院|机房|站|小区|基站)\s*{_ZH_NOUN}?"
     rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{_ZH_NOUN}"
 )

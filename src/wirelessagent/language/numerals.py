@@ -41,6 +41,7 @@ _FOREIGN_WORDS = {
     **{word: Decimal(place) for listing in _FOREIGN.values() for place, word in enumerate(listing.split(), start=1)},
     "una": Decimal(1), "une": Decimal(1), "eine": Decimal(1), "einen": Decimal(1), "eins": Decimal(1),
     "medio": Decimal("0.5"), "media": Decimal("0.5"), "demi": Decimal("0.5"), "halbes": Decimal("0.5"),
+    "anderthalb": Decimal("1.5"), "eineinhalb": Decimal("1.5"), "zweieinhalb": Decimal("2.5"),
     "treinta": Decimal(30), "trente": Decimal(30), "dreißig": Decimal(30), "cuarenta": Decimal(40),
     "quarante": Decimal(40), "vierzig": Decimal(40), "cincuenta": Decimal(50), "cinquante": Decimal(50),
     "fünfzig": Decimal(50), "cien": Decimal(100), "cent": Decimal(100), "hundert": Decimal(100),

@@ -31,6 +31,8 @@ _DEFAULT_CONFIDENCE = 0.75
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
 _CHANGING = ("apply", "confirm", "undo", "reset")
 _SURE_OF_A_COMMAND = 0.6
+_SURE_OF_LESS = 0.9
+_INTERFERENCE = ("interference", "干扰")
 _CUES = {  # a command that changes something has one of these in it
     "reset": re.compile(
         r"(?i)reset|clear|wip|eras|forget|delet|start over|again|scratch|afresh|anew|zero|new|fresh|slate|"
@@ -54,7 +56,7 @@ _CUES = {  # a command that changes something has one of these in it
         r"déplo|envoie|anwend|wende|übern|ausf|ausroll|spiel|mach|leg|setz|aktiv|damit"
     ),
 }
-_SETTLED = {"fair": 0.95, "same": 0.5, "fairly": 0.8}  # how sure the model must be that these words are clear
+_SETTLED = {"fair": 0.9, "same": 0.5, "fairly": 0.8}  # how sure the model must be that these words are clear
 _REFUSED = re.compile(
     r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$"
 )  # "max rate? no"
@@ -212,7 +214,9 @@ class _Understanding:
         if unsupported and judged.kind == "clarify" and not self._reading.values:
             text = self._words_for("unsupported")
             return self._answer.tell("out_of_scope", "unsupported", judged.certainty, {"text": text})
-        if judged.kind == "out_of_scope" and "strange" not in self._sentence.concepts:
+        figures = any(figure.kind in ("power", "rate", "other") for figure in self._sentence.quantities)
+        misread = figures and bool(self._reading.doubts or self._unread)
+        if judged.kind == "out_of_scope" and "strange" not in self._sentence.concepts and not misread:
             if "unsupported" in self._sentence.concepts:
                 return self._answer.tell(
                     "out_of_scope", "unsupported", judged.certainty, {"text": self._words_for("unsupported")}
@@ -235,7 +239,11 @@ class _Understanding:
             if not offered:
                 return self._answer.ask("unclear", 0.8, pending)
             return self._answer.ask("fairness", 0.8, pending, both=self._voice.both(offered, "or"))
-        if "unsupported" in self._sentence.concepts and self._goal.verdict == "clear":
+        if (
+            "unsupported" in self._sentence.concepts
+            and self._goal.verdict == "clear"
+            and not self._is_helped_by_less_power()
+        ):
             goal = self._voice.label(self._goal.objective)
             return self._answer.ask(
                 "unsupported_with_goal", 0.8, pending, text=self._words_for("unsupported"), goal=goal
@@ -243,6 +251,12 @@ class _Understanding:
         if "max_power_w" in self._reading.exact and self._judged.objective == "min_power":
             return self._answer.ask("exact_power", 0.8, pending, text=self._reading.evidence["max_power_w"])
         return None
+
+    def _is_helped_by_less_power(self) -> bool:
+        """Whether interference is the reason why the least power is asked for, which serves it."""
+        judged = self._judged
+        agreed = judged.acts and judged.objective == "min_power" == self._goal.objective
+        return agreed and judged.likeliest > _SURE_OF_LESS and self._words_for("unsupported").lower() in _INTERFERENCE
 
     def _is_vaguely_fair(self) -> bool:
         """Whether something is to be equal or fair, and neither the words nor the model say in what way."""

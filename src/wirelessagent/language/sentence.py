@@ -36,7 +36,7 @@ class Sentence:
         self.units: list[Unit] = units_of(self._spelt, self.reading.masked)
         self.found: list[Found] = _vocabulary(own).find(self.units)
         self.concepts = {item.term.concept for item in self.found}
-        self.goal: Goal = goals.goal_of(self.found)
+        self.goal: Goal = goals.equally_fast(goals.goal_of(self.found), self._spelt)
 
     def for_model(self) -> tuple[str, list[str]]:
         """The words with placeholders for figures and users, and the concepts in their order."""

@@ -22,7 +22,8 @@ _CALCULATED_AFTER = re.compile(
 
 # Words beside a power which say that it isn't the cell's to radiate.
 _SPARED = re.compile(
-    r"(?i)\b(?:unused|reserved?|reserves|spare|aside|headroom|leave|leaves|leaving|left|remaining|remains|"
+    r"(?i)\b(?:unused|reserved?|reserves|(?<!can )(?<!could )spare|aside|headroom|leave|leaves|leaving|left|"
+    r"remaining|remains|"
     r"untouched|lost|"
     r"lose|losing|behind|free|wasted?|wasting|margin)\b|[留剩余]|备用|闲置"
 )
