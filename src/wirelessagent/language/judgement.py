@@ -131,7 +131,8 @@ def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
     if likeliest == "command" and sentence.reading.back:
         likeliest = "clarify"  # "bring user 3 back" changes a request, it undoes none
     elif likeliest == "command" and kinds["command"] < _SURE_OF_NO_WISH:
-        likeliest = max((name for name in _KINDS if name != "command"), key=lambda name: kinds[name])
+        others: list[IntentKind] = [name for name in _KINDS if name != "command"]
+        likeliest = max(others, key=lambda name: kinds[name])
     asked = forms.is_asked(plain) or (forms.begins_like_a_question(plain) and shares.labels[objective] < _AGAINST)
     if likeliest in ("allocate", "clarify") and asked:
         likeliest = "question"
