@@ -8,6 +8,7 @@ import pytest
 
 from wirelessagent.experiments.evaluate_intents import same_constraints
 from wirelessagent.language.constraints import Reading, read_constraints
+from wirelessagent.language.offline import recognise
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.text import normalise
 
@@ -116,3 +117,17 @@ def test_amounts_to_add_and_missing_shares_are_kept_for_questions() -> None:
     assert reading("what would another 3 W bring?").steps == {"power_w": 3.0}
     assert reading("what if 40 % were missing?").missing == 0.4
     assert reading("bring user 3 back").back == ("3",)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "drop user 2's minimum",
+        "ignore user 3's rate",
+        "去掉4号的速率上限",
+        "max rate, don't serve user 1 more than 2 Mbit/s",
+        "不要给3号超过2兆，总速率最高",
+    ],
+)
+def test_something_of_a_user_is_not_the_user(text: str) -> None:
+    assert "leave_out" not in {*recognise(text).constraints, *recognise(text).pending}

@@ -106,6 +106,10 @@ _BACK_BEFORE = re.compile(
     r"(?i)(?:(?<![A-Za-z])(?:readmit|re-admit|bring\s+back|put\s+back|take\s+back|add\s+back|restore)\s+|(?:加回|"
     r"恢复|重新服务|带回|拉回|重新带上|重新接入)(?:对)?\s*)$"
 )
+_SOMETHING_OF = re.compile(  # "drop user 2's minimum", "don't serve user 1 more than …": not the user is meant
+    r"(?i)\s*(?:['’]s\s+\w|s['’]\s+\w|(?:with\s+|at\s+|any\s+)?(?:more|faster|above|beyond|over)\b|"
+    r"的?(?:最低|最高|最小|最大)?(?:速率|速度|上限|下限|限制|限速|保底|功率|权重|要求|承诺)|(?:超过|多于|高于))"
+)
 _CUT = re.compile(CLAUSE_END)
 
 
@@ -126,6 +130,8 @@ def role_of(plain: str, start: int, end: int) -> tuple[UserRole, int, int]:
     if part is not None and behind is not None:
         return "leave_out", from_ + part.start(), behind.end()
     lead = _OUT_BEFORE.search(before)
+    if lead is not None and _SOMETHING_OF.match(plain, end):
+        return "none", start, end
     if lead is not None:
         behind = _PART_AFTER.match(plain, end)
         return "leave_out", from_ + lead.start(), behind.end() if behind is not None else end
