@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from wirelessagent.language.offline import recognise
 from wirelessagent.language.quantities import Quantity, parse_quantities
 
 POWERS = [
@@ -255,3 +256,24 @@ def test_comparators_of_other_languages(text: str, comparator: str) -> None:
 @pytest.mark.parametrize("text", ["entre 1 y 2 Mbit/s", "entre 1 et 2 Mbit/s", "zwischen 1 und 2 Mbit/s"])
 def test_ranges_of_other_languages(text: str) -> None:
     assert [(q.value, q.comparator) for q in parse_quantities(text)] == [(1e6, "at_least"), (2e6, "at_most")]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1 Mbit per minute each",
+        "5 Mbit an hour",
+        "2 megabits every minute",
+        "每分钟1兆",
+        "每人每小时300兆",
+        "1 Mbit pro Minute",
+    ],
+)
+def test_an_amount_in_another_time_is_no_rate(text: str) -> None:
+    assert not [found for found in parse_quantities(text) if found.kind == "rate"]
+    assert recognise(f"max rate, {text}").kind == "clarify"
+
+
+def test_each_user_and_second_are_no_other_time() -> None:
+    for text in ("1 Mbit each", "1 Mbps each", "每人1兆", "1 Mbit/s per user", "每秒1兆", "2 Mbit/s a user"):
+        assert [found.kind for found in parse_quantities(text)] == ["rate"], text

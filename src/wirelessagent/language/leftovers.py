@@ -51,7 +51,7 @@ _COUNTS = re.compile(  # "sixty thousand people", "three in the morning"
 )
 _OF_THINGS = re.compile(  # "24 élèves", "350 guests", "14 Endgeräte": a number of things that are no unit
     r"(?i)(?<![\w.,^+*/×·-])[0-9]{1,3}(?:[.,' ]?[0-9]{3})*\s+(?!(?:watts?|vatios?|"
-    r"milli|kilo|mega|giga|tera|deci|dezi|déci|bits?|bytes?|octets?|joules?|percent|prozent|por|pour|volts?|volt|amp|hertz|times|veces|fois|mal|"
+    r"milli|kilo|mega|giga|tera|deci|dezi|déci|[kmgt]?bits?|[kmgt]?bytes?|[kmgt]?bps|octets?|joules?|percent|prozent|por|pour|volts?|volt|amp|hertz|times|veces|fois|mal|"
     r"out|plus|minus|squared|power|units?|points?|steps?|more|less|than|notches|zeros?)\b|mega|kilo|giga|milli)"
     r"[^\W\d_]{4,}"
 )

@@ -76,6 +76,13 @@ class Unit:
             return float("inf")
 
 
+_PER_ANOTHER_TIME = re.compile(
+    r"(?i)\s*(?:per|an?|every|each|/|par|pro|por|al?|je|cada|chaque|jede)\s*(?:minutes?|min|hours?|h|days?|weeks?|months?|"
+    r"minutos?|horas?|heures?|jours?|mois|stunden?|tage?|woche|monat|d[ií]as?|mes)\b|\s*[/每]?每(?:分钟?|小时|天|周|月)"
+)
+_OF_ANOTHER_TIME = re.compile(r"每个?(?:分钟?|小时|天|周|月)[^,\uff0c。;]{0,6}$")
+
+
 def unit_at(text: str, position: int) -> Unit | None:
     """The unit that begins at this place of a normalised text, after at most a space or a hyphen."""
     gap = re.compile(r"\s{0,2}|-|个").match(text, position)
@@ -84,8 +91,14 @@ def unit_at(text: str, position: int) -> Unit | None:
             found = read(text, start)
             if found is not None:
                 strange = found.kind != "ratio" and _NOT_A_RATE_OR_POWER.match(text, found.end)
-                return None if strange else found
+                return None if strange or (found.kind == "rate" and _is_of_another_time(text, start, found)) else found
     return None
+
+
+def _is_of_another_time(text: str, start: int, found: Unit) -> bool:
+    """Whether an amount is per minute or per day: "1 Mbit per minute" is no rate of 1 Mbit/s."""
+    before = _OF_ANOTHER_TIME.search(text, max(0, start - 24), start)
+    return before is not None or _PER_ANOTHER_TIME.match(text, found.end) is not None
 
 
 def _level(text: str, start: int) -> Unit | None:
