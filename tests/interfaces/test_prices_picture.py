@@ -11,7 +11,7 @@ import pytest
 import wirelessagent as wa
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.methods.dual import Dual
-from wirelessagent.pictures.prices_picture import draw_prices, priced_worth_w, prices_canvas
+from wirelessagent.pictures.prices_picture import bids_w, draw_prices, prices_canvas
 
 CELL = wa.Cell(max_power_w=20)
 PROBLEMS = {
@@ -66,7 +66,7 @@ def test_worths_are_the_most_that_power_can_earn():
     power_w = np.linspace(0.0, 0.3, 20001)
     earned = price[:, None, None] * np.log1p(power_w * form.snr_per_w[..., None]) - power_w
 
-    assert priced_worth_w(form, price) == pytest.approx(earned.max(axis=2), rel=1e-6, abs=1e-9)
+    assert bids_w(form, price) == pytest.approx(earned.max(axis=2), rel=1e-6, abs=1e-9)
 
 
 def test_it_is_written_as_a_file(tmp_path: Path):

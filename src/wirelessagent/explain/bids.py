@@ -18,6 +18,7 @@ import numpy as np
 from wirelessagent import chain
 from wirelessagent.deciding.core.closed_form import nats_worth
 from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.priced_worth import priced_worth_w
 from wirelessagent.explain.case import Case
 from wirelessagent.model.arrays import FloatArray, IntArray
 
@@ -73,7 +74,7 @@ class Contest:
 def bids(case: Case) -> Bids:
     """The bids for a usable decision, at its own prices or, where its method has none, at the dual's."""
     form, price = case.form, prices_of_rates(case)
-    worth = _worths_w(form, form.snr_per_w, price)
+    worth = priced_worth_w(form, form.snr_per_w, price)
     owner = np.maximum.reduceat(np.where(case.decision.power_w > 0, case.decision.owner, -1), form.start[:-1])
     wanted = np.where(owner >= 0, worth[owner, np.arange(owner.size)], 0.0)
     behind = _behind_db(form, price, wanted)
@@ -127,15 +128,6 @@ def _closed_prices(case: Case) -> FloatArray:
     return np.where(counts, level, 0.0)
 
 
-def _worths_w(form: NormalForm, snr: FloatArray, price: FloatArray) -> FloatArray:
-    """t for the SNRs per watt (user, subcarrier), shape (user, group), in W; 0 where nothing can be used."""
-    a = np.where(snr > 0, snr, 1.0)
-    most = np.where(snr > 0, form.caps_w(snr), 0.0)
-    power_w = np.clip(price[:, np.newaxis] - 1.0 / a, 0.0, most)
-    worth = price[:, np.newaxis] * np.log1p(power_w * a) - power_w
-    return np.add.reduceat(np.maximum(worth, 0.0), form.start[:-1], axis=1)
-
-
 def _behind_db(form: NormalForm, price: FloatArray, wanted: FloatArray) -> FloatArray:
     """The factor in dB on each user's gains in each group at which its bid is ``wanted`` (group,); (user, group)."""
     low = np.full((price.size, wanted.size), -_FARTHEST_DB)
@@ -144,6 +136,6 @@ def _behind_db(form: NormalForm, price: FloatArray, wanted: FloatArray) -> Float
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
         factor = np.repeat(10.0 ** (middle / 10.0), sizes, axis=1)
-        enough = _worths_w(form, form.snr_per_w * factor, price) >= wanted
+        enough = priced_worth_w(form, form.snr_per_w * factor, price) >= wanted
         low, high = np.where(enough, low, middle), np.where(enough, middle, high)
     return np.where((high >= _FARTHEST_DB) | (wanted <= 0), np.inf, high)

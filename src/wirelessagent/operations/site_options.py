@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
@@ -12,19 +12,18 @@ from wirelessagent import chain
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.tools import Tools
-from wirelessagent.language.offline import OfflineRecogniser
-from wirelessagent.language.recogniser import Recogniser
 from wirelessagent.model.scene import Scene
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.channel_file import file_scene
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Progress
+from wirelessagent.operations.recognisers import RecogniserOption
 from wirelessagent.operations.simulate import LOSS_USAGE
 from wirelessagent.operations.tool_options import MethodOptions, RepairerOptions
 from wirelessagent.sensing.loss import parse as parse_loss
 
 
-class SiteOptions(MethodOptions, RepairerOptions, CellOptions):
+class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions):
     """All that a conversation about a cell starts from."""
 
     panel: ClassVar[str] = "Options"
@@ -49,9 +48,6 @@ class SiteOptions(MethodOptions, RepairerOptions, CellOptions):
     tolerance: float = Field(
         TOLERANCE, ge=0, description="share of what was promised that may be lacking before it is taken back"
     )
-    recogniser: Literal["offline", "llm"] = Field(
-        "offline", description="who understands: the offline recogniser, or the LLM of the settings"
-    )
     seed: int = Field(1, description="seed of every draw")
 
     def scene(self, progress: Progress) -> Scene:
@@ -74,11 +70,3 @@ class SiteOptions(MethodOptions, RepairerOptions, CellOptions):
             progress=progress,
             raises=raises,
         )
-
-    def chosen_recogniser(self) -> Recogniser:
-        """Who understands; pydantic-ai is loaded only here."""
-        if self.recogniser == "offline":
-            return OfflineRecogniser()
-        from wirelessagent.language.llm import LlmRecogniser
-
-        return LlmRecogniser()

@@ -9,6 +9,7 @@ import numpy as np
 
 from wirelessagent.deciding.core.dual_bounds import bound_of
 from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.priced_worth import priced_worth_w
 from wirelessagent.deciding.core.program import MOST_EFFICIENCY, MOST_UTILITY, Program
 from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.model.arrays import FloatArray
@@ -69,19 +70,10 @@ def prices_canvas(*, estimate: ChannelEstimate, decision: Decision) -> Canvas:
     return canvas
 
 
-def priced_worth_w(form: NormalForm, price: FloatArray) -> FloatArray:
-    """t of each group of subcarriers to each user whose rate costs λ = ``price`` (user,) W per nat; (user, group), W.
-
-    t_kg = Σ over n in g of max over p of λ_k ln(1 + p a_kn) − p, within the caps; NaN where a user can use none of it.
-    """
-    snr = form.snr_per_w
-    usable = snr > 0
-    a = np.where(usable, snr, 1.0)
-    most = np.where(usable, form.caps_w(snr), 0.0)
-    power_w = np.clip(price[:, np.newaxis] - 1.0 / a, 0.0, most)
-    worth = np.where(usable, price[:, np.newaxis] * np.log1p(power_w * a) - power_w, 0.0)
-    joint = np.add.reduceat(worth, form.start[:-1], axis=1)
-    return np.where(np.logical_or.reduceat(usable, form.start[:-1], axis=1), joint, np.nan)
+def bids_w(form: NormalForm, price: FloatArray) -> FloatArray:
+    """What each group is worth to each user, shape (user, group), in W; NaN where a user can use none of it."""
+    usable = np.logical_or.reduceat(form.snr_per_w > 0, form.start[:-1], axis=1)
+    return np.where(usable, priced_worth_w(form, form.snr_per_w, price), np.nan)
 
 
 def _names(decision: Decision) -> list[str]:
@@ -114,7 +106,7 @@ def _draw_levels(panel: Panel, form: NormalForm, decision: Decision, price: Floa
 
 def _draw_worths(panel: Panel, form: NormalForm, decision: Decision, price: FloatArray) -> None:
     """What the users would bid for each group, and who has it."""
-    worth = priced_worth_w(form, price)
+    worth = bids_w(form, price)
     centre = 0.5 * (form.start[:-1] + form.start[1:] - 1) + 1.0
     owner = np.maximum.reduceat(decision.owner, form.start[:-1])
     scale, unit = prefixed(float(np.nanmax(worth)), "W")
