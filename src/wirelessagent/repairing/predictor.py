@@ -49,7 +49,8 @@ class Predictor(Repairer):
         over = over_frequency(seen, observation)
         found = estimated(seen, over, doppler(observation), steps(observation, at_s))
         level = seen.level[:, np.newaxis]
-        own = 0.0 if observation.noise_variance is not None else over.noise_share[:, np.newaxis]
+        slot, learnt = fit.relative(observation), known_parameters(over)
+        own = fit.unstated(slot, learnt)[:, np.newaxis]
         gain, variance = level * found[..., 0], level * (level * (TAIL * found[..., 1] + found[..., 2] + own))
         unseen = seen.seen == 0
         if unseen.any():
@@ -67,7 +68,7 @@ class Predictor(Repairer):
             unobserved_users=np.asarray(~observation.measured.any(axis=(0, 2))),
             user_names=observation.user_names,
             method=self.name,
-            joint_posterior=FadingPosterior(gain, variance, errors(observation, over, late=at_s is not None)),
+            joint_posterior=FadingPosterior(gain, variance, errors(slot, learnt, late=at_s is not None)),
         )
 
 
@@ -91,16 +92,19 @@ def steps(observation: ChannelObservation, at_s: float | None) -> float:
     return (at_s - float(times[-1])) / float(np.diff(times).min())
 
 
-def errors(observation: ChannelObservation, over: OverFrequency, *, late: bool) -> ErrorRoots:
+def known_parameters(over: OverFrequency) -> fit.Learnt:
+    """What the last slots say of the correlation over frequency and the noise, as one hypothesis for each user."""
+    users = over.noise_share.size
+    own = dataclasses.replace(over.candidates, table=over.table.T, noise=over.noise_share, families=1)
+    return fit.Learnt(candidates=own, chance=np.eye(users), forms=np.zeros((users, 5, users)))
+
+
+def errors(slot: fit.Relative, learnt: fit.Learnt, *, late: bool) -> ErrorRoots:
     """How the errors hang together over frequency: as gains do that the current slot leaves open, if it is that one.
 
     With the same history for all subcarriers this is exact, since the covariance is a product over time and frequency.
     """
-    slot = fit.relative(observation)
-    users = slot.level.size
-    own = dataclasses.replace(over.candidates, table=over.table.T, noise=over.noise_share, families=1)
     known = slot.known & (not late)
-    learnt = fit.Learnt(candidates=own, chance=np.eye(users), forms=np.zeros((users, 5, users)))
     return ErrorRoots(dataclasses.replace(slot, known=known), learnt, np.zeros_like(known))
 
 
