@@ -157,6 +157,6 @@ def test_who_cannot_be_served_is_said_once() -> None:
     decision = wa.decide(crowd, wa.Problem("proportional_fairness"))
     said = " ".join(explain(crowd, wa.report(decision)))
     assert said.count("user 4") == 1
-    assert "1 user cannot be served: there are 3 subcarriers for 4 users" in certificate_line(decision)
+    assert "1 of 4 users cannot be served: there are only 3 subcarriers" in certificate_line(decision)
     grouped = wa.decide(crowd, wa.Problem("max_min_rate", resource_block_group_size=2, users=(0, 1, 2)))
-    assert "there are 2 resource-block groups for 3 users" in certificate_line(grouped)
+    assert "1 of 3 users cannot be served: there are only 2 resource-block groups" in certificate_line(grouped)

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from wirelessagent.agent.restating import goal_words
 from wirelessagent.agent.words import say
-from wirelessagent.explain.labels import worded
+from wirelessagent.explain.labels import called, worded
+from wirelessagent.explain.reasons import power_in_words, reason_in_words
 from wirelessagent.explain.report import cannot_be_served, name_of_figure
 from wirelessagent.explain.table import Table
 from wirelessagent.model.decision import Decision
@@ -20,9 +22,10 @@ if TYPE_CHECKING:
 
 def certificate_line(decision: Decision, language: str = "en") -> str:
     """Status, value, bound and gap in one line."""
-    status, method = say(language, decision.status), decision.method
+    status, method = say(language, decision.status), called(language, decision.method)
     if not decision.is_usable:
-        return say(language, "certificate_unusable", status=status, reason=_reason(decision, language), method=method)
+        reason = reason_in_words(decision, language)
+        return say(language, "certificate_unusable", status=status, reason=reason, method=method)
     value = human(decision.value, decision.unit)
     if np.isnan(decision.gap):
         return say(language, "certificate_no_bound", status=status, value=value, method=method)
@@ -31,21 +34,13 @@ def certificate_line(decision: Decision, language: str = "en") -> str:
         language, "certificate" if outage is None else "certificate_outage", status=status, value=value, method=method,
         bound=human(decision.bound, decision.unit), gap=percent(decision.gap), sure=reliability(outage or 0.0),
     )  # fmt: skip
-    left_out = cannot_be_served(decision)
+    left_out = cannot_be_served(decision, language)
     return say(language, "certificate_note", line=line, note=left_out) if left_out else line
-
-
-def _reason(decision: Decision, language: str) -> str:
-    """Why there is no allocation; a decision says so in English, so that its figures are put into other words."""
-    need, budget = decision.needed_power_w, decision.problem.budget_w(decision.cell)
-    if language == "en" or decision.status != "infeasible" or need is None or not need.at_least > budget:
-        return decision.reason
-    return say(language, "needs_power", needed=human(need.at_least, "W"), budget=human(budget, "W"))
 
 
 def side_by_side(runs: Sequence[tuple[str, Run]], language: str = "en") -> Table:
     """Runs beside each other: what each is worth, takes and keeps."""
-    columns = [worded(language, label) for label in ("figure",)] + [name for name, _ in runs]
+    columns = [worded(language, "figure"), *(called(language, name) for name, _ in runs)]
     cells = [_cells(run, language) for _, run in runs]
     rows = [(worded(language, label), *(cell[label] for cell in cells)) for label in cells[0]]
     return Table(title=worded(language, "Side by side"), columns=tuple(columns), rows=tuple(rows))
@@ -61,13 +56,13 @@ def _cells(run: Run, language: str) -> dict[str, str]:
     value = f"{human(decision.value, decision.unit)}{f' ({figure})' if figure else ''}"
     missed = "–" if run.outcome is None or run.outcome.achieved is None else str(int(run.outcome.missed.sum()))
     return {
-        "objective": objective.name,
+        "objective": goal_words(objective.name, language),
         "status": say(language, decision.status),
         "value": value if usable else "–",
         "bound": human(decision.bound, decision.unit),
         "gap": percent(decision.gap),
         "power": human(decision.total_power_w, "W") if usable else "–",
-        "power needed": "–" if need is None else human(need.at_least, "W"),
+        "power needed": "–" if need is None else power_in_words(need.at_least, language),
         "Sum rate": human(float(decision.rate_bps.sum()), "bit/s") if usable else "–",
         "lowest rate": human(float(decision.rate_bps[served].min()), "bit/s") if usable else "–",
         "users served": str(int(np.count_nonzero(decision.rate_bps > 0))) if usable else "–",

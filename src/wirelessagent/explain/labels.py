@@ -1,7 +1,8 @@
-"""The labels of tables in the operator's language; English ones stand for themselves."""
+"""Labels of tables and names of things in the operator's language; English ones stand for themselves."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 _CHINESE: Mapping[str, str] = {
@@ -51,6 +52,42 @@ _CHINESE: Mapping[str, str] = {
     "said": "内容",
     "came to": "结果",
 }
+
+_NAMED: Mapping[str, str] = {
+    "simulated": "模拟基站",
+    "offline": "离线识别",
+    "llm": "大语言模型",
+    "dual": "对偶法",
+    "exact": "精确法",
+    "greedy": "贪心法",
+    "equal_power": "等功率法",
+    "round_robin": "轮询法",
+    "paper": "论文方法",
+    "paper_bisection": "论文二分法",
+    "paper_inversion": "论文信道反转法",
+    "paper_scan": "论文功率扫描法",
+    "kriging": "克里金法",
+    "linear": "线性插值",
+    "nncf": "最近邻协同过滤",
+    "nncf_paper": "论文最近邻协同过滤",
+    "user_mean": "用户均值法",
+    "predictor": "时间预测法",
+    "learned_covariance": "学习协方差法",
+}
+"""What built-in plug-ins and recognisers are called in a sentence; those of others keep their names."""
+_NUMBERED = re.compile(r"(?i)user\s*(\d+)")
+
+
+def called(language: str, name: str) -> str:
+    """A user, a method or the like by name, in the operator's language where it has no name of its own.
+
+    >>> called("zh", "user 3"), called("zh", "Ada"), called("en", "user 3")
+    ('用户3', 'Ada', 'user 3')
+    """
+    if language != "zh":
+        return name
+    number = _NUMBERED.fullmatch(name)
+    return f"用户{number[1]}" if number is not None else _NAMED.get(name, name)
 
 
 def worded(language: str, label: str, *figures: object) -> str:

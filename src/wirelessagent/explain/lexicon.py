@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from wirelessagent.explain.case import Case
+from wirelessagent.explain.labels import called
 from wirelessagent.explain.report import name_of_figure
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human
@@ -25,9 +24,6 @@ class Lexicon:
         return (self.chinese if language == "zh" else self.english)[key].format(**names)
 
 
-_MOST_TOLD_W = 1e12
-"""Powers beyond this are told as that much at least."""
-
 WORDS = Lexicon(
     english={
         "power": "radiated power",
@@ -40,9 +36,6 @@ WORDS = Lexicon(
         "several": "subcarriers {first}–{last}",
         "outcome": "{figure} {value}",
         "outcome_power": "{figure} {value}, {power} radiated",
-        "needs": "the promised rates need at least {least}, more than the {budget} allowed",
-        "needs_found": "the promised rates need at least {least}, more than the {budget} allowed, and an "
-        "allocation with {most} was found",
     },
     chinese={
         "power": "发射功率",
@@ -55,8 +48,6 @@ WORDS = Lexicon(
         "several": "子载波 {first}–{last}",
         "outcome": "{figure} {value}",
         "outcome_power": "{figure} {value}，发射 {power}",
-        "needs": "承诺的速率至少需要 {least}，超过允许的 {budget}",
-        "needs_found": "承诺的速率至少需要 {least}，超过允许的 {budget}；已找到一个用 {most} 的分配",
     },
 )
 
@@ -74,8 +65,8 @@ def value_name(case: Case, language: str) -> str:
 
 
 def listed(names: Sequence[str], language: str) -> str:
-    """Names in a row."""
-    return WORDS.say(language, "comma").join(names)
+    """Users in a row."""
+    return WORDS.say(language, "comma").join(called(language, name) for name in names)
 
 
 def place(first: int, last: int, language: str) -> str:
@@ -88,16 +79,6 @@ def outcome_in_words(case: Case, decision: Decision, language: str) -> str:
     key = "outcome" if case.objective.measure == "power" else "outcome_power"
     value, power = human(decision.value, decision.unit), human(decision.total_power_w, "W")
     return WORDS.say(language, key, figure=value_name(case, language), value=value, power=power)
-
-
-def reason_in_words(decision: Decision, language: str) -> str:
-    """Why nothing was found: what the promised rates need where that is proven too much, else the decision's reason."""
-    need, budget = decision.needed_power_w, decision.problem.budget_w(decision.cell)
-    if need is None or not budget < need.at_least < np.inf:
-        return decision.reason
-    least, most = (human(min(one, _MOST_TOLD_W), "W") for one in (need.at_least, need.at_most))
-    key = "needs_found" if need.at_most <= _MOST_TOLD_W else "needs"
-    return WORDS.say(language, key, least=least, most=most, budget=human(budget, "W"))
 
 
 def paragraph(said: Sequence[str], language: str) -> str:

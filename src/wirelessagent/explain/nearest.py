@@ -1,8 +1,9 @@
-"""The nearest requests that can be met, where one cannot: more power, lower rates, or fewer users; each solved for.
+"""The nearest requests that can be met, where one cannot: more power, lower rates, fewer users; each solved for.
 
-With the objective put aside, promised rates need a least power. Three ways lead back to something feasible:
+With the objective put aside, promised rates need a least power. These ways lead back to something feasible:
 
 - the same rates with the power that they are found to need, whether the cell may radiate it or not;
+- the same request without one of its limits: on each subcarrier, of groups, or of how surely promises are kept;
 - every promised rate times one factor, the largest that the budget carries;
 - the same rates for fewer users. Those who cost most at the prices, λ_k R_k, are left out first, until the rest fits;
   then everybody who fits after all is taken back. Where there are few combinations all smaller ones are tried too.
@@ -20,11 +21,16 @@ import numpy as np
 from wirelessagent.explain.case import Case
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Bracket, Decision
+from wirelessagent.model.problem import Problem
 
 _SAFE = 1.0 - 1e-7
 """Part of the largest factor found that is asked for, so that rounding does not decide."""
 _CLOSE, _SEARCHED_MS = 1.02, 1000.0
 """A factor that is known less closely is searched for, so long."""
+_FIRST_STEP, _LEAST_FACTOR = 0.98, 1e-6
+"""A factor that no bound comes near is searched for downwards, each step the square of the one before."""
+_HALVINGS, _CLOSE_ENOUGH = 8, 1.005
+"""Then between what is carried and what is not, so often or until they are so close."""
 _AMPLE = 1e6
 """Budget in budgets for which the dearest users are looked for."""
 _MOST_SETS = 150
@@ -38,6 +44,14 @@ class MorePower:
     power_w: float
     decision: Decision
     within_limit: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class WithoutLimit:
+    """The same request without the limit of that name, a field of the problem: solved."""
+
+    limit: str
+    decision: Decision
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,13 +85,14 @@ class Nearest:
     Attributes:
         budget_w: the power that it may use.
         needed_power_w, scaling: what the rates need, and the common factor that fits, each from both sides.
-        more_power, lower_rates, fewer_users: verified alternatives.
+        more_power, without_limits, lower_rates, fewer_users: verified alternatives.
     """
 
     budget_w: float
     needed_power_w: Bracket | None
     scaling: Bracket | None
     more_power: MorePower | None
+    without_limits: tuple[WithoutLimit, ...]
     lower_rates: LowerRates | None
     fewer_users: FewerUsers | None
 
@@ -90,6 +105,7 @@ def nearest(case: Case) -> Nearest:
         needed_power_w=decision.needed_power_w,
         scaling=decision.rate_scaling,
         more_power=more_power(case),
+        without_limits=without_limits(case),
         lower_rates=lower_rates(case),
         fewer_users=fewer_users(case),
     )
@@ -109,23 +125,63 @@ def more_power(case: Case) -> MorePower | None:
     return MorePower(power_w=power, decision=decision, within_limit=allowed) if decision.is_usable else None
 
 
+def without_limits(case: Case) -> tuple[WithoutLimit, ...]:
+    """The limits without one of which the request can be met."""
+    problem, without = case.problem, dict[str, Problem]()
+    if problem.subcarrier_max_power_w is not None:
+        without["subcarrier_max_power_w"] = dataclasses.replace(problem, subcarrier_max_power_w=None)
+    if problem.resource_block_group_size > 1:
+        without["resource_block_group_size"] = dataclasses.replace(problem, resource_block_group_size=1)
+    if problem.outage_probability is not None:
+        without["outage_probability"] = dataclasses.replace(problem, outage_probability=None)
+    found = (WithoutLimit(limit=limit, decision=case.otherwise(loose)) for limit, loose in without.items())
+    return tuple(one for one in found if one.decision.is_usable)
+
+
 def lower_rates(case: Case) -> LowerRates | None:
     """The largest common factor on the promised rates for which an allocation was found."""
     known = case.decision.rate_scaling
     if known is None or not case.promised_bps.any():
         return None
     searched = known
-    if known.at_most > known.at_least * _CLOSE:
+    if case.problem.outage_probability is None and known.at_most > known.at_least * _CLOSE:
         searched = case.otherwise(case.problem, effort="thorough", deadline_ms=_SEARCHED_MS).rate_scaling or known
     most, factor = min(known.at_most, searched.at_most, 1.0), max(known.at_least, searched.at_least) * _SAFE
     while factor > 0:
-        scaled = dataclasses.replace(case.problem, min_rate_bps=case.promised_bps * factor)
-        decision = case.otherwise(scaled)
+        decision = _scaled(case, factor)
         if decision.is_usable:
             return LowerRates(factor=factor, at_most=most, decision=decision)
         carried = 0.0 if decision.rate_scaling is None else decision.rate_scaling.at_least
         factor = factor * min(carried, 0.95) * _SAFE if carried > 0 else 0.0
-    return None
+    return _searched_for(case, most)
+
+
+def _searched_for(case: Case, most: float) -> LowerRates | None:
+    """:func:`lower_rates` where no factor is known to be carried: by trying, from ``most`` downwards."""
+    if not most > 0:
+        return None
+    low = high = most * _SAFE
+    step, decision = _FIRST_STEP, _scaled(case, low)
+    while not decision.is_usable:
+        low, high, step = low * step, low, step * step
+        if low <= most * _LEAST_FACTOR:
+            return None
+        decision = _scaled(case, low)
+    for _ in range(_HALVINGS):
+        if high <= low * _CLOSE_ENOUGH:
+            break
+        middle = math.sqrt(low * high)
+        tried = _scaled(case, middle)
+        if tried.is_usable:
+            low, decision = middle, tried
+        else:
+            high = middle
+    return LowerRates(factor=low, at_most=most, decision=decision)
+
+
+def _scaled(case: Case, factor: float) -> Decision:
+    """The decision with every promised rate times a factor."""
+    return case.otherwise(dataclasses.replace(case.problem, min_rate_bps=case.promised_bps * factor))
 
 
 def fewer_users(case: Case) -> FewerUsers | None:

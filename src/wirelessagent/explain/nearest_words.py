@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.lexicon import Lexicon, listed, outcome_in_words, paragraph, reason_in_words, value_name
-from wirelessagent.explain.nearest import Nearest
-from wirelessagent.model.units import human
+from wirelessagent.explain.lexicon import Lexicon, listed, outcome_in_words, paragraph, value_name
+from wirelessagent.explain.nearest import Nearest, WithoutLimit
+from wirelessagent.explain.reasons import BEYOND_W, reason_in_words
+from wirelessagent.model.units import human, reliability
 
 WORDS = Lexicon(
     english={
@@ -17,6 +18,9 @@ WORDS = Lexicon(
         "ways": "What can be met, each solved for:",
         "power": "- the same rates with {power}: {outcome}{limit}",
         "limit": "; that is beyond the cell's limit of {limit}",
+        "subcarrier_max_power_w": "- the same without the limit on each subcarrier: {outcome}",
+        "resource_block_group_size": "- the same with single subcarriers instead of groups of {size}: {outcome}",
+        "outage_probability": "- the same promised on the estimate as it stands, not with {sure}: {outcome}",
         "same": "- {rate} for each user instead of {asked}: {outcome}{most}",
         "factor": "- every promised rate times {factor:.3g}: {outcome}{most}",
         "most": "; more than {rate} is proven impossible",
@@ -32,11 +36,14 @@ WORDS = Lexicon(
         "ways": "以下要求可以满足，均已求解：",
         "power": "- 速率不变，功率 {power}：{outcome}{limit}",
         "limit": "；这超出小区上限 {limit}",
+        "subcarrier_max_power_w": "- 要求不变，不限制每个子载波的功率：{outcome}",
+        "resource_block_group_size": "- 要求不变，子载波逐个分配，而不是每 {size} 个一组：{outcome}",
+        "outage_probability": "- 要求不变，直接按估计值承诺，而不是以 {sure} 兑现：{outcome}",
         "same": "- 每个用户 {rate}，而不是 {asked}：{outcome}{most}",
         "factor": "- 所有承诺速率乘以 {factor:.3g}：{outcome}{most}",
         "most": "；已证明不可能超过 {rate}",
         "most_factor": "；已证明不可能超过 {factor:.3g} 倍",
-        "without": "- 速率不变，不服务 {names}：{outcome}{fewest}",
+        "without": "- 速率不变，不服务{names}：{outcome}{fewest}",
         "fewest": "；已证明少去掉用户无济于事",
         "none": "没有找到可行的更低速率、更高功率或更少用户。",
     },
@@ -53,7 +60,8 @@ def nearest_answer(case: Case, found: Nearest, language: str) -> str:
     """Why a request cannot be met, what it would need, and what can be met instead, a line each."""
     proven = "proven" if case.decision.status == "infeasible" else "open"
     head = [WORDS.say(language, proven, reason=reason_in_words(case.decision, language))]
-    ways = [_power(case, found, language), _rates(case, found, language), _users(case, found, language)]
+    lifted = [_lifted(case, one, language) for one in found.without_limits]
+    ways = [_power(case, found, language), *lifted, _rates(case, found, language), _users(case, found, language)]
     ways = [way for way in ways if way]
     head.append(WORDS.say(language, "ways" if ways else "none"))
     return "\n".join([paragraph(head, language), *ways])
@@ -61,11 +69,17 @@ def nearest_answer(case: Case, found: Nearest, language: str) -> str:
 
 def _power(case: Case, found: Nearest, language: str) -> str:
     more = found.more_power
-    if more is None:
+    if more is None or more.power_w > BEYOND_W:
         return ""
     limit = "" if more.within_limit else WORDS.say(language, "limit", limit=human(case.cell.max_power_w, "W"))
     outcome = outcome_in_words(case, more.decision, language)
     return WORDS.say(language, "power", power=human(more.power_w, "W"), outcome=outcome, limit=limit)
+
+
+def _lifted(case: Case, one: WithoutLimit, language: str) -> str:
+    problem, outcome = case.problem, outcome_in_words(case, one.decision, language)
+    sure = reliability(problem.outage_probability or 0.0)
+    return WORDS.say(language, one.limit, outcome=outcome, size=problem.resource_block_group_size, sure=sure)
 
 
 def _rates(case: Case, found: Nearest, language: str) -> str:

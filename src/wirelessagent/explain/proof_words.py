@@ -7,9 +7,11 @@ import numpy as np
 from wirelessagent.explain.case import Case
 from wirelessagent.explain.certainty import Certainty, certainty
 from wirelessagent.explain.contested import Contested
-from wirelessagent.explain.lexicon import Lexicon, listed, paragraph, place, reason_in_words, value_name
+from wirelessagent.explain.labels import called
+from wirelessagent.explain.lexicon import Lexicon, listed, paragraph, place, value_name
 from wirelessagent.explain.prices import MarginalPrices, marginal_prices
 from wirelessagent.explain.proof import Certificate, certificate
+from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.table import Table
 from wirelessagent.model.units import human, percent, reliability
 
@@ -88,7 +90,7 @@ WORDS = Lexicon(
         "power_idle": "功率没有价格：允许的 {budget} 中用了 {spent}，再多也不会改变什么。",
         "power_least": "目标就是功率最小：预算高于 {budget} 不会改变什么。",
         "power_unknown": "这里不知道功率的价格。",
-        "dearest": "最贵的是对 {user} 的承诺：再多 100 kbit/s 会使{figure}{direction} {price}。",
+        "dearest": "最贵的是对{user}的承诺：再多 100 kbit/s 会使{figure}{direction} {price}。",
         "free": "没有起约束作用的承诺，因此都没有价格。",
         "up": "提高",
         "down": "降低",
@@ -108,28 +110,27 @@ WORDS = Lexicon(
         "证明的。",
         "bound_outage_least": "任何分配以 {sure} 兑现这些承诺都不会少于 {bound}：这是在一个比此类承诺所能依据的都好"
         "的信道上证明的。",
-        "by_dual": "方法 {method} 本身不作证明；此界来自方法 dual。",
+        "by_dual": "{method}本身不作证明；此界来自对偶法。",
         "value": "本方案的价值为 {value}，因此最多还能增加 {left}（{gap}）。",
         "value_least": "本方案需要 {value}，因此最多还能节省 {left}（{gap}）。",
         "reached": "本方案达到该界，因此是最优的。",
-        "nothing": "方法 {method} 不提供界，因此与最优解的差距未知。",
+        "nothing": "{method}不提供界，因此与最优解的差距未知。",
         "infeasible": "已证明该要求无法满足：{reason}。",
         "undecided": "没有找到满足要求的分配，也没有证明它无法满足：{reason}。",
         "estimated": "该证明针对估计信道；其 {entries} 个增益中有 {repaired} 个没有测得。",
         "all_known": "所有增益都已测得，没有不确定的地方。",
         "noisy": "所有增益都已测得，但 {entries} 个中有 {noisy} 个不精确。",
-        "repaired": "{entries} 个增益中有 {repaired} 个没有测得（{share}），由 {method} 填补。使用的 {used} 个子载"
+        "repaired": "{entries} 个增益中有 {repaired} 个没有测得（{share}），由{method}填补。使用的 {used} 个子载"
         "波中有 {resting} 个依赖这样的增益。",
         "rests_on_none": "因此所承诺的都没有不确定性。",
-        "unseen": "没有测得 {names} 的任何增益：其水平只是猜测。",
+        "unseen": "没有测得{names}的任何增益：其水平只是猜测。",
         "band": "真实信道以 90 % 的概率总共承载 {low} 至 {high}。",
-        "promise": "每个承诺应以 {sure} 兑现；按决策时未用的抽样，最没有把握的是对 {user} 的承诺，以 {kept} 兑现。",
-        "commitment": "预定速率使预期到达的最多；最没有把握的是 {user} 的，以 {kept} 兑现。预计 {served} 个中有 "
+        "promise": "每个承诺应以 {sure} 兑现；按决策时未用的抽样，最没有把握的是对{user}的承诺，以 {kept} 兑现。",
+        "commitment": "预定速率使预期到达的最多；最没有把握的是{user}的，以 {kept} 兑现。预计 {served} 个中有 "
         "{missed:.2g} 个落空。",
-        "estimated_promise": "速率按估计值承诺：最没有把握的是对 {user} 的，以 {kept} 兑现，预计 {served} 个中有 "
+        "estimated_promise": "速率按估计值承诺：最没有把握的是对{user}的，以 {kept} 兑现，预计 {served} 个中有 "
         "{missed:.2g} 个落空。给定可靠性（如“以 95 % 兑现”）可使承诺更有把握。",
-        "widest": "使用中最不确定的增益是 {user} 在{place}上的：在所计数值的 {low:+.2f} 至 {high:+.2f} dB 之内（90 "
-        "%）。",
+        "widest": "使用中最不确定的增益是{user}在{place}上的：在所计数值的 {low:+.2f} 至 {high:+.2f} dB 之内（90 %）。",
         "contests": "竞争最激烈的子载波",
         "subcarrier": "子载波",
         "winner": "得到者",
@@ -150,7 +151,7 @@ def prices_answer(case: Case, language: str) -> str:
         dearest = int(np.nanargmax(cost))
         price = human(float(cost[dearest]) * _STEP_BPS, case.decision.unit)
         direction = WORDS.say(language, "up" if prices.rate[dearest] > 0 else "down")
-        user = case.estimate.user_names[dearest]
+        user = called(language, case.estimate.user_names[dearest])
         said.append(WORDS.say(language, "dearest", user=user, direction=direction, figure=figure, price=price))
     elif case.promised_bps.any():
         said.append(WORDS.say(language, "free"))
@@ -165,7 +166,7 @@ def prices_table(case: Case, language: str) -> Table | None:
     rate, unit = marginal_prices(case).rate, case.decision.unit
     rows = tuple(
         (
-            case.estimate.user_names[user],
+            called(language, case.estimate.user_names[user]),
             human(float(case.promised_bps[user]), "bit/s"),
             human(float(case.decision.rate_bps[user]), "bit/s"),
             human(float(rate[user]) * _STEP_BPS, unit),
@@ -192,7 +193,9 @@ def certificate_answer(case: Case, language: str) -> str:
     """What is proven, how, and what it leaves open."""
     decision, found = case.decision, certificate(case)
     if found.proof in ("nothing", "infeasible", "undecided"):
-        return WORDS.say(language, found.proof, method=decision.method, reason=reason_in_words(decision, language))
+        return WORDS.say(
+            language, found.proof, method=called(language, decision.method), reason=reason_in_words(decision, language)
+        )
     said = [_bound(case, found, language), _left(case, found, language)]
     repaired, entries = int(case.estimate.repaired.sum()), case.estimate.repaired.size
     if repaired:
@@ -208,7 +211,7 @@ def _bound(case: Case, found: Certificate, language: str) -> str:
     least = "_least" if case.objective.direction == "min" else ""
     said = [WORDS.say(language, f"bound{unsure}{least}", bound=bound, sure=reliability(outage or 0.0))]
     if found.by != case.decision.method:
-        said.append(WORDS.say(language, "by_dual", method=case.decision.method))
+        said.append(WORDS.say(language, "by_dual", method=called(language, case.decision.method)))
     return paragraph(said, language)
 
 
@@ -227,7 +230,12 @@ def uncertainty_answer(case: Case, language: str) -> str:
     if not found.repaired and not found.noisy:
         return WORDS.say(language, "all_known")
     share = percent(found.repaired / found.entries)
-    figures = {"repaired": found.repaired, "entries": found.entries, "noisy": found.noisy, "method": found.method}
+    figures = {
+        "repaired": found.repaired,
+        "entries": found.entries,
+        "noisy": found.noisy,
+        "method": called(language, found.method),
+    }
     key = "repaired" if found.repaired else "noisy"
     said = [WORDS.say(language, key, **figures, share=share, resting=found.resting, used=found.used)]
     if found.unseen:
@@ -244,7 +252,7 @@ def _sure(case: Case, found: Certainty, language: str) -> list[str]:
     names, outage = case.estimate.user_names, case.problem.outage_probability
     user, subcarrier = found.widest
     low, high = human(found.low_bps, "bit/s"), human(found.high_bps, "bit/s")
-    kept, least_sure = f"{100 * found.least_kept:.3g} %", names[found.least_sure]
+    kept, least_sure = f"{100 * found.least_kept:.3g} %", called(language, names[found.least_sure])
     served = int((case.decision.committed_bps > 0).sum())
     firm = "estimated_promise" if case.problem.promises_rates else "commitment"
     key = firm if outage is None else "promise"
@@ -255,7 +263,7 @@ def _sure(case: Case, found: Certainty, language: str) -> list[str]:
             sure=reliability(outage or 0.0),
         ),
         WORDS.say(
-            language, "widest", user=names[user], place=place(subcarrier, subcarrier, language),
+            language, "widest", user=called(language, names[user]), place=place(subcarrier, subcarrier, language),
             low=found.widest_low_db, high=found.widest_high_db,
         ),
     ]  # fmt: skip
@@ -267,8 +275,8 @@ def contested_table(case: Case, found: list[Contested], language: str) -> Table 
     rows = tuple(
         (
             f"{one.first + 1}" if one.first == one.last else f"{one.first + 1}–{one.last + 1}",
-            names[one.contest.winner],
-            names[one.contest.runner_up],
+            called(language, names[one.contest.winner]),
+            called(language, names[one.contest.runner_up]),
             f"{one.contest.margin_db:.2g} dB" if abs(one.contest.margin_db) >= 0.005 else "0 dB",
             WORDS.say(language, "not_met") if np.isnan(one.cost) else human(one.cost, unit),
         )

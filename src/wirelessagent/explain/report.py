@@ -9,6 +9,7 @@ import numpy as np
 
 from wirelessagent import chain, plugins
 from wirelessagent.explain.labels import worded
+from wirelessagent.explain.sentences import sentences
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.metrics import LinkMetrics, jain_index, metrics_of_rates
 from wirelessagent.model.objective import Objective
@@ -149,8 +150,8 @@ def _objective(decision: Decision) -> Objective:
     return objective
 
 
-def cannot_be_served(decision: Decision) -> str:
-    """One sentence on users without any rate, where that makes the decision worthless; empty where it does not."""
+def cannot_be_served(decision: Decision, language: str = "en") -> str:
+    """How many users get no rate, where that makes the decision worthless; empty where it does not."""
     objective = decision.problem.objective
     if decision.value != 0 or not isinstance(objective, Objective) or objective.measure == "power":
         return ""
@@ -158,10 +159,11 @@ def cannot_be_served(decision: Decision) -> str:
     starved = np.flatnonzero(counts & (decision.rate_bps <= 0))
     if not starved.size:
         return ""
-    left = f"{starved.size} user{'s' if starved.size > 1 else ''} cannot be served"
-    served, size = int(np.count_nonzero(counts)), decision.problem.resource_block_group_size
-    places, kind = -(-decision.owner.size // size), "subcarriers" if size == 1 else "resource-block groups"
-    return f"{left}: there are {places} {kind} for {served} users" if places < served else left
+    words = sentences(language)
+    users, size = int(np.count_nonzero(counts)), decision.problem.resource_block_group_size
+    places, kind = -(-decision.owner.size // size), words["subcarriers" if size == 1 else "groups_of"]
+    key = "cannot_serve_places" if places < users else "cannot_serve"
+    return words[key].format(left=starved.size, users=users, places=places, kind=kind)
 
 
 def name_of_figure(decision: Decision, language: str = "en") -> str:

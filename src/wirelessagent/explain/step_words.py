@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.lexicon import Lexicon, outcome_in_words, paragraph, reason_in_words, value_name
+from wirelessagent.explain.labels import called
+from wirelessagent.explain.lexicon import Lexicon, outcome_in_words, paragraph, value_name
 from wirelessagent.explain.prices import marginal_prices
+from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.steps import Step
 from wirelessagent.model.units import human, percent
 
@@ -79,7 +81,7 @@ def step_answer(case: Case, step: Step, language: str) -> str:
     if before.is_usable and after.is_usable:
         said += _marginal(step, language)
         said += _bound(case, step, language)
-    if not np.isnan(step.limit_w):
+    if after.is_usable and not np.isnan(step.limit_w):
         said.append(WORDS.say(language, "limit", limit=human(step.limit_w, "W")))
     return paragraph(said, language)
 
@@ -145,6 +147,6 @@ def _level(step: Step) -> str:
 
 def _who(case: Case, step: Step, language: str) -> str:
     if step.user is not None:
-        return f" {case.estimate.user_names[step.user]} " if language == "zh" else case.estimate.user_names[step.user]
+        return called(language, case.estimate.user_names[step.user])
     spread = np.ptp(case.promised_bps[case.served]) > 0
     return WORDS.say(language, "everybody_more" if spread else "everybody", step=human(step.step, "bit/s"))

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from wirelessagent.explain.labels import worded
+from wirelessagent.explain.labels import called, worded
+from wirelessagent.explain.reasons import power_in_words
 from wirelessagent.explain.report import Report
 from wirelessagent.explain.table import Table
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.forecast import Forecast
 from wirelessagent.model.units import human, percent, prefixed, reliability
+
+_ROUNDED_UP = 1.0005
+"""So that what rounds to 1000 of a unit is 1 of the next."""
 
 
 def decision_tables(report: Report, estimate: ChannelEstimate | None, language: str = "en") -> list[Table]:
@@ -25,7 +29,7 @@ def figures_of_infeasibility(decision: Decision, language: str = "en") -> Table:
     rows: list[tuple[str, ...]] = []
     if decision.needed_power_w is not None:
         need, label = decision.needed_power_w, worded(language, "power that the promised rates need")
-        rows.append((label, human(need.at_least, "W"), human(need.at_most, "W")))
+        rows.append((label, *(power_in_words(one, language) for one in (need.at_least, need.at_most))))
     if decision.rate_scaling is not None:
         scale, label = decision.rate_scaling, worded(language, "largest common scaling of the promised rates")
         rows.append((label, f"{scale.at_least:.3g}", f"{scale.at_most:.3g}"))
@@ -65,8 +69,9 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None, language
 def _user(report: Report, estimate: ChannelEstimate | None, language: str, user: int) -> tuple[str, ...]:
     """The row of one user in the columns of :func:`user_table`."""
     decision, forecast = report.decision, report.decision.forecast
-    own, judged = decision.owner == user, decision.expected_rate_bps.size > 0
-    row = [decision.user_names[user], str(int(own.sum()))]
+    own = (decision.owner == user) & (decision.power_w > 0)
+    judged = decision.expected_rate_bps.size > 0
+    row = [called(language, decision.user_names[user]), str(int(own.sum()))]
     if estimate is not None:
         row.append(str(int((own & estimate.repaired[user]).sum())))
     row.append(human(float(decision.power_w[own].sum()), "W"))
@@ -92,7 +97,7 @@ def _shortfall(report: Report, user: int) -> float:
 
 def _banded(forecast: Forecast, user: int, rate_bps: float) -> str:
     """A rate with its band, as in "1.21 (1.1–1.3) Mbit/s"; the rate alone where the band does not show."""
-    scale, unit = prefixed(rate_bps, "bit/s")
+    scale, unit = prefixed(rate_bps * _ROUNDED_UP, "bit/s")
     low, rate, high = (f"{one / scale:.3g}" for one in (forecast.low_bps[user], rate_bps, forecast.high_bps[user]))
     return f"{rate} {unit}" if low == high else f"{rate} ({low}–{high}) {unit}"
 

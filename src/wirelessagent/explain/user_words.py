@@ -5,13 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.lexicon import Lexicon, paragraph, place, reason_in_words, value_name
+from wirelessagent.explain.labels import called
+from wirelessagent.explain.lexicon import Lexicon, paragraph, place, value_name
 from wirelessagent.explain.prices import marginal_prices
+from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.step_words import change_in_words
 from wirelessagent.explain.users import PROMISE_BPS, Account, Loss
 from wirelessagent.model.units import human, percent
 
 _TIE_DB = 0.05
+_KNOWN_DB = 0.1
 _MOST_BUDGETS = 10.0
 """A bid of more than so many budgets tells nothing."""
 _STEP_BPS = 100e3
@@ -25,8 +28,10 @@ WORDS = Lexicon(
         "above": "It is promised {promised}, and gets more because subcarriers go as a whole; 100 kbit/s more "
         "would cost {price} at the margin.",
         "beyond": "It is promised {promised}, which costs nothing, since it gets more anyway.",
-        "resting": "{repaired} of its {entries} gains were not measured; {resting} of its subcarriers rest on such "
-        "a gain.",
+        "resting": "{repaired} of its {entries} gains were not measured; of the {count} subcarriers that it uses "
+        "{resting} rest on such a gain.",
+        "resting_none": "{repaired} of its {entries} gains were not measured, but it uses no subcarrier that rests on "
+        "such a gain.",
         "measured": "All its gains were measured.",
         "left_out": "{name} gets nothing because the request leaves it out.",
         "included": "If it were served too it would get {rate} with {power}, and the {figure} would be {value} "
@@ -48,6 +53,7 @@ WORDS = Lexicon(
         "gain_repaired": "Its gain there was not measured: by the repair it lies, with a probability of 90 %, "
         "within {low:+.1f} to {high:+.1f} dB of what was counted on, and is high enough to win "
         "with a probability of {chance}.",
+        "gain_close": "Its gain there was not measured, but the repair knows it within 0.1 dB.",
         "gain_noisy": "Its gain there was measured with noise, and is high enough to win with a probability of "
         "{chance}.",
         "gain_measured": "Its gain there was measured.",
@@ -58,30 +64,33 @@ WORDS = Lexicon(
         "promise_none": "A minimum rate of {rate} for it could not be met: {reason}.",
     },
     chinese={
-        "served": "{name} 得到 {rate}，功率 {power}（占总功率 {share}），占 {total} 个子载波中的 {count} 个。",
+        "served": "{name}得到 {rate}，功率 {power}（占总功率 {share}），占 {total} 个子载波中的 {count} 个。",
         "band": "真实信道以 90 % 的概率承载 {low} 至 {high}。",
         "binds": "对它的承诺为 {promised}，不多给；边际上再多 100 kbit/s 的代价为 {price}。",
         "above": "对它的承诺为 {promised}，因子载波只能整个分配而得到更多；边际上再多 100 kbit/s 的代价为 {price}。",
         "beyond": "对它的承诺为 {promised}，没有代价，因为它本来就得到更多。",
-        "resting": "它的 {entries} 个增益中有 {repaired} 个没有测得；其子载波中有 {resting} 个依赖这样的增益。",
+        "resting": "它的 {entries} 个增益中有 {repaired} 个没有测得；它所用的 {count} 个子载波中有 {resting} 个依赖"
+        "这样的增益。",
+        "resting_none": "它的 {entries} 个增益中有 {repaired} 个没有测得，但它所用的子载波都不依赖这样的增益。",
         "measured": "它的增益全部测得。",
-        "left_out": "{name} 没有得到任何速率，因为要求中不服务它。",
+        "left_out": "{name}没有得到任何速率，因为要求中不服务它。",
         "included": "如果也服务它，它会以 {power} 得到 {rate}，{figure}将为 {value}，而不是 {before}（重新求解）。",
         "included_none": "加上它则要求无法满足：{reason}。",
-        "nothing_decided": "{name} 没有得到任何速率，因为所有用户都没有：{reason}。",
-        "no_gain": "{name} 没有得到任何速率：没有它可用且能到达它的子载波。",
-        "no_weight": "{name} 没有得到任何速率：它的权重为 0，速率不计入目标。",
-        "no_promise": "{name} 没有得到任何速率：没有对它的承诺，而功率最低时只发送承诺的部分。",
-        "no_room": "{name} 没有得到任何速率：{places} 个子载波（或子载波组）无法服务 {users} 个用户。",
-        "outbid": "{name} 没有得到任何速率：在每个子载波上，别的用户都能更好地利用功率。",
-        "behind": "它最接近的是{place}，该处给了 {winner}：它在那里的增益低 {behind:.1f} dB。",
-        "worths": "按价格计，该处对 {name} 值 {bid}，对 {winner} 值 {winning}。",
-        "tie": "在{place}上它与得到者 {winner} 持平（相差 {behind:.2g} dB 以内）：整个子载波不能共享。",
-        "more": "按价格它对{place}的出价高于得到者 {winner}（{bid} 对 {winning}）；但整个子载波不能共享，整体上这样"
+        "nothing_decided": "{name}没有得到任何速率，因为所有用户都没有：{reason}。",
+        "no_gain": "{name}没有得到任何速率：没有它可用且能到达它的子载波。",
+        "no_weight": "{name}没有得到任何速率：它的权重为 0，速率不计入目标。",
+        "no_promise": "{name}没有得到任何速率：没有对它的承诺，而功率最低时只发送承诺的部分。",
+        "no_room": "{name}没有得到任何速率：{places} 个子载波（或子载波组）无法服务 {users} 个用户。",
+        "outbid": "{name}没有得到任何速率：在每个子载波上，别的用户都能更好地利用功率。",
+        "behind": "它最接近的是{place}，该处给了{winner}：它在那里的增益低 {behind:.1f} dB。",
+        "worths": "按价格计，该处对{name}值 {bid}，对{winner}值 {winning}。",
+        "tie": "在{place}上它与得到者{winner}持平（相差 {behind:.2g} dB 以内）：整个子载波不能共享。",
+        "more": "按价格它对{place}的出价高于得到者{winner}（{bid} 对 {winning}）；但整个子载波不能共享，整体上这样"
         "分配更好。",
         "bid": "{power}（{value}）",
         "gain_repaired": "它在那里的增益没有测得：按修复结果，以 90 % 的概率在所计数值的 {low:+.1f} 至 {high:+.1f} "
         "dB 之内，高到足以胜出的概率为 {chance}。",
+        "gain_close": "它在那里的增益没有测得，但修复结果的误差不超过 0.1 dB。",
         "gain_noisy": "它在那里的增益测得但有噪声，高到足以胜出的概率为 {chance}。",
         "gain_measured": "它在那里的增益是测得的。",
         "would_win": "重新求解表明：若其所有增益高 {gain:.1f} dB{weight}，它就会得到速率。",
@@ -95,7 +104,7 @@ WORDS = Lexicon(
 
 def user_answer(case: Case, account: Account, language: str) -> str:
     """What a user has and why, in a paragraph."""
-    name = case.estimate.user_names[account.user]
+    name = called(language, case.estimate.user_names[account.user])
     said = [_head(case, account, name, language)]
     if account.standing == "served":
         said += _served(case, account, language)
@@ -156,8 +165,11 @@ def _served(case: Case, account: Account, language: str) -> list[str]:
         key = ("binds" if exactly else "above") if price > 0 else "beyond"
         promised, cost = human(account.promised_bps, "bit/s"), human(price, case.decision.unit)
         said.append(WORDS.say(language, key, promised=promised, price=cost))
-    key = "resting" if account.repaired else "measured"
-    rest = {"repaired": account.repaired, "entries": account.entries, "resting": account.resting}
+    key = "resting" if account.resting else "resting_none" if account.repaired else "measured"
+    rest = {
+        "repaired": account.repaired, "entries": account.entries, "resting": account.resting,
+        "count": account.subcarriers,
+    }  # fmt: skip
     return [*said, WORDS.say(language, key, **rest)]
 
 
@@ -166,7 +178,7 @@ def _loss(case: Case, loss: Loss, name: str, language: str) -> list[str]:
     names = {
         "name": name,
         "place": place(loss.first, loss.last, language),
-        "winner": case.estimate.user_names[loss.winner],
+        "winner": called(language, case.estimate.user_names[loss.winner]),
         "bid": _bid(case, loss.bid_w, loss.bid_value, language),
         "winning": _bid(case, loss.winning_bid_w, loss.winning_bid_value, language),
     }
@@ -177,6 +189,8 @@ def _loss(case: Case, loss: Loss, name: str, language: str) -> list[str]:
         said.append(WORDS.say(language, "worths", **names))
     if np.isnan(loss.chance):
         return [*said, WORDS.say(language, "gain_measured")]
+    if loss.repaired and max(abs(loss.low_db), abs(loss.high_db)) < _KNOWN_DB:
+        return [*said, WORDS.say(language, "gain_close")]
     kind = "gain_repaired" if loss.repaired else "gain_noisy"
     chance = percent(loss.chance) if loss.chance > 0 else "< 0.1 %"
     return [*said, WORDS.say(language, kind, low=loss.low_db, high=loss.high_db, chance=chance)]

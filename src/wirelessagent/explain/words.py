@@ -8,9 +8,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from wirelessagent import chain
+from wirelessagent.explain.labels import called
+from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.report import Report, cannot_be_served, name_of_figure
 from wirelessagent.explain.sentences import sentences
-from wirelessagent.model.arrays import BoolArray
+from wirelessagent.model.arrays import BoolArray, IntArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
@@ -18,6 +20,9 @@ from wirelessagent.model.units import db, human, percent, reliability
 
 _SURE = 0.95
 """The probability from which a promise without an outage probability goes without a warning."""
+
+_NO_REGRET = 5e-4
+"""A share of the rate that nobody would miss."""
 
 
 def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") -> list[str]:
@@ -27,7 +32,7 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
     objective = decision.problem.objective
     assert isinstance(objective, Objective)
     if not decision.is_usable:
-        return [words[decision.status].format(reason=decision.reason)]
+        return [words[decision.status].format(reason=reason_in_words(decision, language))]
     if objective.measure == "power" and decision.problem.min_rate_bps is None and not decision.power_w.any():
         return [words["no_promise"]]
     figure = name_of_figure(decision, language)
@@ -35,7 +40,7 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
     said += _promised_at(words, decision)
     said += _forecast(words, decision)
     said += _groups(words, decision, estimate, figure)
-    said += [decision.reason] if decision.reason and not cannot_be_served(decision) else []
+    said += _remark(words, decision, language)
     said += _prices(words, decision, objective, figure)
     said += _idle_users(words, decision, estimate)
     said.append(_repair(words, decision, estimate))
@@ -43,6 +48,14 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
     said += _outcome(words, report)
     said += _regret(words, report, objective, figure)
     return said
+
+
+def _remark(words: Mapping[str, str], decision: Decision, language: str) -> list[str]:
+    """What else the decision says of itself."""
+    if not decision.reason or cannot_be_served(decision):
+        return []
+    said = reason_in_words(decision, language)
+    return [words["sentence"].format(said=said[:1].upper() + said[1:])]
 
 
 def _allocation(words: Mapping[str, str], decision: Decision) -> str:
@@ -59,12 +72,12 @@ def _allocation(words: Mapping[str, str], decision: Decision) -> str:
 
 def _certificate(words: Mapping[str, str], decision: Decision) -> str:
     if np.isnan(decision.gap):
-        return words["no_bound"].format(method=decision.method)
+        return words["no_bound"].format(method=called(words["language"], decision.method))
     outage = "outage_" if decision.expected_rate_bps.size else ""
     if decision.status == "optimal" and decision.gap <= OPTIMAL_GAP:
         return words[f"{outage}optimal"]
     if np.isinf(decision.gap):
-        return words["zero_bound"].format(method=decision.method)
+        return words["zero_bound"]
     bound = human(decision.bound, decision.unit)
     if decision.gap > 1.0 and decision.value * decision.bound > 0:  # percents beyond 100 tell nothing
         return words["times"].format(bound=bound, times=decision.value / decision.bound)
@@ -87,7 +100,7 @@ def _forecast(words: Mapping[str, str], decision: Decision) -> list[str]:
         return []
     mean, low, high = float(forecast.mean_bps.sum()), forecast.sum_low_bps, forecast.sum_high_bps
     shown = {name: human(rate, "bit/s") for name, rate in (("mean", mean), ("low", low), ("high", high))}
-    said = [words["forecast"].format(**shown)]
+    said = [words["forecast_sure" if shown["low"] == shown["high"] else "forecast"].format(**shown)]
     if decision.expected_rate_bps.size:
         return said
     least = int(np.argmin(np.where(decision.committed_bps > 0, forecast.carried, np.inf)))
@@ -97,7 +110,7 @@ def _forecast(words: Mapping[str, str], decision: Decision) -> list[str]:
         return [*said, words["commitment"].format(committed=committed, sure=sure)]
     if forecast.carried[least] >= _SURE:
         return said
-    return [*said, words["unsure"].format(name=decision.user_names[least], sure=sure)]
+    return [*said, words["unsure"].format(name=_user(words, decision, least), sure=sure)]
 
 
 def _groups(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate, figure: str) -> list[str]:
@@ -130,7 +143,7 @@ def _goal(words: Mapping[str, str], decision: Decision, objective: Objective, fi
     if figure:
         said.append(words["figure"].format(figure=figure, value=human(decision.value, decision.unit)))
         starved = (decision.rate_bps <= 0) & _counts(decision) & (decision.value == 0)
-        names = words["comma"].join(decision.user_names[user] for user in np.flatnonzero(starved))
+        names = _users(words, decision, np.flatnonzero(starved))
         said += [words["starved"].format(names=names, figure=figure)] if names else []
     weight = decision.problem.weights_of(decision.rate_bps.size)
     weight = weight[decision.problem.serves(weight.size)]
@@ -157,7 +170,7 @@ def _prices(words: Mapping[str, str], decision: Decision, objective: Objective, 
     if np.any(cost > 0):
         dearest = int(np.nanargmax(cost))
         price = human(float(cost[dearest]) * 100e3, decision.unit)
-        user = decision.user_names[dearest]
+        user = _user(words, decision, dearest)
         sentence = words["rate_figure" if figure else "rate_price"]
         said.append(sentence.format(step="100 kbit/s", user=user, price=price, figure=figure))
     return said
@@ -175,12 +188,18 @@ def _idle_users(words: Mapping[str, str], decision: Decision, estimate: ChannelE
     closest = int(np.argmin(margin_db))
     if not np.isfinite(margin_db[closest]) or margin_db[closest] <= 0:
         return []
-    names = [decision.user_names[user] for user in idle]
-    if len(names) == 1:
-        return [words["idle_one"].format(names=names[0], margin=float(margin_db[closest]))]
-    return [
-        words["idle"].format(names=words["comma"].join(names), margin=float(margin_db[closest]), closest=names[closest])
-    ]
+    names, margin = _users(words, decision, idle), float(margin_db[closest])
+    if idle.size == 1:
+        return [words["idle_one"].format(names=names, margin=margin)]
+    return [words["idle"].format(names=names, margin=margin, closest=_user(words, decision, int(idle[closest])))]
+
+
+def _user(words: Mapping[str, str], decision: Decision, user: int) -> str:
+    return called(words["language"], decision.user_names[user])
+
+
+def _users(words: Mapping[str, str], decision: Decision, users: IntArray) -> str:
+    return words["comma"].join(_user(words, decision, int(user)) for user in users)
 
 
 def _repair(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate) -> str:
@@ -191,7 +210,7 @@ def _repair(words: Mapping[str, str], decision: Decision, estimate: ChannelEstim
     return words["repaired"].format(
         missing=missing,
         entries=estimate.repaired.size,
-        method=estimate.method,
+        method=called(words["language"], estimate.method),
         used=in_use.size,
         resting=int(estimate.repaired[decision.owner[in_use], in_use].sum()),
     )
@@ -199,8 +218,8 @@ def _repair(words: Mapping[str, str], decision: Decision, estimate: ChannelEstim
 
 def _guesses(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate) -> list[str]:
     """A warning for users whose level nobody ever observed."""
-    unseen = [decision.user_names[user] for user in np.flatnonzero(estimate.unobserved_users)]
-    return [words["guessed"].format(names=words["comma"].join(unseen))] if unseen else []
+    unseen = np.flatnonzero(estimate.unobserved_users)
+    return [words["guessed"].format(names=_users(words, decision, unseen))] if unseen.size else []
 
 
 def _outcome(words: Mapping[str, str], report: Report) -> list[str]:
@@ -213,7 +232,7 @@ def _outcome(words: Mapping[str, str], report: Report) -> list[str]:
     promised, carried = report.decision.committed_bps[missed], report.achieved.user_rate_bps[missed]
     return [
         words["missed"].format(
-            names=words["comma"].join(report.decision.user_names[user] for user in missed),
+            names=_users(words, report.decision, np.array(missed)),
             short=percent(float(np.max(1 - carried / promised))),
             rate=rate,
         )
@@ -236,6 +255,8 @@ def _regret(words: Mapping[str, str], report: Report, objective: Objective, figu
                 figure=figure or words["value"], perfect=best, cost=percent(max(report.regret, 0.0))
             )
         ]
+    if report.goodput_regret < _NO_REGRET:
+        return [words["regret_none"].format(perfect=best)]
     return [
         words["regret_goodput"].format(
             perfect=best,
