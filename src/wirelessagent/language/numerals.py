@@ -1,7 +1,7 @@
-"""Numbers as people write them: digits, English words and Chinese numerals, exact as decimals.
+"""Numbers as people write and say them, in digits, words and Chinese numerals, exact as decimals.
 
-Missing on purpose: ordinals, fractions other than halves and quarters, and vague amounts ("a few"), which are reported
-as numbers without a value so that nobody acts on half of one ("a few hundred" is not 100).
+Missing on purpose: ordinals, thirds, and vague amounts ("a few", 三十来), which are reported as numbers without a value
+so that nobody acts on half of one ("a few hundred" is not 100).
 """
 
 from __future__ import annotations
@@ -11,72 +11,60 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 
-from wirelessagent.language.text import language_of
+from wirelessagent.language.number_words import LANGUAGES, Spoken, may_begin, spoken
+from wirelessagent.language.text import USER_NOUN, language_of
+from wirelessagent.language.units import unit_at
 
-_ONES = (
-    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen "
-    "eighteen nineteen"
-)
-_TENS = "twenty thirty forty fifty sixty seventy eighty ninety"
-_SMALL = {
-    **{word: Decimal(value) for value, word in enumerate(_ONES.split())},
-    **{word: Decimal(10 * value) for value, word in enumerate(_TENS.split(), start=2)},
-    "a": Decimal(1),
-    "an": Decimal(1),
+_SCALES = {
+    **dict.fromkeys(("hundred", "cents"), 100),
+    **dict.fromkeys(("thousand", "mil", "mille", "tausend"), 10**3),
+    **dict.fromkeys(("million", "millions", "millón", "millones", "millionen"), 10**6),
+    **dict.fromkeys(("billion", "milliard", "milliards", "milliarden"), 10**9),
 }
-_SCALES = {"hundred": Decimal(100), "thousand": Decimal(10**3), "million": Decimal(10**6), "billion": Decimal(10**9)}
-_VAGUE = ("few", "several", "couple", "dozen", "dozens", "hundreds", "thousands", "third", "tenth")
-_PARTS = {"half": Decimal("0.5"), "quarter": Decimal("0.25"), "quarters": Decimal("0.25")}
-
-# Number words of other languages, which count only in front of a unit: "once" is also English.
-_FOREIGN = {
-    "en_es": "uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince dieciséis diecisiete "
-    "dieciocho diecinueve veinte",
-    "en_fr": "un deux trois quatre cinq six sept huit neuf dix onze douze treize quatorze quinze seize dix-sept "
-    "dix-huit dix-neuf vingt",
-    "en_de": "ein zwei drei vier fünf sechs sieben acht neun zehn elf zwölf dreizehn vierzehn fünfzehn sechzehn "
-    "siebzehn achtzehn neunzehn zwanzig",
-}
-_FOREIGN_WORDS = {
-    **{word: Decimal(place) for listing in _FOREIGN.values() for place, word in enumerate(listing.split(), start=1)},
-    "una": Decimal(1), "une": Decimal(1), "eine": Decimal(1), "einen": Decimal(1), "eins": Decimal(1),
-    "medio": Decimal("0.5"), "media": Decimal("0.5"), "demi": Decimal("0.5"), "halbes": Decimal("0.5"),
-    "anderthalb": Decimal("1.5"), "eineinhalb": Decimal("1.5"), "zweieinhalb": Decimal("2.5"),
-    "treinta": Decimal(30), "trente": Decimal(30), "dreißig": Decimal(30), "cuarenta": Decimal(40),
-    "quarante": Decimal(40), "vierzig": Decimal(40), "cincuenta": Decimal(50), "cinquante": Decimal(50),
-    "fünfzig": Decimal(50), "cien": Decimal(100), "cent": Decimal(100), "hundert": Decimal(100),
-    "veinticinco": Decimal(25), "vingt-cinq": Decimal(25), "fünfundzwanzig": Decimal(25),
-    "doscientos": Decimal(200), "quinientos": Decimal(500), "zweihundert": Decimal(200), "fünfhundert": Decimal(500),
+_PARTS = {
+    **dict.fromkeys(("half", "medio", "media", "demi", "demie", "halb", "halbes"), Decimal("0.5")),
+    **dict.fromkeys(("quarter", "cuarto", "quart", "viertel"), Decimal("0.25")),
+    "½": Decimal("0.5"), "¼": Decimal("0.25"), "¾": Decimal("0.75"),
 }  # fmt: skip
-_FOREIGN_UNIT = (
-    r"(?=[\s-]+(?:mili|milli|kilo|mega|méga|giga)?-?(?:vatios?|watts?|bits?|mbit|kbit|mbps|kbps|mb/s|"
-    r"kb/s|gbit|mw|kw|w|dbm|dbw|prozent|por\s+ciento|pour\s+cent|%)(?![a-z]))"
-)
 
 _CHINESE_DIGITS = {c: d for d, c in enumerate("零一二三四五六七八九")} | {"〇": 0, "两": 2}
 _CHINESE_SCALES = {"十": 10, "百": 100, "千": 1000}
 _CHINESE_BIG = {"万": 10**4, "亿": 10**8}
 
 _DIGITS = (
-    r"(?:(?:[1-9][0-9]{0,2}(?:,[0-9]{3})+|[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9]))(?:\.[0-9]+)?(?![0-9]|[.,][0-9])"
+    r"(?:(?:[1-9][0-9]{0,2}(?:,[0-9]{3})+|[1-9][0-9]{0,2}(?:'[0-9]{3})+|[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9]))"
+    r"(?:[.,][0-9]+)?(?![0-9]|[.,][0-9])"
     r"|[0-9]+[.,][0-9]+(?![0-9]|[.,][0-9])|[0-9]+(?:[.,][0-9]+){2,}|\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
 )
-_WORD = (
-    r"(?:" + "|".join(sorted([*_SMALL, *_SCALES, *_PARTS, *_VAGUE, "and", "point", "of"], key=len, reverse=True)) + r")"
-)
+_LETTERS = "A-Za-zÀ-ÖØ-öø-ÿ"
 _NUMBER = re.compile(
     rf"(?P<minus>(?<![A-Za-z0-9_)])-(?=[0-9.])|(?i:\b(?:minus|negative)\s+)|负\s*)?"
-    rf"(?:(?P<digits>(?<![A-Za-z0-9_.]){_DIGITS})(?:\s?(?P<scale>(?i:hundred|thousand|million|billion)\b|[百千]?万|"
-    rf"百|亿|千(?!瓦时|赫|米)))?"
-    rf"|(?P<foreign>(?i:\b(?:{'|'.join(sorted(_FOREIGN_WORDS, key=len, reverse=True))}){_FOREIGN_UNIT}))"
-    rf"|(?P<words>(?i:(?!(?<=\bas\s)(?:an?|one|few|several)\b)\b{_WORD}(?:[\s-]+{_WORD})*\b))"
+    rf"(?:(?P<digits>(?<![A-Za-z0-9_.]){_DIGITS})(?P<power>\s?[×x*·]\s?10\^(?P<exponent>[+-]?[0-9]{{1,2}})(?![0-9]))?"
+    rf"(?:\s?(?P<scale>(?i:{'|'.join(sorted(_SCALES, key=len, reverse=True))})\b(?:\s+(?:de\b|d'))?|[百千]?万|百|亿|"
+    rf"千(?!瓦时|赫|米)))?"
+    rf"|(?P<fraction>(?<![0-9])[½¼¾])|(?P<word>(?<![{_LETTERS}0-9_])[{_LETTERS}]+(?![0-9_]))"
     rf"|(?P<chinese>[几零〇一二两三四五六七八九十百千万亿半][零〇一二两三四五六七八九十百千万亿点半]*))"
 )
+_WORDS = re.compile(rf"[{_LETTERS}]+(?:(?:[\s-]{{1,2}}|'|\s?(?:\.{{3}}|…)\s?)[{_LETTERS}]+){{0,11}}")
+_WORD = re.compile(rf"[{_LETTERS}]+")
+_AND_PART = re.compile(
+    r"(?i)(?:\s+(?:and\s+an?|y|et|und\s+ein)\s+(?P<part>half|quarter|medio|media|cuarto|demie?|quart|halbes|viertel)\b|"
+    r"\s?(?P<sign>[½¼¾]))"
+)
+_OVER = re.compile(r"/(?P<below>[1-9][0-9]?)(?![0-9/])(?:\s+(?:of\s+an?|de|d'un))?")
+_VAGUELY = re.compile(r"[来多余几]")
+_THOUSANDFOLD = re.compile(r"比特|字节|瓦(?!时)")
+_AS_FEW = re.compile(r"(?i)\b(?:as|so|too|tan|aussi|zu|very|muy|trop)\s+$")
+_NAMED = re.compile(rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|y|et|und|&|/)\s*)*$")
+_BELOW_ZERO = re.compile(r"(?i)(?<!al )(?<!lo )(?<!au )(?<!ou )\b(?:menos|moins)\s+$")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Number:
-    """A number and where it stands; ``value`` is None where the amount is vague or not understood."""
+    """A number and where it stands; ``value`` is None where the amount is vague or not understood.
+
+    ``form`` is "digits", "words" (English), "foreign" (words of another language) or "chinese".
+    """
 
     value: Decimal | None
     start: int
@@ -86,81 +74,140 @@ class Number:
 
 def numbers(text: str) -> Iterator[Number]:
     """Every number in normalised text, from left to right, not overlapping."""
-    position, points_group = 0, language_of(text) in ("es", "de")
+    language = language_of(text)
+    position = 0
     while match := _NUMBER.search(text, position):
         position = match.end()
-        form = next(name for name in ("digits", "foreign", "words", "chinese") if match[name])
-        start, end, value = match.start(), match.end(), _value_of(match, form, points_group=points_group)
-        if form == "words":
-            start, end, value = _trim_words(match)
-        if value is not None and match["minus"]:
-            value = -value
-        if end > start:
-            yield Number(value=value, start=start, end=end, form=form)
+        if match["word"]:
+            number = _in_words(text, match, "en" if language == "zh" else language)
+        elif match["digits"] or match["fraction"]:
+            number = _in_digits(text, match, language)
+        else:
+            number = _in_chinese(text, match)
+        if number is not None:
+            position = max(number.end, match.start() + 1)
+            yield number
 
 
-def _value_of(match: re.Match[str], form: str, *, points_group: bool) -> Decimal | None:
-    if form == "chinese":
-        return chinese_value(match["chinese"])
-    if form == "foreign":
-        return _FOREIGN_WORDS[match["foreign"].lower()]
-    if form == "words":
-        return None
-    digits = match["digits"]
-    if re.match(r"[1-9][0-9]{0,2}(?:,[0-9]{3})+(?![0-9])", digits):
+def and_part(text: str, position: int) -> tuple[Decimal, int] | None:
+    """The half or quarter that follows a figure, "y medio", and where it ends."""
+    match = _AND_PART.match(text, position)
+    return (_PARTS[(match["part"] or match["sign"]).lower()], match.end()) if match is not None else None
+
+
+def _signed(match: re.Match[str], text: str, number: Number) -> Number:
+    """The number below zero where a minus stands before it; "menos" only where it cannot mean "less"."""
+    minus = match["minus"]
+    if not minus and _BELOW_ZERO.search(text, max(0, number.start - 12), number.start):
+        unit = unit_at(text, number.end)
+        minus = unit is not None and unit.level_dbm is not None
+    if not minus or number.value is None:
+        return number
+    return Number(value=-number.value, start=match.start(), end=number.end, form=number.form)
+
+
+def _in_digits(text: str, match: re.Match[str], language: str) -> Number:
+    start, end = match.start("digits" if match["digits"] else "fraction"), match.end()
+    digits = match["digits"] or match["fraction"]
+    if " " in digits and _NAMED.search(text, max(0, start - 40), start):
+        digits = digits.split(" ")[0]  # "UE 2 750 kbit/s": a name, then a figure
+        return Number(value=Decimal(digits), start=start, end=start + len(digits), form="digits")
+    value = _PARTS.get(digits) or _digits_value(digits, language)
+    if value is not None and match["exponent"]:
+        value = value.scaleb(int(match["exponent"]))
+    scale = (match["scale"] or "").lower().removesuffix("d'").removesuffix("de").strip()
+    if value is not None and scale:
+        value *= _scale_value(scale, language)
+    over = _OVER.match(text, end) if value is not None and not scale else None
+    if value is not None and over is not None and unit_at(text, over.end()) is not None:
+        share = value / int(over["below"])
+        value, end = share if share * int(over["below"]) == value else None, over.end()
+    part = and_part(text, end)
+    if value is not None and part is not None and unit_at(text, part[1]) is not None:
+        value, end = value + part[0], part[1]
+    if _VAGUELY.match(text, end) and unit_at(text, end + 1) is not None:
+        value, end = None, end + 1
+    return _signed(match, text, Number(value=value, start=start, end=end, form="digits"))
+
+
+def _scale_value(scale: str, language: str) -> int:
+    if scale.isascii() or scale == "millón":
+        return 1 if scale == "mil" and language != "es" else _SCALES[scale]
+    value = 1
+    for letter in scale:
+        value *= _CHINESE_SCALES.get(letter) or _CHINESE_BIG[letter]
+    return value
+
+
+def _digits_value(digits: str, language: str) -> Decimal | None:
+    """The value of digits; what a single mark before three of them means depends on the language."""
+    groups = language in ("es", "de")
+    if re.match(r"[1-9][0-9]{0,2}(?:'[0-9]{3})+(?![0-9])", digits):
+        digits = digits.replace("'", "")
+    elif re.match(rf"[1-9][0-9]{{0,2}}(?:,[0-9]{{3}}){{{2 if language in ('de', 'fr') else 1},}}(?![0-9])", digits):
         digits = digits.replace(",", "")
-    elif re.match(rf"[1-9][0-9]{{0,2}}(?:\.[0-9]{{3}}){{{1 if points_group else 2},}}(?![0-9])", digits):
+    elif re.match(rf"[1-9][0-9]{{0,2}}(?:\.[0-9]{{3}}){{{1 if groups else 2},}}(?![0-9])", digits):
         digits = digits.replace(".", "")
     if len(re.findall(r"[.,]", digits)) > 1:
         return None  # "1,23,456": what the marks mean is anybody's guess
-    value = Decimal(digits.replace(" ", "").replace(",", "."))
-    for letter in match["scale"] or "" if not (match["scale"] or "").isascii() else ():
-        value *= _CHINESE_SCALES.get(letter) or _CHINESE_BIG[letter]
-    return value * _SCALES.get((match["scale"] or "").lower(), 1)
+    return Decimal(digits.replace(" ", "").replace(",", "."))
 
 
-def _trim_words(match: re.Match[str]) -> tuple[int, int, Decimal | None]:
-    """Where the number stands once "and", "of" or "point" at its ends are cut off, and its value."""
-    words = list(re.finditer(r"[A-Za-z]+", match["words"]))
-    names = [word.group().lower() for word in words]
-    loose = ("and", "of", "point")
-    first = next((i for i, name in enumerate(names) if name not in loose), None)
-    if first is None:
-        return match.start(), match.start(), None
-    last = max(i for i, name in enumerate(names) if name not in loose)
-    start = match.start() if match["minus"] else match.start("words") + words[first].start()
-    value = None if first and names[first - 1] == "of" else words_value(names[first : last + 1])
-    return start, match.start("words") + words[last].end(), value
-
-
-def words_value(words: list[str]) -> Decimal | None:
-    """The value of a number in English words; None where they do not make one.
-
-    >>> words_value("three hundred and fifty".split()), words_value("one and a half".split())
-    (Decimal('350'), Decimal('1.5'))
-    """
-    whole, group, fraction = Decimal(0), None, ""
-    for index, word in enumerate(words):
-        if word == "point":
-            fraction = "."
-        elif fraction and word in _SMALL and _SMALL[word] < 10:
-            fraction += str(_SMALL[word])
-        elif word in _VAGUE:
-            return None
-        elif word in ("and", "of") or (word in ("a", "an") and index):
+def _in_words(text: str, match: re.Match[str], own: str) -> Number | None:
+    """The number that begins with a word: in the sentence's language, or in another where a unit follows."""
+    word = match["word"]
+    for language in (own, *(language for language in LANGUAGES if language != own)):
+        if not may_begin(word, language):
             continue
-        elif word in _PARTS:
-            times = word == "quarters" or words[:index] in (["a"], ["an"])  # "three quarters", "a quarter of a megabit"
-            group = group * _PARTS[word] if times and group is not None else (group or 0) + _PARTS[word]
-        elif word in _SCALES:
-            group = (Decimal(1) if group is None else group) * _SCALES[word]
-            if _SCALES[word] > 100:
-                whole, group = whole + group, None
-        elif group is not None and not (group % 10 == 0 and _SMALL[word] < 10) and group % 100 != 0:
-            return None  # "two three" is not a number
-        else:
-            group = (group or Decimal(0)) + _SMALL[word]
-    return whole + (group or 0) + (Decimal("0" + fraction) if len(fraction) > 1 else 0)
+        run = _WORDS.match(text, match.start("word"))
+        assert run is not None
+        places = list(_WORD.finditer(run.group()))
+        said = spoken([place.group() for place in places], language)
+        number = _placed(text, match, said, places, language) if said is not None else None
+        if number is None:
+            continue
+        measured = unit_at(text, number.end) is not None
+        if measured and not (said and said.is_article and language == "en" != own):
+            return _signed(match, text, number)
+        if language == own and _stands_alone(text, number, said):
+            return number
+    return None
+
+
+def _placed(
+    text: str, match: re.Match[str], said: Spoken | None, places: list[re.Match[str]], language: str
+) -> Number | None:
+    assert said is not None
+    start, form = match.start("word"), "words" if language == "en" else "foreign"
+    if said.value is None and _AS_FEW.search(text, max(0, start - 8), start):
+        return None  # "as few watts as possible"
+    end, linked = start + places[said.words - 1].end(), start + places[said.linked - 1].end()
+    if said.linked > said.words and text[linked : linked + 1] == "'":
+        linked += 1
+    if linked > end and unit_at(text, linked) is not None:
+        end = linked
+    if said.words > 1 and _NAMED.search(text, max(0, start - 40), start) and unit_at(text, end) is not None:
+        first = spoken([places[0].group()], language)  # "user one hundred kilobits": a name, then a figure
+        return first and Number(value=first.value, start=start, end=start + places[0].end(), form=form)
+    return Number(value=said.value, start=start, end=end, form=form)
+
+
+def _stands_alone(text: str, number: Number, said: Spoken | None) -> bool:
+    """Whether words without a unit are a number: no article, and no vague word of a language other than English."""
+    if said is None or said.is_article:
+        return number.form == "foreign" and text[number.start : number.end].lower() == "eines"
+    return said.value is not None or number.form == "words"
+
+
+def _in_chinese(text: str, match: re.Match[str]) -> Number:
+    start, end = match.start("chinese"), match.end()
+    numeral = match["chinese"]
+    value = chinese_value(numeral)
+    if value is None and numeral.endswith("千") and _THOUSANDFOLD.match(text, end):
+        value, end = chinese_value(numeral[:-1]), end - 1  # 一百二十八千比特: 千比特 is the unit
+    if _VAGUELY.match(text, end) and unit_at(text, end + 1) is not None:
+        value, end = None, end + 1
+    return _signed(match, text, Number(value=value, start=start, end=end, form="chinese"))
 
 
 def chinese_value(numeral: str) -> Decimal | None:

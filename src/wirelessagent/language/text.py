@@ -50,6 +50,12 @@ _SMALL: dict[str, str] = {
 _SMALL_WORDS = {language: frozenset(words.split()) for language, words in _SMALL.items()}
 _LETTERS = {"es": "ñ¿¡", "fr": "çêœàùèîû", "de": "ßäöü"}
 
+USER_NOUN = (
+    r"(?:users?|ues?|subscribers?|customers?|clients?|devices?|phones?|terminals?|usuarios?|abonados?|clientes?|"
+    r"utilisateurs?|abonnés?|usagers?|nutzern?|teilnehmern?|kunden?|abonnenten?|endgeräte?)"
+    r"(?:\s*(?:number|nummer|número|numéro|no\.?|nr\.?|n°|nº|#))?"
+)
+
 CLAUSE_END = r"[,;:!?()\n\uff0c\uff1b。、…—]|\.(?![0-9])"
 
 

@@ -24,35 +24,48 @@ _PREFIXES = {
     "T": 12, "t": 12, "tera": 12, "太": 12,
 }  # fmt: skip
 
+_SECOND = r"(?:(?:seconds?|secs?|segundos?|seg|secondes?|sekunden?|sek|s)(?![A-Za-z0-9_])|秒钟?)"
 _PER_SECOND = (
-    r"(?:\s*(?:/|\bper\b|\ba\b|\bp\b|\bpor\b|\bpar\b|\bpro\b|\bje\b|每)\s*"
-    r"(?:(?:seconds?|secs?|segundos?|secondes?|sekunden?|sek|s)(?![A-Za-z0-9_])|秒钟?)|ps(?![A-Za-z0-9_]))"
+    r"(?:\s*(?:/|\b(?:per|an?|each|every|p|por|al|cada|par|à\s+la|la|pro|je|in\s+der|die)\b|每)\s*"
+    rf"{_SECOND}|ps(?![A-Za-z0-9_]))"
 )
 _END = r"(?![A-Za-z0-9])"
 
-_LEVEL = re.compile(rf"(?i:(?P<level>dbmw|dbm|dbw){_END})|(?P<zh_level>分贝毫瓦|毫瓦分贝|分贝瓦)")
+_LEVEL = re.compile(
+    rf"(?i:(?P<level>dbmw|dbms?|dbw){_END}|(?:decibels?|d[ée]cibel(?:io)?s|dezibel)[ -](?:milli-?watts?|"
+    rf"milivatios?){_END})|(?P<zh_level>分贝毫瓦|毫瓦分贝|分贝瓦)"
+)
 _WATT = re.compile(
     rf"(?P<symbol>[nuμmkKMG]?)[wW]{_END}|(?i:(?P<word>nano|micro|milli|mili|kilo|mega|giga)?[ -]?(?:watts?|vatios?|"
     rf"watios?){_END})"
-    r"|(?P<zh>[纳微毫千兆]?)瓦特?(?!时|分贝)"
+    r"|(?P<zh>[纳微毫千兆]?)(?:瓦特?(?!时|分贝)|哇(?!塞))"
 )
 _BIT = re.compile(
     rf"(?P<prefix>[kKmMgGtT]?)(?P<binary>i?)(?:(?P<short>[bB])(?P<ps>[pP][sS]){_END}"
-    rf"|(?P<core>(?i:bits?|bytes?)|[bB])(?:(?i:{_PER_SECOND})(?P<per>)|{_END}))"
+    rf"|(?P<core>(?i:bits?|bytes?|octets?)|[bB]|o(?=/s))(?:(?i:{_PER_SECOND})(?P<per>)|{_END}))"
 )
 _BIT_WORD = re.compile(
-    rf"(?i:(?P<word>kilo|mega|méga|giga|tera)[ -]?(?P<core>bits?|bytes?)(?:{_PER_SECOND}(?P<per>)|{_END}))"
+    rf"(?i:(?P<word>kilo|mega|méga|giga|tera)[ -]?(?P<core>bits?|bytes?|octets?)(?:{_PER_SECOND}(?P<per>)|{_END}))"
+)
+_SPOKEN = re.compile(  # "two megs", "3 megas"; gigas are files unless there is a second
+    rf"(?i:(?:(?P<mega>megs?|m[eé]gas?)|(?P<kilo>kays?)|(?P<giga>gigs?|gigas?)(?={_PER_SECOND})){_END}"
+    rf"(?:{_PER_SECOND})?(?!\s?-?(?:bits?|bytes?|octets?|watts?|vatios?|hertz|hz|pixels?|p[ií]xel|joules?|julios?|"
+    rf"ohms?|euros?)\b))"
 )
 _BIT_ZH = re.compile(
     rf"(?:(?P<prefix>[千兆吉太kKmMgG]?)\s?(?P<core>比特|字节)|(?P<mega>兆)(?P<latin>(?i:bits?|b|"
     rf"(?=ps))?)(?![瓦赫焦]|\s*(?i:hz|w|b)))"
     rf"(?P<per>(?i:{_PER_SECOND}|ps{_END}))?"
 )
-_RATIO = re.compile(rf"%|(?i:(?:percent|per\s+cent|pct|prozent|por\s+ciento|pour\s+cent){_END})")
+_RATIO = re.compile(
+    rf"%|(?i:(?:percent|per\s+cent|pct|prozent(?:ig(?:e[rnms]?)?)?|por\s+ciento|pour\s+cent|por\s+cien){_END})|"
+    rf"(?P<thousandth>‰|(?i:(?:per\s+mille?|per\s+thousand|promille|por\s+mil|pour\s+mille){_END}))"
+)
 _NOT_A_RATE_OR_POWER = re.compile(
-    r"\s*(?:/|每)\s*(?!user|ue\b|person|device|sensor|人|用户|subscriber|head|each)(?=[A-Za-z])"
-    r"|\s*(?i:(?:per|pro|par|por)\s+(?:\w?hz|hertz|megahertz|kilohertz|joules?|j|watts?|w|hours?|symbol|bit)\b)"
-    r"|[\s·-]*(?i:h|hrs?|hours?)\b|小时|\s*/?每?(?:赫兹?|焦耳?)"
+    r"(?i)(?:/|每)\s?(?!user|ue|person|device|sensor|人|用户|subscriber|customer|head|each)(?=[A-Z])"
+    r"|\s*(?:/|(?:per|pro|par|por)\s)\s*(?:\w?hz|hertz|megahertz|kilohertz|joules?|j|watts?|w|hours?|symbol|bit|"
+    r"m2|m²|kg)\b"
+    r"|[\s·-]*(?:h|hrs?|hours?|horas?|heures?|stunden?)\b|小时|\s*/?每?(?:赫兹?|焦耳?)"
 )
 
 
@@ -83,9 +96,12 @@ _PER_ANOTHER_TIME = re.compile(
 _OF_ANOTHER_TIME = re.compile(r"每个?(?:分钟?|小时|天|周|月)[^,\uff0c。;]{0,6}$")
 
 
+_GAP = re.compile(r"\s?个\s?|-|\s{0,2}")
+
+
 def unit_at(text: str, position: int) -> Unit | None:
     """The unit that begins at this place of a normalised text, after at most a space or a hyphen."""
-    gap = re.compile(r"\s{0,2}|-|个").match(text, position)
+    gap = _GAP.match(text, position)
     for start in sorted({gap.end() if gap else position, position}, reverse=True):
         for read in (_level, _power, _rate, _ratio):
             found = read(text, start)
@@ -128,15 +144,23 @@ def _rate(text: str, start: int) -> Unit | None:
         return Unit(kind="rate", end=match.end(), factor=bits * _scale(prefix, binary=False))
     match = _BIT_WORD.match(text, start)
     if match is not None:
-        return _unit_of_bits(match, match["word"].lower(), match["core"].lower().startswith("byte"))
+        return _unit_of_bits(match, match["word"].lower(), match["core"].lower().startswith(("byte", "o")))
     match = _BIT.match(text, start)
     if match is None:
-        return None
+        return _spoken_rate(text, start)
     prefix, core = match["prefix"], match["short"] or match["core"]
-    is_bytes = core.lower().startswith("byte") or core == "B"
+    is_bytes = core.lower().startswith(("byte", "o")) or core == "B"
     if match["short"] == "B" and match["ps"] == "PS":
         is_bytes = False  # in capitals throughout: the usual bps, shouted
     return _unit_of_bits(match, prefix, is_bytes)
+
+
+def _spoken_rate(text: str, start: int) -> Unit | None:
+    match = _SPOKEN.match(text, start)
+    if match is None:
+        return None
+    exponent = 6 if match["mega"] else 3 if match["kilo"] else 9
+    return Unit(kind="rate", end=match.end(), factor=Decimal(10) ** exponent)
 
 
 def _unit_of_bits(match: re.Match[str], prefix: str, is_bytes: bool) -> Unit | None:
@@ -156,4 +180,6 @@ def _scale(prefix: str, *, binary: bool) -> Decimal:
 
 def _ratio(text: str, start: int) -> Unit | None:
     match = _RATIO.match(text, start)
-    return Unit(kind="ratio", end=match.end(), factor=Decimal("0.01")) if match else None
+    if match is None:
+        return None
+    return Unit(kind="ratio", end=match.end(), factor=Decimal("0.001" if match["thousandth"] else "0.01"))

@@ -1,0 +1,331 @@
+"""Numbers in words, by one grammar with a table for each language: "forty-five hundred", "siebzehneinhalb".
+
+What adds (twenty, five), what multiplies (hundred, million) and what divides (half, quarter) is all that a table says;
+each word added must fit into the room that the one before leaves, so that "two three" and "vingt cinquante" are no
+numbers. Vague amounts ("a few hundred", "quelques", "una treintena") are numbers without a value.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from decimal import Decimal
+
+_PLAIN = str.maketrans("áàâäéèêëíîïóôöúùûüñç", "aaaaeeeeiiiooouuuunc")
+_GERMAN_PLAIN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
+_ONE, _HALF, _QUARTER, _TENTH = Decimal(1), Decimal("0.5"), Decimal("0.25"), Decimal("0.1")
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Grammar:
+    """The number words of a language, without accents: what each adds, multiplies by or takes a part of."""
+
+    values: Mapping[str, int]
+    scales: Mapping[str, int]
+    parts: Mapping[str, Decimal]
+    articles: frozenset[str]
+    joins: frozenset[str]
+    points: frozenset[str]
+    links: frozenset[str]
+    vague: frozenset[str]
+    added: Mapping[str, Decimal] = field(default_factory=dict[str, Decimal])
+    dozens: frozenset[str] = frozenset()
+
+    def knows(self, word: str) -> bool:
+        """Whether a number may begin with this word."""
+        return any(word in words for words in (self.values, self.scales, self.parts, self.vague, self.added)) or (
+            word in self.articles or word in self.dozens or word in self.points
+        )
+
+
+def _counted(words: str, start: int = 0, step: int = 1) -> dict[str, int]:
+    return {word: start + step * place for place, word in enumerate(words.split())}
+
+
+def _words(words: str) -> frozenset[str]:
+    return frozenset(words.split())
+
+
+_ENGLISH = _Grammar(
+    values=_counted(
+        "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen "
+        "seventeen eighteen nineteen"
+    )
+    | _counted("twenty thirty forty fifty sixty seventy eighty ninety", 20, 10)
+    | {"fourty": 40},
+    scales={"hundred": 100, "thousand": 10**3, "million": 10**6, "billion": 10**9},
+    parts={"half": _HALF, "quarter": _QUARTER, "quarters": _QUARTER, "tenth": _TENTH, "tenths": _TENTH},
+    articles=_words("a an"), joins=_words("and"), points=_words("point"), links=_words("of a an one"),
+    vague=_words("few several couple dozens hundreds thousands millions third"),
+    dozens=_words("dozen"),
+)  # fmt: skip
+_SPANISH = _Grammar(
+    values=_counted(
+        "cero uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince dieciseis "
+        "diecisiete dieciocho diecinueve veinte veintiuno veintidos veintitres veinticuatro veinticinco veintiseis "
+        "veintisiete veintiocho veintinueve"
+    )
+    | _counted("treinta cuarenta cincuenta sesenta setenta ochenta noventa", 30, 10)
+    | _counted("cien doscientos trescientos cuatrocientos quinientos seiscientos setecientos ochocientos novecientos",
+               100, 100)
+    | _counted("doscientas trescientas cuatrocientas quinientas seiscientas setecientas ochocientas novecientas",
+               200, 100)
+    | {"ciento": 100, "un": 1, "una": 1, "veintiun": 21, "veintiuna": 21},
+    scales={"mil": 10**3, "millon": 10**6, "millones": 10**6},
+    parts={"medio": _HALF, "media": _HALF, "cuarto": _QUARTER, "cuartos": _QUARTER, "decimo": _TENTH,
+           "decima": _TENTH, "decimas": _TENTH},
+    articles=_words("un una"), joins=_words("y"), points=_words("coma punto"), links=_words("de un una"),
+    vague=_words("pocos pocas varios varias algunos cientos miles millares decenas docenas centenares "
+                 "decena centenar treintena veintena quincena"),
+    dozens=_words("docena"),
+)  # fmt: skip
+_FRENCH = _Grammar(
+    values=_counted("zero un deux trois quatre cinq six sept huit neuf dix onze douze treize quatorze quinze seize")
+    | _counted("vingt trente quarante cinquante soixante septante octante nonante", 20, 10)
+    | {"une": 1, "huitante": 80},
+    scales={"cent": 100, "cents": 100, "mille": 10**3, "mil": 10**3, "million": 10**6, "millions": 10**6,
+            "milliard": 10**9},
+    parts={"demi": _HALF, "demie": _HALF, "quart": _QUARTER, "quarts": _QUARTER, "dixieme": _TENTH,
+           "dixiemes": _TENTH},
+    articles=_words("un une"), joins=_words("et"), points=_words("virgule point"), links=_words("de d un une"),
+    vague=_words("quelques plusieurs dizaine dizaines quinzaine vingtaine trentaine quarantaine cinquantaine "
+                 "soixantaine centaine centaines millier milliers peu"),
+    dozens=_words("douzaine"),
+)  # fmt: skip
+_GERMAN_ONES = _counted(
+    "null ein zwei drei vier fuenf sechs sieben acht neun zehn elf zwoelf dreizehn vierzehn fuenfzehn sechzehn "
+    "siebzehn achtzehn neunzehn"
+) | {"eins": 1, "zwo": 2}
+_GERMAN_TENS = _counted("zwanzig dreissig vierzig fuenfzig sechzig siebzig achtzig neunzig", 20, 10)
+_GERMAN = _Grammar(
+    values=_GERMAN_ONES | _GERMAN_TENS | _counted("eine einen einem einer eines", 1, 0),
+    scales={"hundert": 100, "tausend": 10**3, "million": 10**6, "millionen": 10**6, "milliarde": 10**9,
+            "milliarden": 10**9},
+    parts=dict.fromkeys(("halb", "halbe", "halbes", "halben", "halber", "halbem"), _HALF)
+    | {"viertel": _QUARTER, "dreiviertel": Decimal("0.75"), "zehntel": _TENTH, "achtel": Decimal("0.125"),
+       "viertelmillion": Decimal(250_000), "dreiviertelmillion": Decimal(750_000)},
+    articles=_words("ein eine einen einem einer eines"), joins=_words("und"), points=_words("komma punkt"),
+    links=_words("eines einer von einem"),
+    vague=_words("paar einige einigen wenige wenigen mehrere mehreren hunderte tausende dutzende drittel"),
+    added={"einhalb": _HALF}, dozens=_words("dutzend"),
+)  # fmt: skip
+_GRAMMARS = {"en": _ENGLISH, "es": _SPANISH, "fr": _FRENCH, "de": _GERMAN}
+LANGUAGES = tuple(_GRAMMARS)
+
+_GERMAN_ROOTS = "|".join(
+    sorted(_GERMAN_ONES | _GERMAN_TENS | {"hundert": 0, "tausend": 0, "und": 0, "einhalb": 0}, key=len, reverse=True)
+)
+_GERMAN_COMPOUND = re.compile(rf"(?:{_GERMAN_ROOTS})+|anderthalb(?:e|es)?")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spoken:
+    """A number that begins a list of words: its value, how many words it takes, and how many with "of a" behind it."""
+
+    value: Decimal | None
+    words: int
+    linked: int
+    is_article: bool
+
+
+def plain_word(word: str, language: str) -> str:
+    """A word as the tables spell it: small letters, no accents; German umlauts as two letters."""
+    return word.lower().translate(_GERMAN_PLAIN if language == "de" else _PLAIN)
+
+
+def may_begin(word: str, language: str) -> bool:
+    """Whether a number of this language may begin with a word."""
+    plain = plain_word(word, language)
+    return _GRAMMARS[language].knows(plain) or (language == "de" and german_value(plain) is not None)
+
+
+def spoken(words: Sequence[str], language: str) -> Spoken | None:
+    """The number that a list of words begins with; None where it begins with none.
+
+    >>> spoken("three hundred and fifty watts".split(), "en").value, spoken(["siebzehneinhalb"], "de").value
+    (Decimal('350'), Decimal('17.5'))
+    """
+    return _Reader([plain_word(word, language) for word in words], language).read()
+
+
+@functools.lru_cache(maxsize=512)
+def german_value(word: str) -> Decimal | None:
+    """The value of a German number in one word, umlauts as two letters; None where it is none.
+
+    >>> german_value("siebenundzwanzig"), german_value("hunderttausend"), german_value("anderthalb")
+    (Decimal('27'), Decimal('100000'), Decimal('1.5'))
+    """
+    if _GERMAN_COMPOUND.fullmatch(word) is None:
+        return None
+    if word.startswith("anderthalb"):
+        return Decimal("1.5")
+    if word.endswith("einhalb"):
+        whole = german_value(word.removesuffix("einhalb"))
+        return None if whole is None else whole + _HALF
+    for name, scale in (("tausend", 1000), ("hundert", 100)):
+        left, found, right = word.partition(name)
+        if found:
+            times, rest = german_value(left or "ein"), german_value(right.removeprefix("und") or "null")
+            fits = times is not None and rest is not None and times < 1000 and rest < scale
+            return times * scale + rest if fits and times is not None and rest is not None else None
+    ones, joined, tens = word.partition("und")
+    if joined and ones in _GERMAN_ONES and tens in _GERMAN_TENS and _GERMAN_ONES[ones] < 10:
+        return Decimal(_GERMAN_ONES[ones] + _GERMAN_TENS[tens])
+    value = _GERMAN_ONES.get(word, _GERMAN_TENS.get(word))
+    return None if value is None else Decimal(value)
+
+
+class _Reader:
+    """One reading of a list of words from its beginning."""
+
+    def __init__(self, words: Sequence[str], language: str) -> None:
+        self._words, self._language, self._grammar = words, language, _GRAMMARS[language]
+        self._linking = (self._grammar.parts, self._grammar.scales, self._grammar.dozens)
+        self._place = 0
+
+    def read(self) -> Spoken | None:
+        if self._is_vague():
+            return self._result(None, linked=True)
+        value = self._cardinal()
+        is_article = self._place == 1 and self._words[0] in self._grammar.articles
+        value, linked = self._decimals(value), False
+        value = self._with_parts(value)
+        if value is None:
+            return None
+        if self._place > 1 or not is_article:
+            linked = any(self._words[self._place - 1] in words for words in self._linking)
+        value, linked = self._scaled(value, linked=linked)
+        return self._result(value, linked=linked, is_article=is_article and self._place == 1)
+
+    def _result(self, value: Decimal | None, *, linked: bool, is_article: bool = False) -> Spoken:
+        end = self._place
+        while linked and end < len(self._words) and self._words[end] in self._grammar.links:
+            end += 1
+        return Spoken(value=value, words=self._place, linked=end, is_article=is_article)
+
+    def _word(self, ahead: int = 0) -> str:
+        place = self._place + ahead
+        return self._words[place] if place < len(self._words) else ""
+
+    def _value(self, word: str) -> Decimal | None:
+        if word in self._grammar.values:
+            return Decimal(self._grammar.values[word])
+        return german_value(word) if self._language == "de" else None
+
+    def _is_vague(self) -> bool:
+        """Step over a vague amount, the numbers that it makes vague included: "a few hundred"."""
+        first = 1 if self._word() in self._grammar.articles else 0
+        if self._word(first) not in self._grammar.vague:
+            return False
+        self._place = first
+        while self._word() in self._grammar.vague or self._word() in self._grammar.scales:
+            self._place += 1
+        return True
+
+    def _cardinal(self) -> Decimal | None:
+        total, room, outer = Decimal(0), Decimal(0), Decimal(10**12)
+        group: Decimal | None = None
+        start = self._place
+        while word := self._word():
+            value = self._value(word)
+            if word in self._grammar.articles and group is None and self._place == start and value is None:
+                value = Decimal(1)
+            if value is not None and self._fits(value, group, room, outer):
+                group, room = (group or Decimal(0)) + value, self._room(value)
+            elif group is not None and self._language == "fr" and word in ("vingt", "vingts") and group % 10 == 4:
+                group, room = group + 76, Decimal(20)
+            elif word in self._grammar.dozens and not total and (group is None or group < 100):
+                self._place += 1
+                return (_ONE if group is None else group) * 12
+            elif self._grammar.scales.get(word) == 100 and (group is None or 0 < group < 100):
+                group, room = (_ONE if group is None else group) * 100, Decimal(100)
+            elif 100 < self._grammar.scales.get(word, 0) < outer and group != 0:
+                outer = Decimal(self._grammar.scales[word])
+                total, group = total + (_ONE if group is None else group) * outer, None
+            elif word in self._grammar.joins and self._joins(group, room, outer if total else None):
+                pass
+            else:
+                break
+            self._place += 1
+        return None if self._place == start else total + (group or 0)
+
+    def _fits(self, value: Decimal, group: Decimal | None, room: Decimal, outer: Decimal) -> bool:
+        if group is None:
+            return value < outer
+        if self._language == "fr" and self._words[self._place - 1] == "dix" and value < 7:
+            return False  # "dix-sept", but not "dix deux"
+        return 0 < value < room and group + value < outer
+
+    def _room(self, value: Decimal) -> Decimal:
+        """What may still be added after a word: less than ten after "twenty", nothing after "five"."""
+        if self._language == "de" or value == 0:
+            return Decimal(0)
+        if value % 100 == 0:
+            return Decimal(100)
+        if self._language == "fr" and value == 60:
+            return Decimal(20)
+        ten_takes = self._language == "fr" and value == 10
+        return Decimal(10) if value % 10 == 0 and (value >= 20 or ten_takes) else Decimal(0)
+
+    def _joins(self, group: Decimal | None, room: Decimal, outer: Decimal | None) -> bool:
+        """Whether "and" stands inside the number: after hundreds in English, after tens in Spanish and French."""
+        value = self._value(self._word(1))
+        if value is None or self._language == "de" or self._is_part(2):
+            return False
+        if self._language == "en":
+            return value < 100 and (room == 100 if group is not None else outer is not None)
+        return group is not None and room in (10, 20) and 0 < value < room
+
+    def _is_part(self, ahead: int) -> bool:
+        return self._word(ahead) in self._grammar.parts
+
+    def _decimals(self, whole: Decimal | None) -> Decimal | None:
+        """The value with what follows a spoken point: "two point five", "dos coma veinticinco"."""
+        if self._word() not in self._grammar.points or self._value(self._word(1)) is None:
+            return whole
+        self._place += 1
+        digits = ""
+        while (value := self._value(self._word())) is not None and value < 10 and value == int(value):
+            digits += str(value)
+            self._place += 1
+        if not digits:
+            value = self._cardinal()
+            digits = str(value) if value is not None and value == int(value) else ""
+        return (whole or 0) + Decimal(f"0.{digits or 0}")
+
+    def _with_parts(self, value: Decimal | None) -> Decimal | None:
+        """The value with its halves and quarters: "three quarters", "two and a half", "zwei einhalb"."""
+        if self._is_part(0):
+            share = self._grammar.parts[self._word()]
+            self._place += 1
+            return share if value is None else value * share
+        if self._word() in self._grammar.added:
+            self._place += 1
+            return (value or 0) + self._grammar.added[self._words[self._place - 1]]
+        if value is None or self._word() not in self._grammar.joins:
+            return value
+        start = self._place
+        self._place += 1
+        times = Decimal(1) if self._is_part(0) else self._value(self._word())
+        if self._word() in self._grammar.articles:
+            times = Decimal(1)
+        self._place += 0 if self._is_part(0) else 1
+        if times is None or not self._is_part(0):
+            self._place = start
+            return value
+        self._place += 1
+        return value + times * self._grammar.parts[self._words[self._place - 1]]
+
+    def _scaled(self, value: Decimal, *, linked: bool) -> tuple[Decimal, bool]:
+        """The value times a scale behind it: "half a million", "two and a half thousand", "half a dozen"."""
+        ahead = 0
+        while linked and self._word(ahead) in self._grammar.links:
+            ahead += 1
+        word = self._word(ahead)
+        scale = 12 if word in self._grammar.dozens else self._grammar.scales.get(word)
+        if scale is None or (value == int(value) and not linked):
+            return value, linked
+        self._place += ahead + 1
+        return value * scale, True

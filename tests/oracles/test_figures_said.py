@@ -1,0 +1,108 @@
+"""Figures as they are said in five languages: number words in full, units of the street, signs that mark thousands."""
+
+from __future__ import annotations
+
+import pytest
+
+from wirelessagent.language.number_words import spoken
+from wirelessagent.language.quantities import parse_quantities
+
+ENGLISH = [
+    ("forty-five hundred kilobits", "rate", 4.5e6), ("a quarter of a megabit", "rate", 250e3),
+    ("two and a half megs", "rate", 2.5e6), ("two megs a second", "rate", 2e6), ("five hundred kay", "rate", 5e5),
+    ("half a million bits per second", "rate", 5e5), ("a dozen watts", "power", 12.0),
+    ("half a dozen watts", "power", 6.0), ("out of eleven watts", "power", 11.0),
+    ("twenty... six watts", "power", 26.0),
+    ("a floor of two hundred kilobits", "rate", 2e5), ("2×10^6 bit/s", "rate", 2e6), ("1'500 kbit/s", "rate", 1.5e6),
+    ("3/4 of a megabit", "rate", 750e3), ("1½ Mbit/s", "rate", 1.5e6), ("2 and a half Mbit/s", "rate", 2.5e6),
+    ("point five megabits", "rate", 5e5), ("nine hundred and ninety-nine milliwatts", "power", 0.999),
+    ("20 dBms", "power", 0.1), ("UE2 ≥ 4 Mb/s / UE9", "rate", 4e6), ("1 mega per second", "rate", 1e6),
+]  # fmt: skip
+SPANISH = [
+    ("treinta y cinco vatios", "power", 35.0), ("medio mega", "rate", 5e5), ("mil quinientos kilobits", "rate", 1.5e6),
+    ("dos y medio megas", "rate", 2.5e6), ("0,7 megas mínimos para todos", "rate", 7e5),
+    ("cien mil bits por segundo", "rate", 1e5), ("un cuarto de mega", "rate", 250e3),
+    ("medio millón de bits por segundo", "rate", 5e5), ("2,5 millones de bits por segundo", "rate", 2.5e6),
+    ("dos coma cinco vatios", "power", 2.5), ("noventa y nueve por ciento", "ratio", 0.99),
+    ("ciento veinte milivatios", "power", 0.12), ("dieciséis vatios", "power", 16.0), ("menos 10 dBm", "power", 1e-4),
+    ("una docena de vatios", "power", 12.0), ("30 decibelios milivatio", "power", 1.0), ("5 por mil", "ratio", 0.005),
+    ("doscientas cincuenta mil bits por segundo", "rate", 250e3), ("1.500 kbit/s para el resto", "rate", 1.5e6),
+    ("3 megas al segundo", "rate", 3e6),
+]  # fmt: skip
+FRENCH = [
+    ("quatre-vingt-dix watts", "power", 90.0), ("un demi-méga", "rate", 5e5), ("vingt-et-un watts", "power", 21.0),
+    ("deux mégas la seconde", "rate", 2e6), ("quatre cents kilobits", "rate", 4e5),
+    ("soixante et onze W", "power", 71.0),
+    ("quatre-vingt-quinze pour cent", "ratio", 0.95), ("trois quarts de mégabit", "rate", 750e3),
+    ("un quart d'un mégabit", "rate", 250e3), ("mille cinq cents kbit/s", "rate", 1.5e6),
+    ("deux virgule cinq mégabits par seconde", "rate", 2.5e6), ("1 Mo/s minimum", "rate", 8e6),
+    ("600 ko/s", "rate", 4.8e6), ("deux et demi mégas", "rate", 2.5e6),
+    ("cent vingt-quatre milliwatts", "power", 0.124),
+    ("septante-cinq watts", "power", 75.0), ("un million de bits par seconde", "rate", 1e6),
+    ("moins 10 dBm", "power", 1e-4), ("le débit de 1,500 Mbit/s pour tous", "rate", 1.5e6),
+]  # fmt: skip
+GERMAN = [
+    ("siebzehneinhalb Watt", "power", 17.5), ("anderthalb Megabit", "rate", 1.5e6),
+    ("achthundert Milliwatt", "power", 0.8), ("eine Viertelmillion Bit pro Sekunde", "rate", 250e3),
+    ("dreieinhalb Megabit pro Sekunde", "rate", 3.5e6), ("zwei Komma fünf Watt", "power", 2.5),
+    ("siebenundzwanzig Watt", "power", 27.0), ("hunderttausend Bit pro Sekunde", "rate", 1e5),
+    ("ein halbes Megabit", "rate", 5e5), ("zweihundertfünfzig Kilobit", "rate", 250e3),
+    ("eine halbe Million Bit in der Sekunde", "rate", 5e5), ("ein dreiviertel Megabit", "rate", 750e3),
+    ("zwoelf Watt", "power", 12.0), ("neunzig Prozent", "ratio", 0.9),
+    ("95-prozentiger Zuverlässigkeit", "ratio", 0.95),
+    ("3 Promille", "ratio", 0.003), ("ein Dutzend Watt", "power", 12.0),
+    ("eine Leistung von 1,500 kW für alle", "power", 1500.0), ("1.500 kbit/s für jeden", "rate", 1.5e6),
+]  # fmt: skip
+CHINESE = [
+    ("一点五兆", "rate", 1.5e6), ("两兆半", "rate", 2.5e6), ("五百k", "rate", 5e5), ("四十七个dBm", "power", 10**1.7),
+    ("一百二十八千比特每秒", "rate", 128e3), ("三百千比特每秒", "rate", 3e5), ("一万五千比特每秒", "rate", 15e3),
+    ("十哇以内", "power", 10.0), ("1.5个兆", "rate", 1.5e6),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "kind", "value"), [*ENGLISH, *SPANISH, *FRENCH, *GERMAN, *CHINESE])
+def test_a_figure_is_read_as_it_is_said(text: str, kind: str, value: float) -> None:
+    found = [(figure.kind, figure.value) for figure in parse_quantities(text) if figure.kind != "bare"]
+    assert found == [(kind, pytest.approx(value, rel=1e-12))]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "三十来瓦", "三十多瓦", "30多瓦", "十几瓦", "unos cientos de kilobits", "une trentaine de watts",
+        "quelques watts", "ein paar Watt", "höchstens einige hundert Kilobit", "two three watts of noise",
+        "as few watts as possible", "so wenige Watt wie möglich", "einen Megaherz", "2 mega vatios hora",
+        "una velocidad media", "le mille-feuille", "un peu plus vite", "ein anderer Nutzer", "3 megapixels",
+    ],
+)  # fmt: skip
+def test_nothing_vague_becomes_a_figure(text: str) -> None:
+    found = [figure for figure in parse_quantities(text) if figure.kind not in ("other", "bare")]
+    assert [figure.value for figure in found] == ([3.0] if "two three" in text else [])
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("UE 2 750 kbps, UE 3 500 kbps", [750e3, 500e3]), ("Nutzer 3 700 kbit/s", [700e3]),
+        ("user one hundred kilobits", [1e5]), ("user 2 two megabits", [2e6]), ("12 500 mW", [12.5]),
+        ("usuarios 1 y 2 500 kbit/s", [500e3]),
+    ],
+)  # fmt: skip
+def test_the_number_of_a_user_is_no_part_of_the_figure(text: str, values: list[float]) -> None:
+    assert [figure.value for figure in parse_quantities(text) if figure.kind in ("rate", "power")] == values
+
+
+@pytest.mark.parametrize(
+    ("words", "language"),
+    [
+        ("two three", "en"),
+        ("dix deux", "fr"),
+        ("vingt cinquante", "fr"),
+        ("cien doscientos", "es"),
+        ("drei vier", "de"),
+    ],
+)
+def test_words_that_do_not_fit_together_are_no_number(words: str, language: str) -> None:
+    found = spoken(words.split(), language)
+    assert found is not None
+    assert found.words == 1
