@@ -256,7 +256,7 @@ ASK_BACK = [
     "battery saving and speed",
     "速率要高,功率要低", "save power without losing speed", "Do it fast", "quick question", "give it the green light",
     "users moving at high speed", "提高功率",
-    "1MB each, save power", "1 Mo/s each save power", "power matters more than speed", "速度比省电重要",
+    "1MB each, save power", "power matters more than speed", "速度比省电重要",
     "turn off power saving", "取消省电模式", "关闭省电",
     "stop max rate",
     "exit the high speed mode", "The speed is good", "power cut yesterday", "set the rate to 2 Mbit/s",
@@ -282,13 +282,12 @@ OPPOSITE = [
 
 # Figures that are part of a calculation, that nothing reads, or that are no limit of the cell.
 WRONG_FIGURES = [
-    "10^5 bps each", "1*10^5 bps", "2×10^5 bps", "10**5 bps", "2 x 10^6 bit/s", "10⁵ bps", "10² W", "1/2 Mbps",
-    "1 1/2 Mbps",
-    "½ Mbps each", "1½ Mbps", "half of 10 W", "a quarter of 20 W", "a third of 10 W", "twice 5 W", "double 5 W",
+    "10^5 bps each", "10**5 bps", "10⁵ bps", "10² W", "1 1/2 Mbps",
+    "half of 10 W", "a quarter of 20 W", "a third of 10 W", "twice 5 W", "double 5 W",
     "3 times 5 W", "three times 5 W", "2*5 W", "5+5 W", "5 W + 5 W", "10 W / 2", "10 W times 2", "√2 W",
     "10 W divided by two",
     "leave 10 W unused", "keep 10 W in reserve", "a 100 W bulb next door", "with a 100 W heater nearby",
-    "the oven uses 900 W", "10 W must be left over", "留10瓦备用", "一百零五千比特每秒", "二十五千比特每秒",
+    "the oven uses 900 W", "10 W must be left over", "留10瓦备用",
     "1_000 kbps", "0x10 bps", "43 dB", "10 Wh", "10 V", "10 joules", "ten joules", "十伏", "a couple of watts",
     "a handful of watts", "some milliwatts", "several Mbit/s", "10瓦的一半", "10瓦的两倍", "sqrt 10 W",
     "5瓦加5瓦", "五倍5瓦",

@@ -13,7 +13,8 @@ ENGLISH = [
     ("half a million bits per second", "rate", 5e5), ("a dozen watts", "power", 12.0),
     ("half a dozen watts", "power", 6.0), ("out of eleven watts", "power", 11.0),
     ("twenty... six watts", "power", 26.0),
-    ("a floor of two hundred kilobits", "rate", 2e5), ("2×10^6 bit/s", "rate", 2e6), ("1'500 kbit/s", "rate", 1.5e6),
+    ("a floor of two hundred kilobits", "rate", 2e5), ("2×10^6 bit/s", "rate", 2e6), ("1*10^5 bps", "rate", 1e5),
+    ("2 x 10^6 bit/s", "rate", 2e6), ("1/2 Mbps", "rate", 5e5), ("½ Mbps each", "rate", 5e5), ("1'500 kbit/s", "rate", 1.5e6),
     ("3/4 of a megabit", "rate", 750e3), ("1½ Mbit/s", "rate", 1.5e6), ("2 and a half Mbit/s", "rate", 2.5e6),
     ("point five megabits", "rate", 5e5), ("nine hundred and ninety-nine milliwatts", "power", 0.999),
     ("20 dBms", "power", 0.1), ("UE2 ≥ 4 Mb/s / UE9", "rate", 4e6), ("1 mega per second", "rate", 1e6),
@@ -55,7 +56,8 @@ GERMAN = [
 ]  # fmt: skip
 CHINESE = [
     ("一点五兆", "rate", 1.5e6), ("两兆半", "rate", 2.5e6), ("五百k", "rate", 5e5), ("四十七个dBm", "power", 10**1.7),
-    ("一百二十八千比特每秒", "rate", 128e3), ("三百千比特每秒", "rate", 3e5), ("一万五千比特每秒", "rate", 15e3),
+    ("一百二十八千比特每秒", "rate", 128e3), ("一百零五千比特每秒", "rate", 105e3),
+    ("二十五千比特每秒", "rate", 25e3), ("三百千比特每秒", "rate", 3e5), ("一万五千比特每秒", "rate", 15e3),
     ("十哇以内", "power", 10.0), ("1.5个兆", "rate", 1.5e6),
 ]  # fmt: skip
 
