@@ -14,7 +14,8 @@ ENGLISH = [
     ("half a dozen watts", "power", 6.0), ("out of eleven watts", "power", 11.0),
     ("twenty... six watts", "power", 26.0),
     ("a floor of two hundred kilobits", "rate", 2e5), ("2×10^6 bit/s", "rate", 2e6), ("1*10^5 bps", "rate", 1e5),
-    ("2 x 10^6 bit/s", "rate", 2e6), ("1/2 Mbps", "rate", 5e5), ("½ Mbps each", "rate", 5e5), ("1'500 kbit/s", "rate", 1.5e6),
+    ("2 x 10^6 bit/s", "rate", 2e6), ("1/2 Mbps", "rate", 5e5), ("½ Mbps each", "rate", 5e5),
+    ("1'500 kbit/s", "rate", 1.5e6),
     ("3/4 of a megabit", "rate", 750e3), ("1½ Mbit/s", "rate", 1.5e6), ("2 and a half Mbit/s", "rate", 2.5e6),
     ("point five megabits", "rate", 5e5), ("nine hundred and ninety-nine milliwatts", "power", 0.999),
     ("20 dBms", "power", 0.1), ("UE2 ≥ 4 Mb/s / UE9", "rate", 4e6), ("1 mega per second", "rate", 1e6),
@@ -108,3 +109,40 @@ def test_words_that_do_not_fit_together_are_no_number(words: str, language: str)
     found = spoken(words.split(), language)
     assert found is not None
     assert found.words == 1
+
+
+FLOORS = [
+    "nobody under 1 Mbit/s", "keiner unter 1 Mbit/s", "auf keinen Fall unter ein Megabit pro Sekunde",
+    "unter 1 Mbit/s soll keiner fallen", "nadie por debajo de 1 Mbit/s", "sin bajar de 1 mega",
+    "niemand unter 1 Mbit/s",
+    "que nadie baje de 1 Mbit/s", "ne doit pas descendre sous 1 Mbit/s", "personne en dessous de 1 Mbit/s",
+    "nadie con menos de 1 Mbit/s", "aucun utilisateur sous 1 Mbit/s", "谁都不许掉到1兆以下", "别低于1兆", "每户底限1兆",
+    "降到每户刚好够1兆为止", "1 Mbit/s, no less.",
+]  # fmt: skip
+CEILINGS = [
+    "auf 1 Mbit/s gedeckelt", "bei 1 Mbit/s kappen", "auf je 1 Mbit/s drosseln", "keiner über 1 Mbit/s",
+    "nie mehr als 1 Mbit/s", "mehr als 1 Mbit/s braucht kein Mensch", "Obergrenze 1 Mbit/s",
+    "Deckel pro Nutzer 1 Mbit/s",
+    "plafonnés à 1 Mbit/s", "limite l'utilisateur 5 à 1 Mbit/s", "1 Mbit/s de plafond",
+    "sans dépasser 1 Mbit/s",
+    "ne pas aller au-delà de 1 Mbit/s", "brider UE 2 à 1 méga",
+    "que no pase de 1 Mbit/s", "que nadie supere 1 mega", "limitado a 1 Mbit/s", "capado a 1 Mbit/s", "tope de 1 Mbit/s",
+    "nunca por encima de 1 Mbit/s", "a nadie más de 1 mega",
+    "stop user 1 at 1 Mbit/s", "with UE 2 throttled to 1 Mbps", "policed at 1 Mbps", "clamp each UE at 1 Mbps",
+    "Cap UE 1 and UE 2 at 1 Mbps", "no UE past 1 Mbps", "nobody faster than 1 Mbps", "rate-cap subscriber 11 at 1 Mbps",
+    "1 Mbit/s at the very most", "1 Mbit/s, no more", "限速1兆", "封到1兆", "人人不超1兆", "别超1兆", "上限各1兆",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "comparator"),
+    [(text, "at_least") for text in FLOORS]
+    + [(text, "at_most") for text in CEILINGS]
+    + [
+        ("1 Mbit/s, no less and no more", "exactly"), ("genau 1 Mbit/s", "exactly"), ("Max-Min bei 1 Mbit/s", None),
+        ("权限1兆", None), ("mehr als 1 Mbit/s für jeden", "at_least"), ("plus de 1 Mbit/s chacun", "at_least"),
+    ],
+)  # fmt: skip
+def test_a_figure_is_a_floor_a_ceiling_or_exact_in_every_language(text: str, comparator: str | None) -> None:
+    (found,) = (figure for figure in parse_quantities(text) if figure.kind == "rate")
+    assert (found.value, found.comparator) == (1e6, comparator)

@@ -14,7 +14,7 @@ from typing import Literal, TypeAlias
 
 from wirelessagent.language.comparators import Comparator, comparison
 from wirelessagent.language.numerals import Number, numbers
-from wirelessagent.language.text import CJK, normalise
+from wirelessagent.language.text import CJK, USER_NOUN, normalise
 from wirelessagent.language.units import Unit, unit_at
 
 QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
@@ -36,6 +36,7 @@ _NAMES = re.compile(
     r"version|mode"
     r"|device|sensor|band|seed|step|case|at|day|room)|[#№])\s*$)|(?:用户|子载波|信道|小区|第|方案|模式|时隙)\s*$"
 )
+_USERS = re.compile(rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|or|y|et|und|oder|ou|o|&|/)\s*)*$")
 _CHINESE_COUNTED = re.compile(
     r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
 )
@@ -169,9 +170,7 @@ def _joined(plain: str, lower: _Reading, upper: _Reading) -> bool:
     if lower.unit is not None and (upper.unit is None or upper.unit.kind != lower.unit.kind):
         return False
     if re.fullmatch(r"\s*(?:and|y|et|und)\s*", gap.lower()) is None:
-        return upper.unit is not None and not (
-            lower.unit is None and _NAMES.search(plain, max(0, lower.start - 16), lower.start)
-        )
+        return upper.unit is not None and not (lower.unit is None and _is_name(plain, lower.start))
     return re.search(r"(?i)(?:between|entre|zwischen)\s*$", plain[max(0, lower.start - 12) : lower.start]) is not None
 
 
@@ -246,7 +245,7 @@ def _kind_without_unit(plain: str, reading: _Reading, *, bounded: bool) -> Quant
         return None
     if reading.number.form == "chinese" or _counted_in_chinese(plain, reading.end):
         return None
-    named = _NAMES.search(plain, max(0, reading.start - 16), reading.start) is not None
+    named = _is_name(plain, reading.start)
     glued = (
         _GENERATION.match(plain, reading.start) is not None or plain[max(0, reading.start - 1) : reading.start] == "/"
     )
@@ -258,6 +257,11 @@ def _kind_without_unit(plain: str, reading: _Reading, *, bounded: bool) -> Quant
         return "bare"
     apiece = _FOREIGN_APIECE.match(plain, reading.end) is not None
     return "other" if bounded or apiece else None
+
+
+def _is_name(plain: str, start: int) -> bool:
+    """Whether a number names what stands before it: "user 3", "users 1 and 2", "slot 5"."""
+    return any(pattern.search(plain, max(0, start - 40), start) is not None for pattern in (_NAMES, _USERS))
 
 
 def _counted_in_chinese(plain: str, end: int) -> bool:
