@@ -124,7 +124,7 @@ def test_the_fairness_is_that_of_the_users_to_serve(matrix: Path, capsys: pytest
 
 def test_who_cannot_be_served_is_counted(capsys: pytest.CaptureFixture[str]) -> None:
     told = shown(capsys, "ask", "Share fairly", "--num-users", 8, "--num-subcarriers", 5, "--loss", "random:0.0001")
-    assert "3 users cannot be served: there are 5 subcarriers for 8 users" in told
+    assert "3 of 8 users cannot be served: there are only 5 subcarriers" in told
 
 
 def test_gains_are_not_repaired_for_a_file_that_cannot_be_written(

@@ -66,7 +66,7 @@ def test_a_user_who_gets_nothing_is_told_why_and_what_would_help(language: str) 
         called(language, SEEN.user_names[loss.winner]),
     ):  # fmt: skip
         assert figure in said
-    assert (f"subcarrier {loss.first + 1}," if language == "en" else f"子载波 {loss.first + 1}，") in said
+    assert (f"subcarrier {loss.first + 1}," if language == "en" else f"第 {loss.first + 1} 个子载波，") in said
     assert found.promise is not None
     assert human(abs(found.promise.change), "bit/s") in said
 

@@ -22,13 +22,18 @@ def concept(text: str, language: str) -> str:
     return explained(text, language)
 
 
+def case_of(run: Run) -> Case:
+    """A run's decision with what it was made from."""
+    return Case(decision=run.decision, estimate=run.estimate, method=run.tools.method, options=run.tools.method_options)
+
+
 def answer(run: Run, intent: Intent, user_names: tuple[str, ...]) -> tuple[str, tuple[Table, ...]]:
     """The answer to a question about a decision, and its tables; the explanation where there is no closer one.
 
     Raises:
         UnclearRequestError: it is about a user who is not there, or does not say which; the message asks back.
     """
-    case = Case(decision=run.decision, estimate=run.estimate, method=run.tools.method, options=run.tools.method_options)
+    case = case_of(run)
     topic, details = intent.topic or "", intent.details
     figures = {name: float(value) for name, value in details.items() if isinstance(value, int | float)}
     found = answered(

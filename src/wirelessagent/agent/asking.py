@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Mapping, Sequence
 from datetime import datetime
@@ -11,16 +12,21 @@ from wirelessagent import plugins
 from wirelessagent.agent import answers
 from wirelessagent.agent.figures import certificate_line, side_by_side
 from wirelessagent.agent.request import Request
-from wirelessagent.agent.restating import restated
+from wirelessagent.agent.restating import goal_words, restated
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.agent.words import say
-from wirelessagent.explain.labels import worded
+from wirelessagent.agent.words import joined, say
+from wirelessagent.explain.labels import called, worded
+from wirelessagent.explain.lexicon import outcome_in_words, value_name
+from wirelessagent.explain.nearest import nearest
+from wirelessagent.explain.nearest_words import nearest_answer
+from wirelessagent.explain.report import cannot_be_served
 from wirelessagent.explain.table import Table
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.errors import UnsupportedProblemError
+from wirelessagent.model.problem import Problem
 from wirelessagent.model.units import human, percent
 
 _SHOWN = 60
@@ -42,15 +48,39 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
     request = (state.request or Request(objective=cast(str, objective))).amended(constraints, objective=objective)
     sight = None if share is None else site.sight_missing(cast(float, share), language)
     run = site.foreseen(site.plan(intent, request, sight=sight))
-    line = certificate_line(run.decision, language)
+    answer = _verdict(state, run, language)
     if share is None:
-        text = say(language, "what_if", request=restated(request, language), line=line)
+        asked = restated(request, language)
+        text = say(language, "what_if", request=asked[:1].lower() + asked[1:], answer=answer)
     else:
-        text = say(language, "what_if_seen", share=percent(cast(float, share)), line=line)
+        text = say(language, "what_if_seen", share=percent(cast(float, share)), answer=answer)
     runs = [(say(language, "what_if_column"), run)]
     if state.run is not None:
         runs.insert(0, (say(language, "now_column"), site.foreseen(state.run)))
     return Reply(text=text, run=run, tables=(side_by_side(runs, language),))
+
+
+def _verdict(state: State, run: Run, language: str) -> str:
+    """Whether a request can be met and with what, or what can be met instead; and what was assumed only here."""
+    now, case = state.run, answers.case_of(run)
+    noted = () if now is None else now.notes
+    notes = [say(language, "note", note=note[:1].upper() + note[1:]) for note in run.notes if note not in noted]
+    nothing = say(language, "nothing_changed")
+    if not run.decision.is_usable:
+        return joined(language, [*notes, f"{nearest_answer(case, nearest(case), language)}\n{nothing}"])
+    outcome = outcome_in_words(case, run.decision, language)
+    met = say(language, "what_if_met", outcome=outcome)
+    if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
+        value = human(now.decision.value, now.decision.unit)
+        met = say(language, "what_if_now", outcome=outcome, now=value)
+    left_out = cannot_be_served(run.decision, language)
+    warned = [say(language, "note", note=left_out)] if left_out else []
+    return joined(language, [*notes, met, *warned, nothing])
+
+
+def _figure_of(run: Run, language: str) -> tuple[str, str]:
+    """What a run's value is called, and its unit: values compare where both are the same."""
+    return value_name(answers.case_of(run), language), run.decision.unit
 
 
 def compare(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
@@ -101,10 +131,22 @@ def _with_named(site: Site, state: State, intent: Intent, names: Sequence[str]) 
             found = site.plan(intent, state.request, sight=sight, tools=tools)
             columns.append((name, site.foreseen(found)))
         except UnsupportedProblemError as refusal:
-            refusals.append(say(language, "refused", name=name, why=refusal))
-    listed = say(language, "comma").join(names)
+            refusals.append(_refused(name, run.decision.problem, language) or str(refusal))
+    listed = say(language, "comma").join(called(language, name) for name in names)
     text = "\n".join([say(language, "compared", names=listed), *refusals])
     return Reply(text=text, tables=(side_by_side(columns, language),) if len(columns) > 1 else ())
+
+
+def _refused(name: str, problem: Problem, language: str) -> str:
+    """Why a method does not solve a problem; empty where it is not for its objective or its limits."""
+    method, objective = plugins.load("method", name), problem.objective
+    assert not isinstance(objective, str)
+    if method.objectives is not None and objective.name not in method.objectives:
+        return say(language, "refused_objective", name=name, goal=goal_words(objective.name, language))
+    known = {*method.constraints, "max_power_w", "outage_probability"}
+    surplus = [limit for limit in problem.constraints() if limit not in known]
+    limits = say(language, "comma").join(say(language, f"limit_{limit}") for limit in surplus)
+    return say(language, "refused_limits", name=name, limits=limits) if limits else ""
 
 
 def status(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
@@ -201,11 +243,23 @@ def export(intent: Intent, turns: Sequence[Turn]) -> Reply:
 
 
 def question(site: Site, state: State, intent: Intent, text: str) -> Reply:
-    """A question about a term, or about the decision that holds."""
-    language = intent.language
+    """A question about a term, or about the decision that holds; one that states figures is solved for them."""
+    language, stated = intent.language, _wondered(intent)
     if intent.topic == "concept":
         return Reply(text=answers.concept(text, language) or say(language, "help"))
+    if stated:
+        return what_if(site, state, dataclasses.replace(intent, details={"constraints": stated}))
     if state.run is None:
         return Reply(text=say(language, "nothing_yet"))
     said, tables = answers.answer(state.run, intent, site.user_names)
     return Reply(text=said, tables=tables)
+
+
+def _wondered(intent: Intent) -> dict[str, Constraint]:
+    """The limits that a question asks about, as in "can user 4 get 3 Mbit/s?"; empty where it names none."""
+    details = intent.details
+    stated = dict(cast("Mapping[str, Constraint]", details.get("constraints") or {}))
+    rate, user = details.get("rate_bps"), details.get("user")
+    if intent.topic != "step" and isinstance(rate, float):
+        stated["min_rate_bps"] = {user: rate} if isinstance(user, str) else rate
+    return stated

@@ -13,6 +13,7 @@ import numpy as np
 from wirelessagent import plugins
 from wirelessagent.agent.request import Request
 from wirelessagent.agent.words import say
+from wirelessagent.explain.labels import called
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
@@ -46,9 +47,10 @@ class UnknownUserError(UnclearRequestError):
 
     def __init__(self, reference: str, user_names: tuple[str, ...], language: str) -> None:
         more = len(user_names) - _NAMES_SHOWN
-        names = say(language, "comma").join(user_names[:_NAMES_SHOWN])
+        names = say(language, "comma").join(called(language, name) for name in user_names[:_NAMES_SHOWN])
         known = say(language, "names_and_more", names=names, more=more) if more > 0 else names
-        super().__init__(say(language, "unknown_user" if reference else "which_user", user=reference, known=known))
+        user = f"user {reference}" if reference.isdigit() else reference
+        super().__init__(say(language, "unknown_user" if reference else "which_user", user=user, known=known))
         self.reference = reference
 
 

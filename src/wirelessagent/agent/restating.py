@@ -20,7 +20,7 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
         "max_rate_bps": "at most {} for {}",
         "circuit_power_w": "{} of circuit power",
         "outage_probability": "promises kept with {}",
-        "weights": "{} counts {} times",
+        "weights": "weight {1} for {0}",
         "users": "serving only {}",
         "leave_out": "without {}",
         "subcarrier_max_power_w": "at most {} per subcarrier",
@@ -39,7 +39,7 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
         "leave_out": "不含{}",
         "subcarrier_max_power_w": "每个子载波不超过 {}",
         "resource_block_group_size": "子载波每 {} 个一组",
-        "everybody": "每个用户", "everybody_else": "其他用户", "user": "用户 {}", "and": "和", "comma": "，",
+        "everybody": "每个用户", "everybody_else": "其他用户", "user": "用户{}", "and": "和", "comma": "，",
         "of": "{}：{}。", "alone": "{}。",
     },
 }  # fmt: skip

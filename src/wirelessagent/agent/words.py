@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from wirelessagent.explain.labels import called
+
 _ENGLISH: Mapping[str, str] = {
     "comma": ", ",
     "note": "Note: {note}.",
@@ -21,18 +23,17 @@ _ENGLISH: Mapping[str, str] = {
     "certificate": "{status}: {value}; no allocation on this estimate does better than {bound} (gap {gap}; {method})",
     "certificate_outage": "{status}: {value}; no promises kept at {sure} do better than {bound} (gap {gap}; {method})",
     "certificate_note": "{line}. Note: {note}",
-    "needs_power": "the promised rates need at least {needed}, more than the budget of {budget}",
     "optimal": "optimal",
     "feasible": "feasible",
     "infeasible": "infeasible",
     "undecided": "undecided",
-    "no_station": "nothing applied: the true channel is not known; --out FILE writes the allocation",
+    "no_station": "nothing applied: no base station is connected, and the true channel is not known",
     "written": "allocation written to {path}",
     "applied": "{station}: applied and read back; what the users get is not measured there",
     "applied_promised": "{station}: applied and read back; {kept} of {served} promised rates kept",
     "applied_committed": "{station}: applied and read back; {kept} of {served} committed rates kept",
     # what was assumed
-    "above_the_limit": "{asked} is above the cell's limit of {limit}, which holds; --cell-max-power-w changes it",
+    "above_the_limit": "{asked} is above the cell's limit of {limit}, which holds",
     "assumed_rate": "no rate was named, so {rate} for each user is assumed; say for example '500 kbit/s each' to "
     "change it",
     "assumed_outage": "no probability was named, so rates are promised at {sure}; say for example 'kept with 99 %' to "
@@ -40,7 +41,7 @@ _ENGLISH: Mapping[str, str] = {
     "weights_mean_nothing": "weights mean nothing to the least power, and are left out",
     "user_by_place": "nobody is called 'user {number}': the user at place {number}, {name}, is meant",
     # questions back
-    "unknown_user": "There is no user {user} here: there are {known}. Whom did you mean?",
+    "unknown_user": "There is no {user} here: there are {known}. Whom did you mean?",
     "names_and_more": "{names} and {more} more",
     "nobody_left": "That leaves nobody to serve. Who should be served?",
     "rates_crossed": "{user} can't get at least {low} and at most {high}. Which of the two should hold?",
@@ -98,8 +99,11 @@ _ENGLISH: Mapping[str, str] = {
     "history_none": "Nothing was said yet.",
     "history_unknown": "There is no turn {number}; there are turns 1 to {last}.",
     "history_turn": "Turn {number}, '{text}': {reply}",
-    "what_if": "What if: {request}. {line}. Nothing was changed.",
-    "what_if_seen": "With {share} of the gains missing: {line}. Nothing was changed.",
+    "what_if": "What if: {request} {answer}",
+    "what_if_seen": "Suppose {share} of the gains were missing. {answer}",
+    "what_if_met": "That can be met: {outcome}.",
+    "what_if_now": "That can be met: {outcome}. Now it is {now}.",
+    "nothing_changed": "Nothing was changed.",
     "what_if_missing_share": "The share that is missing must be from 0 % to less than 100 %; got {share}. Which is it?",
     "what_if_nothing": "What should be different: a power, a rate, the users, the aim, or what is missing?",
     "compared_last": "Beside the last one, of turn {turn}: {line}.",
@@ -107,7 +111,15 @@ _ENGLISH: Mapping[str, str] = {
     "nothing_to_compare": "There is no earlier decision to compare with.",
     "not_installed": "{name} is neither a method nor a repairer that is installed. Methods: {methods}. "
     "Repairers: {repairers}.",
-    "refused": "{name}: {why}",
+    "refused_objective": "{name} does not aim for that: {goal}.",
+    "refused_limits": "{name} knows nothing of {limits}.",
+    "limit_weights": "weights",
+    "limit_min_rate_bps": "minimum rates",
+    "limit_max_rate_bps": "maximum rates",
+    "limit_subcarrier_max_power_w": "limits on each subcarrier",
+    "limit_forbidden": "forbidden subcarriers",
+    "limit_users": "users to leave out",
+    "limit_resource_block_group_size": "groups of subcarriers",
     "export_unknown": "I can write ts28312 (3GPP TS 28.312) and tmf921 (TMF921 v5); got {format}. Which one?",
     "which_user": "About which user: {known}?",
     "help": "Say what the cell should do: the highest total rate, the least power, the most bits per joule, a fair "
@@ -126,32 +138,31 @@ _CHINESE: Mapping[str, str] = {
     "fallen_back": "（理解者：{recogniser}。）",
     "sensed": "{users} 个用户 × {subcarriers} 个子载波{history}；{entries} 个增益中缺失 {missing} 个（{share}）",
     "history": "，{slots} 个时隙",
-    "repaired": "{method} 修复了 {missing} 个增益",
+    "repaired": "{method}修复了 {missing} 个增益",
     "complete": "没有缺失，无需修复",
     "certificate_unusable": "{status}：{reason}（{method}）",
     "certificate_no_bound": "{status}：{value}（{method}，无界）",
     "certificate": "{status}：{value}；在此估计上任何分配都不会优于 {bound}（差距 {gap}；{method}）",
     "certificate_outage": "{status}：{value}；以 {sure} 兑现的任何承诺都不会优于 {bound}（差距 {gap}；{method}）",
     "certificate_note": "{line}。注意：{note}",
-    "needs_power": "承诺的速率至少需要 {needed}，超过预算 {budget}",
     "optimal": "最优",
     "feasible": "可行",
     "infeasible": "不可行",
     "undecided": "未定",
-    "no_station": "未应用：真实信道未知；--out FILE 可写出分配",
+    "no_station": "未应用：没有连接基站，也不知道真实信道",
     "written": "分配已写入 {path}",
     "applied": "{station}：已应用并回读；那里不测量用户所得",
     "applied_promised": "{station}：已应用并回读；{served} 个承诺速率中兑现 {kept} 个",
     "applied_committed": "{station}：已应用并回读；{served} 个预定速率中兑现 {kept} 个",
-    "above_the_limit": "{asked} 超过小区上限 {limit}，以上限为准；--cell-max-power-w 可更改",
+    "above_the_limit": "{asked} 超过小区上限 {limit}，以上限为准",
     "assumed_rate": "未指定速率，假定每个用户 {rate}；例如说“每用户 500 kbit/s”即可更改",
     "assumed_outage": "未指定概率，速率按 {sure} 的概率承诺；例如说“以 99 % 的概率兑现”即可更改",
     "weights_mean_nothing": "权重对功率最低没有意义，已略去",
-    "user_by_place": "没有叫“user {number}”的用户：指第 {number} 个用户 {name}",
-    "unknown_user": "这里没有用户 {user}，有 {known}。您指的是哪一个？",
+    "user_by_place": "没有叫“用户{number}”的用户：指第 {number} 个用户{name}",
+    "unknown_user": "这里没有{user}，有{known}。您指的是哪一个？",
     "names_and_more": "{names}，以及另外 {more} 个",
     "nobody_left": "这样就没有用户可服务了。应服务哪些用户？",
-    "rates_crossed": "{user} 不能既至少 {low} 又不超过 {high}。以哪一个为准？",
+    "rates_crossed": "{user}不能既至少 {low} 又不超过 {high}。以哪一个为准？",
     "whole_groups": "子载波只能按整数个分组，不能是 {size} 个。每组应有几个？",
     "impossible": "无法这样要求：{why}。应改为什么？",
     "unsupported": "这些不能同时做到：{why}",
@@ -159,7 +170,7 @@ _CHINESE: Mapping[str, str] = {
     "apply_it": "是否应用？（是／否）",
     "put_it_back": "是否恢复先前的分配（{power}，要求：{request}）？（是／否）",
     "nothing_yet": "还没有可操作的内容。请说明小区应做什么，例如“总速率最高，功率不超过 10 W”。",
-    "station_failed": "基站 {station} 出错：{why}。",
+    "station_failed": "{station}出错：{why}。",
     "other_shape": "回读到 {read} 个子载波，而不是 {planned} 个。",
     "other_power": "实际发射 {read} 而不是 {planned}，或在子载波间的分配不同。",
     "other_owner": "{total} 个子载波中有 {moved} 个服务的不是所定的用户。",
@@ -203,15 +214,26 @@ _CHINESE: Mapping[str, str] = {
     "history_none": "还没有对话。",
     "history_unknown": "没有第 {number} 轮；现有第 1 至 {last} 轮。",
     "history_turn": "第 {number} 轮“{text}”：{reply}",
-    "what_if": "假设：{request}。{line}。没有作任何更改。",
-    "what_if_seen": "若 {share} 的增益缺失：{line}。没有作任何更改。",
+    "what_if": "假设：{request}{answer}",
+    "what_if_seen": "假设 {share} 的增益缺失。{answer}",
+    "what_if_met": "可以满足：{outcome}。",
+    "what_if_now": "可以满足：{outcome}。现在为 {now}。",
+    "nothing_changed": "没有作任何更改。",
     "what_if_missing_share": "缺失的比例须从 0 % 到不足 100 %；收到 {share}。应是多少？",
     "what_if_nothing": "要假设什么不同：功率、速率、用户、目标，还是缺失的比例？",
     "compared_last": "与上一个（第 {turn} 轮）比较：{line}。",
-    "compared": "同一要求，由 {names} 完成。",
+    "compared": "同一要求，由{names}完成。",
     "nothing_to_compare": "没有更早的决定可以比较。",
     "not_installed": "{name} 既不是已安装的方法，也不是修复器。方法：{methods}。修复器：{repairers}。",
-    "refused": "{name}：{why}",
+    "refused_objective": "{name}不求解这一目标：{goal}。",
+    "refused_limits": "{name}不支持{limits}。",
+    "limit_weights": "权重",
+    "limit_min_rate_bps": "最低速率",
+    "limit_max_rate_bps": "速率上限",
+    "limit_subcarrier_max_power_w": "子载波功率上限",
+    "limit_forbidden": "禁用的子载波",
+    "limit_users": "只服务部分用户",
+    "limit_resource_block_group_size": "子载波分组",
     "export_unknown": "可写 ts28312（3GPP TS 28.312）和 tmf921（TMF921 v5）；收到 {format}。要哪一种？",
     "which_user": "是指哪个用户：{known}？",
     "help": "请说明小区应做什么：总速率最高、功率最低、能效最高、公平分配，或最慢用户的速率最高；"
@@ -220,10 +242,17 @@ _CHINESE: Mapping[str, str] = {
     "“应用”“是”“否”决定是否应用；“quit”退出。",
 }
 
+_NAMES = frozenset({"user", "name", "station", "method", "recogniser"})
+"""Places for what has a name of its own."""
+
 
 def say(language: str, key: str, **names: object) -> str:
-    """The sentence of this key in the operator's language, with its names filled in."""
-    return (_CHINESE if language == "zh" else _ENGLISH)[key].format(**names)
+    """The sentence of this key in the operator's language, with its names filled in as the language calls them."""
+    told = {
+        place: called(language, name) if place in _NAMES and isinstance(name, str) else name
+        for place, name in names.items()
+    }
+    return (_CHINESE if language == "zh" else _ENGLISH)[key].format(**told)
 
 
 def joined(language: str, sentences: Iterable[str]) -> str:

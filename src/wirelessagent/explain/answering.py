@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 
 from wirelessagent.explain.case import Case
@@ -20,7 +21,7 @@ from wirelessagent.explain.step_words import no_power_answer, step_answer
 from wirelessagent.explain.steps import power_step, rate_step
 from wirelessagent.explain.table import Table
 from wirelessagent.explain.tables import user_table
-from wirelessagent.explain.user_words import user_answer
+from wirelessagent.explain.user_words import more_users_answer, share_answer, user_answer
 from wirelessagent.explain.users import account
 
 Answer = tuple[str, tuple[Table, ...]]
@@ -37,11 +38,13 @@ def answered(
         topic: why_user, why_infeasible, certificate, uncertainty, step, prices or users.
         language: the operator's.
         user: whom it is about, from 0.
-        figures: power_w or rate_bps of a step.
+        figures: power_w, rate_bps or users of a step: how much more, or how many.
     """
     usable = case.decision.is_usable
     if topic == "why_user" and user is not None:
         return user_answer(case, account(case, user), language), ()
+    if topic == "step" and usable and "users" in figures:
+        return more_users_answer(case, language), ()
     if topic == "step":
         return _step(case, language, user, figures), ()
     if topic == "why_infeasible" or not usable:
@@ -49,6 +52,9 @@ def answered(
             return feasible_answer(case, language), ()
         return nearest_answer(case, nearest(case), language), ()
     users = user_table(report, case.estimate, language)
+    if topic == "users" and user is not None:
+        row = dataclasses.replace(users, rows=(users.rows[user],))
+        return share_answer(case, user, language), (row,)
     if topic == "certificate":
         return certificate_answer(case, language), ()
     if topic == "uncertainty":

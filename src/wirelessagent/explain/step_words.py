@@ -135,7 +135,8 @@ def _bound(case: Case, step: Step, language: str) -> list[str]:
     """What no allocation could do better, where the decision after the step is not proven optimal."""
     sign = 1.0 if case.objective.direction == "max" else -1.0
     most = sign * step.most_change
-    if step.after.status == "optimal" or not np.isfinite(most) or most <= 0:
+    worse = sign * step.change < 0
+    if step.after.status == "optimal" or worse or not np.isfinite(most) or most <= 0:
         return []
     direction = WORDS.say(language, "up" if sign > 0 else "down")
     return [WORDS.say(language, "bound", direction=direction, size=human(most, step.before.unit))]

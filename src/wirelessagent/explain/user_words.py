@@ -10,7 +10,7 @@ from wirelessagent.explain.lexicon import Lexicon, paragraph, place, value_name
 from wirelessagent.explain.prices import marginal_prices
 from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.step_words import change_in_words
-from wirelessagent.explain.users import PROMISE_BPS, Account, Loss
+from wirelessagent.explain.users import PROMISE_BPS, Account, Loss, account, share
 from wirelessagent.model.units import human, percent
 
 _TIE_DB = 0.05
@@ -38,6 +38,8 @@ WORDS = Lexicon(
         "instead of {before} (solved anew).",
         "included_none": "With it the request could not be met: {reason}.",
         "nothing_decided": "{name} gets nothing because nobody does: {reason}.",
+        "all_served": "All {users} users of the cell are in this request; what another one would bring depends on its "
+        "channel, which is not known here.",
         "no_gain": "{name} gets nothing: there is no subcarrier that reaches it and that it may use.",
         "no_weight": "{name} gets nothing: its weight is 0, so its rate counts for nothing.",
         "no_promise": "{name} gets nothing: it is promised nothing, and the least power sends only what is promised.",
@@ -47,8 +49,8 @@ WORDS = Lexicon(
         "worths": "At the prices it is worth {bid} to {name} and {winning} to {winner}.",
         "tie": "On {place} it is level with {winner}, who got it (within {behind:.2g} dB): whole subcarriers "
         "cannot be shared.",
-        "more": "At the prices it would bid more for {place} than {winner}, who got it ({bid} against {winning}); "
-        "but whole subcarriers cannot be shared, and the allocation as a whole is better this way.",
+        "more": "At the prices it would bid more for {place} than {winner}, who got it: {bid} against {winning}. But "
+        "whole subcarriers cannot be shared, and the allocation as a whole is better this way.",
         "bid": "{power} ({value})",
         "gain_repaired": "Its gain there was not measured: by the repair it lies, with a probability of 90 %, "
         "within {low:+.1f} to {high:+.1f} dB of what was counted on, and is high enough to win "
@@ -77,6 +79,7 @@ WORDS = Lexicon(
         "included": "如果也服务它，它会以 {power} 得到 {rate}，{figure}将为 {value}，而不是 {before}（重新求解）。",
         "included_none": "加上它则要求无法满足：{reason}。",
         "nothing_decided": "{name}没有得到任何速率，因为所有用户都没有：{reason}。",
+        "all_served": "小区的 {users} 个用户都已在要求之中；再多一个用户会带来什么，取决于它的信道，这里无从知道。",
         "no_gain": "{name}没有得到任何速率：没有它可用且能到达它的子载波。",
         "no_weight": "{name}没有得到任何速率：它的权重为 0，速率不计入目标。",
         "no_promise": "{name}没有得到任何速率：没有对它的承诺，而功率最低时只发送承诺的部分。",
@@ -85,8 +88,8 @@ WORDS = Lexicon(
         "behind": "它最接近的是{place}，该处给了{winner}：它在那里的增益低 {behind:.1f} dB。",
         "worths": "按价格计，该处对{name}值 {bid}，对{winner}值 {winning}。",
         "tie": "在{place}上它与得到者{winner}持平（相差 {behind:.2g} dB 以内）：整个子载波不能共享。",
-        "more": "按价格它对{place}的出价高于得到者{winner}（{bid} 对 {winning}）；但整个子载波不能共享，整体上这样"
-        "分配更好。",
+        "more": "按价格它对{place}的出价高于得到者{winner}：{bid} 对 {winning}。但整个子载波不能"
+        "共享，整体上这样分配更好。",
         "bid": "{power}（{value}）",
         "gain_repaired": "它在那里的增益没有测得：按修复结果，以 90 % 的概率在所计数值的 {low:+.1f} 至 {high:+.1f} "
         "dB 之内，高到足以胜出的概率为 {chance}。",
@@ -102,50 +105,69 @@ WORDS = Lexicon(
 )
 
 
-def user_answer(case: Case, account: Account, language: str) -> str:
+def user_answer(case: Case, found: Account, language: str) -> str:
     """What a user has and why, in a paragraph."""
-    name = called(language, case.estimate.user_names[account.user])
-    said = [_head(case, account, name, language)]
-    if account.standing == "served":
-        said += _served(case, account, language)
-    if account.losses:
-        said += _loss(case, account.losses[0], name, language)
-    said += _would_win(account, language)
-    said += _promise(case, account, language)
+    name = called(language, case.estimate.user_names[found.user])
+    said = [_head(case, found, name, language)]
+    if found.standing == "served":
+        said += _served(case, found, language)
+    if found.losses:
+        said += _loss(case, found.losses[0], name, language)
+    said += _would_win(found, language)
+    said += _promise(case, found, language)
     return paragraph(said, language)
 
 
-def _head(case: Case, account: Account, name: str, language: str) -> str:
+def share_answer(case: Case, user: int, language: str) -> str:
+    """What a user has, in a few sentences."""
+    found = share(case, user)
+    said = [_head(case, found, called(language, case.estimate.user_names[user]), language)]
+    return paragraph([*said, *(_served(case, found, language) if found.standing == "served" else [])], language)
+
+
+def more_users_answer(case: Case, language: str) -> str:
+    """What one more user would bring: the one of those left out with whom the value is best."""
+    left = [int(user) for user in np.flatnonzero(~case.served)]
+    if not left:
+        return WORDS.say(language, "all_served", users=case.num_users)
+    sign = 1.0 if case.objective.direction == "max" else -1.0
+    accounts = [account(case, user) for user in left]
+    met = [one for one in accounts if one.included is not None and one.included.is_usable]
+    best = max(met, key=lambda one: sign * one.included.value if one.included else 0.0, default=accounts[0])
+    return _head(case, best, called(language, case.estimate.user_names[best.user]), language)
+
+
+def _head(case: Case, found: Account, name: str, language: str) -> str:
     decision = case.decision
     total = decision.total_power_w
     said = WORDS.say(
         language,
-        account.standing,
+        found.standing,
         name=name,
-        rate=human(account.rate_bps, "bit/s"),
-        power=human(account.power_w, "W"),
-        share=percent(account.power_w / total if total > 0 else 0.0),
-        count=account.subcarriers,
+        rate=human(found.rate_bps, "bit/s"),
+        power=human(found.power_w, "W"),
+        share=percent(found.power_w / total if total > 0 else 0.0),
+        count=found.subcarriers,
         total=decision.owner.size,
         reason=reason_in_words(decision, language),
         places=case.form.start.size - 1,
         users=int(np.count_nonzero(case.form.weight > 0)),
     )
-    if account.included is None:
+    if found.included is None:
         return said
-    return paragraph([said, _included(case, account, language)], language)
+    return paragraph([said, _included(case, found, language)], language)
 
 
-def _included(case: Case, account: Account, language: str) -> str:
-    included = account.included
+def _included(case: Case, found: Account, language: str) -> str:
+    included = found.included
     assert included is not None
     if not included.is_usable:
         return WORDS.say(language, "included_none", reason=reason_in_words(included, language))
-    power = float(included.power_w[included.owner == account.user].sum())
+    power = float(included.power_w[included.owner == found.user].sum())
     return WORDS.say(
         language,
         "included",
-        rate=human(float(included.rate_bps[account.user]), "bit/s"),
+        rate=human(float(included.rate_bps[found.user]), "bit/s"),
         power=human(power, "W"),
         figure=value_name(case, language),
         value=human(included.value, included.unit),
@@ -153,22 +175,22 @@ def _included(case: Case, account: Account, language: str) -> str:
     )
 
 
-def _served(case: Case, account: Account, language: str) -> list[str]:
+def _served(case: Case, found: Account, language: str) -> list[str]:
     said: list[str] = []
-    forecast, user = case.decision.forecast, account.user
+    forecast, user = case.decision.forecast, found.user
     if forecast is not None and forecast.high_bps[user] > forecast.low_bps[user] * _FACTOR:
         low, high = (human(float(one[user]), "bit/s") for one in (forecast.low_bps, forecast.high_bps))
         said += [WORDS.say(language, "band", low=low, high=high)] if low != high else []
-    if account.promised_bps > 0:
+    if found.promised_bps > 0:
         price = abs(float(marginal_prices(case).rate[user])) * _STEP_BPS
-        exactly = not account.rate_bps > account.promised_bps * _FACTOR
+        exactly = not found.rate_bps > found.promised_bps * _FACTOR
         key = ("binds" if exactly else "above") if price > 0 else "beyond"
-        promised, cost = human(account.promised_bps, "bit/s"), human(price, case.decision.unit)
+        promised, cost = human(found.promised_bps, "bit/s"), human(price, case.decision.unit)
         said.append(WORDS.say(language, key, promised=promised, price=cost))
-    key = "resting" if account.resting else "resting_none" if account.repaired else "measured"
+    key = "resting" if found.resting else "resting_none" if found.repaired else "measured"
     rest = {
-        "repaired": account.repaired, "entries": account.entries, "resting": account.resting,
-        "count": account.subcarriers,
+        "repaired": found.repaired, "entries": found.entries, "resting": found.resting,
+        "count": found.subcarriers,
     }  # fmt: skip
     return [*said, WORDS.say(language, key, **rest)]
 
@@ -201,21 +223,21 @@ def _bid(case: Case, bid_w: float, value: float, language: str) -> str:
     return power if np.isnan(value) else WORDS.say(language, "bid", power=power, value=human(value, case.decision.unit))
 
 
-def _would_win(account: Account, language: str) -> list[str]:
-    gain, weight = account.winning_gain_db, account.winning_weight
+def _would_win(found: Account, language: str) -> list[str]:
+    gain, weight = found.winning_gain_db, found.winning_weight
     if np.isnan(gain):
         return [] if np.isnan(weight) else [WORDS.say(language, "only_weight", weight=weight)]
     also = "" if np.isnan(weight) else WORDS.say(language, "or_weight", weight=weight)
     return [WORDS.say(language, "would_win", gain=gain, weight=also)]
 
 
-def _promise(case: Case, account: Account, language: str) -> list[str]:
-    step = account.promise
+def _promise(case: Case, found: Account, language: str) -> list[str]:
+    step = found.promise
     if step is None:
         return []
     rate = human(PROMISE_BPS, "bit/s")
     if not step.after.is_usable:
         return [WORDS.say(language, "promise_none", rate=rate, reason=reason_in_words(step.after, language))]
-    count = int(((step.after.owner == account.user) & (step.after.power_w > 0)).sum())
+    count = int(((step.after.owner == found.user) & (step.after.power_w > 0)).sum())
     total, change = step.after.owner.size, change_in_words(case, step, language)
     return [WORDS.say(language, "promise", rate=rate, count=count, total=total, change=change)]

@@ -98,15 +98,28 @@ class Account:
 
 def account(case: Case, user: int) -> Account:
     """The account of a user, from 0."""
-    decision, estimate = case.decision, case.estimate
-    own = (decision.owner == user) & (decision.power_w > 0)
-    standing = _standing(case, user, bool(own.any()))
+    plain = share(case, user)
+    standing = plain.standing
     found = bids(case) if standing in ("served", "outbid", "no_weight") else None
     losses = () if found is None else _losses(case, found, user)
     outbid = standing == "outbid"
+    return dataclasses.replace(
+        plain,
+        losses=losses,
+        winning_gain_db=_winning_gain_db(case, user, losses) if outbid else np.nan,
+        winning_weight=_winning_weight(case, user) if outbid else np.nan,
+        included=_included(case, user) if standing == "left_out" else None,
+        promise=promise_step(case, user, PROMISE_BPS) if standing in ("outbid", "no_weight", "no_promise") else None,
+    )
+
+
+def share(case: Case, user: int) -> Account:
+    """The account of a user, from 0, without what would have won it something."""
+    decision, estimate = case.decision, case.estimate
+    own = (decision.owner == user) & (decision.power_w > 0)
     return Account(
         user=user,
-        standing=standing,
+        standing=_standing(case, user, bool(own.any())),
         rate_bps=float(decision.rate_bps[user]),
         power_w=float(decision.power_w[own].sum()),
         subcarriers=int(own.sum()),
@@ -114,11 +127,6 @@ def account(case: Case, user: int) -> Account:
         promised_bps=float(case.promised_bps[user]),
         repaired=int(estimate.repaired[user].sum()),
         entries=estimate.num_subcarriers,
-        losses=losses,
-        winning_gain_db=_winning_gain_db(case, user, losses) if outbid else np.nan,
-        winning_weight=_winning_weight(case, user) if outbid else np.nan,
-        included=_included(case, user) if standing == "left_out" else None,
-        promise=promise_step(case, user, PROMISE_BPS) if standing in ("outbid", "no_weight", "no_promise") else None,
     )
 
 
