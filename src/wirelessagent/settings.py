@@ -1,16 +1,51 @@
-"""Settings from the environment: ``WIRELESSAGENT_STORE_URL`` and so on, each a field of :class:`Settings`."""
+"""Settings from the environment: ``WIRELESSAGENT_STORE_URL`` and so on, each a field of a class of settings."""
 
 from __future__ import annotations
+
+from typing import ClassVar, Self
 
 from pydantic import ValidationError
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from wirelessagent.model.errors import InputError
 
-_PREFIX = "WIRELESSAGENT_"
+
+class EnvironmentSettings(BaseSettings):
+    """Fields that environment variables of one prefix set; subclass it with a prefix of its own.
+
+    Attributes:
+        trouble: what to say where a variable cannot be used.
+        example: how to set them, at the end of that.
+    """
+
+    model_config = SettingsConfigDict(env_ignore_empty=True, extra="ignore", frozen=True)
+
+    trouble: ClassVar[str] = "the environment cannot be used"
+    example: ClassVar[str] = ""
+
+    @classmethod
+    def read(cls) -> Self:
+        """The settings as the environment has them now.
+
+        Raises:
+            InputError: one is missing or cannot be used; values are shown unless the class hides its input.
+        """
+        try:
+            return cls()
+        except ValidationError as error:
+            wrong = [cls._told(str(item["loc"][0]), item["msg"], item["input"]) for item in error.errors()]
+        example = f" ({cls.example})" if cls.example else ""
+        raise InputError(f"{cls.trouble}: {'; '.join(wrong)}{example}")
+
+    @classmethod
+    def _told(cls, field: str, message: str, value: object) -> str:
+        """What is wrong with one variable."""
+        said = message.removeprefix("Value error, ").removeprefix("Input ")
+        got = "" if cls.model_config.get("hide_input_in_errors") else f"; got {value!r}"
+        return f"{cls.model_config.get('env_prefix', '')}{field.upper()}: {said}{got}"
 
 
-class Settings(BaseSettings):
+class Settings(EnvironmentSettings):
     """What is set for all commands of a user or a machine.
 
     Attributes:
@@ -18,22 +53,7 @@ class Settings(BaseSettings):
         store_url: where: a SQLAlchemy URL or an SQLite file; a file in the user's data folder if not given.
     """
 
-    model_config = SettingsConfigDict(env_prefix=_PREFIX, env_ignore_empty=True, extra="ignore", frozen=True)
+    model_config = SettingsConfigDict(env_prefix="WIRELESSAGENT_")
 
     store: bool = True
     store_url: str | None = None
-
-
-def settings() -> Settings:
-    """The settings as the environment has them now.
-
-    Raises:
-        InputError: one of them has a value that it cannot have.
-    """
-    try:
-        return Settings()
-    except ValidationError as error:
-        first = error.errors()[0]
-        name = _PREFIX + str(first["loc"][0]).upper()
-        said = first["msg"].removeprefix("Input ")
-        raise InputError(f"the environment variable {name}: {said}; got {first['input']!r}") from error

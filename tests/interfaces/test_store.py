@@ -23,7 +23,7 @@ from sqlalchemy import create_mock_engine
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Stage
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError, WirelessAgentError
-from wirelessagent.settings import settings
+from wirelessagent.settings import Settings
 from wirelessagent.store.content import Content, estimate_of, observation_of
 from wirelessagent.store.place import url_of
 from wirelessagent.store.plain import canonical, plain
@@ -401,7 +401,7 @@ def test_the_settings_say_where(place: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert url_of(place.with_name("other")).database == str(place.with_name("other"))
     monkeypatch.setenv("WIRELESSAGENT_STORE", "perhaps")
     with pytest.raises(InputError, match=r"WIRELESSAGENT_STORE: should be a valid boolean.*'perhaps'"):
-        settings()
+        Settings.read()
 
 
 def test_the_hash_of_a_content_is_that_of_what_it_holds() -> None:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 from urllib.parse import urlsplit
 
-from pydantic import Field, SecretStr, ValidationError, field_validator
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic import Field, SecretStr, field_validator
+from pydantic_settings import SettingsConfigDict
 
-from wirelessagent.model.errors import InputError
+from wirelessagent.settings import EnvironmentSettings
 
 _PREFIX = "WIRELESSAGENT_LLM_"
 
 
-class LlmSettings(BaseSettings):
+class LlmSettings(EnvironmentSettings):
     """Where the LLM is and how to speak to it.
 
     Attributes:
@@ -25,9 +25,10 @@ class LlmSettings(BaseSettings):
         output: how the typed answer is asked for: by a tool call, by a JSON schema, or in words.
     """
 
-    model_config = SettingsConfigDict(
-        env_prefix=_PREFIX, frozen=True, extra="ignore", env_ignore_empty=True, hide_input_in_errors=True
-    )
+    model_config = SettingsConfigDict(env_prefix=_PREFIX, hide_input_in_errors=True)
+
+    trouble: ClassVar[str] = "the LLM is not set up"
+    example: ClassVar[str] = f"an example: {_PREFIX}BASE_URL=http://localhost:11434/v1 {_PREFIX}MODEL=qwen3"
 
     base_url: str
     model: str = Field(min_length=1)
@@ -45,22 +46,3 @@ class LlmSettings(BaseSettings):
         if parts.username or parts.password or parts.query:
             raise ValueError(f"must hold no user, password or query; a key goes into {_PREFIX}API_KEY")
         return url
-
-    @classmethod
-    def read(cls) -> LlmSettings:
-        """The settings as the environment has them now.
-
-        Raises:
-            InputError: one is missing or cannot be used; the message holds names, no values.
-        """
-        try:
-            return cls()  # pyright: ignore[reportCallIssue]  # filled from the environment
-        except ValidationError as error:
-            wrong = "; ".join(
-                f"{_PREFIX}{str(item['loc'][0]).upper()}: {item['msg'].removeprefix('Value error, ')}"
-                for item in error.errors()
-            )
-            raise InputError(
-                f"the LLM is not set up: {wrong} (an example: {_PREFIX}BASE_URL=http://localhost:11434/v1 "
-                f"{_PREFIX}MODEL=qwen3)"
-            ) from None

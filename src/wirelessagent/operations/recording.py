@@ -36,10 +36,10 @@ class RecordingOptions(StoreOptions):
         """The turn's number in the store; None where it was not to be recorded, or could not be."""
         if self.no_store:
             return None
-        from wirelessagent.settings import settings
+        from wirelessagent.settings import Settings
 
         try:
-            if not settings().store:
+            if not Settings.read().store:
                 return None
             with opened(self, create=True) as store:
                 return store.append(turn)

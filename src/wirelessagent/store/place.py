@@ -21,7 +21,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError, SQLAlch
 
 from wirelessagent import __version__
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
-from wirelessagent.settings import settings
+from wirelessagent.settings import Settings
 from wirelessagent.store.schema import METADATA, SCHEMA, SCHEMA_VERSION, TURN
 
 _PATIENCE_S = 10.0
@@ -37,7 +37,7 @@ def url_of(where: str | Path | None) -> URL:
     Raises:
         InputError: it is no URL, or of a database that cannot hold a store.
     """
-    named = str(where or settings().store_url or platformdirs.user_data_path("wirelessagent") / "audit.sqlite3")
+    named = str(where or Settings.read().store_url or platformdirs.user_data_path("wirelessagent") / "audit.sqlite3")
     if "://" not in named:
         return URL.create("sqlite", database=str(_absolute(named)))
     try:
