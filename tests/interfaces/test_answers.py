@@ -10,6 +10,8 @@ import pytest
 from tests.support.conversations import LOSS, SCENE, SEED, Scripted, asks, means
 
 import wirelessagent as wa
+from wirelessagent.agent.request import Request
+from wirelessagent.agent.restating import restated
 from wirelessagent.agent.turn import Turn
 from wirelessagent.explain.report import cannot_be_served
 from wirelessagent.language.intent import Intent
@@ -145,3 +147,12 @@ def test_who_cannot_be_served_is_counted_in_both_languages() -> None:
     assert cannot_be_served(decision) == "1 of 4 users cannot be served: there are only 3 subcarriers"
     assert cannot_be_served(decision, "zh") == "4 个用户中有 1 个无法服务：只有 3 个子载波"
     assert np.count_nonzero(decision.rate_bps) == 3
+
+
+def test_the_same_figures_of_several_users_are_told_together() -> None:
+    weights = Request(objective="max_rate", constraints={"weights": {"3": 2.0, "user 4": 2.0, "all": 0.5}})
+    assert restated(weights) == "The highest total rate: weight 2 for user 3 and user 4, weight 0.5 for everyone else."
+    assert restated(weights, "zh") == "总速率最高：用户3和用户4的权重为 2，其余用户的权重为 0.5。"
+    three = Request(objective="min_power", constraints={"min_rate_bps": {"all": 1e6}, "leave_out": ("1", "2", "eve")})
+    assert restated(three) == "The least power: at least 1 Mbit/s for each user, without user 1, user 2 and eve."
+    assert restated(three, "zh") == "功率最低：每个用户至少 1 Mbit/s，不服务用户1、用户2和eve。"
