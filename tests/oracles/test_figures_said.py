@@ -126,7 +126,8 @@ CEILINGS = [
     "plafonnés à 1 Mbit/s", "limite l'utilisateur 5 à 1 Mbit/s", "1 Mbit/s de plafond",
     "sans dépasser 1 Mbit/s",
     "ne pas aller au-delà de 1 Mbit/s", "brider UE 2 à 1 méga",
-    "que no pase de 1 Mbit/s", "que nadie supere 1 mega", "limitado a 1 Mbit/s", "capado a 1 Mbit/s", "tope de 1 Mbit/s",
+    "que no pase de 1 Mbit/s", "que nadie supere 1 mega", "limitado a 1 Mbit/s",
+    "capado a 1 Mbit/s", "tope de 1 Mbit/s",
     "nunca por encima de 1 Mbit/s", "a nadie más de 1 mega",
     "stop user 1 at 1 Mbit/s", "with UE 2 throttled to 1 Mbps", "policed at 1 Mbps", "clamp each UE at 1 Mbps",
     "Cap UE 1 and UE 2 at 1 Mbps", "no UE past 1 Mbps", "nobody faster than 1 Mbps", "rate-cap subscriber 11 at 1 Mbps",
@@ -146,3 +147,70 @@ CEILINGS = [
 def test_a_figure_is_a_floor_a_ceiling_or_exact_in_every_language(text: str, comparator: str | None) -> None:
     (found,) = (figure for figure in parse_quantities(text) if figure.kind == "rate")
     assert (found.value, found.comparator) == (1e6, comparator)
+
+
+@pytest.mark.parametrize(
+    ("text", "rates"),
+    [
+        ("users 2, 4 and 6 get 1, 2 and 4 Mbit/s", [1e6, 2e6, 4e6]),
+        ("mit 600 beziehungsweise 900 kbit/s", [6e5, 9e5]), ("mindestens 300 und höchstens 900 kbit/s", [3e5, 9e5]),
+        ("user 1 two Mbit/s, user 2 one and a half, UE 3 750 kbit/s", [2e6, 1.5e6, 750e3]),
+        ("User 1 should have 1 Mbit/s, user 2 should have 2 and user 3 should have 3", [1e6, 2e6, 3e6]),
+        ("600 kbit/s for user 1, 100 for the others", [6e5, 1e5]), ("user 7 gets 4 Mbit/s, user 1 gets 1", [4e6, 1e6]),
+        ("UE 1 vier Megabit, die anderen ein halbes", [4e6, 5e5]),
+        ("Nutzer 2 vier Megabit, sonst jeder eins", [4e6, 1e6]),
+        ("jeder 200 kbit/s, UE 3 sogar 800", [2e5, 8e5]), ("1 mega por usuario y 3 para el 5", [1e6, 3e6]),
+        ("al abonado 1 con 5 megas y al 2 con 2", [5e6, 2e6]), ("seis megas cada uno; los demás, uno", [6e6, 1e6]),
+        ("lo prometido en megas: 6 para el usuario 2, 3 para el usuario 3", [6e6, 3e6]),
+        ("deux mégas à l'utilisateur 2 et un seul à l'utilisateur 3", [2e6, 1e6]),
+        ("quatre mégabits pour l'utilisateur 1, deux pour l'utilisateur 2", [4e6, 2e6]),
+        # none of these leans
+        ("100 kbit/s aux UE 1 à 3 et le reste", [1e5]), ("1 Mbit/s Mindestrate für alle 25", [1e6]),
+        ("4 Mbit/s for user 1, serve the other five.", [4e6]), ("Pr{R ≥ 1.5 Mbps} ≥ 0.95 for all k", [1.5e6]),
+        ("1 Mbit/s each, users 2 and 3 first", [1e6]), ("in 2024, 2 Mbit/s each", [2e6]),
+        ("1 Mbit/s for 12 users", [1e6]),
+        ("4 Mbit/s for every other one", [4e6]), ("dos megas para el usuario 3 y medio mega para el resto", [2e6, 5e5]),
+    ],
+)  # fmt: skip
+def test_a_number_leans_on_the_unit_of_another(text: str, rates: list[float]) -> None:
+    assert [figure.value for figure in parse_quantities(text) if figure.kind == "rate"] == rates
+
+
+@pytest.mark.parametrize(
+    ("text", "powers"),
+    [
+        ("25, no, 30 W", [30.0]), ("10 W, perdón, 12", [10.0, 12.0]), ("dix watts, pardon, douze", [10.0, 12.0]),
+        ("max ten watts, hang on, make that fifteen", [10.0, 15.0]), ("nimm 10 Watt, ach nein, 12", [10.0, 12.0]),
+        ("nine watts on the air, the electronics take three", [9.0, 3.0]), ("10 W, no user above 12", [10.0]),
+        ("10 W, sorry, 12 users", [10.0]), ("not one milliwatt more", []), ("pas un watt de plus", []),
+    ],
+)  # fmt: skip
+def test_a_correction_takes_the_unit_of_what_it_corrects(text: str, powers: list[float]) -> None:
+    assert [figure.value for figure in parse_quantities(text) if figure.kind == "power"] == powers
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("九成五", 0.95), ("可靠性九成九", 0.99), ("中断不超一成", 0.1), ("千分之一", 0.001), ("万分之五", 0.0005),
+        ("nineteen times out of twenty", 0.95), ("99 times in a hundred", 0.99), ("one in twenty", 0.05),
+        ("19 de cada 20", 0.95), ("que ça tienne neuf fois sur dix", 0.9), ("9 out of 10 users", None),
+        ("serve 3 of 10", None), ("一成不变", None), ("设成20", None),
+    ],
+)  # fmt: skip
+def test_shares_in_words_are_ratios(text: str, value: float | None) -> None:
+    ratios = [figure.value for figure in parse_quantities(text) if figure.kind == "ratio"]
+    assert ratios == ([] if value is None else [pytest.approx(value, rel=1e-12)])
+
+
+@pytest.mark.parametrize(
+    ("text", "ceilings"),
+    [
+        ("rate limits: 9 Mbps for user 1, 4 Mbps for user 2", [9e6, 4e6]),
+        ("Nutzer 2 auf 2 Mbit/s deckeln und Nutzer 3 auf 4 Mbit/s", [2e6, 4e6]),
+        ("cap user 1 at 2 Mbps and everyone else at 1 Mbps", [2e6, 1e6]),
+        ("user 1 at most 2 Mbps, everyone 1 Mbps", [2e6]),
+    ],
+)
+def test_a_bound_holds_for_the_next_figure_of_the_same_form(text: str, ceilings: list[float]) -> None:
+    assert [figure.value for figure in parse_quantities(text) if figure.comparator == "at_most"] == ceilings

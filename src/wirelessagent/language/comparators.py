@@ -52,7 +52,8 @@ _AT_MOST = _listed(
     "höchstens hoechstens maximal nicht_mehr_als bis_zu obergrenze deckel höchstgrenze leistungsgrenze höchstrate "
     "maximalrate 不超过 不得超过 不能超过 不许超过 别超过 不要超过 最多 至多 顶多 不高于 不大于 不多于 最高 最大 "
     "上限 限制在 控制在 限定在 以内 封顶 封到 封在 压在 卡在 "
-    "卡到 (?<![门底极无有期权下上时受])限(?:速|制|流)?(?:到|在|为)? ≤ <= =<"
+    "卡到 (?<![门底极无有期权下上时受])限(?:速|制|流)?(?:到|在|为)? "
+    "(?:封(?![顶闭城])) rmax ≤ <= =<"
 )
 _EXACTLY = _listed("exactly precisely exactamente justo exactement exakt genau 恰好 正好 刚好 等于")
 
@@ -72,8 +73,8 @@ _AFTER: dict[str, Comparator] = {
             "at_the_most at_the_very_most top "
             "o_menos como_mucho como_máximo como_maximo máximo maximo de_máximo de_tope de_techo a_lo_sumo au_plus "
             "au_maximum maximum de_plafond de_limite maxi maximal höchstens oder_weniger ou_moins de_límite "
-            "gedeckelt begrenzt beschränkt gekappt gedrosselt limitiert abgeregelt deckeln begrenzen beschränken "
-            "kappen drosseln limitieren abregeln nicht_überschreiten nicht_übersteigen obergrenze "
+            "gedeckelt begrenzt beschränkt gekappt ist_schluss gedrosselt limitiert abgeregelt deckeln begrenzen "
+            "beschränken kappen drosseln limitieren abregeln nicht_überschreiten nicht_übersteigen obergrenze "
             "以内 之内 以下 或以下 或更少 封顶 为限 上限 顶天 为止 打住 到顶 顶格"
         ),
         "at_most",
@@ -117,8 +118,8 @@ def _any_of(words: list[str]) -> str:
 _GAP = re.compile(rf"(?i)(?:\s|{_any_of([*_FILLERS, *_POWER_NOUNS, *_RATE_NOUNS])}){{0,16}}$")
 _WORDS = rf"(?:(?!(?:and|y|et|und)\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"
 _CAP = (  # "cap users at", "limite l'utilisateur 5 à", "limitado a", "auf … begrenzt" stands behind
-    rf"\b(?:rate-)?(?:cap|limit|restrict|throttl|clamp|polic|chok|stop|cut\s+off)(?:s|e|es|p?ed|t?ing|ping|ing)?\s+{_WORDS}"
-    rf"(?:at|to)\b|\b(?:limit|cap|top|restring|fren)\w*\s+{_WORDS}(?:a|en)\b"
+    rf"\b(?:rate-)?(?:cap|limit|restrict|throttl|clamp|polic|chok|stop|held\s+down|cut\s+off)(?:s|e|es|p?ed|t?ing|ping|ing)?\s+{_WORDS}"
+    rf"(?:at|to)\b|\b(?:l[ií]mit|cap|top|restring|fren)\w*\s+{_WORDS}(?:a|en)\b"
     rf"|\b(?:limit|plafonn|brid|restrei|cap)\w*\s+{_WORDS}à(?!\w)"
     rf"|\b(?:begrenz|beschränk|deckel|kapp|drossel|drossl|limitier)\w*\s+{_WORDS}(?:auf|bei)\b"
 )
@@ -139,7 +140,7 @@ _DENIED_AFTER = re.compile(  # "mehr als 24 Watt gibt's nicht", "below 1 Mbit/s 
     r"interdit|verboten|schluss)\b"
 )
 _AFTER_RE = re.compile(
-    rf"(?i)[\s-]*(?:(?:auch|das|ist|sind|je|pro|nutzer|kopf|each|everyone|person|de|en|per|user|the|at)\s+){{0,5}}"
+    rf"(?i)[\s-]*(?:(?:auch|das|ist|sind|je|pro|nutzer|kopf|die|jeden|für|each|everyone|person|de|en|per|user|the|at)\s+){{0,5}}"
     rf"(?P<word>{_any_of(list(_AFTER))})(?!\s*(?:of\s+|is\s+)?[0-9])"
 )
 _LAST_WORD = re.compile(  # "10 W, no more", "10 kbit/s, no less and no more"

@@ -111,6 +111,8 @@ _GERMAN = _Grammar(
     vague=_words("paar einige einigen wenige wenigen mehrere mehreren hunderte tausende dutzende drittel"),
     added={"einhalb": _HALF}, dozens=_words("dutzend"),
 )  # fmt: skip
+# What stresses an article, which is then a number: "a full megabit", "un seul".
+_STRESS = _words("full whole single solid solo seul seule volles ganzes einziges einzigen")
 _GRAMMARS = {"en": _ENGLISH, "es": _SPANISH, "fr": _FRENCH, "de": _GERMAN}
 LANGUAGES = tuple(_GRAMMARS)
 
@@ -190,6 +192,8 @@ class _Reader:
             return self._result(None, linked=True)
         value = self._cardinal()
         is_article = self._place == 1 and self._words[0] in self._grammar.articles
+        if is_article and self._word() in _STRESS:
+            self._place, is_article = self._place + 1, False
         value, linked = self._decimals(value), False
         value = self._with_parts(value)
         if value is None:

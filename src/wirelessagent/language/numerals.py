@@ -55,7 +55,14 @@ _OVER = re.compile(r"/(?P<below>[1-9][0-9]?)(?![0-9/])(?:\s+(?:of\s+an?|de|d'un)
 _VAGUELY = re.compile(r"[来多余几]")
 _THOUSANDFOLD = re.compile(r"比特|字节|瓦(?!时)")
 _AS_FEW = re.compile(r"(?i)\b(?:as|so|too|tan|aussi|zu|very|muy|trop)\s+$")
-_NAMED = re.compile(rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|y|et|und|&|/)\s*)*$")
+_EACH = (
+    r"(?<!every )(?<!each )(?<!per )(?<!all )(?<!cada )(?<!por )(?<!chaque )(?<!par )(?<!jeder )(?<!jeden )(?<!pro )"
+)
+_NAMED = re.compile(rf"(?i){_EACH}\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|y|et|und|&|/)\s*)*$")
+_PLURAL = re.compile(
+    r"(?i)\b(?:users|ues|subscribers|customers|clients|devices|phones|usuarios|abonados|utilisateurs|"
+    r"abonnés|usagers|kunden)\s*$"
+)
 _BELOW_ZERO = re.compile(r"(?i)(?<!al )(?<!lo )(?<!au )(?<!ou )\b(?:menos|moins)\s+$")
 
 
@@ -75,11 +82,12 @@ class Number:
 def numbers(text: str) -> Iterator[Number]:
     """Every number in normalised text, from left to right, not overlapping."""
     language = language_of(text)
-    position = 0
+    own, position = "en" if language == "zh" else language, 0
     while match := _NUMBER.search(text, position):
         position = match.end()
         if match["word"]:
-            number = _in_words(text, match, "en" if language == "zh" else language)
+            number, spoken_in = _in_words(text, match, own)
+            own = spoken_in if own == "en" else own  # "dix watts, pardon, douze"
         elif match["digits"] or match["fraction"]:
             number = _in_digits(text, match, language)
         else:
@@ -122,7 +130,7 @@ def _in_digits(text: str, match: re.Match[str], language: str) -> Number:
     if value is not None and over is not None and unit_at(text, over.end()) is not None:
         share = value / int(over["below"])
         value, end = share if share * int(over["below"]) == value else None, over.end()
-    part = and_part(text, end)
+    part = and_part(text, end) if not _NAMED.search(text, max(0, start - 40), start) else None
     if value is not None and part is not None and unit_at(text, part[1]) is not None:
         value, end = value + part[0], part[1]
     if _VAGUELY.match(text, end) and unit_at(text, end + 1) is not None:
@@ -153,8 +161,8 @@ def _digits_value(digits: str, language: str) -> Decimal | None:
     return Decimal(digits.replace(" ", "").replace(",", "."))
 
 
-def _in_words(text: str, match: re.Match[str], own: str) -> Number | None:
-    """The number that begins with a word: in the sentence's language, or in another where a unit follows."""
+def _in_words(text: str, match: re.Match[str], own: str) -> tuple[Number | None, str]:
+    """The number that begins with a word, in this language or in another where a unit follows; and its language."""
     word = match["word"]
     for language in (own, *(language for language in LANGUAGES if language != own)):
         if not may_begin(word, language):
@@ -168,10 +176,10 @@ def _in_words(text: str, match: re.Match[str], own: str) -> Number | None:
             continue
         measured = unit_at(text, number.end) is not None
         if measured and not (said and said.is_article and language == "en" != own):
-            return _signed(match, text, number)
+            return _signed(match, text, number), language
         if language == own and _stands_alone(text, number, said):
-            return number
-    return None
+            return number, language
+    return None, own
 
 
 def _placed(
@@ -186,7 +194,9 @@ def _placed(
         linked += 1
     if linked > end and unit_at(text, linked) is not None:
         end = linked
-    if said.words > 1 and _NAMED.search(text, max(0, start - 40), start) and unit_at(text, end) is not None:
+    before = text[max(0, start - 40) : start]
+    is_name = _NAMED.search(before) is not None and _PLURAL.search(before) is None
+    if said.words > 1 and is_name and unit_at(text, end) is not None:
         first = spoken([places[0].group()], language)  # "user one hundred kilobits": a name, then a figure
         return first and Number(value=first.value, start=start, end=start + places[0].end(), form=form)
     return Number(value=said.value, start=start, end=end, form=form)

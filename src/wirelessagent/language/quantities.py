@@ -7,15 +7,16 @@ reported with the kind "other", as is a share for each user ("1 MB each"), so th
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from dataclasses import dataclass
-from decimal import Decimal
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.comparators import Comparator, comparison
-from wirelessagent.language.numerals import Number, numbers
+from wirelessagent.language.leaning import with_units
+from wirelessagent.language.readings import GENERATION, Reading
+from wirelessagent.language.readings import readings as read_numbers
 from wirelessagent.language.text import CJK, USER_NOUN, normalise
-from wirelessagent.language.units import Unit, unit_at
 
 QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
 
@@ -23,14 +24,8 @@ QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
 _AFTER_BARE = re.compile(
     r"\s*(?:$|[,;:!?。\uff0c\uff1b、)\]]|\.(?![0-9])|(?i:(?:please|and|or|for|each|per|max|maximum|min|minimum|"
     r"with|at|but|then|now|thanks|"
-    rf"to|in|on|the|while|when|apiece)\b)|[{CJK}])"
+    rf"to|in|on|the|while|when|apiece)\b|(?:de\s+)?(?:probabilit|outage|wahrscheinlich))|[{CJK}])"
 )
-_SUFFIX = re.compile(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9/])")
-_CHINESE_SUFFIX = re.compile(
-    r"\s?(?P<suffix>[kKM])(?!\s*[A-Za-z0-9/瓦赫焦伏安米克])"
-)  # "每人2M": so are rates written there
-_CJK = re.compile(f"[{CJK}]")
-_SUFFIXES = {"k": Decimal(10**3), "K": Decimal(10**3), "M": Decimal(10**6), "G": Decimal(10**9)}
 _NAMES = re.compile(
     r"(?i:(?:\b(?:users?|ues?|slots?|subcarriers?|channels?|carrier|cells?|number|numbers|no\.?|and|to|release|"
     r"version|mode"
@@ -40,15 +35,12 @@ _USERS = re.compile(rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|or|y|et|un
 _CHINESE_COUNTED = re.compile(
     r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
 )
-_GENERATION = re.compile(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
-_PICTURE = re.compile(r"[248]K")
-_HUNDREDTHS = re.compile(r"百分之$")
+_VARIABLE = re.compile(r"\s+[A-Za-z]{1,3}_?[0-9]")  # "R6=700k R7=900k"
 _FOREIGN_UNIT = re.compile(r"\s?[A-Za-zμ][A-Za-zμ/]*")
 _FOREIGN_APIECE = re.compile(
     r"(?i)\s?(?!users?\b|ues?\b)[A-Za-zμ][A-Za-zμ/]*\s*(?:each\b|apiece\b|per\s+(?:user|person|head)\b|每)"
 )
 _RANGE = re.compile(r"\s*(?:-|–|—|~|(?i:to\b|and\b|through\b|y\b|et\b|à\b|und\b|bis\b)|到|至)\s*$")
-_TRAILING_HALF = re.compile(r"半(?!小时)")
 _PRICE_BEFORE = re.compile(r"(?i)(?:\b(?:per|each|every|out of|from|for|of|pro|je|par|por|cada|chaque|aus)\s+|每)$")
 _PRICE_AFTER = re.compile(
     r"(?i)\s*(?:should\s+|can\s+|must\s+)?(?:buys?|brings?|carr(?:y|ies)|gives?|yields?|delivers?|moves?|"
@@ -58,7 +50,19 @@ _OWN_NOUN = re.compile(  # "each user's rate no lower than" bounds the rate, and
     r"(?:用户|每人|人均|每个|每户|各|UE|终端|大家|的)的?(?P<noun>(?:下行|数据)?(?:速率|速度|网速|吞吐量?))(?:都|"
     r"也)?(?:要|得|必须|应|须)?$"
 )
-_APIECE = re.compile(r"(?i)\s*(?:each|apiece|per\s+(?:user|person|head))\b")
+_FOR_EACH = re.compile(
+    rf"(?i)\s*(?:for|on|para|pour|für)\s+(?:el\s+|l'|the\s+|den\s+)?(?:{USER_NOUN}\s*[0-9]{{1,2}}|[0-9]{{1,2}})"
+    r"\s*(?:,|,?\s*(?:and|y|et|und))\s*"
+)
+_LAST_WORD = re.compile(r"([A-Za-zÀ-ÿ]+)\s+$")
+_SAME_FORM = re.compile(
+    rf"(?i)(?:\s+\w+)?\s*(?:,|,?\s*(?:and|y|et|und))\s+(?:al?\s+|el\s+|l'|à\s+l'|the\s+)?(?:{USER_NOUN}\s*"
+    r"[0-9]{1,2}|everyone(?:\s+else)?|the\s+(?:others?|rest))\s+(to|at|a|en|à|auf|bei)\s+"
+)
+_STEP_AFTER = re.compile(
+    r"(?i)\s*(?:more|less|faster|extra|too\s+much|de\s+m[aá]s|m[aá]s|de\s+plus|mehr|zu\s+viel|zuviel)\b"
+)
+_STEP_BEFORE = re.compile(r"(?i)\b(?:not|nor|ni|pas|nicht|without|last|per|by|an|what)\s+$")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,17 +89,6 @@ class Quantity:
     doubtful: bool = False
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Reading:
-    """A number with the unit that follows it, before its bounds are known."""
-
-    number: Number
-    unit: Unit | None
-    start: int
-    end: int
-    factor: Decimal = Decimal(1)
-
-
 def parse_quantities(text: str) -> tuple[Quantity, ...]:
     """Every quantity of a sentence, from left to right, not overlapping.
 
@@ -103,7 +96,7 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
     [('rate', 1000000.0, 'at_least'), ('power', 0.1, 'at_most')]
     """
     plain = normalise(text)
-    readings = _readings(plain)
+    readings = with_units(plain, read_numbers(plain))
     found: list[Quantity] = []
     after = 0
     for index, reading in enumerate(readings):
@@ -119,50 +112,29 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
             quantity = _bounded(text, plain, reading, after=after, until=until)
             if quantity is None:
                 continue
-            found.append(quantity)
+            found.append(_like_the_last(plain, found, quantity))
         after = found[-1].phrase_end
     return tuple(found)
 
 
-def _readings(plain: str) -> list[_Reading]:
-    readings: list[_Reading] = []
-    blocked = 0
-    for number in numbers(plain):
-        if number.start < blocked:
-            continue
-        reading = _read(plain, number)
-        readings.append(reading)
-        blocked = reading.end
-    return readings
+def _like_the_last(plain: str, found: list[Quantity], quantity: Quantity) -> Quantity:
+    """A figure without a bound takes that of the one before it where both stand in the same form.
+
+    "Limits: 9 Mbps for user 1, 4 Mbps for the others", "cap user 1 at 2 Mbps and user 2 at 4".
+    """
+    last = found[-1] if found else None
+    if last is None or quantity.comparator is not None or quantity.kind != "rate" or last.kind not in ("rate", "power"):
+        return quantity
+    gap = plain[last.end : quantity.start]
+    of_one_kind = last.kind == quantity.kind and _FOR_EACH.fullmatch(gap) is not None
+    lead, same = _LAST_WORD.search(plain, 0, last.start), _SAME_FORM.fullmatch(gap)
+    same_form = lead is not None and same is not None and lead[1].lower() == same[1].lower()
+    if last.comparator != "at_most" or not (of_one_kind or same_form):
+        return quantity
+    return dataclasses.replace(quantity, comparator="at_most")
 
 
-def _read(plain: str, number: Number) -> _Reading:
-    hundredths = _HUNDREDTHS.search(plain, max(0, number.start - 3), number.start)
-    if hundredths is not None:
-        unit = Unit(kind="ratio", end=number.end, factor=Decimal("0.01"))
-        return _Reading(number=number, unit=unit, start=hundredths.start(), end=number.end)
-    unit = unit_at(plain, number.end)
-    if unit is not None:
-        end = unit.end
-        if unit.level_dbm is None and number.value is not None and _TRAILING_HALF.match(plain, end):
-            number = Number(value=number.value + Decimal("0.5"), start=number.start, end=number.end, form=number.form)
-            end += 1
-        return _Reading(number=number, unit=unit, start=number.start, end=end)
-    suffix = _SUFFIX.match(plain, number.end) if number.form == "digits" else None
-    spoken = number.form == "chinese" and number.value is not None and number.end - number.start > 1
-    written = (number.form == "digits" or spoken) and _CJK.search(plain)
-    chinese = _CHINESE_SUFFIX.match(plain, number.end) if written else None
-    if chinese is not None and not _PICTURE.match(plain, number.start):
-        unit = Unit(kind="rate", end=chinese.end(), factor=_SUFFIXES[chinese["suffix"]])
-        return _Reading(number=number, unit=unit, start=number.start, end=chinese.end())
-    if suffix is not None and not _GENERATION.match(plain, number.start):
-        return _Reading(
-            number=number, unit=None, start=number.start, end=suffix.end(), factor=_SUFFIXES[suffix["suffix"]]
-        )
-    return _Reading(number=number, unit=None, start=number.start, end=number.end)
-
-
-def _joined(plain: str, lower: _Reading, upper: _Reading) -> bool:
+def _joined(plain: str, lower: Reading, upper: Reading) -> bool:
     """Whether two readings are the ends of one range, "1 to 2 Mbit/s"."""
     gap = plain[lower.end : upper.start]
     if lower.number.value is None or upper.number.value is None or _RANGE.match(gap) is None:
@@ -174,12 +146,12 @@ def _joined(plain: str, lower: _Reading, upper: _Reading) -> bool:
     return re.search(r"(?i)(?:between|entre|zwischen)\s*$", plain[max(0, lower.start - 12) : lower.start]) is not None
 
 
-def _range(text: str, lower: _Reading, upper: _Reading) -> list[Quantity]:
+def _range(text: str, lower: Reading, upper: Reading) -> list[Quantity]:
     assert upper.unit is not None
     assert lower.number.value is not None
     assert upper.number.value is not None
     low, high = (lower.unit or upper.unit).value(lower.number.value), upper.unit.value(upper.number.value)
-    spans: tuple[tuple[_Reading, float, Comparator], ...] = ((lower, low, "at_least"), (upper, high, "at_most"))
+    spans: tuple[tuple[Reading, float, Comparator], ...] = ((lower, low, "at_least"), (upper, high, "at_most"))
     return [
         Quantity(
             value=value, kind=upper.unit.kind, text=text[part.start : part.end], start=part.start, end=part.end,
@@ -189,7 +161,7 @@ def _range(text: str, lower: _Reading, upper: _Reading) -> list[Quantity]:
     ]  # fmt: skip
 
 
-def _bounded(text: str, plain: str, reading: _Reading, *, after: int, until: int) -> Quantity | None:
+def _bounded(text: str, plain: str, reading: Reading, *, after: int, until: int) -> Quantity | None:
     """The quantity of one reading; its words lie between ``after`` and ``until``."""
     number, unit = reading.number, reading.unit
     kind: QuantityKind = unit.kind if unit is not None and number.value is not None else "other"
@@ -203,7 +175,9 @@ def _bounded(text: str, plain: str, reading: _Reading, *, after: int, until: int
         return None
     if kind == "power" and number.value == 1 and bounds.comparator is None and _is_price(plain, reading):
         return None
-    if _is_article(plain, reading) and not (unit is not None and (bounds.comparator or _apiece(plain, unit))):
+    if number.value == 1 and bounds.comparator is None and _is_step(plain, reading):
+        return None
+    if _is_article(plain, reading) and not (unit is not None and (bounds.comparator or unit.kind == "rate")):
         return None
     value = 0.0
     if number.value is not None and kind != "other":
@@ -224,22 +198,25 @@ def _bounded(text: str, plain: str, reading: _Reading, *, after: int, until: int
     )  # fmt: skip
 
 
-def _is_article(plain: str, reading: _Reading) -> bool:
+def _is_article(plain: str, reading: Reading) -> bool:
     return plain[reading.number.start : reading.number.end].lower() in ("a", "an")
 
 
-def _is_price(plain: str, reading: _Reading) -> bool:
+def _is_price(plain: str, reading: Reading) -> bool:
     """Whether one watt is what bits are counted for: "the most out of one watt", 一瓦换多少比特."""
     before, after = plain[max(0, reading.start - 16) : reading.start], plain[reading.end : reading.end + 12]
     return _PRICE_BEFORE.search(before) is not None or _PRICE_AFTER.match(after) is not None
 
 
-def _apiece(plain: str, unit: Unit) -> bool:
-    """Whether the article is a number: it is in "a megabit each", not in "not a watt more"."""
-    return unit.kind == "rate" and _APIECE.match(plain, unit.end) is not None
+def _is_step(plain: str, reading: Reading) -> bool:
+    """Whether one unit is the least step, not a figure: "not a watt more", "every megabit"."""
+    return (
+        _STEP_AFTER.match(plain, reading.end) is not None
+        or _STEP_BEFORE.search(plain, max(0, reading.start - 12), reading.start) is not None
+    )
 
 
-def _kind_without_unit(plain: str, reading: _Reading, *, bounded: bool) -> QuantityKind | None:
+def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> QuantityKind | None:
     """A number without a known unit: bare, a bound that is not understood, or nothing (a count, a name)."""
     if reading.number.form != "digits" and not bounded:
         return None
@@ -247,13 +224,13 @@ def _kind_without_unit(plain: str, reading: _Reading, *, bounded: bool) -> Quant
         return None
     named = _is_name(plain, reading.start)
     glued = (
-        _GENERATION.match(plain, reading.start) is not None or plain[max(0, reading.start - 1) : reading.start] == "/"
+        GENERATION.match(plain, reading.start) is not None or plain[max(0, reading.start - 1) : reading.start] == "/"
     )
     if glued or plain[reading.end : reading.end + 1] == "/":
         return "other" if bounded else None
     if named:
         return None
-    if _AFTER_BARE.match(plain, reading.end):
+    if _AFTER_BARE.match(plain, reading.end) or (reading.factor != 1 and _VARIABLE.match(plain, reading.end)):
         return "bare"
     apiece = _FOREIGN_APIECE.match(plain, reading.end) is not None
     return "other" if bounded or apiece else None

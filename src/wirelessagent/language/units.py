@@ -165,7 +165,8 @@ def _spoken_rate(text: str, start: int) -> Unit | None:
 
 def _unit_of_bits(match: re.Match[str], prefix: str, is_bytes: bool) -> Unit | None:
     groups = match.groupdict()
-    per_second = groups.get("per") is not None or bool(groups.get("ps"))
+    earlier = match.string[max(0, match.start() - 12) : match.start()].find("每秒") >= 0
+    per_second = earlier or groups.get("per") is not None or bool(groups.get("ps"))
     if not per_second and (is_bytes or not prefix):
         return None
     factor = _scale(prefix, binary=bool(groups.get("binary"))) * (8 if is_bytes else 1)

@@ -1,0 +1,135 @@
+"""Numbers with the units that follow them, shares and odds included, before anybody asks what bounds them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+
+from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
+from wirelessagent.language.text import CJK, USER_NOUN
+from wirelessagent.language.units import Unit, unit_at
+
+_SUFFIX = re.compile(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9/])")
+_CHINESE_SUFFIX = re.compile(
+    r"\s?(?P<suffix>[kKM])(?!\s*[A-Za-z0-9/瓦赫焦伏安米克])"
+)  # "每人2M": so are rates written there
+_CJK = re.compile(f"[{CJK}]")
+_SUFFIXES = {"k": Decimal(10**3), "K": Decimal(10**3), "M": Decimal(10**6), "G": Decimal(10**9)}
+GENERATION = re.compile(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
+_PICTURE = re.compile(r"[248]K")
+_TRAILING_HALF = re.compile(r"半(?!小时)")
+_TRAILING_DIGIT = re.compile(
+    r"(?P<digit>[一二三四五六七八九])(?![零〇一二三四五六七八九十百千万亿点半个号户位人台家成兆瓦毫kKM])"
+)
+_FRACTION = re.compile(r"(?P<below>[0-9]+|[一二三四五六七八九十百千万两]+)分之$")
+_TENTHS = re.compile(r"成(?P<more>[一二三四五六七八九半]{0,3})(?![员立为功本交绩效长了就品]|不变)")
+_ODDS = re.compile(
+    r"(?i)\s+(?:(?:(?:times?|nights?|days?|cases?|tries|attempts?|miss(?:es)?|failures?|outages?|mal|fällen?|nächten?|"
+    r"veces|noches|casos|días|fois|cas|nuits|jours)\s+)(?:out\s+of|in|of|von|aus|auf|de(?:\s+cada)?|sur|en)|"
+    r"out\s+of|(?:de\s+)?cada|de\s+cada|sur)(?:\s+(?:every|each|je))?\s+$"
+)
+_BASES = (10, 20, 25, 40, 50, 100, 200, 500, 1000, 10_000)
+_COUNTED = re.compile(
+    rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|persons|personas|personnes|sensor\w*)\b"
+)
+_ONE_IN = re.compile(r"(?i)\s+in\s+$")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """A number with the unit that follows it; ``factor`` is that of a bare "k" or "M"."""
+
+    number: Number
+    unit: Unit | None
+    start: int
+    end: int
+    factor: Decimal = Decimal(1)
+
+
+def readings(plain: str) -> list[Reading]:
+    """Every number of a normalised text with its unit, from left to right, not overlapping."""
+    found: list[Reading] = []
+    blocked = 0
+    for number in numbers(plain):
+        if number.start < blocked:
+            continue
+        reading = _read(plain, number)
+        odds = _odds(plain, found[-1], reading) if found else None
+        if odds is not None:
+            found[-1] = reading = odds
+        else:
+            found.append(reading)
+        blocked = reading.end
+    return found
+
+
+def _read(plain: str, number: Number) -> Reading:
+    unit = unit_at(plain, number.end)
+    share = _share(plain, number) if unit is None else None
+    if share is not None:
+        return share
+    if unit is not None:
+        return _with_half(plain, number, unit)
+    suffix = _SUFFIX.match(plain, number.end) if number.form == "digits" else None
+    spoken = number.form == "chinese" and number.value is not None and number.end - number.start > 1
+    written = (number.form == "digits" or spoken) and _CJK.search(plain)
+    chinese = _CHINESE_SUFFIX.match(plain, number.end) if written else None
+    if chinese is not None and not _PICTURE.match(plain, number.start):
+        unit = Unit(kind="rate", end=chinese.end(), factor=_SUFFIXES[chinese["suffix"]])
+        return Reading(number=number, unit=unit, start=number.start, end=chinese.end())
+    if suffix is not None and not GENERATION.match(plain, number.start):
+        return Reading(
+            number=number, unit=None, start=number.start, end=suffix.end(), factor=_SUFFIXES[suffix["suffix"]]
+        )
+    return Reading(number=number, unit=None, start=number.start, end=number.end)
+
+
+def _with_half(plain: str, number: Number, unit: Unit) -> Reading:
+    """A figure with what is said behind its unit: 两兆半, 一兆五, "dos megas y medio"."""
+    end, value = unit.end, number.value
+    if value is not None and unit.level_dbm is None and value == int(value):
+        half, digit = _TRAILING_HALF.match(plain, end), _TRAILING_DIGIT.match(plain, end)
+        part = and_part(plain, end)
+        if half is not None:
+            value, end = value + Decimal("0.5"), half.end()
+        elif part is not None and unit_at(plain, part[1]) is None:
+            value, end = value + part[0], part[1]
+        elif digit is not None and number.form == "chinese":
+            value, end = value + Decimal(chinese_value(digit["digit"]) or 0) / 10, digit.end()
+    number = Number(value=value, start=number.start, end=number.end, form=number.form)
+    return Reading(number=number, unit=unit, start=number.start, end=end)
+
+
+def _share(plain: str, number: Number) -> Reading | None:
+    """A share as Chinese says it: 百分之五, 千分之一, 九成五."""
+    if number.value is None:
+        return None
+    start, end, value = number.start, number.end, number.value
+    over = _FRACTION.search(plain, max(0, start - 8), start)
+    tenths = _TENTHS.match(plain, end)
+    if over is not None:
+        below = Decimal(over["below"]) if over["below"].isdigit() else chinese_value(over["below"])
+        if not below:
+            return None
+        start, value = over.start(), value / below
+    elif tenths is not None and 0 < value < 10:
+        more = "".join("5" if letter == "半" else str(chinese_value(letter)) for letter in tenths["more"])
+        end, value = tenths.end(), Decimal(f"{value}{'' if value != int(value) else '.'}{more or 0}") / 10
+    else:
+        return None
+    number = Number(value=value, start=number.start, end=number.end, form=number.form)
+    return Reading(number=number, unit=Unit(kind="ratio", end=end), start=start, end=end)
+
+
+def _odds(plain: str, first: Reading, second: Reading) -> Reading | None:
+    """Two numbers that are one share: "99 times in a hundred", "19 de cada 20", "one in twenty"."""
+    part, whole = first.number.value, second.number.value
+    if part is None or whole is None or first.unit is not None or second.unit is not None:
+        return None
+    gap = plain[first.end : second.start]
+    fits = 0 < part < whole and whole in _BASES and _COUNTED.match(plain, second.end) is None
+    if not fits or not (_ODDS.match(gap) or (part == 1 and _ONE_IN.match(gap))):
+        return None
+    number = Number(value=part / whole, start=first.start, end=second.end, form=first.number.form)
+    return Reading(number=number, unit=Unit(kind="ratio", end=second.end), start=first.start, end=second.end)
