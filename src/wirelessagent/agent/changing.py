@@ -12,12 +12,14 @@ from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import Effect, same_allocation
 from wirelessagent.agent.events import Event
 from wirelessagent.agent.figures import certificate_line
+from wirelessagent.agent.referring import no_such_turn
 from wirelessagent.agent.request import requested
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.run import applied_line, with_outcome
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run, Stage
+from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import joined, say
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Intent
@@ -28,8 +30,10 @@ def allocate(site: Site, state: State, intent: Intent) -> Reply:
     """Decide on a new or amended request and act on it, or ask before."""
     request = requested(intent, state.request)
     run = site.plan(intent, request)
-    new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good)
-    said = joined(intent.language, [restated(request, intent.language), *_notes(run), _sentence(run)])
+    new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good, stated=state.stated)
+    turn = intent.details.get("turn")
+    back = [] if turn is None else [told(intent.language, "back_to_turn", number=turn)]
+    said = joined(intent.language, [*back, restated(request, intent.language), *_notes(run), _sentence(run)])
     if not run.decision.is_usable:
         return _reply(site, intent, [said, say(intent.language, "not_applied")], "nothing", new, run)
     if state.on_air is not None and same_allocation(run.decision, state.on_air.decision):
@@ -40,7 +44,7 @@ def allocate(site: Site, state: State, intent: Intent) -> Reply:
 
 
 def apply(site: Site, state: State, intent: Intent) -> Reply:
-    """Apply what was decided; the operator said so, which is the confirmation."""
+    """Apply what was decided and name it; the operator said so, which is the confirmation."""
     language, run = intent.language, state.planned or state.run
     if run is None:
         return Reply(text=say(language, "nothing_yet"))
@@ -51,7 +55,7 @@ def apply(site: Site, state: State, intent: Intent) -> Reply:
     station = site.station(run)
     if station is None:
         return Reply(text=say(language, "no_station"), stage="nothing")
-    return _apply(site, state, intent, run, station)
+    return _apply(site, state, intent, run, station, "" if state.request is None else restated(state.request, language))
 
 
 def confirm(site: Site, state: State, intent: Intent) -> Reply:
@@ -61,25 +65,56 @@ def confirm(site: Site, state: State, intent: Intent) -> Reply:
     return apply(site, state, intent)
 
 
-def reject(site: Site, state: State, intent: Intent) -> Reply:
-    """A no: what waits is not applied; what is asked for stays, to be changed."""
-    del site
+def reject(state: State, intent: Intent, past: Sequence[State]) -> Reply:
+    """A no: what waits is not applied; what is asked for stays, to be changed, unless the plan is cancelled."""
+    language, cancels = intent.language, "cancel" in intent.details
+    if state.question is not None:
+        return Reply(text=told(language, "question_dropped"), stage="nothing", state=state.settled)
     if state.planned is None:
-        return Reply(text=say(intent.language, "nothing_to_confirm"))
-    new = dataclasses.replace(state, planned=None)
-    return Reply(text=say(intent.language, "not_applied"), stage="nothing", state=new)
+        if cancels:
+            return Reply(text=told(language, "nothing_to_cancel"), stage="asked")
+        return Reply(text=say(language, "nothing_to_confirm"))
+    if not cancels:
+        return Reply(text=say(language, "not_applied"), stage="nothing", state=state.settled)
+    puts_back = state.planned.outcome is not None  # an undo's plan: the request is an earlier one already
+    before = state.settled if puts_back or not past else past[-1]
+    held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
+    text = joined(language, [say(language, "not_applied"), _asked_for_again(held, language)])
+    return Reply(text=text, stage="nothing", state=held, undone=0 if held.request == state.request else 1)
 
 
-def undo(site: Site, state: State, intent: Intent, past: Sequence[State]) -> Reply:
-    """Back to what was asked for before and, where something else was in effect then, back to that too."""
-    language = intent.language
+def undo(site: Site, state: State, intent: Intent, past: Sequence[State], turns: int) -> Reply:
+    """Back to what was asked for before and, where something else was in effect then, back to that too.
+
+    ``past`` are the states that there were, the last one last; ``turns`` is how many turns there were.
+    """
+    language, steps = intent.language, intent.details.get("steps", 1.0)
+    if "turn" in intent.details:
+        return Reply(text=_no_way_back(intent, turns), stage="asked")
     if not past:
         return Reply(text=say(language, "nothing_to_undo"), stage="nothing")
-    before = past[-1]
-    text = say(language, "undone_all")
-    if before.request is not None:
-        text = say(language, "undone", request=restated(before.request, language))
-    return dataclasses.replace(_undone(site, state, intent, before, text), undone=True)
+    count = min(int(steps), len(past)) if isinstance(steps, float) else len(past)
+    before = past[-count]
+    text = _asked_for_again(before, language, undone=True)
+    if isinstance(steps, float) and steps > count:
+        text = joined(language, [told(language, "undone_fewer", count=count), text])
+    return dataclasses.replace(_undone(site, state, intent, before, text), undone=count)
+
+
+def _asked_for_again(before: State, language: str, *, undone: bool = False) -> str:
+    """What the request is after something was taken back."""
+    if before.request is None:
+        return say(language, "undone_all") if undone else told(language, "nothing_asked")
+    request = restated(before.request, language)
+    return say(language, "undone", request=request) if undone else told(language, "asked_for", request=request)
+
+
+def _no_way_back(intent: Intent, turns: int) -> str:
+    """Why a turn cannot be gone back to: it is none, or nothing was asked for then."""
+    turn = intent.details["turn"]
+    if isinstance(turn, float) and turn in range(1, turns + 1):
+        return told(intent.language, "turn_without_request", number=f"{turn:g}")
+    return no_such_turn(turn, turns, intent.language)
 
 
 def _undone(site: Site, state: State, intent: Intent, before: State, text: str) -> Reply:
@@ -118,7 +153,7 @@ def _carry_or_ask(site: Site, state: State, intent: Intent, run: Run, said: str)
 def _apply(site: Site, state: State, intent: Intent, run: Run, station: BaseStation, said: str = "") -> Reply:
     """Apply a run, or put one back that was in effect before."""
     if run.outcome is not None and run is state.planned:
-        return _put_back(site, state, intent, run, station, [])
+        return _put_back(site, state, intent, run, station, [said] if said else [])
     effect = site.carry_out(run, station, state.last_good)
     new = dataclasses.replace(state, run=effect.run, planned=None)
     text = [said] if said else []

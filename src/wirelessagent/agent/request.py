@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent, checked_constraints
+from wirelessagent.language.followups import joined
+from wirelessagent.language.intent import EVERYBODY, Constraint, Intent, checked_constraints
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +31,7 @@ class Request:
         for name, value in constraints.items():
             if name == "users":
                 merged.pop("leave_out", None)
-            merged[name] = _joined(name, merged.get(name), value)
+            merged[name] = joined(name, merged.get(name), value)
         return Request(objective=objective or self.objective, constraints=merged)
 
 
@@ -42,10 +43,20 @@ def requested(intent: Intent, before: Request | None) -> Request:
     return before.amended(intent.constraints, objective=intent.objective, dropped=intent.dropped)
 
 
-def _joined(name: str, held: Constraint | None, stated: Constraint) -> Constraint:
-    if name == "leave_out" and isinstance(held, tuple) and isinstance(stated, tuple):
-        return tuple(dict.fromkeys((*held, *stated)))
-    if name not in FIGURES_OF_USERS or held is None or not isinstance(stated, Mapping) or EVERYBODY in stated:
-        return stated
-    assert not isinstance(held, tuple)
-    return {**(held if isinstance(held, Mapping) else {EVERYBODY: held}), **stated}
+def stated_by(after: Request, before: Request | None) -> dict[str, Constraint]:
+    """What a request says that the one before it did not: what "that" refers to in the line behind it."""
+    held: Mapping[str, Constraint] = {} if before is None else before.constraints
+    changes = {name: _change(held.get(name), value) for name, value in after.constraints.items()}
+    return {name: change for name, change in changes.items() if change is not None}
+
+
+def _change(held: Constraint | None, value: Constraint) -> Constraint | None:
+    if isinstance(value, tuple):
+        return tuple(user for user in value if not isinstance(held, tuple) or user not in held) or None
+    if not isinstance(value, Mapping):
+        return None if value == held else value
+    before: Mapping[str, float] = {}
+    if held is not None and not isinstance(held, tuple):
+        before = held if isinstance(held, Mapping) else {EVERYBODY: held}
+    changed = {user: figure for user, figure in value.items() if before.get(user, before.get(EVERYBODY)) != figure}
+    return changed or None

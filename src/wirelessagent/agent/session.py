@@ -20,16 +20,19 @@ from typing import Any, Protocol
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent import asking, changing
+from wirelessagent.agent import asking, changing, referring
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.agent.posing import UnknownUserError, user_number
-from wirelessagent.agent.request import Request
+from wirelessagent.agent.request import Request, stated_by
 from wirelessagent.agent.site import Site
-from wirelessagent.agent.state import Missing, Reply, State
+from wirelessagent.agent.state import Missing, Question, Reply, State
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import joined, say
+from wirelessagent.language.conversation import NAME as READ_HERE
+from wirelessagent.language.conversation import unanswered, understood
 from wirelessagent.language.intent import Constraint, Detail, Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -41,6 +44,9 @@ _USER = re.compile(
     r"(?:the\s+)?(?:user|ue|用户)?\s*#?\s*(.{1,40}?)\s*号?[.!。]?\s*"
 )
 """An answer to "whom did you mean?"."""
+
+_NOTE = re.compile(r"[(（][^()（）]+[)）]$")
+"""What a recogniser says of itself at the end of a reply."""
 
 _LONGEST_NAME = 100
 """Characters of a line that may be such an answer."""
@@ -93,7 +99,7 @@ class Session:
         self._recogniser = recogniser or OfflineRecogniser()
         self._store, self._progress, self._raises = store, progress, raises
         self._state, self._past = State(), list[State]()
-        self._turns: list[Turn] = []
+        self._turns, self._requests = list[Turn](), list[Request | None]()
         self._language = ""
         self.id = uuid.uuid4().hex[:12]
 
@@ -114,38 +120,45 @@ class Session:
 
     def say(self, text: str) -> Turn:
         """Take a line from the operator: understand it, do what it asks, and reply."""
-        intent = self._answered(text) or self._recogniser.recognise(text, self._context())
+        context = self._context()
+        intent = self._gone_back(self._answered(text) or understood(text, context, self._recogniser))
+        self._state = dataclasses.replace(self._state, supposed=None)
         self._language = intent.language
         if intent.kind == "allocate":
             sure = f"{intent.confidence:.0%}"
             message = say(intent.language, "understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure)
             self._progress(Event(stage="understand", message=message))
-        reply = self._reply(intent, text)
+        reply = self._reply(intent, text, context)
         self._take(reply)
         return self._kept(text, intent, reply)
 
     def _context(self) -> Context:
-        state, request = self._state, self._state.request
+        state, request, supposed = self._state, self._state.request, self._state.supposed
+        question = state.question or Question()
         return Context(
             user_names=self._site.user_names,
             max_power_w=self._site.scene.cell.max_power_w,
             objective=None if request is None else request.objective,
             constraints={} if request is None else request.constraints,
             awaits=state.awaits,
-            pending=state.pending,
+            pending=question.pending,
+            pending_objective=question.objective,
+            pending_users=question.users,
+            stated=state.stated,
+            supposed_objective=None if supposed is None else supposed.objective,
+            supposed={} if supposed is None else supposed.constraints,
             language=self._language,
         )
 
-    def _reply(self, intent: Intent, text: str) -> Reply:
+    def _reply(self, intent: Intent, text: str, context: Context) -> Reply:
         """What the intent leads to; what cannot be done becomes a reply, and changes nothing."""
         try:
-            return self._handled(intent, text)
+            return self._handled(intent, text, context)
         except UnclearRequestError as question:
             reference = question.reference if isinstance(question, UnknownUserError) else None
             missing = None if reference is None else Missing(intent=intent, reference=reference)
-            asked = dataclasses.replace(
-                self._state, planned=None, asked=True, pending=dict(intent.constraints), missing=missing
-            )
+            open_ = Question(pending=intent.constraints, objective=intent.objective, missing=missing)
+            asked = dataclasses.replace(self._state, planned=None, question=open_)
             return Reply(text=str(question), stage="asked", state=asked)
         except WirelessAgentError as error:
             if self._raises:
@@ -153,31 +166,38 @@ class Session:
             key = "unsupported" if isinstance(error, UnsupportedProblemError) else "failed"
             return Reply(text=say(intent.language, key, why=error), stage="nothing")
 
-    def _handled(self, intent: Intent, text: str) -> Reply:
-        site, state = self._site, self._state
+    def _handled(self, intent: Intent, text: str, context: Context) -> Reply:
+        site, state, topic = self._site, self._state, intent.topic or ""
         if intent.kind == "allocate":
             return changing.allocate(site, state, intent)
         if intent.kind == "clarify":
-            asked = dataclasses.replace(state, planned=None, asked=True, pending=dict(intent.pending), missing=None)
+            left = unanswered(text, intent, context)
+            question = Question(pending=left.pending, objective=left.objective, users=left.users)
+            asked = dataclasses.replace(state, planned=None, question=question)
             return Reply(text=intent.reply, stage="asked", state=asked)
         if intent.kind == "out_of_scope":
             return Reply(text=intent.reply)
         handlers: Mapping[str, Callable[[], Reply]] = {
             "apply": lambda: changing.apply(site, state, intent),
             "confirm": lambda: changing.confirm(site, state, intent),
-            "reject": lambda: changing.reject(site, state, intent),
-            "undo": lambda: changing.undo(site, state, intent, self._past),
+            "reject": lambda: changing.reject(state, intent, self._past),
+            "undo": lambda: changing.undo(site, state, intent, self._past, len(self._turns)),
             "reset": lambda: changing.reset(site, state, intent),
             "compare": lambda: asking.compare(site, state, intent, self._turns),
             "explain": lambda: asking.explain(state, intent),
             "history": lambda: asking.history(intent, self._turns),
             "status": lambda: asking.status(state, intent, self._turns),
-            "what_if": lambda: asking.what_if(site, state, intent),
+            "what_if": lambda: referring.what_if(site, state, intent),
             "export": lambda: asking.export(intent, self._turns),
             "help": lambda: Reply(text=say(intent.language, "help")),
             "capabilities": lambda: Reply(text=say(intent.language, "help")),
         }
-        handle = handlers.get(intent.topic or "")
+        of_turns: Mapping[str, Callable[[], Reply]] = {
+            "compare": lambda: referring.compare(state, intent, self._turns),
+            "explain": lambda: referring.explain(state, intent, self._turns),
+            "history": lambda: referring.history(intent, self._turns),
+        }
+        handle = (of_turns if "turn" in intent.details else {}).get(topic) or handlers.get(topic)
         if handle is not None:
             return handle()
         return asking.question(site, state, intent, text) if intent.kind == "question" else Reply(text=intent.reply)
@@ -186,18 +206,21 @@ class Session:
         """Let what the reply brought hold, and remember what held before another request."""
         before, new = self._state, reply.state
         if new is None:
-            new = dataclasses.replace(before, asked=reply.stage == "asked", pending={}, missing=None)
+            new = dataclasses.replace(before, question=Question() if reply.stage == "asked" else None)
         elif reply.undone:
-            self._past.pop()
+            del self._past[-reply.undone :]
         elif new.request != before.request:
-            self._past.append(dataclasses.replace(before, planned=None, asked=False, pending={}, missing=None))
+            self._past.append(before.settled)
+            new = dataclasses.replace(new, stated=_stated(new, before))
         self._state = new
+        self._requests.append(new.request)
 
     def _kept(self, text: str, intent: Intent, reply: Reply) -> Turn:
         """The turn, remembered and stored; a store that fails is told of and stops nothing."""
         said = reply.text
-        if intent.recogniser != self._recogniser.name and not (intent.reply and intent.reply in said):
-            said = joined(intent.language, [said, say(intent.language, "fallen_back", recogniser=intent.recogniser)])
+        by_another = intent.recogniser not in (self._recogniser.name, READ_HERE)
+        if by_another and not (intent.reply and intent.reply in said):
+            said = joined(intent.language, [said, _read_by(intent)])
         turn = Turn(
             number=len(self._turns) + 1,
             session=self.id,
@@ -222,9 +245,24 @@ class Session:
         self._turns.append(turn)
         return turn
 
+    def _gone_back(self, intent: Intent) -> Intent:
+        """The request of an earlier turn, for a line that goes back to it; any other intent as it is."""
+        turn = intent.details.get("turn")
+        if intent.topic != "undo" or not isinstance(turn, float) or turn not in range(1, len(self._requests) + 1):
+            return intent
+        request = self._requests[int(turn) - 1]
+        if request is None:
+            return intent
+        reply = told(intent.language, "back_to_turn", number=turn)
+        return dataclasses.replace(
+            intent, kind="allocate", objective=request.objective, constraints=request.constraints, topic=None,
+            reply=reply,
+        )  # fmt: skip
+
     def _answered(self, text: str) -> Intent | None:
         """The intent that waits for a user, with the one that this line names; None where it names none."""
-        missing, said = self._state.missing, text.strip()
+        question, said = self._state.question, text.strip()
+        missing = None if question is None else question.missing
         match = _USER.fullmatch(said) if missing is not None and len(said) <= _LONGEST_NAME else None
         if missing is None or match is None:
             return None
@@ -233,6 +271,17 @@ class Session:
         except UnknownUserError:
             return None
         return _with_user(missing, self._site.user_names[number])
+
+
+def _read_by(intent: Intent) -> str:
+    """Who read the line in the recogniser's place: in its own note at the end of the reply where it made one."""
+    note = _NOTE.search(intent.reply) if " (" in intent.recogniser else None
+    return say(intent.language, "fallen_back", recogniser=intent.recogniser) if note is None else note[0]
+
+
+def _stated(after: State, before: State) -> Mapping[str, Constraint]:
+    """What the request says now that it did not say before; what it was where that is nothing."""
+    return before.stated if after.request is None else stated_by(after.request, before.request) or before.stated
 
 
 def _with_user(missing: Missing, name: str) -> Intent:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from wirelessagent.agent.request import Request
@@ -21,6 +23,23 @@ class Missing:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Question:
+    """A question back that is open, and what was understood before it.
+
+    Attributes:
+        pending: constraints.
+        objective: the aim that was named; None where none was.
+        users: users who were named, and of whom nothing was understood.
+        missing: the user who is not there, where the question is about one.
+    """
+
+    pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    objective: str | None = None
+    users: tuple[str, ...] = ()
+    missing: Missing | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class State:
     """What holds in a conversation.
 
@@ -30,9 +49,9 @@ class State:
         planned: what a yes would apply; None where nothing waits.
         on_air: what is in effect at the base station, as it was read back; None where that is nothing or not known.
         last_good: what to go back to; None where nothing was good yet.
-        asked: whether the last turn asked back.
-        pending: constraints that were read before that question.
-        missing: the question, where it was about a user.
+        question: what the last turn asked back; None where it asked nothing.
+        stated: what the last change of the request stated, which "that" refers to.
+        supposed: the request of the what-if that was the last turn; None where it was something else.
     """
 
     request: Request | None = None
@@ -40,16 +59,21 @@ class State:
     planned: Run | None = None
     on_air: Run | None = None
     last_good: Run | None = None
-    asked: bool = False
-    pending: dict[str, Constraint] = field(default_factory=dict[str, Constraint])
-    missing: Missing | None = None
+    question: Question | None = None
+    stated: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    supposed: Request | None = None
 
     @property
     def awaits(self) -> Awaited:
         """What the agent asked for last."""
-        if self.asked:
+        if self.question is not None:
             return "clarification"
         return "nothing" if self.planned is None else "confirmation"
+
+    @property
+    def settled(self) -> State:
+        """The same with nothing open: no plan that waits, no question, no what-if."""
+        return dataclasses.replace(self, planned=None, question=None, supposed=None)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +87,7 @@ class Reply:
         run: the run that was made or applied.
         tables: figures that belong to the text.
         restored: what was read back after the last good allocation was put back.
-        undone: whether the state is an earlier one, and can't itself be undone.
+        undone: how many requests were taken back; that can't itself be undone.
     """
 
     text: str
@@ -72,4 +96,4 @@ class Reply:
     run: Run | None = None
     tables: tuple[Table, ...] = ()
     restored: Outcome | None = None
-    undone: bool = False
+    undone: int = 0

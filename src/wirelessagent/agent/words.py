@@ -13,7 +13,7 @@ _ENGLISH: Mapping[str, str] = {
     "value": "value",
     # stages
     "understood": "{reply} ({recogniser}, {sure} sure)",
-    "fallen_back": "(Understood by: {recogniser}.)",
+    "fallen_back": "(Read by the {recogniser} recogniser.)",
     "sensed": "{users} users × {subcarriers} subcarriers{history}; {missing} of {entries} gains missing ({share})",
     "history": ", {slots} slots",
     "repaired": "{missing} gains filled by {method}",
@@ -135,7 +135,7 @@ _CHINESE: Mapping[str, str] = {
     "sentence": "{line}。",
     "value": "目标值",
     "understood": "{reply}（{recogniser}，把握 {sure}）",
-    "fallen_back": "（理解者：{recogniser}。）",
+    "fallen_back": "（由 {recogniser} 识别器理解。）",
     "sensed": "{users} 个用户 × {subcarriers} 个子载波{history}；{entries} 个增益中缺失 {missing} 个（{share}）",
     "history": "，{slots} 个时隙",
     "repaired": "{method}修复了 {missing} 个增益",

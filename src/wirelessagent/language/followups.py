@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from wirelessagent.language.constraints import Reading
-from wirelessagent.language.intent import CONSTRAINTS, Constraint
+from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS, Constraint
 from wirelessagent.language.recogniser import Context
 
 _GO = (
@@ -45,7 +45,7 @@ _SAME = re.compile(
     r"(?i)\b(?:same|instead|keep(?:ing)?\s+(?:the\s+)?(?:limits?|rest|everything\s+else|constraints?|figures)|"
     r"otherwise|rather|but\s+with|still|also|too|switch|change)\b|"
     r"^\s*(?:and|now|but|then|plus|ok,?\s+now|what\s+about|how\s+about)\b|条件不变|其他不变|其余不变|限制不变|改为|"
-    r"改成|改用|换成|换为|换用|切换|同样的?(?:条件|限制)|还是"
+    r"改成|改用|换成|换为|换用|切换|(?:同样|相同|一样)的?(?:条件|限制|要求|需求|约束|前提|指标)|(?:要求|需求|约束|指标)(?:都)?不变|还是"
 )
 
 
@@ -77,20 +77,38 @@ def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tu
 
 
 def with_users_back(reading: Reading, context: Context) -> tuple[dict[str, Constraint], tuple[str, ...]]:
-    """What taking users in again changes: constraints to state, and those to drop before."""
-    values = dict(reading.values)
-    dropped: list[str] = []
-    numbers = {str(place): name for place, name in enumerate(context.user_names, start=1)}
-    back = {form for user in reading.back for form in (user, numbers.get(user, user))}
+    """What a sentence that takes users in again changes: constraints to state, and those to drop before."""
+    values, dropped = taken_in(reading.back, context)
+    return {**reading.values, **values}, dropped
+
+
+def taken_in(users: tuple[str, ...], context: Context) -> tuple[dict[str, Constraint], tuple[str, ...]]:
+    """What serving these users too changes: constraints to state, and those to drop before; nothing where they are."""
+    wanted = numbers_of(users, context.user_names)
     left_out, served = context.constraints.get("leave_out"), context.constraints.get("users")
-    if isinstance(left_out, tuple):
-        remaining = tuple(user for user in left_out if user not in back and numbers.get(user, user) not in back)
+    values, dropped = dict[str, Constraint](), list[str]()
+    if isinstance(left_out, tuple) and wanted & numbers_of(left_out, context.user_names):
+        remaining = tuple(user for user in left_out if not wanted & numbers_of((user,), context.user_names))
         dropped.append("leave_out")
-        if remaining:
-            values["leave_out"] = remaining
-    if isinstance(served, tuple):
-        values["users"] = (*served, *(user for user in reading.back if user not in served))
+        values |= {"leave_out": remaining} if remaining else {}
+    if isinstance(served, tuple) and not wanted <= numbers_of(served, context.user_names):
+        values["users"] = tuple(dict.fromkeys((*served, *users)))
     return values, tuple(dropped)
+
+
+def numbers_of(users: Iterable[str], user_names: Sequence[str]) -> set[int | str]:
+    """Which users are meant, from 1, so that "2" and "user 2" are the same; a name that nobody has stays itself.
+
+    >>> numbers_of(("2", "Ada"), ("user 1", "user 2", "Ada"))
+    {2, 3}
+    """
+    places: dict[str, int] = {}
+    for place, name in enumerate(user_names, start=1):
+        places[name.casefold()] = place
+        places[name.casefold().removeprefix("user ")] = place
+    for place in range(1, len(user_names) + 1):
+        places.setdefault(str(place), place)
+    return {places.get(user.casefold(), user.casefold()) for user in users}
 
 
 def keeps_the_limits(plain: str) -> bool:
@@ -99,5 +117,18 @@ def keeps_the_limits(plain: str) -> bool:
 
 
 def merged(earlier: Mapping[str, Constraint], later: Mapping[str, Constraint]) -> dict[str, Constraint]:
-    """Constraints read before a question, with those of its answer."""
-    return {**earlier, **later}
+    """Constraints read before, with those of a later line, such as the answer to a question."""
+    return {**earlier, **{name: joined(name, earlier.get(name), value) for name, value in later.items()}}
+
+
+def joined(name: str, held: Constraint | None, stated: Constraint) -> Constraint:
+    """One constraint after another statement of it.
+
+    Figures of named users join those that hold; a figure for everybody replaces them all. Users to leave out add up.
+    """
+    if name == "leave_out" and isinstance(held, tuple) and isinstance(stated, tuple):
+        return tuple(dict.fromkeys((*held, *stated)))
+    if name not in FIGURES_OF_USERS or held is None or not isinstance(stated, Mapping) or EVERYBODY in stated:
+        return stated
+    assert not isinstance(held, tuple)
+    return {**(held if isinstance(held, Mapping) else {EVERYBODY: held}), **stated}

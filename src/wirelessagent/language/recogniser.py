@@ -22,6 +22,10 @@ class Context:
         objective, constraints: of the current request; None and empty where there is none.
         awaits: what the agent asked for last.
         pending: constraints that were read before a clarifying question, for its answer to use.
+        pending_objective: the aim that was named before it; None where none was.
+        pending_users: users who were named before it, and of whom nothing was understood.
+        stated: what the last request stated, which "it" and "that" refer to.
+        supposed_objective, supposed: the request of a what-if right before; None and empty where there was none.
         language: of the conversation so far; "" at its start.
     """
 
@@ -31,6 +35,11 @@ class Context:
     constraints: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     awaits: Awaited = "nothing"
     pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    pending_objective: str | None = None
+    pending_users: tuple[str, ...] = ()
+    stated: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    supposed_objective: str | None = None
+    supposed: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     language: str = ""
 
 

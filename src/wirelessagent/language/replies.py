@@ -141,6 +141,11 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "named_user": "What about {text}: a rate, a weight, left out, or served alone? What should the cell aim "
             "for, {choices}?",
         "exact_power": "Exactly {text} and the least power don't go together. Did you mean at most {text}?",
+        "no_rate_to_change": "There is no such rate to change yet. What should each user get, at least or at most?",
+        "no_limit_of_its_own": "Nothing of that kind is promised to {users} or asked of them. What should change?",
+        "served_already": "All that is asked for serves {users} already. What should change?",
+        "what_of_user": "What about {users}: a rate, a weight, left out, or served alone?",
+        "whose_figure": "Whose is {text}: {users}?",
         "sentence": "{text}.",
         "no_longer": "without {text}",
         "question.why_user": "A question about why {user} got what they got.",
@@ -213,6 +218,11 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "rates_crossed": "至少 {low} 与不超过 {high} 不能同时成立。您指的是哪些速率？",
         "named_user": "{text}要怎样：速率、权重、不服务，还是只服务它？小区应以什么为目标：{choices}？",
         "exact_power": "正好 {text} 与功率最低不能并存。您是指不超过 {text} 吗？",
+        "no_rate_to_change": "目前没有可以更改的速率要求。每个用户的速率应是多少，至少还是不超过？",
+        "no_limit_of_its_own": "{users}没有这样的要求。应更改什么？",
+        "served_already": "{users}已在服务之中。应更改什么？",
+        "what_of_user": "{users}要怎样：速率、权重、不服务，还是只服务它？",
+        "whose_figure": "{text} 是指哪个用户：{users}？",
         "sentence": "{text}。",
         "no_longer": "取消{text}",
         "question.why_user": "问{user}为何得到这样的结果。",
@@ -301,6 +311,10 @@ class Voice:
         if not reference.isdigit():
             return reference
         return f"用户{reference}" if self.language == "zh" else f"user {reference}"
+
+    def users(self, references: Sequence[str]) -> str:
+        """Several users in one list."""
+        return self._listed([self.user(reference) for reference in references], "and")
 
     def amended(self, values: Mapping[str, Constraint], dropped: Sequence[str]) -> str:
         """What changes in the current request, as one sentence."""

@@ -1,0 +1,95 @@
+"""Turns that refer to other turns by their number, and what-ifs, which the next line may refer to."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import cast
+
+from wirelessagent.agent import asking
+from wirelessagent.agent.acting import same_allocation
+from wirelessagent.agent.figures import certificate_line, side_by_side
+from wirelessagent.agent.request import Request
+from wirelessagent.agent.restating import restated
+from wirelessagent.agent.site import Site
+from wirelessagent.agent.state import Reply, State
+from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.agent.turn_words import told
+from wirelessagent.agent.words import joined, say
+from wirelessagent.language.intent import Constraint, Detail, Intent
+
+
+def what_if(site: Site, state: State, intent: Intent) -> Reply:
+    """A what-if, which a "do that" may turn into the request, and which plan a yes is still for."""
+    language, details = intent.language, intent.details
+    reply = asking.what_if(site, state, intent)
+    if reply.run is None:
+        return reply
+    supposed, text = None, reply.text
+    if "missing_share" not in details:
+        constraints = cast("Mapping[str, Constraint]", details.get("constraints") or {})
+        objective = cast("str | None", details.get("objective"))
+        supposed = (state.request or Request(objective=str(objective))).amended(constraints, objective=objective)
+    if state.planned is not None and state.request is not None:
+        key = "plan_still_waits" if supposed is None else "plan_or_what_if"
+        plan = restated(state.request, language).rstrip(".。")
+        text = joined(language, [text, told(language, key, request=plan[:1].lower() + plan[1:])])
+    return dataclasses.replace(
+        reply, text=text, state=dataclasses.replace(state, question=None, supposed=supposed)
+    )  # fmt: skip
+
+
+def compare(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
+    """The decision that holds beside that of a turn, or those of two turns."""
+    language, columns = intent.language, list[tuple[str, Run]]()
+    for key in ("turn", "beside"):
+        if key not in intent.details:
+            continue
+        chosen = turn_of(turns, intent.details[key])
+        if chosen is None or chosen.run is None:
+            return _no_decision(intent.details[key], chosen, language, turns)
+        columns.append((say(language, "turn_column", number=chosen.number), chosen.run))
+    if len(columns) == 1:
+        if state.run is None:
+            return Reply(text=say(language, "nothing_yet"))
+        if same_allocation(columns[0][1].decision, state.run.decision):
+            return Reply(text=told(language, "compared_with_itself", turn=columns[0][0]))
+        columns.insert(0, (say(language, "now_column"), state.run))
+    turn, run = columns[-1]
+    text = told(language, "compared_turn", turn=turn, line=certificate_line(run.decision, language))
+    return Reply(text=text, tables=(side_by_side(columns, language),))
+
+
+def explain(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
+    """The decision of a turn in words, with its tables."""
+    chosen = turn_of(turns, intent.details["turn"])
+    if chosen is None or chosen.run is None:
+        return _no_decision(intent.details["turn"], chosen, intent.language, turns)
+    return asking.explain(dataclasses.replace(state, run=chosen.run), intent)
+
+
+def history(intent: Intent, turns: Sequence[Turn]) -> Reply:
+    """What was said in a turn."""
+    number = intent.details["turn"]
+    chosen = turn_of(turns, number)
+    if chosen is None:
+        return Reply(text=no_such_turn(number, len(turns), intent.language), stage="asked")
+    return asking.history(dataclasses.replace(intent, details={"number": float(chosen.number)}), turns)
+
+
+def turn_of(turns: Sequence[Turn], number: Detail) -> Turn | None:
+    """The turn of this number; None where there is none."""
+    return next((turn for turn in turns if turn.number == number), None)
+
+
+def no_such_turn(number: Detail, count: int, language: str) -> str:
+    """What to say to a line about a turn that there is not, in a conversation of so many turns."""
+    name = f"{number:g}" if isinstance(number, float) else str(number)
+    key = "no_turn" if count > 1 else "no_turn_but_one" if count else "no_turns"
+    return told(language, key, number=name, last=count)
+
+
+def _no_decision(number: Detail, chosen: Turn | None, language: str, turns: Sequence[Turn]) -> Reply:
+    if chosen is None:
+        return Reply(text=no_such_turn(number, len(turns), language), stage="asked")
+    return Reply(text=told(language, "turn_without_decision", number=chosen.number), stage="asked")

@@ -1,0 +1,52 @@
+"""What the agent says about turns of the conversation itself, in English and Chinese."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+_ENGLISH: Mapping[str, str] = {
+    "nothing_to_cancel": "Nothing waits that could be cancelled. Say 'undo' to take back the last change, or 'start "
+    "over' to forget what is asked for. Which one?",
+    "question_dropped": "The question is dropped; nothing was changed.",
+    "asked_for": "Asked for: {request}",
+    "nothing_asked": "Nothing is asked for now.",
+    "undone_fewer": "There was no more than {count} to undo.",
+    "back_to_turn": "As in turn {number:g}.",
+    "no_turn": "There is no turn {number}; there are turns 1 to {last}.",
+    "no_turn_but_one": "There is no turn {number}; there is only turn 1.",
+    "no_turns": "There is no turn {number}: nothing was said yet.",
+    "turn_without_request": "Nothing was asked for in turn {number}; 'start over' forgets what is asked for now.",
+    "turn_without_decision": "Nothing was decided in turn {number}.",
+    "compared_turn": "Beside {turn}: {line}.",
+    "compared_with_itself": "The decision that holds is that of {turn}; name another turn to compare it with.",
+    "plan_or_what_if": "The plan still waits: 'yes' applies {request}; 'do that' takes the what-if instead.",
+    "plan_still_waits": "The plan still waits: 'yes' applies {request}.",
+}
+
+_CHINESE: Mapping[str, str] = {
+    "nothing_to_cancel": "没有可取消的计划或问题。说“撤销”可撤回上一次改动，说“重新开始”可清除要求。要哪一个？",
+    "question_dropped": "问题已取消，没有任何更改。",
+    "asked_for": "要求：{request}",
+    "nothing_asked": "现在没有任何要求。",
+    "undone_fewer": "可撤销的只有 {count} 次。",
+    "back_to_turn": "同第 {number:g} 轮。",
+    "no_turn": "没有第 {number} 轮；现有第 1 至 {last} 轮。",
+    "no_turn_but_one": "没有第 {number} 轮；只有第 1 轮。",
+    "no_turns": "没有第 {number} 轮：还没有对话。",
+    "turn_without_request": "第 {number} 轮时没有任何要求；说“重新开始”可清除现在的要求。",
+    "turn_without_decision": "第 {number} 轮没有作出决定。",
+    "compared_turn": "与{turn}比较：{line}。",
+    "compared_with_itself": "现行的决定就是{turn}的决定；请说明与哪一轮比较。",
+    "plan_or_what_if": "原计划仍在等待：说“是”即应用{request}；说“就这么办”则改用这个假设。",
+    "plan_still_waits": "原计划仍在等待：说“是”即应用{request}。",
+}
+
+
+def told(language: str, key: str, **names: object) -> str:
+    """The sentence of this key in the operator's language, with its names filled in."""
+    return (_CHINESE if language == "zh" else _ENGLISH)[key].format(**names)
+
+
+def all_turn_words() -> tuple[Mapping[str, str], Mapping[str, str]]:
+    """The sentences in both languages, which must speak of the same things."""
+    return _ENGLISH, _CHINESE

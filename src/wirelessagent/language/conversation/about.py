@@ -1,0 +1,60 @@
+"""Questions about the channel and the result of a request that holds, which are no reason to ask for the aim again."""
+
+from __future__ import annotations
+
+import re
+
+from wirelessagent.language import forms
+from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.intent import Intent
+
+_NOW = r"(?:现在|目前|当前|这里|此时)?的?"
+_ZH_HOW = "(?:怎么样|怎样|如何|好吗|好不好|质量|状况|状态|情况|条件|咋样)"
+_CHANNEL = re.compile(
+    r"(?:how(?:'s|\s+is|\s+are|\s+good\s+is|\s+good\s+are|\s+does|\s+do)|what(?:'s|\s+is)|what\s+about|is|are)\s+(?:the\s+)?"
+    r"(?:(?:quality|state|condition)s?\s+of\s+the\s+)?(?:radio\s+)?(?:channels?|links?|signal)(?:\s+(?:conditions?|quality|state|"
+    r"like|look|looks|looking|doing|good|bad|ok|okay|now|right|today))*|"
+    r"(?:radio\s+)?channel\s+(?:conditions?|quality|state|status)|"
+    rf"{_NOW}(?:无线)?(?:信道|链路)(?:的)?{_ZH_HOW}(?:的)?{_ZH_HOW}?(?:呢|啊)?"
+)
+_RESULT = re.compile(
+    r"(?:how(?:'s|\s+is|\s+was)|what(?:'s|\s+is|\s+was))\s+(?:the\s+)?(?:result|outcome|allocation|decision)s?(?:\s+like)?|"
+    r"how\s+did\s+(?:it|that)\s+(?:go|turn\s+out)|"
+    rf"{_NOW}(?:结果|分配|分配结果|效果)(?:的)?{_ZH_HOW}(?:呢|啊)?"
+)
+_OF_THE_USERS = re.compile(
+    r"\b(?:who|whose|which\s+(?:user|one)|what\s+(?:rate|speed)|rates?|speeds?|everyone|each\s+user)\b|"
+    r"谁|哪[个些位]?(?:用户|人)?|速率|速度|多快|每个用户|各用户|用户"
+)
+_OF_THE_CHANNEL = re.compile(
+    r"\b(?:channels?|links?|signal|gains?|fading|measured|estimate)\b|信道|链路|增益|衰落|测量|估计"
+)
+_OF_THE_RESULT = re.compile(
+    r"\b(?:results?|outcomes?|allocations?|decisions?|plan|power|subcarriers?|served?)\b|结果|分配|方案|功率|子载波|效果"
+)
+_ASKING = re.compile(r"谁|哪|什么|怎么|怎样|如何|多少|几个|吗|呢")
+
+
+def read_question(line: Line) -> Intent | None:
+    """A question about the channel or the result as a whole, where there is one; None for any other line."""
+    if line.context.objective is None:
+        return None
+    said = line.wish.rstrip("?？ ").strip()
+    if _CHANNEL.fullmatch(said):
+        return line.question("uncertainty")
+    return line.command("explain") if _RESULT.fullmatch(said) else None
+
+
+def asked_instead(line: Line, understood: Intent) -> Intent | None:
+    """A question about what holds in the place of a question back about the aim, where the line is one."""
+    if line.context.objective is None or understood.kind != "clarify" or understood.pending:
+        return None
+    plain = line.shape
+    asks = forms.is_asked(plain) or forms.begins_like_a_question(plain) or _ASKING.search(plain) is not None
+    if not (asks or plain.endswith("?")):
+        return None
+    if _OF_THE_CHANNEL.search(plain):
+        return line.question("uncertainty")
+    if _OF_THE_USERS.search(plain):
+        return line.question("users", **({"user": line.users[0]} if line.users else {}))
+    return line.question("other") if _OF_THE_RESULT.search(plain) else None

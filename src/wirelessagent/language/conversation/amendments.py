@@ -1,0 +1,248 @@
+"""Lines that change what was said before: "make that user 3", "no, I meant 2 Mbit/s", "user 2 needs no limit any more".
+
+What "that" refers to is what the last request stated. Users whose own figure goes are written out, as the request has
+no figure for "nothing": 1 Mbit/s for everybody but user 2 is 1 Mbit/s for each of the others.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.followups import joined, merged, numbers_of, taken_in
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Intent
+
+_CORRECTING = (
+    r"(?:no|nope|sorry|oops|wait|hmm|actually|rather|instead|i\s+(?:mean|meant|said)|correction|make\s+(?:it|that|this)|"
+    r"(?:it|that|this)\s+(?:should|must)\s+be|should\s+(?:be|have\s+been)|change\s+(?:it|that|this)\s+to|"
+    r"(?:it's|that's|it\s+is|that\s+is|that\s+was)|"
+    r"不|不对|不是|错了|其实|我是说|我说的是|我的意思是|我是指|我指的是|应该是|应当是|应该|改成|改为|换成|搞错了|说错了|抱歉|对不起|更正)"
+)
+_BESIDE = r"(?:for|to|the|one|of|be|与|给|的|是|[,，\s])"
+_THAT_USER = re.compile(
+    rf"(?:{_CORRECTING}|{_BESIDE})*{_CORRECTING}(?:{_CORRECTING}|{_BESIDE})*@(?:[,，\s]*(?:instead|then|才对|才是))?"
+    r"(?P<not>[,，\s]*(?:and\s+)?(?:not|而?不是|rather\s+than|instead\s+of)\s*@)?|"
+    r"(?P<other>(?:not|不是)\s*@[,，\s]*(?:but\s+(?:rather\s+)?|是|而是)?\s*@)|@[,，\s]*instead"
+)
+_THAT_FIGURE = re.compile(
+    rf"(?:{_CORRECTING}|{_BESIDE})*{_CORRECTING}(?:{_CORRECTING}|{_BESIDE}|at\s+least|at\s+most|至少|最多|不超过)*#"
+    r"(?:[,，\s]*(?:instead|then|才对))?|#[,，\s]*instead"
+)
+_BARE = re.compile(
+    rf"(?:{_CORRECTING}|{_BESIDE}|at\s+least|at\s+most|yes|about|say|min(?:imum)?|max(?:imum)?|和|至少|最多|不超过|就|"
+    r"and|嗯|好|用|要)*#(?:(?:and|和|[,，\s]|at\s+least|at\s+most|至少|最多|不超过)*#)*(?:以上|以内|就行|就好|就可以|吧|at\s+least|"
+    r"at\s+most|[,.\s])*"
+)
+_NO_LONGER = (
+    r"(?:(?:does\s+not|doesn't|do\s+not|don't|did\s+not|didn't)\s+(?:need|want|require|have\s+to\s+(?:have|get))\b.*|"
+    r"(?:no\s+longer|not)\s+(?:need|require|want|get|have|promised?|guaranteed?)s?\b.*|"
+    r"(?:needs?|requires?|gets?|has|have)\s+no\b.*|(?:can|may)\s+(?:do|go|live)\s+without\b.*|"
+    r"(?:is|are)\s+(?:no\s+longer|not)\s+(?:promised|guaranteed|limited|capped|needed)\b.*)"
+)
+_LIMIT = (
+    r"(?:(?:min(?:imum)?|max(?:imum)?|guaranteed|promised|own|data|rate|speed)\s+)*(?:rates?|speeds?|floors?|guarantees?|promises?|"
+    r"limits?|caps?|ceilings?|minimum|maximum|requirements?|restrictions?|weights?|priority|#)"
+)
+_DROP = (
+    r"(?:drop|remove|lift|forget(?:\s+about)?|cancel|delete|clear|waive|take\s+away|scrap|get\s+rid\s+of|"
+    r"no(?:\s+more)?|without)"
+)
+_ZH_LIMIT = (
+    "(?:的?(?:最低|最小|最高|最大|保证|保底)?的?(?:速率|速度)?的?(?:要求|保证|下限|上限|限制|约束|限速|保底|速率|权重|优先级)|"
+    "的?#)"
+)
+_ZH_DROP = "(?:取消|去掉|不要|解除|拿掉|撤掉|放开|删除|删掉|撤销|移除)(?:掉|了)?"
+_FREED = re.compile(
+    rf"(?:(?:now|actually|also)\s+)?(?:@\s+{_NO_LONGER}|{_DROP}\s+(?:the\s+)?(?:@'?s?\s+{_LIMIT}|{_LIMIT}\s+(?:of|for|on|from)\s+@))"
+    r"(?:\s+(?:any\s?more|any\s+longer|now))?|"
+    rf"(?:现在)?@(?:已经|现在)?(?:不再|不|不用|不必|无需|无须)(?:再)?(?:需要|要|用|必)?(?:保证|限制|有|满足|达到|至少|最多)*(?:{_ZH_LIMIT})?(?:限速)?(?:了)?|"
+    rf"(?:现在)?(?:不再|不用|不必|无需|不需要)(?:再)?(?:给|为|对)@(?:再)?(?:保证|限制|设)?(?:{_ZH_LIMIT})?(?:了)?|"
+    rf"{_ZH_DROP}(?:对|给)?@{_ZH_LIMIT}(?:了)?|(?:把)?@{_ZH_LIMIT}(?:也|就|都)?(?:取消|去掉|不要了|解除|拿掉|撤掉|放开|删掉|删除|免了|作废)(?:掉|了)?"
+)
+_OF_A_LIMIT = re.compile(rf"#|{_LIMIT.replace('|#', '')}|速率|速度|要求|保证|下限|上限|限制|约束|限速|保底|权重|优先级")
+_CAPS = re.compile(r"\b(?:max(?:imum)?|caps?|ceilings?|capped|limited)\b|at\s+most|上限|最高|最大|限速|最多|不超过")
+_WEIGHTS = re.compile(r"weights?|priority|权重|优先级")
+_ALSO = r"(?:also|and|too|as\s+well|again|back|in|now|then|再|也|还|另外|同时|并且|并|请|把|将|[,，\s])"
+_TAKE_IN = (
+    "(?:serve|add|include|cover|admit|bring|take|加上|加入|加进来?|加进去|添加|增加|服务|纳入|包括|算上|带上|补上|"
+    "接入|加)"
+)
+_TAKEN_IN = re.compile(
+    rf"(?:{_ALSO})*{_TAKE_IN}(?:{_ALSO})*@(?:{_ALSO}|to\s+(?:them|those|the\s+(?:list|users|group|others|rest)))*"
+    r"(?:进来|进去|一起|吧)*|"
+    rf"(?:{_ALSO})*@(?:{_ALSO})*{_TAKE_IN}(?:进来|进去|上|吧|一起)*"
+)
+_SAME_FOR = re.compile(
+    r"(?:the\s+)?same\s+(?:goes\s+)?for\s+@(?:\s+too)?|also\s+(?:for\s+)?@|@\s+(?:too|as\s+well|also)|"
+    r"@(?:也|同样)(?:是|一样|如此|这样|照此|要|同样)*(?:处理)?"
+)
+_RATES = ("min_rate_bps", "max_rate_bps")
+
+
+def read_amendment(line: Line) -> Intent | None:
+    """What a line changes of the request that holds or of a question that is open; None for any other line."""
+    if line.context.awaits == "clarification":
+        answer = _answered(line)
+        if answer is not None:
+            return answer
+    if line.context.objective is None:
+        return None
+    for read in (_freed, _taken_in, _same_for, _other_user, _other_figure):
+        intent = read(line)
+        if intent is not None:
+            return intent
+    return None
+
+
+def _answered(line: Line) -> Intent | None:
+    """Bare figures after a question: they are for the users, and of the aim, that the question was about."""
+    context = line.context
+    objective = context.pending_objective or context.objective
+    if objective is None or not (context.pending_users or context.pending_objective) or line.users:
+        return None
+    if not _BARE.fullmatch(line.wish) or any(figure.doubtful or figure.value <= 0 for figure in line.figures):
+        return None
+    values: dict[str, Constraint] = {}
+    for figure in line.figures:
+        rate = "max_rate_bps" if figure.comparator == "at_most" else "min_rate_bps"
+        name = rate if figure.kind == "rate" else "max_power_w"
+        if name in values:
+            return None
+        users = context.pending_users if figure.kind == "rate" else ()
+        values[name] = dict.fromkeys(users, figure.value) if users else figure.value
+    amends = context.objective is not None and context.pending_objective in (None, context.objective)
+    return line.allocate(objective, merged(context.pending, values), amends=amends)
+
+
+def _other_user(line: Line) -> Intent | None:
+    """ "Actually make that user 3": what was stated last is for somebody else."""
+    match = _THAT_USER.fullmatch(line.wish)
+    if match is None or not line.users:
+        return None
+    users, instead_of = line.users, ""
+    if match["not"] or match["other"]:
+        if len(users) != 2:
+            return None
+        users, instead_of = (users[:1], users[1]) if match["not"] else (users[1:], users[0])
+    changed = {name: _for_users(name, value, users, instead_of) for name, value in line.context.stated.items()}
+    moved = {name: value for name, value in changed.items() if value is not None}
+    return _restated(line, moved) if moved else line.ask("what_of_user", users=line.voice.users(users))
+
+
+def _for_users(name: str, value: Constraint, users: tuple[str, ...], instead_of: str) -> Constraint | None:
+    """A statement with other users in it; None where it is about nobody, or about several in several ways."""
+    if name in LISTS_OF_USERS:
+        assert isinstance(value, tuple)
+        kept = tuple(user for user in value if instead_of and user != instead_of)
+        return tuple(dict.fromkeys((*kept, *users)))
+    if name not in FIGURES_OF_USERS or isinstance(value, tuple):
+        return None
+    named = {user: figure for user, figure in value.items() if user != EVERYBODY} if isinstance(value, Mapping) else {}
+    if instead_of in named:
+        rest = {user: figure for user, figure in named.items() if user != instead_of}
+        return {**rest, **dict.fromkeys(users, named[instead_of])}
+    figures = set(named.values()) if isinstance(value, Mapping) else {value}
+    return dict.fromkeys(users, figures.pop()) if len(figures) == 1 else None
+
+
+def _other_figure(line: Line) -> Intent | None:
+    """ "No, I meant 2 Mbit/s": what was stated last has another figure."""
+    if len(line.figures) != 1 or line.users or not _THAT_FIGURE.fullmatch(line.wish):
+        return None
+    figure, stated = line.figures[0], line.context.stated
+    names = _RATES if figure.kind == "rate" else ("max_power_w", "subcarrier_max_power_w", "circuit_power_w")
+    held = [name for name in names if name in stated]
+    if len(held) != 1 or figure.doubtful or figure.value <= 0:
+        return None
+    name, value = held[0], stated[held[0]]
+    if figure.comparator in ("at_least", "at_most") and name in _RATES:
+        name = "min_rate_bps" if figure.comparator == "at_least" else "max_rate_bps"
+    if not isinstance(value, Mapping):
+        return line.allocate(str(line.context.objective), {name: figure.value}, amends=True)
+    if len(set(value.values())) > 1:
+        users = [user for user in value if user != EVERYBODY]
+        return line.ask("whose_figure", text=figure.text, users=line.voice.users(users))
+    new: dict[str, Constraint] = {name: dict.fromkeys(value, figure.value)}
+    return _restated(line, new) if name == held[0] else _restated(line, new, gone=held[0])
+
+
+def _restated(line: Line, new: Mapping[str, Constraint], *, gone: str = "") -> Intent:
+    """The request with what was stated last taken out, and this put in its place."""
+    context = line.context
+    values: dict[str, Constraint] = dict(new)
+    for name in {*new, *([gone] if gone else [])}:
+        rest = _without(context.constraints.get(name), context.stated.get(name))
+        if rest is not None:
+            values[name] = joined(name, rest, new[name]) if name in new else rest
+    dropped = tuple(name for name in (*new, *([gone] if gone else [])) if name in context.constraints)
+    return line.allocate(str(context.objective), values, amends=True, dropped=dropped)
+
+
+def _without(held: Constraint | None, stated: Constraint | None) -> Constraint | None:
+    """What is left of a constraint after the last statement of it is taken out."""
+    if isinstance(held, tuple) and isinstance(stated, tuple):
+        return tuple(user for user in held if user not in stated) or None
+    if isinstance(held, Mapping) and isinstance(stated, Mapping):
+        return {user: figure for user, figure in held.items() if user not in stated} or None
+    return None
+
+
+def _freed(line: Line) -> Intent | None:
+    """ "User 2 does not need 1 Mbit/s any more": these users' limit goes, and no other."""
+    context = line.context
+    if not line.users or not _FREED.fullmatch(line.wish) or not _OF_A_LIMIT.search(line.wish):
+        return None
+    freed = numbers_of(line.users, context.user_names)
+    names = ("weights",) if _WEIGHTS.search(line.wish) else ("max_rate_bps", "min_rate_bps")
+    if names[0] != "weights" and not _CAPS.search(line.wish):
+        names = ("min_rate_bps", "max_rate_bps")
+    for name in names:
+        held = context.constraints.get(name)
+        own = None if held is None or isinstance(held, tuple) else _by_user(held, context.user_names)
+        if own is None or not freed & numbers_of(tuple(own), context.user_names):
+            continue
+        rest = {user: figure for user, figure in own.items() if not freed & numbers_of((user,), context.user_names)}
+        values: dict[str, Constraint] = {name: rest} if rest else {}
+        return line.allocate(str(context.objective), values, amends=True, dropped=(name,))
+    return line.ask("no_limit_of_its_own", users=line.voice.users(line.users))
+
+
+def _by_user(held: float | Mapping[str, float], user_names: Sequence[str]) -> dict[str, float]:
+    """Figures by user with everybody written out."""
+    figures: dict[str, float] = {**held} if isinstance(held, Mapping) else {EVERYBODY: held}
+    for_all = figures.pop(EVERYBODY, None)
+    if for_all is None:
+        return figures
+    named = numbers_of(tuple(figures), user_names)
+    rest = [place for place in range(1, len(user_names) + 1) if place not in named]
+    return {**figures, **{_reference(user_names[place - 1], place): for_all for place in rest}}
+
+
+def _reference(name: str, place: int) -> str:
+    return str(place) if name.lower() == f"user {place}" else name
+
+
+def _taken_in(line: Line) -> Intent | None:
+    """ "Also serve user 2": a user more, where only some are served."""
+    context = line.context
+    if not line.users or line.figures or not _TAKEN_IN.fullmatch(line.wish):
+        return None
+    values, dropped = taken_in(line.users, context)
+    if not values and not dropped:
+        return line.ask("served_already", users=line.voice.users(line.users))
+    return line.allocate(str(context.objective), values, amends=True, dropped=dropped)
+
+
+def _same_for(line: Line) -> Intent | None:
+    """ "User 3 too": what was stated last of a user holds for another one as well."""
+    if not line.users or line.figures or not _SAME_FOR.fullmatch(line.wish):
+        return None
+    values: dict[str, Constraint] = {}
+    for name, value in line.context.stated.items():
+        if name in LISTS_OF_USERS and isinstance(value, tuple):
+            held = line.context.constraints.get(name, value)
+            values[name] = tuple(dict.fromkeys((*(held if isinstance(held, tuple) else ()), *line.users)))
+        elif isinstance(value, Mapping) and len(set(value.values())) == 1:
+            values[name] = dict.fromkeys(line.users, next(iter(value.values())))
+    return line.allocate(str(line.context.objective), values, amends=True) if values else None
