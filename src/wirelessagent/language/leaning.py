@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import bisect
 import dataclasses
 import re
 from collections.abc import Sequence
@@ -76,10 +77,13 @@ def with_units(plain: str, found: Sequence[Reading]) -> list[Reading]:
     for place in range(len(leaning) - 2, -1, -1):
         if _shares_next(plain, leaning, place):
             leaning[place] = _with(leaning[place], leaning[place + 1].unit)
-    declared = _declared(plain) if any(reading.unit is None for reading in leaning) else []
+    if all(reading.unit is not None for reading in leaning):
+        return leaning
+    declared = _declared(plain)
+    stops = [0, *(stop.end() for stop in _SENTENCE_END.finditer(plain))]
     for place, reading in enumerate(leaning):
         if reading.unit is None and reading.number.value is not None and reading.end == reading.number.end:
-            leaning[place] = _with(reading, _unit_for(plain, leaning, place, declared))
+            leaning[place] = _with(reading, _unit_for(plain, leaning, place, declared, stops))
     return leaning
 
 
@@ -103,14 +107,15 @@ def _shares_next(plain: str, found: Sequence[Reading], place: int) -> bool:
     return listed or _JOINS.match(gap) is not None
 
 
-def _unit_for(plain: str, found: Sequence[Reading], place: int, declared: Sequence[tuple[int, Unit]]) -> Unit | None:
+def _unit_for(
+    plain: str, found: Sequence[Reading], place: int, declared: Sequence[tuple[int, Unit]], stops: Sequence[int]
+) -> Unit | None:
     reading = found[place]
     last = found[place - 1] if place else None
     if last is not None and last.unit is not None and _corrects(plain, last, reading):
         return last.unit
     before = plain[max(0, reading.start - 60) : reading.start]
-    stops = list(_SENTENCE_END.finditer(plain, 0, reading.start))
-    since = stops[-1].end() if stops else 0
+    since = stops[bisect.bisect_right(stops, reading.start) - 1]
     if _POWER_BEFORE.search(before) and _ENDS.match(plain, reading.end):
         return _nearest(found[:place], "power", since)
     leads = _SUBJECT_BEFORE.search(before) and _ENDS.match(plain, reading.end)
@@ -138,8 +143,12 @@ def _corrects(plain: str, last: Reading, reading: Reading) -> bool:
 
 def _nearest(found: Sequence[Reading], kind: str, since: int) -> Unit | None:
     """The unit of the nearest figure of a kind before, in the same sentence."""
-    units = [each.unit for each in found if each.unit is not None and each.unit.kind == kind and each.start >= since]
-    return units[-1] if units else None
+    for each in reversed(found):
+        if each.start < since:
+            return None
+        if each.unit is not None and each.unit.kind == kind:
+            return each.unit
+    return None
 
 
 def _declared(plain: str) -> list[tuple[int, Unit]]:

@@ -114,7 +114,6 @@ _GERMAN = _Grammar(
 # What stresses an article, which is then a number: "a full megabit", "un seul".
 _STRESS = _words("full whole single solid solo seul seule volles ganzes einziges einzigen")
 _GRAMMARS = {"en": _ENGLISH, "es": _SPANISH, "fr": _FRENCH, "de": _GERMAN}
-LANGUAGES = tuple(_GRAMMARS)
 
 _GERMAN_ROOTS = "|".join(
     sorted(_GERMAN_ONES | _GERMAN_TENS | {"hundert": 0, "tausend": 0, "und": 0, "einhalb": 0}, key=len, reverse=True)
@@ -137,10 +136,19 @@ def plain_word(word: str, language: str) -> str:
     return word.lower().translate(_GERMAN_PLAIN if language == "de" else _PLAIN)
 
 
-def may_begin(word: str, language: str) -> bool:
-    """Whether a number of this language may begin with a word."""
-    plain = plain_word(word, language)
-    return _GRAMMARS[language].knows(plain) or (language == "de" and german_value(plain) is not None)
+@functools.lru_cache(maxsize=4096)
+def languages_of(word: str) -> tuple[str, ...]:
+    """The languages in which a number may begin with a word.
+
+    >>> languages_of("six"), languages_of("vatios")
+    (('en', 'fr'), ())
+    """
+    found: list[str] = []
+    for language, grammar in _GRAMMARS.items():
+        plain = plain_word(word, language)
+        if grammar.knows(plain) or (language == "de" and german_value(plain) is not None):
+            found.append(language)
+    return tuple(found)
 
 
 def spoken(words: Sequence[str], language: str) -> Spoken | None:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 
-from wirelessagent.language.number_words import LANGUAGES, Spoken, may_begin, spoken
+from wirelessagent.language.number_words import Spoken, languages_of, spoken
 from wirelessagent.language.text import USER_NOUN, language_of
 from wirelessagent.language.units import unit_at
 
@@ -164,9 +164,7 @@ def _digits_value(digits: str, language: str) -> Decimal | None:
 def _in_words(text: str, match: re.Match[str], own: str) -> tuple[Number | None, str]:
     """The number that begins with a word, in this language or in another where a unit follows; and its language."""
     word = match["word"]
-    for language in (own, *(language for language in LANGUAGES if language != own)):
-        if not may_begin(word, language):
-            continue
+    for language in sorted(languages_of(word), key=lambda language: language != own):
         run = _WORDS.match(text, match.start("word"))
         assert run is not None
         places = list(_WORD.finditer(run.group()))
