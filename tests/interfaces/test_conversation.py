@@ -345,6 +345,15 @@ def test_the_same_requirements_keep_the_limits(said: str) -> None:
     assert (intent.kind, intent.objective, intent.amends) == ("allocate", "min_power", True)
 
 
+@pytest.mark.parametrize("said", ["energy efficient but fastest", "save power but be fast", "能效高但要最快"])
+def test_one_wish_set_against_another_is_asked_about(said: str) -> None:
+    intent = OfflineRecogniser().recognise(said)
+    assert intent.kind == "clarify"
+    assert ("the highest total rate" in intent.reply) or ("总速率最高" in intent.reply)
+    clear = OfflineRecogniser().recognise("fair but not slow")
+    assert clear.objective == "proportional_fairness"
+
+
 def test_who_read_a_line_is_told_in_plain_words() -> None:
     why = "(Read by the offline recogniser; the LLM did not answer: HTTP 500.)"
     other = Intent(

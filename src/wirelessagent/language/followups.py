@@ -48,6 +48,11 @@ _SAME = re.compile(
     r"改成|改用|换成|换为|换用|切换|(?:同样|相同|一样)的?(?:条件|限制|要求|需求|约束|前提|指标)|(?:要求|需求|约束|指标)(?:都)?不变|还是"
 )
 
+_PAIR = re.compile(
+    r"(?i)\s*(?:(?!but\b|yet\b)[\w'-]+\s+){1,3}(?:but|yet|though)(?:\s+(?!not\b)[\w'-]+){1,4}[\s.!?]*|"
+    r"\s*[^但却\uff0c,。]{2,8}[\uff0c,]?(?:但是?|却)(?!不|别)[^\uff0c,。]{2,8}[\s。!\uff01?\uff1f]*"
+)
+
 
 def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tuple[tuple[int, int], ...]]:
     """The constraints that a sentence lifts, and the spans of the words that say so.
@@ -114,6 +119,11 @@ def numbers_of(users: Iterable[str], user_names: Sequence[str]) -> set[int | str
 def keeps_the_limits(plain: str) -> bool:
     """Whether a sentence with a wish changes the request at hand rather than replacing it."""
     return _SAME.search(plain) is not None
+
+
+def is_a_bare_pair(plain: str) -> bool:
+    """Whether a sentence only sets one wish against another: "energy efficient but fastest", "省电但要最快"."""
+    return _PAIR.fullmatch(plain) is not None
 
 
 def merged(earlier: Mapping[str, Constraint], later: Mapping[str, Constraint]) -> dict[str, Constraint]:

@@ -14,7 +14,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
+from wirelessagent.language.followups import dropped_in, is_a_bare_pair, keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, CONSTRAINTS, Constraint, Detail, Intent, IntentKind
 from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
@@ -293,6 +293,8 @@ class _Understanding:
 
     def _allocate(self, objective: str, words: str, confidence: float) -> Intent:
         context, reading = self._context, self._reading
+        if self._goal.verdict == "contradiction" and is_a_bare_pair(self._sentence.plain):
+            return self._answer.ask("rivals", both=self._voice.both(self._goal.options))
         values, dropped = dict(reading.values), self._dropped
         evidence = {"objective": words} if words else {}
         evidence |= reading.evidence
