@@ -14,6 +14,7 @@ from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
 from wirelessagent.agent.turn_words import all_turn_words
 from wirelessagent.language.conversation import understood
+from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
@@ -123,6 +124,31 @@ def test_one_users_limit_goes_where_a_limit_for_all_holds() -> None:
     session, (_, turn) = talk(request(min_rate_bps={"1": 1e6}), "remove user 2's rate limit")
     assert turn.stage == "asked"
     assert asked_for(session) == {"min_rate_bps": {"1": 1e6}}
+
+
+def test_what_was_taken_off_one_user_can_be_corrected() -> None:
+    capped = request(max_rate_bps=2e6)
+    session, _ = talk(capped, "lift the cap on user 2", "no, make it 3 Mbit/s")
+    assert asked_for(session) == {"max_rate_bps": {"1": 2e6, "2": 3e6, "3": 2e6, "4": 2e6}}
+    session, _ = talk(capped, "lift the cap on user 2", "sorry, user 3", "no, user 1")
+    assert asked_for(session) == {"max_rate_bps": {"2": 2e6, "3": 2e6, "4": 2e6}}
+    session, _ = talk(request(min_rate_bps={"2": 1e6}), "user 2 needs no minimum rate any more", "I meant 300 kbit/s")
+    assert asked_for(session) == {"min_rate_bps": {"2": 3e5}}
+
+
+@pytest.mark.parametrize(
+    ("said", "factor"), [("double it", 2.0), ("make it twice as high", 2.0), ("half of that", 0.5), ("再翻一倍", 2.0)]
+)
+def test_it_is_what_was_stated_last(said: str, factor: float) -> None:
+    session, _ = talk(request(max_power_w=4.0, min_rate_bps=1e5), change(min_rate_bps={"2": 4e5}), said)
+    assert asked_for(session) == {"max_power_w": 4.0, "min_rate_bps": {"all": 1e5, "2": 4e5 * factor}}
+    session, _ = talk(request(min_rate_bps=1e5), change(max_power_w=4.0), said)
+    assert asked_for(session) == {"max_power_w": 4.0 * factor, "min_rate_bps": 1e5}
+
+
+def test_half_the_power_is_half_of_what_may_be_radiated() -> None:
+    session, _ = talk(request(max_power_w=30.0), "half the power")
+    assert asked_for(session) == {"max_power_w": 10.0}
 
 
 @pytest.mark.parametrize("said", ["also serve user 2", "add user 2", "include user 2 too", "再加上2号", "2号也加上"])
@@ -299,6 +325,50 @@ def test_an_answer_keeps_the_aim_and_the_users_of_what_was_asked_about() -> None
         request(max_power_w=5.0), ("what about user 3?", means("clarify", reply="What?")), "at most 1 Mbit/s"
     )
     assert asked_for(session) == {"max_power_w": 5.0, "max_rate_bps": {"3": 1e6}}
+
+
+def test_figures_that_answer_stay_with_their_users_while_the_aim_is_open() -> None:
+    pending = means("clarify", reply="Which aim?", pending={"min_rate_bps": {"3": 1.6e7}, "max_power_w": 4.0})
+    aim = ("highest total rate", asks("max_rate"))
+    session, turns = talk(("2 MB per second for user 3, 4 W", pending), "no, 1.6 Mbit/s", aim)
+    assert "for user 3" in turns[1].reply
+    assert session.request == Request(objective="max_rate")
+    assert plain_question(turns[1]) == {"min_rate_bps": {"3": 1.6e6}, "max_power_w": 4.0}
+
+
+def plain_question(turn: Turn) -> dict[str, Any]:
+    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in turn.intent.pending.items()}
+
+
+def test_yes_to_did_you_mean_does_what_was_meant() -> None:
+    voice = Line.of("hm", Context()).voice
+    undo = voice.say("unsure_command", text=voice.say("command.undo"))
+    session, turns = talk(
+        request(max_power_w=10.0), change(max_power_w=5.0), ("hm", means("clarify", reply=undo)), "yes"
+    )
+    assert turns[-1].stage == "undone"
+    assert asked_for(session) == {"max_power_w": 10.0}
+    goal = voice.label("min_power")
+    weak = voice.say("weak", goal=goal, choices=voice.choices(without="min_power"))
+    without = voice.say("unsupported_with_goal", text="the weather", goal=goal)
+    for reply in (weak, without):
+        unclear = means("clarify", reply=reply, pending={"min_rate_bps": 1e5})
+        session, _ = talk(("hm", unclear), "yes")
+        assert session.request == Request(objective="min_power", constraints={"min_rate_bps": 1e5})
+    _, turns = talk(("hm", means("clarify", reply="Bits or bytes?")), YES)
+    assert turns[-1].stage == "answered"
+
+
+@pytest.mark.parametrize(
+    ("said", "asked"), [("user 4", "user 4"), ("hmm", "change"), ("4号", "用户4"), ("随便", "更改")]
+)
+def test_what_to_change_is_asked_without_the_aim(said: str, asked: str) -> None:
+    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
+    session.say(TOTAL)
+    reply = session.say(said).reply
+    assert asked in reply
+    assert "aim for" not in reply
+    assert "为目标" not in reply
 
 
 def test_what_was_left_open_of_one_user_does_not_stick_to_another() -> None:

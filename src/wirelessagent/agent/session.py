@@ -16,7 +16,7 @@ import re
 import uuid
 from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
@@ -129,7 +129,7 @@ class Session:
             message = say(intent.language, "understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure)
             self._progress(Event(stage="understand", message=message))
         reply = self._reply(intent, text, context)
-        self._take(reply)
+        self._take(reply, intent)
         return self._kept(text, intent, reply)
 
     def _context(self) -> Context:
@@ -144,6 +144,7 @@ class Session:
             pending=question.pending,
             pending_objective=question.objective,
             pending_users=question.users,
+            offered=question.offered,
             stated=state.stated,
             supposed_objective=None if supposed is None else supposed.objective,
             supposed={} if supposed is None else supposed.constraints,
@@ -172,7 +173,9 @@ class Session:
             return changing.allocate(site, state, intent)
         if intent.kind == "clarify":
             left = unanswered(text, intent, context)
-            question = Question(pending=left.pending, objective=left.objective, users=left.users)
+            question = Question(
+                pending=left.pending, objective=left.objective, users=left.users, offered=left.offered
+            )  # fmt: skip
             asked = dataclasses.replace(state, planned=None, question=question)
             return Reply(text=intent.reply, stage="asked", state=asked)
         if intent.kind == "out_of_scope":
@@ -202,7 +205,7 @@ class Session:
             return handle()
         return asking.question(site, state, intent, text) if intent.kind == "question" else Reply(text=intent.reply)
 
-    def _take(self, reply: Reply) -> None:
+    def _take(self, reply: Reply, intent: Intent) -> None:
         """Let what the reply brought hold, and remember what held before another request."""
         before, new = self._state, reply.state
         if new is None:
@@ -211,7 +214,7 @@ class Session:
             del self._past[-reply.undone :]
         elif new.request != before.request:
             self._past.append(before.settled)
-            new = dataclasses.replace(new, stated=_stated(new, before))
+            new = dataclasses.replace(new, stated=_stated(new, before, intent))
         self._state = new
         self._requests.append(new.request)
 
@@ -279,9 +282,12 @@ def _read_by(intent: Intent) -> str:
     return say(intent.language, "fallen_back", recogniser=intent.recogniser) if note is None else note[0]
 
 
-def _stated(after: State, before: State) -> Mapping[str, Constraint]:
-    """What the request says now that it did not say before; what it was where that is nothing."""
-    return before.stated if after.request is None else stated_by(after.request, before.request) or before.stated
+def _stated(after: State, before: State, intent: Intent) -> Mapping[str, Constraint]:
+    """What the request says now that it did not say before, or what was taken off it; else what it was."""
+    if after.request is None:
+        return {}
+    taken_off = cast("Mapping[str, Constraint]", intent.details.get("taken_off") or {})
+    return taken_off or stated_by(after.request, before.request) or before.stated
 
 
 def _with_user(missing: Missing, name: str) -> Intent:

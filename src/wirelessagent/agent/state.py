@@ -30,12 +30,14 @@ class Question:
         pending: constraints.
         objective: the aim that was named; None where none was.
         users: users who were named, and of whom nothing was understood.
+        offered: the objective or the command that a yes means; None where it is no question of yes or no.
         missing: the user who is not there, where the question is about one.
     """
 
     pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     objective: str | None = None
     users: tuple[str, ...] = ()
+    offered: str | None = None
     missing: Missing | None = None
 
 

@@ -24,6 +24,7 @@ class Context:
         pending: constraints that were read before a clarifying question, for its answer to use.
         pending_objective: the aim that was named before it; None where none was.
         pending_users: users who were named before it, and of whom nothing was understood.
+        offered: the objective or the command that a yes to the question means; None where it has no such meaning.
         stated: what the last request stated, which "it" and "that" refer to.
         supposed_objective, supposed: the request of a what-if right before; None and empty where there was none.
         language: of the conversation so far; "" at its start.
@@ -37,6 +38,7 @@ class Context:
     pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     pending_objective: str | None = None
     pending_users: tuple[str, ...] = ()
+    offered: str | None = None
     stated: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     supposed_objective: str | None = None
     supposed: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])

@@ -144,6 +144,8 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "no_rate_to_change": "There is no such rate to change yet. What should each user get, at least or at most?",
         "no_limit_of_its_own": "Nothing of that kind is promised to {users} or asked of them. What should change?",
         "served_already": "All that is asked for serves {users} already. What should change?",
+        "what_changes": "I am not sure what should change. Say for example 'now with 5 W', 'leave user 3 out' or "
+            "another aim.",
         "what_of_user": "What about {users}: a rate, a weight, left out, or served alone?",
         "whose_figure": "Whose is {text}: {users}?",
         "sentence": "{text}.",
@@ -221,6 +223,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "no_rate_to_change": "目前没有可以更改的速率要求。每个用户的速率应是多少，至少还是不超过？",
         "no_limit_of_its_own": "{users}没有这样的要求。应更改什么？",
         "served_already": "{users}已在服务之中。应更改什么？",
+        "what_changes": "我不确定要更改什么。例如说“改为 5 W”“不要用户3”，或另一个目标。",
         "what_of_user": "{users}要怎样：速率、权重、不服务，还是只服务它？",
         "whose_figure": "{text} 是指哪个用户：{users}？",
         "sentence": "{text}。",
@@ -277,6 +280,10 @@ class Voice:
         offers = sentences["offers"].format(choices=self.choices("either"))
         given = {"choices": self.choices(), "offers": offers, "help": sentences["help"].format(offers=offers)}
         return sentences[key].format(**(given | names))
+
+    def ending(self, key: str, **names: str) -> str:
+        """How the sentence of this key ends, behind the operator's own words in it."""
+        return self.say(key, text="\0", **names).partition("\0")[2]
 
     def choices(self, last: str = "or", *, without: str = "") -> str:
         """The objectives on offer, "a, b or c"."""

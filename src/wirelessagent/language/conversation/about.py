@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 
 from wirelessagent.language import forms
@@ -46,15 +47,25 @@ def read_question(line: Line) -> Intent | None:
 
 
 def asked_instead(line: Line, understood: Intent) -> Intent | None:
-    """A question about what holds in the place of a question back about the aim, where the line is one."""
-    if line.context.objective is None or understood.kind != "clarify" or understood.pending:
+    """What to answer instead of a question back about the aim, which is known; None where that is not asked."""
+    if line.context.objective is None or understood.kind != "clarify":
         return None
     plain = line.shape
     asks = forms.is_asked(plain) or forms.begins_like_a_question(plain) or _ASKING.search(plain) is not None
-    if not (asks or plain.endswith("?")):
-        return None
+    if understood.pending or not (asks or plain.endswith("?")):
+        return _without_the_aim(line, understood)
     if _OF_THE_CHANNEL.search(plain):
         return line.question("uncertainty")
     if _OF_THE_USERS.search(plain):
         return line.question("users", **({"user": line.users[0]} if line.users else {}))
-    return line.question("other") if _OF_THE_RESULT.search(plain) else None
+    return line.question("other") if _OF_THE_RESULT.search(plain) else _without_the_aim(line, understood)
+
+
+def _without_the_aim(line: Line, understood: Intent) -> Intent | None:
+    """The same question back without the aim; None where it does not ask for it."""
+    voice = line.voice
+    if line.users and understood.reply.endswith(voice.ending("named_user")):
+        return dataclasses.replace(understood, reply=voice.say("what_of_user", users=voice.users(line.users)))
+    if understood.reply == voice.say("unclear"):
+        return dataclasses.replace(understood, reply=voice.say("what_changes"))
+    return None

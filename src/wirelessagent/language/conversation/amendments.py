@@ -9,9 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
+from wirelessagent.language import forms
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.followups import joined, merged, numbers_of, taken_in
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Intent
+from wirelessagent.language.intent import COMMANDS, EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Intent
 
 _CORRECTING = (
     r"(?:no|nope|sorry|oops|wait|hmm|actually|rather|instead|i\s+(?:mean|meant|said)|correction|make\s+(?:it|that|this)|"
@@ -83,7 +84,7 @@ _RATES = ("min_rate_bps", "max_rate_bps")
 def read_amendment(line: Line) -> Intent | None:
     """What a line changes of the request that holds or of a question that is open; None for any other line."""
     if line.context.awaits == "clarification":
-        answer = _answered(line)
+        answer = _agreed(line) or _answered(line)
         if answer is not None:
             return answer
     if line.context.objective is None:
@@ -95,11 +96,23 @@ def read_amendment(line: Line) -> Intent | None:
     return None
 
 
+def _agreed(line: Line) -> Intent | None:
+    """A yes to "did you mean …?"."""
+    context = line.context
+    if context.offered is None or forms.plain_command(line.shape) != "confirm":
+        return None
+    if context.offered in COMMANDS:
+        return line.command(context.offered)
+    amends = context.objective is not None and bool(context.pending)
+    return line.allocate(context.offered, context.pending, amends=amends)
+
+
 def _answered(line: Line) -> Intent | None:
     """Bare figures after a question: they are for the users, and of the aim, that the question was about."""
     context = line.context
     objective = context.pending_objective or context.objective
-    if objective is None or not (context.pending_users or context.pending_objective) or line.users:
+    asked_about = context.pending_users or _users_with_rates(context.pending)
+    if not (asked_about or context.pending_objective) or line.users:
         return None
     if not _BARE.fullmatch(line.wish) or any(figure.doubtful or figure.value <= 0 for figure in line.figures):
         return None
@@ -109,10 +122,21 @@ def _answered(line: Line) -> Intent | None:
         name = rate if figure.kind == "rate" else "max_power_w"
         if name in values:
             return None
-        users = context.pending_users if figure.kind == "rate" else ()
+        users = asked_about if figure.kind == "rate" else ()
         values[name] = dict.fromkeys(users, figure.value) if users else figure.value
+    values = merged(context.pending, values)
+    if objective is None:
+        key = "rate_only" if "min_rate_bps" in values else "limits_only"
+        return line.ask(key, values, constraints=line.voice.constraints(values))
     amends = context.objective is not None and context.pending_objective in (None, context.objective)
-    return line.allocate(objective, merged(context.pending, values), amends=amends)
+    return line.allocate(objective, values, amends=amends)
+
+
+def _users_with_rates(pending: Mapping[str, Constraint]) -> tuple[str, ...]:
+    """The users of the one rate that waits; nobody where it is everybody's, or there are several."""
+    rates = [value for name, value in pending.items() if name in _RATES]
+    only = rates[0] if len(rates) == 1 else None
+    return tuple(only) if isinstance(only, Mapping) and EVERYBODY not in only else ()
 
 
 def _other_user(line: Line) -> Intent | None:
@@ -121,6 +145,9 @@ def _other_user(line: Line) -> Intent | None:
     if match is None or not line.users:
         return None
     users, instead_of = line.users, ""
+    freed = _freed_instead(line, users)
+    if freed is not None:
+        return freed
     if match["not"] or match["other"]:
         if len(users) != 2:
             return None
@@ -128,6 +155,26 @@ def _other_user(line: Line) -> Intent | None:
     changed = {name: _for_users(name, value, users, instead_of) for name, value in line.context.stated.items()}
     moved = {name: value for name, value in changed.items() if value is not None}
     return _restated(line, moved) if moved else line.ask("what_of_user", users=line.voice.users(users))
+
+
+def _freed_instead(line: Line, users: tuple[str, ...]) -> Intent | None:
+    """The users whose limit goes in the place of those whose limit was taken off last; None where none was."""
+    names, objective = line.context.user_names, str(line.context.objective)
+    for name, stated in line.context.stated.items():
+        held = line.context.constraints.get(name, {})
+        if not isinstance(stated, Mapping) or isinstance(held, tuple):
+            continue
+        left = _by_user(held, names)
+        if EVERYBODY in stated or numbers_of(stated, names) & numbers_of(left, names):
+            continue
+        before = {**left, **stated}
+        gone = {
+            user: figure for user, figure in before.items() if numbers_of((user,), names) & numbers_of(users, names)
+        }
+        rest = {user: figure for user, figure in before.items() if user not in gone}
+        values: dict[str, Constraint] = {name: rest} if rest else {}
+        return line.allocate(objective, values, amends=True, dropped=(name,), taken_off={name: gone}) if gone else None
+    return None
 
 
 def _for_users(name: str, value: Constraint, users: tuple[str, ...], instead_of: str) -> Constraint | None:
@@ -204,7 +251,8 @@ def _freed(line: Line) -> Intent | None:
             continue
         rest = {user: figure for user, figure in own.items() if not freed & numbers_of((user,), context.user_names)}
         values: dict[str, Constraint] = {name: rest} if rest else {}
-        return line.allocate(str(context.objective), values, amends=True, dropped=(name,))
+        gone: dict[str, Constraint] = {name: {user: figure for user, figure in own.items() if user not in rest}}
+        return line.allocate(str(context.objective), values, amends=True, dropped=(name,), taken_off=gone)
     return line.ask("no_limit_of_its_own", users=line.voice.users(line.users))
 
 

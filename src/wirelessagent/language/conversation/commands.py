@@ -74,7 +74,7 @@ _NO_REFERENCE = {
 _APPLY = re.compile(
     r"(?:apply|activate|deploy|use|take)\s+(?:it|that|this)|do\s+(?:it|that|this|so)(?:\s+then)?|"
     r"(?:go|proceed)\s+with\s+(?:it|that|this)|make\s+it\s+so|(?:go|do)\s+(?:for\s+it|it\s+that\s+way|like\s+that)|"
-    r"(?:就|照|按)?(?:照)?(?:这么|这样|这个)(?:办|做|定|来|干|执行)|(?:就)?(?:用|采用)(?:这个|它)(?:方案)?|应用(?:它|这个)?"
+    r"(?:就|照|按)*(?:这么|这样|这个)(?:方案)?(?:去)?(?:办|做|定|来|干|执行|吧)|(?:就)?(?:用|采用)(?:这个|它)(?:方案)?|应用(?:它|这个)?"
 )
 _THAT = re.compile(r"(?:apply|activate|deploy|use|take)\s+it|应用(?:它)?")
 """Words that mean the plan that waits, where one does."""

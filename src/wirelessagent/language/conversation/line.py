@@ -69,14 +69,15 @@ class Line:
 
     def allocate(
         self, objective: str, constraints: Mapping[str, Constraint], *, amends: bool, dropped: tuple[str, ...] = (),
+        taken_off: Mapping[str, Constraint] | None = None,
     ) -> Intent:  # fmt: skip
-        """A request, or a change of the one that holds."""
+        """A request, or a change of the one that holds; ``taken_off`` are figures of users that no longer hold."""
         said = self.voice.amended if amends else None
         reply = said(constraints, dropped) if said else self.voice.restated(objective, constraints, ())
         evidence = {name: self.text.strip() for name in constraints}
         return self._intent(
             "allocate", reply, objective=objective, constraints=constraints, evidence=evidence, amends=amends,
-            dropped=dropped,
+            dropped=dropped, details={"taken_off": taken_off} if taken_off else {},
         )  # fmt: skip
 
     def command(self, topic: str, **details: Detail) -> Intent:
@@ -85,9 +86,9 @@ class Line:
     def question(self, topic: str, **details: Detail) -> Intent:
         return self._intent("question", self.voice.say(f"question.{topic}"), topic=topic, details=details)
 
-    def ask(self, key: str, **names: str) -> Intent:
-        """A question back."""
-        return self._intent("clarify", self.voice.say(key, **names))
+    def ask(self, key: str, pending: Mapping[str, Constraint] | None = None, /, **names: str) -> Intent:
+        """A question back, whose answer may use what is pending."""
+        return self._intent("clarify", self.voice.say(key, **names), pending=pending or {})
 
     def _intent(self, kind: IntentKind, reply: str, **fields: Any) -> Intent:
         given: dict[str, Any] = {

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
+from wirelessagent.language.recogniser import Context
 
 _OWN = r"(?:(?:the|our|its|their|my|all|of|every(?:one|body)(?:'s)?|each|users?'?|@'?s?|for|this|that)\s+)*"
 _POWER = (
@@ -19,7 +20,7 @@ _RATE = (
     r"(?:\s+(?:floor|limit|cap|guarantee|requirement)s?)?(?:\s+(?:of|for)\s+(?:@|everyone|everybody|all|each(?:\s+user)?|"
     r"(?:all\s+)?(?:the\s+)?users))?"
 )
-_NOUN = rf"(?P<noun>{_POWER}|{_RATE})"
+_NOUN = rf"(?P<noun>{_POWER}|{_RATE}|it|that|this)"
 _ZH_NOUN = (
     r"(?:把|将|让|使)?(?:@的?)?(?:(?:大家|每个用户|每个人|所有用户|所有人|全部用户|用户|各用户)的?)?(?P<noun>"
     r"(?:总|发射|最大)?功率(?:上限|限制|预算)?|(?:最低|最小|最高|最大|保证|保底|承诺)?的?(?:速率|速度|网速)"
@@ -70,7 +71,7 @@ _PATTERNS = (
     rf"{_NOUN}\s+(?:{_BE}|\s)*{_PERCENT}\s+{_MORE}",
     rf"{_NOUN}\s+(?:{_BE}|\s)*(?:(?P<up>increased|raised|up)|(?P<down>decreased|reduced|lowered|cut|down))\s+by\s+{_PERCENT}",
     # "速率提高一倍", "一半的功率", "功率降低20%"
-    rf"{_ZH_NOUN}{_ZH_ALSO}{_ZH_FACTOR}",
+    rf"(?:{_ZH_NOUN}|把?它)?{_ZH_ALSO}{_ZH_FACTOR}",
     rf"(?:只)?(?:用|有|给)?(?:(?P<half>一半|半数)|(?P<twice>[两二2]倍|双倍))的?{_ZH_NOUN}",
     rf"{_ZH_NOUN}{_ZH_ALSO}(?:(?P<up>{_ZH_UP}|上调|多)|(?P<down>{_ZH_DOWN}|下调|少))(?:了)?{_ZH_PERCENT}",
 )
@@ -89,11 +90,18 @@ _SUPPOSED_END = re.compile(
 
 @dataclass(frozen=True, kw_only=True)
 class Scaled:
-    """A figure that is to be a multiple of what holds: "power" or "rate", a floor unless ``cap``."""
+    """A figure that is to be a multiple of what holds: of "power", "rate" or "that"; a floor unless ``cap``."""
 
     of: str
     factor: float
     cap: bool
+
+    def name_in(self, context: Context) -> str | None:
+        """The constraint that is meant; None where "that" could be several or none."""
+        if self.of != "that":
+            return "max_power_w" if self.of == "power" else "max_rate_bps" if self.cap else "min_rate_bps"
+        stated = [name for name in ("max_power_w", "min_rate_bps", "max_rate_bps") if name in context.stated]
+        return stated[0] if len(stated) == 1 else None
 
 
 def read_relative(line: Line) -> Intent | None:
@@ -106,12 +114,10 @@ def read_relative(line: Line) -> Intent | None:
     scaled = scaled_in(_SUPPOSED_END.sub("", said) if lead is not None else _CHANGING.sub("", said, count=1))
     if scaled is None:
         return None
-    name = "max_power_w" if scaled.of == "power" else "max_rate_bps" if scaled.cap else "min_rate_bps"
-    if name == "max_power_w":
-        held: Constraint | None = context.constraints.get(name, context.max_power_w)
-    else:
-        held = context.constraints.get(name)
-    value = None if held is None else _times(held, scaled.factor, line.users)
+    name = scaled.name_in(context)
+    if name is None:
+        return None
+    value = _times(_held(scaled, name, context), scaled.factor, line.users)
     if value is None:
         return line.ask("no_rate_to_change")
     if lead is not None:
@@ -128,8 +134,9 @@ def scaled_in(said: str) -> Scaled | None:
     match = next((match for match in (shape.fullmatch(said.strip()) for shape in _SHAPES) if match is not None), None)
     if match is None:
         return None
-    noun = match["noun"]
+    noun = match["noun"] or "it"
     of = "power" if re.search("power|budget|wattage|功率", noun) else "rate"
+    of = "that" if noun in ("it", "that", "this") else of
     return Scaled(of=of, factor=_factor(match), cap=re.search(r"max|cap|limit|上限|最高|最大", noun) is not None)
 
 
@@ -144,9 +151,20 @@ def _factor(match: re.Match[str]) -> float:
     return next(factor for place, (factor, _) in enumerate(factors) if groups[f"{prefix}{place}"])
 
 
-def _times(held: Constraint, factor: float, users: tuple[str, ...]) -> Constraint | None:
+def _held(scaled: Scaled, name: str, context: Context) -> Constraint | None:
+    """What the factor is of: the limit that holds, which for power is the cell's where it is the lower one."""
+    held = context.constraints.get(name)
+    if name == "max_power_w":
+        return min(held, context.max_power_w) if isinstance(held, float) else context.max_power_w
+    stated = context.stated.get(name)
+    if scaled.of == "that" and isinstance(stated, Mapping) and isinstance(held, Mapping):
+        return {user: held[user] for user in stated if user in held} or None
+    return held
+
+
+def _times(held: Constraint | None, factor: float, users: tuple[str, ...]) -> Constraint | None:
     """What holds times a factor, for these users alone where any are named; None where they have no figure."""
-    if factor <= 0 or isinstance(held, tuple):
+    if held is None or factor <= 0 or isinstance(held, tuple):
         return None
     if not users:
         return _each(held, factor) if isinstance(held, Mapping) else held * factor

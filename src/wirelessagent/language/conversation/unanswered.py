@@ -7,18 +7,26 @@ from dataclasses import dataclass
 
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.followups import merged
-from wirelessagent.language.intent import Constraint, Intent
+from wirelessagent.language.intent import COMMANDS, Constraint, Intent
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.sentence import Sentence, own_words
 
 
 @dataclass(frozen=True, kw_only=True)
 class Unanswered:
-    """The constraints and the objective (or None) that were understood, and users of whom nothing was."""
+    """What was understood before a question back, and what was not.
+
+    Attributes:
+        pending: the constraints.
+        objective: that was named; None where none was.
+        users: of whom nothing was understood.
+        offered: the objective or the command that a yes means; None where it is no question of yes or no.
+    """
 
     pending: Mapping[str, Constraint]
     objective: str | None
     users: tuple[str, ...]
+    offered: str | None
 
 
 def unanswered(text: str, intent: Intent, context: Context) -> Unanswered:
@@ -28,11 +36,12 @@ def unanswered(text: str, intent: Intent, context: Context) -> Unanswered:
     settled = {user for value in intent.pending.values() for user in _users_of(value)}
     users = tuple(user for user in line.users if user not in settled)
     objective = goal.objective if goal.verdict == "clear" else None
+    offered = _offered(intent, line)
     if context.awaits != "clarification" or leaves_the_question(line):
-        return Unanswered(pending=intent.pending, objective=objective, users=users)
+        return Unanswered(pending=intent.pending, objective=objective, users=users, offered=offered)
     return Unanswered(
         pending=merged(context.pending, intent.pending), objective=objective or context.pending_objective,
-        users=users or context.pending_users,
+        users=users or context.pending_users, offered=offered,
     )  # fmt: skip
 
 
@@ -40,6 +49,21 @@ def leaves_the_question(line: Line) -> bool:
     """Whether a line speaks of other users than the question back was about, and so answers it not."""
     asked = line.context.pending_users
     return bool(asked and line.users) and not set(asked) & set(line.users)
+
+
+def _offered(intent: Intent, line: Line) -> str | None:
+    """The objective or the command that a question back puts forward for a yes."""
+    voice = line.voice
+    for topic in COMMANDS:
+        if intent.reply == voice.say("unsure_command", text=voice.say(f"command.{topic}")):
+            return topic
+    for name in voice.labels:
+        goal = voice.label(name)
+        if intent.reply == voice.say("weak", goal=goal, choices=voice.choices(without=name)):
+            return name
+        if intent.reply.endswith(voice.ending("unsupported_with_goal", goal=goal)):
+            return name
+    return None
 
 
 def _users_of(value: Constraint) -> tuple[str, ...]:
