@@ -72,16 +72,14 @@ def test_the_prices_of_a_maximum_say_what_is_gained_and_what_is_lost() -> None:
     prices = {"price_of_power": 1e5, "price_of_rate": np.array([-0.1, -0.3, 0.0, np.nan])}
     said = told(decided("proportional_fairness", prices))
     assert "One more watt would raise the geometric mean rate by about 100 kbit/s" in said
-    assert "One more 100 kbit/s promised to user 2 would lower the geometric mean rate by about 30 kbit/s" in said
+    assert "100 kbit/s more promised to user 2 would lower the geometric mean rate by about 30 kbit/s" in said
     assert "几何平均速率约降低 30 kbit/s" in told(decided("proportional_fairness", prices), "zh")
     assert "One more watt would buy about 100 kbit/s" in told(decided("max_rate", prices))
 
 
 def test_the_price_of_a_promise_in_watts() -> None:
     prices = {"price_of_rate": np.array([1e-6, 3e-6, 0.0, np.nan])}
-    assert "One more 100 kbit/s for user 2 would cost about 300 mW" in told(
-        decided("min_power", prices, min_rate_bps=1.0)
-    )
+    assert "100 kbit/s more for user 2 would cost about 300 mW" in told(decided("min_power", prices, min_rate_bps=1.0))
     no_price = {"price_of_rate": np.full(4, np.nan)}
     assert "100 kbit/s" not in told(decided("min_power", no_price, min_rate_bps=1.0))
 
@@ -160,3 +158,23 @@ def test_who_cannot_be_served_is_said_once() -> None:
     assert "1 of 4 users cannot be served: there are only 3 subcarriers" in certificate_line(decision)
     grouped = wa.decide(crowd, wa.Problem("max_min_rate", resource_block_group_size=2, users=(0, 1, 2)))
     assert "1 of 3 users cannot be served: there are only 2 resource-block groups" in certificate_line(grouped)
+
+
+@pytest.mark.parametrize(
+    ("language", "same", "sure", "band"),
+    [("en", "it would have been the same", "at least 99.9 %", "from"), ("zh", "结果也一样", "至少以 99.9 %", "之间")],
+)
+def test_what_hardly_differs_is_told_as_the_same(language: str, same: str, sure: str, band: str) -> None:
+    """Nearly certain gains: no band of one figure, no probability of 100 %, no cost of a hundred-thousandth."""
+    scene = wa.simulate("rayleigh", num_users=5, num_subcarriers=24, rms_delay_spread_s=100e-9, seed=1)
+    seen = wa.repair(scene.observe(wa.loss.random(0.2), seed=1))
+    decision = wa.decide(seen, wa.Problem("max_min_rate"), scene.cell)
+    forecast = decision.forecast
+    assert forecast is not None
+    report = wa.report(decision, wa.SimulatedBaseStation(scene).apply(decision))
+    assert 0 < abs(report.regret) < 5e-4
+    said = " ".join(explain(seen, report, language=language))
+    assert same in said
+    assert sure in said
+    shown = {human(rate, "bit/s") for rate in (forecast.sum_low_bps, forecast.sum_high_bps)}
+    assert (band in said) == (len(shown) == 2)

@@ -12,6 +12,7 @@ import wirelessagent as wa
 from wirelessagent.agent.figures import certificate_line, side_by_side
 from wirelessagent.agent.session import ask
 from wirelessagent.explain.case import Case
+from wirelessagent.explain.labels import called
 from wirelessagent.explain.nearest import nearest
 from wirelessagent.explain.nearest_words import nearest_answer
 from wirelessagent.explain.reasons import reason_in_words
@@ -131,3 +132,31 @@ def test_what_is_open_is_told_with_how_far_it_came(language: str) -> None:
     said = reason_in_words(decision, language)
     assert human(decision.needed_power_w.at_least, "W") in said
     assert "10 W" in said
+
+
+def test_more_power_is_offered_where_promises_need_a_little_to_spare() -> None:
+    """Promises on uncertain gains are seldom found with exactly the least power that carries them."""
+    decision = wa.decide(SEEN, wa.Problem("max_rate", min_rate_bps=1e6, max_power_w=1.0, outage_probability=0.05), CELL)
+    assert decision.status == "infeasible"
+    more = nearest(Case(decision=decision, estimate=SEEN)).more_power
+    least = wa.decide(SEEN, wa.Problem("min_power", min_rate_bps=1e6, outage_probability=0.05), CELL)
+    assert more is not None
+    assert least.value <= more.power_w <= 1.2001 * least.value
+    assert more.decision.is_usable
+    assert np.all(more.decision.rate_bps >= 1e6 * (1 - 1e-9))
+
+
+@pytest.mark.parametrize(("language", "told"), [("en", "for {} alone"), ("zh", "只服务{}")])
+def test_who_can_be_served_is_named_where_most_are_left_out(language: str, told: str) -> None:
+    case = Case(decision=decided(min_rate_bps=8e6, max_power_w=8.0), estimate=SEEN)
+    found = nearest(case)
+    assert found.fewer_users is not None
+    assert len(found.fewer_users.left_out) == 3
+    (kept,) = set(range(4)) - set(found.fewer_users.left_out)
+    assert told.format(called(language, SEEN.user_names[kept])) in nearest_answer(case, found, language)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_figures_that_say_nothing_are_left_out(language: str) -> None:
+    run = ask("Least power with 100 Mbit/s for each user", SCENE, wa.loss.random(0.3), seed=4)
+    assert all(set(row[1:]) != {"–"} for row in side_by_side([("a", run), ("b", run)], language).rows)

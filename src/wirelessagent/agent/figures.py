@@ -42,7 +42,8 @@ def side_by_side(runs: Sequence[tuple[str, Run]], language: str = "en") -> Table
     """Runs beside each other: what each is worth, takes and keeps."""
     columns = [worded(language, "figure"), *(called(language, name) for name, _ in runs)]
     cells = [_cells(run, language) for _, run in runs]
-    rows = [(worded(language, label), *(cell[label] for cell in cells)) for label in cells[0]]
+    known = [label for label in cells[0] if any(cell[label] != "–" for cell in cells)]
+    rows = [(worded(language, label), *(cell[label] for cell in cells)) for label in known]
     return Table(title=worded(language, "Side by side"), columns=tuple(columns), rows=tuple(rows))
 
 

@@ -31,6 +31,8 @@ _FIRST_STEP, _LEAST_FACTOR = 0.98, 1e-6
 """A factor that no bound comes near is searched for downwards, each step the square of the one before."""
 _HALVINGS, _CLOSE_ENOUGH = 8, 1.005
 """Then between what is carried and what is not, so often or until they are so close."""
+_MARGINS = (1.0, 1.002, 1.01, 1.05, 1.2)
+"""Of the least power, until an objective keeps its promises too: some are only found with a little to spare."""
 _AMPLE = 1e6
 """Budget in budgets for which the dearest users are looked for."""
 _MOST_SETS = 150
@@ -117,12 +119,15 @@ def more_power(case: Case) -> MorePower | None:
     found = case.otherwise(least, _ample(case.cell))
     if not found.is_usable:
         return None
-    power = found.total_power_w / _SAFE
-    cell, allowed = case.cell, power <= case.cell.max_power_w
-    if not allowed:
-        cell = dataclasses.replace(cell, max_power_w=power)
-    decision = case.otherwise(dataclasses.replace(case.problem, max_power_w=power), cell)
-    return MorePower(power_w=power, decision=decision, within_limit=allowed) if decision.is_usable else None
+    for margin in _MARGINS:
+        power = found.total_power_w / _SAFE * margin
+        cell, allowed = case.cell, power <= case.cell.max_power_w
+        if not allowed:
+            cell = dataclasses.replace(cell, max_power_w=power)
+        decision = case.otherwise(dataclasses.replace(case.problem, max_power_w=power), cell)
+        if decision.is_usable:
+            return MorePower(power_w=power, decision=decision, within_limit=allowed)
+    return None
 
 
 def without_limits(case: Case) -> tuple[WithoutLimit, ...]:

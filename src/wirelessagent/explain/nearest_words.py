@@ -26,6 +26,7 @@ WORDS = Lexicon(
         "most": "; more than {rate} is proven impossible",
         "most_factor": "; more than {factor:.3g} times is proven impossible",
         "without": "- the same rates without {names}: {outcome}{fewest}",
+        "only": "- the same rates for {names} alone: {outcome}{fewest}",
         "fewest": "; that leaving out fewer does not help is proven",
         "none": "No lower rates, more power or fewer users were found that would do.",
     },
@@ -44,6 +45,7 @@ WORDS = Lexicon(
         "most": "；已证明不可能超过 {rate}",
         "most_factor": "；已证明不可能超过 {factor:.3g} 倍",
         "without": "- 速率不变，不服务{names}：{outcome}{fewest}",
+        "only": "- 速率不变，只服务{names}：{outcome}{fewest}",
         "fewest": "；已证明少去掉用户无济于事",
         "none": "没有找到可行的更低速率、更高功率或更少用户。",
     },
@@ -103,8 +105,9 @@ def _users(case: Case, found: Nearest, language: str) -> str:
     fewer = found.fewer_users
     if fewer is None:
         return ""
-    names = listed([case.estimate.user_names[user] for user in fewer.left_out], language)
+    kept = [int(user) for user in np.flatnonzero(case.served) if user not in fewer.left_out]
+    key, users = ("only", kept) if len(kept) < len(fewer.left_out) else ("without", fewer.left_out)
+    names = listed([case.estimate.user_names[user] for user in users], language)
     fewest = WORDS.say(language, "fewest") if fewer.is_fewest and len(fewer.left_out) > 1 else ""
-    return WORDS.say(
-        language, "without", names=names, outcome=outcome_in_words(case, fewer.decision, language), fewest=fewest
-    )  # fmt: skip
+    outcome = outcome_in_words(case, fewer.decision, language)
+    return WORDS.say(language, key, names=names, outcome=outcome, fewest=fewest)

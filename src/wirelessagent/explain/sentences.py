@@ -31,8 +31,8 @@ _ENGLISH: Mapping[str, str] = {
     "starved": "{names} cannot be given any rate here, and that makes the {figure} zero.",
     "power_max": "One more watt would buy about {price} at the margin.",
     "power_figure": "One more watt would raise the {figure} by about {price} at the margin.",
-    "rate_price": "One more {step} for {user} would cost about {price} at the margin, the dearest of all.",
-    "rate_figure": "One more {step} promised to {user} would lower the {figure} by about {price} at the margin, "
+    "rate_price": "{step} more for {user} would cost about {price} at the margin, the dearest of all.",
+    "rate_figure": "{step} more promised to {user} would lower the {figure} by about {price} at the margin, "
     "the dearest of all.",
     "idle_one": "Nothing for {names}, who is {margin:.1f} dB behind the winner on its best subcarrier.",
     "groups": "Assigning subcarriers in groups of {size} costs at most {cost} of the {figure}: one by one, "

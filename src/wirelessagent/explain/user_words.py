@@ -28,8 +28,8 @@ WORDS = Lexicon(
         "above": "It is promised {promised}, and gets more because subcarriers go as a whole; 100 kbit/s more "
         "would cost {price} at the margin.",
         "beyond": "It is promised {promised}, which costs nothing, since it gets more anyway.",
-        "resting": "{repaired} of its {entries} gains were not measured; of the {count} subcarriers that it uses "
-        "{resting} rest on such a gain.",
+        "resting": "{repaired} of its {entries} gains were not measured, among them those of {resting} of the {count} "
+        "subcarriers that it uses.",
         "resting_none": "{repaired} of its {entries} gains were not measured, but it uses no subcarrier that rests on "
         "such a gain.",
         "measured": "All its gains were measured.",
@@ -52,6 +52,7 @@ WORDS = Lexicon(
         "more": "At the prices it would bid more for {place} than {winner}, who got it: {bid} against {winning}. But "
         "whole subcarriers cannot be shared, and the allocation as a whole is better this way.",
         "bid": "{power} ({value})",
+        "no_bid": "nothing",
         "gain_repaired": "Its gain there was not measured: by the repair it lies, with a probability of 90 %, "
         "within {low:+.1f} to {high:+.1f} dB of what was counted on, and is high enough to win "
         "with a probability of {chance}.",
@@ -91,6 +92,7 @@ WORDS = Lexicon(
         "more": "按价格它对{place}的出价高于得到者{winner}：{bid} 对 {winning}。但整个子载波不能"
         "共享，整体上这样分配更好。",
         "bid": "{power}（{value}）",
+        "no_bid": "0",
         "gain_repaired": "它在那里的增益没有测得：按修复结果，以 90 % 的概率在所计数值的 {low:+.1f} 至 {high:+.1f} "
         "dB 之内，高到足以胜出的概率为 {chance}。",
         "gain_close": "它在那里的增益没有测得，但修复结果的误差不超过 0.1 dB。",
@@ -219,6 +221,8 @@ def _loss(case: Case, loss: Loss, name: str, language: str) -> list[str]:
 
 
 def _bid(case: Case, bid_w: float, value: float, language: str) -> str:
+    if bid_w <= 0:
+        return WORDS.say(language, "no_bid")
     power = human(bid_w, "W")
     return power if np.isnan(value) else WORDS.say(language, "bid", power=power, value=human(value, case.decision.unit))
 

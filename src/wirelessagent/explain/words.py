@@ -21,6 +21,8 @@ from wirelessagent.model.units import db, human, percent, reliability
 _SURE = 0.95
 """The probability from which a promise without an outage probability goes without a warning."""
 
+_ALL_BUT_CERTAIN = 0.999
+"""A probability beyond which nobody counts."""
 _NO_REGRET = 5e-4
 """A share of the rate that nobody would miss."""
 
@@ -104,7 +106,7 @@ def _forecast(words: Mapping[str, str], decision: Decision) -> list[str]:
     if decision.expected_rate_bps.size:
         return said
     least = int(np.argmin(np.where(decision.committed_bps > 0, forecast.carried, np.inf)))
-    sure = percent(float(forecast.carried[least]))
+    sure = f"{100 * min(float(forecast.carried[least]), _ALL_BUT_CERTAIN):.3g} %"
     if not decision.problem.promises_rates:
         committed = human(float(decision.committed_bps.sum()), "bit/s")
         return [*said, words["commitment"].format(committed=committed, sure=sure)]
@@ -245,18 +247,20 @@ def _regret(words: Mapping[str, str], report: Report, objective: Objective, figu
     if perfect is None or achieved is None or np.isnan(report.regret):
         return []
     best = human(perfect.value, perfect.unit)
+    plain = not figure and report.decision.problem.weights is None and perfect.unit == "bit/s"
+    lost = report.goodput_regret if plain else report.regret
+    if abs(lost) < _NO_REGRET and not report.missed_users:
+        return [words["regret_none"].format(perfect=best)]
     if objective.measure == "power":
         if report.regret < 0 and report.missed_users:
             return [words["saved"].format(perfect=best, cost=percent(-report.regret))]
         return [words["regret_min"].format(perfect=best, cost=percent(max(report.regret, 0.0)))]
-    if figure or report.decision.problem.weights is not None or perfect.unit != "bit/s":
+    if not plain:
         return [
             words["regret_max"].format(
                 figure=figure or words["value"], perfect=best, cost=percent(max(report.regret, 0.0))
             )
         ]
-    if report.goodput_regret < _NO_REGRET:
-        return [words["regret_none"].format(perfect=best)]
     return [
         words["regret_goodput"].format(
             perfect=best,
