@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from wirelessagent.language.intent import EVERYBODY, Constraint
+from wirelessagent.language.intent import Constraint
+from wirelessagent.language.restating import limits_in_words, users_in_words
 
 GOALS: dict[str, dict[str, str]] = {
     "en": {
@@ -33,48 +34,6 @@ GOALS: dict[str, dict[str, str]] = {
     },
 }
 
-_CONSTRAINTS: dict[str, dict[str, str]] = {
-    "en": {
-        "max_power_w": "at most {} of radiated power",
-        "min_rate_bps": "at least {} for each user",
-        "max_rate_bps": "at most {} for each user",
-        "circuit_power_w": "{} of circuit power",
-        "outage_probability": "an outage of at most {}",
-        "subcarrier_max_power_w": "at most {} on each subcarrier",
-        "resource_block_group_size": "{} subcarriers to a group",
-        "min_rate_bps.user": "at least {figure} for {user}",
-        "max_rate_bps.user": "at most {figure} for {user}",
-        "weights.user": "weight {figure} for {user}",
-        "users": "serving only {}",
-        "leave_out": "without {}",
-    },
-    "zh": {
-        "max_power_w": "发射功率不超过 {}",
-        "min_rate_bps": "每个用户至少 {}",
-        "max_rate_bps": "每个用户不超过 {}",
-        "circuit_power_w": "电路功率 {}",
-        "outage_probability": "中断概率不超过 {}",
-        "subcarrier_max_power_w": "每个子载波不超过 {}",
-        "resource_block_group_size": "每 {} 个子载波一组",
-        "min_rate_bps.user": "{user}至少 {figure}",
-        "max_rate_bps.user": "{user}不超过 {figure}",
-        "weights.user": "{user}权重 {figure}",
-        "users": "只服务{}",
-        "leave_out": "不服务{}",
-    },
-}
-
-_UNITS = {
-    "max_power_w": "W",
-    "min_rate_bps": "bit/s",
-    "max_rate_bps": "bit/s",
-    "circuit_power_w": "W",
-    "outage_probability": "%",
-    "subcarrier_max_power_w": "W",
-    "resource_block_group_size": "",
-    "weights": "",
-}
-
 _DROPPED = {
     "en": {
         "max_power_w": "the power limit", "min_rate_bps": "the minimum rate", "max_rate_bps": "the rate cap",
@@ -90,8 +49,6 @@ _DROPPED = {
         "subcarrier_max_power_w": "子载波功率上限", "resource_block_group_size": "子载波分组",
     },
 }  # fmt: skip
-
-_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 _SENTENCES: dict[str, dict[str, str]] = {
     "en": {
@@ -297,31 +254,15 @@ class Voice:
 
     def constraints(self, values: Mapping[str, Constraint]) -> str:
         """The constraints with figures and units, "at least 1 Mbit/s for each user, at most 10 W …"."""
-        parts = [part for name, value in values.items() for part in self._constraint(name, value)]
-        return _SENTENCES[self.language]["comma"].join(parts)
-
-    def _constraint(self, name: str, value: Constraint) -> list[str]:
-        words = _CONSTRAINTS[self.language]
-        if isinstance(value, tuple):
-            return [words[name].format(self._listed([self.user(user) for user in value], "and"))]
-        if not isinstance(value, Mapping):
-            return [words[name].format(_figure(value, _UNITS[name]))]
-        return [
-            words[f"{name}.user"].format(figure=_figure(figure, _UNITS[name]), user=self.user(user))
-            for user, figure in value.items()
-        ]
+        return limits_in_words(values, self.language)
 
     def user(self, reference: str) -> str:
         """What to call a user: "user 3" for "3", "everyone else" for everybody who is not named."""
-        if reference == EVERYBODY:
-            return "其余用户" if self.language == "zh" else "everyone else"
-        if not reference.isdigit():
-            return reference
-        return f"用户{reference}" if self.language == "zh" else f"user {reference}"
+        return users_in_words((reference,), self.language)
 
     def users(self, references: Sequence[str]) -> str:
         """Several users in one list."""
-        return self._listed([self.user(reference) for reference in references], "and")
+        return users_in_words(references, self.language)
 
     def amended(self, values: Mapping[str, Constraint], dropped: Sequence[str]) -> str:
         """What changes in the current request, as one sentence."""
@@ -346,13 +287,3 @@ class Voice:
         if len(items) < 2:
             return "".join(items)
         return words["comma"].join(items[:-1]) + words[last] + items[-1]
-
-
-def _figure(value: float, unit: str) -> str:
-    """A figure as the operator may check it: six digits, an SI prefix."""
-    if not unit:
-        return f"{value:g}"
-    if unit == "%":
-        return f"{100 * value:.6g} %"
-    scale, prefix = next(((scale, prefix) for scale, prefix in _PREFIXES if value >= scale), _PREFIXES[-1])
-    return f"{value / scale:.6g} {prefix}{unit}"
