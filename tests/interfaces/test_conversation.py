@@ -21,6 +21,8 @@ from wirelessagent.language.recogniser import Context
 
 Said = str | tuple[str, Intent]
 TOTAL = "highest total rate"
+WONDERED = ("what if 5 W?", means("question", topic="what_if", details={"constraints": {"max_power_w": 5.0}}))
+YES = ("yes", means("command", topic="confirm"))
 
 
 def talk(*lines: Said, confirm: bool = False) -> tuple[Session, list[Turn]]:
@@ -102,6 +104,8 @@ def test_a_correction_corrects_what_was_stated_last_and_nothing_else() -> None:
         request(min_rate_bps={"2": 1e6, "4": 3e5}), change(min_rate_bps={"1": 2e5}), "no, user 3", "I meant 400 kbit/s"
     )
     assert asked_for(session) == {"min_rate_bps": {"2": 1e6, "4": 3e5, "3": 4e5}}
+    session, _ = talk(request(min_rate_bps={"2": 1e6}), change(min_rate_bps={"2": 1e6}), "no, user 3")
+    assert asked_for(session) == {"min_rate_bps": {"3": 1e6}}
     session, _ = talk(request(), change(leave_out=("1",)), "sorry, user 3")
     assert asked_for(session) == {"leave_out": ("3",)}
     session, _ = talk(request(), change(max_power_w=10.0), "actually 5 W")
@@ -235,16 +239,23 @@ def test_cancel_drops_what_waits_and_undoes_nothing(said: str) -> None:
     assert asked_for(session) == {"max_power_w": 10.0}
 
 
+def test_undo_goes_on_from_where_an_undo_or_a_cancel_left_it() -> None:
+    undo = ("undo", means("command", topic="undo"))
+    session, _ = talk(
+        request(max_power_w=10.0), change(max_power_w=5.0), change(max_power_w=4.0), change(max_power_w=3.0),
+        "undo twice", undo,
+    )  # fmt: skip
+    assert asked_for(session) == {"max_power_w": 10.0}
+    session, _ = talk(request(max_power_w=10.0), YES, change(max_power_w=5.0), "cancel", undo, confirm=True)
+    assert session.request is None
+
+
 def test_cancel_keeps_a_request_whose_allocation_was_to_be_put_back() -> None:
     yes, undo = (("yes", means("command", topic="confirm")), ("undo", means("command", topic="undo")))
     lines = (request(max_power_w=10.0), yes, change(max_power_w=5.0), yes, undo, "cancel")
     session, turns = talk(*lines, confirm=True)
     assert [turn.stage for turn in turns[-2:]] == ["planned", "nothing"]
     assert asked_for(session) == {"max_power_w": 10.0}
-
-
-WONDERED = ("what if 5 W?", means("question", topic="what_if", details={"constraints": {"max_power_w": 5.0}}))
-YES = ("yes", means("command", topic="confirm"))
 
 
 def test_yes_behind_a_what_if_is_for_the_plan_which_is_named() -> None:
@@ -325,6 +336,23 @@ def test_an_answer_keeps_the_aim_and_the_users_of_what_was_asked_about() -> None
         request(max_power_w=5.0), ("what about user 3?", means("clarify", reply="What?")), "at most 1 Mbit/s"
     )
     assert asked_for(session) == {"max_power_w": 5.0, "max_rate_bps": {"3": 1e6}}
+
+
+def test_a_second_question_keeps_what_led_to_the_first() -> None:
+    first = means("clarify", language="zh", reply="？", pending={"max_power_w": 10.0})
+    again = means("clarify", language="zh", reply="？", pending={"outage_probability": 0.1})
+    session, turns = talk(("功率最低，10 W，3号1兆字节", first), ("90 %", again), "8 Mbit/s")
+    assert session.request == Request(
+        objective="min_power",
+        constraints={"max_power_w": 10.0, "outage_probability": 0.1, "min_rate_bps": {"3": 8e6}},
+    )
+    assert turns[-1].intent.language == "zh"
+
+
+def test_an_answer_about_one_user_leaves_the_others_what_was_read() -> None:
+    asked = Context(awaits="clarification", objective="max_rate", pending={"min_rate_bps": {"3": 1e6}})
+    intent = OfflineRecogniser().recognise("user 4 at least 2 Mbit/s", asked)
+    assert intent.constraints["min_rate_bps"] == {"3": 1e6, "4": 2e6}
 
 
 def test_figures_that_answer_stay_with_their_users_while_the_aim_is_open() -> None:

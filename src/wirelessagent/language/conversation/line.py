@@ -51,16 +51,15 @@ class Line:
     @classmethod
     def of(cls, text: str, context: Context) -> Line:
         """The line with its shape."""
-        plain = normalise(text)
-        language = language_of(text)
-        if context.language and language == "en" and not _WORD.search(text):
-            language = context.language
+        plain, language = normalise(text), language_of(text)
         figures = tuple(figure for figure in parse_quantities(text) if figure.kind in ("rate", "power"))
         spans = [(figure.start, figure.end, "#") for figure in figures]
         taken = [(start, end) for start, end, _ in spans]
         named = [each for each in mentions(plain, context.user_names, taken) if each.role == "named"]
         spans += [(each.start, each.end, "@") for each in named]
         shape = " ".join(_replaced(plain, sorted(spans)).lower().split())
+        if context.language and language == "en" and not _WORD.search(shape):
+            language = context.language
         users = tuple(dict.fromkeys(user for each in named for user in each.users))
         return cls(
             text=text, shape=shape, wish=_POLITE.sub("", shape), users=users, figures=figures, context=context,
