@@ -156,3 +156,37 @@ def test_the_same_figures_of_several_users_are_told_together() -> None:
     three = Request(objective="min_power", constraints={"min_rate_bps": {"all": 1e6}, "leave_out": ("1", "2", "eve")})
     assert restated(three) == "The least power: at least 1 Mbit/s for each user, without user 1, user 2 and eve."
     assert restated(three, "zh") == "功率最低：每个用户至少 1 Mbit/s，不服务用户1、用户2和eve。"
+
+
+@pytest.mark.parametrize(("language", "figure"), [("en", "weighted total rate"), ("zh", "加权总速率")])
+def test_a_value_that_is_not_what_its_unit_says_is_named(language: str, figure: str) -> None:
+    weighted, plain, lowest = talk(
+        asks("max_rate", language=language, weights={"2": 3.0}),
+        asks("max_rate", language=language),
+        asks("max_min_rate", language=language),
+    )
+    assert weighted.run is not None
+    assert f"{figure} {human(weighted.run.decision.value, 'bit/s')}" in weighted.reply
+    assert figure not in plain.reply
+    assert ("lowest rate" if language == "en" else "最低速率") in lowest.reply
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_weights_that_leave_nobody_are_asked_about(language: str) -> None:
+    nobody, served = talk(
+        asks("max_rate", language=language, weights={"all": 0.0}),
+        asks("max_rate", language=language, weights={"1": 0.0}, users=("1",)),
+    )
+    assert [nobody.stage, served.stage] == ["asked", "asked"]
+    assert "0" in nobody.reply
+    assert english_in(nobody) == [] or language == "en"
+
+
+def test_what_a_user_costs_is_told_of_that_user() -> None:
+    asked, told = talk(asks("min_power", min_rate_bps=1e6), question("prices", user="2"))
+    assert asked.run is not None
+    price = float(asked.run.decision.price_of_rate[1]) * 1e5
+    assert "user 2" in told.reply
+    assert "user 1" not in told.reply
+    assert price > 0
+    assert human(price, "W") in told.reply

@@ -277,7 +277,7 @@ def test_what_fits_no_channel_is_asked_about() -> None:
     )
     assert posed(min_rate_bps={"2": 2e6}, max_rate_bps=1e6, leave_out=("2",)).problem.users == (0, 2, 3, 4)
     assert "groups of a whole number" in question(resource_block_group_size=2.5)
-    assert "can't be asked for" in question(weights={"all": 0.0})
+    assert "Every weight is 0" in question(weights={"all": 0.0})
 
 
 def test_what_is_assumed_is_told() -> None:

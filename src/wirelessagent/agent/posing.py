@@ -85,6 +85,7 @@ class _Posing:
             fields[name] = self._by_user(name, value) if name in FIGURES_OF_USERS else value
         self._check_order(fields)
         self._check_group(fields)
+        self._check_weights(fields)
         try:
             problem = Problem(self._objective, **fields).for_users(self._names)
             problem.weights_of(len(self._names))
@@ -167,6 +168,15 @@ class _Posing:
         if size != int(size):
             raise UnclearRequestError(self._say("whole_groups", size=f"{size:g}"))
         fields["resource_block_group_size"] = int(size)
+
+    def _check_weights(self, fields: Mapping[str, Any]) -> None:
+        """Refuse weights that leave nobody to count."""
+        if "weights" not in fields:
+            return
+        count, served = len(self._names), fields["users"]
+        weights = np.broadcast_to(fields["weights"], count)[list(range(count) if served is None else served)]
+        if not weights.any():
+            raise UnclearRequestError(self._say("no_weight"))
 
 
 def user_number(reference: str, user_names: tuple[str, ...], language: str = "en") -> tuple[int, bool]:

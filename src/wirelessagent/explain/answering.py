@@ -52,7 +52,7 @@ def answered(
             return feasible_answer(case, language), ()
         return nearest_answer(case, nearest(case), language), ()
     users = user_table(report, case.estimate, language)
-    if topic == "users" and user is not None:
+    if topic in ("users", "prices") and user is not None:
         row = dataclasses.replace(users, rows=(users.rows[user],))
         return share_answer(case, user, language), (row,)
     if topic == "certificate":

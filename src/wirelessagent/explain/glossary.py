@@ -48,8 +48,9 @@ def objectives() -> list[Entry]:
         phrases = tuple(phrase for said in (*cls.phrases.values(), *cls.figure_name.values()) for phrase in said)
         names = (cls.name, cls.name.replace("_", " "), *cls.aliases, *_ALSO.get(cls.name, ()), *phrases)
         chinese = _CHINESE_SUMMARIES.get(cls.name, one.summary)
+        spoken = next(iter(cls.phrases.get("zh", ())), cls.name)
         unit_en, unit_zh = (f" Unit: {cls.unit}.", f"单位：{cls.unit}。") if cls.unit else ("", "")
-        found.append(Entry(names=names, en=f"{cls.name}: {one.summary}{unit_en}", zh=f"{cls.name}：{chinese}{unit_zh}"))
+        found.append(Entry(names=names, en=f"{cls.name}: {one.summary}{unit_en}", zh=f"{spoken}：{chinese}{unit_zh}"))
     return found
 
 

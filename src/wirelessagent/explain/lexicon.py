@@ -9,6 +9,7 @@ from wirelessagent.explain.case import Case
 from wirelessagent.explain.labels import called
 from wirelessagent.explain.report import name_of_figure
 from wirelessagent.model.decision import Decision
+from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human
 
 
@@ -54,14 +55,18 @@ WORDS = Lexicon(
 
 def value_name(case: Case, language: str) -> str:
     """What the value is called in a sentence, as in "total rate"."""
-    named = name_of_figure(case.decision, language)
-    if named:
-        return named
-    if case.objective.measure != "utility":
-        return WORDS.say(language, case.objective.measure)
-    if case.objective.unit != "bit/s":
-        return WORDS.say(language, "value")
-    return WORDS.say(language, "rate" if case.problem.weights is None else "weighted")
+    named = peculiar_name(case.decision, language)
+    if named or case.objective.measure != "utility":
+        return named or WORDS.say(language, case.objective.measure)
+    return WORDS.say(language, "rate" if case.objective.unit == "bit/s" else "value")
+
+
+def peculiar_name(decision: Decision, language: str) -> str:
+    """What the value is called where its unit does not say it, as in "weighted total rate"; empty where it does."""
+    objective = decision.problem.objective
+    assert isinstance(objective, Objective)
+    weighted = objective.measure == "utility" and objective.unit == "bit/s" and decision.problem.weights is not None
+    return name_of_figure(decision, language) or (WORDS.say(language, "weighted") if weighted else "")
 
 
 def listed(names: Sequence[str], language: str) -> str:
