@@ -115,10 +115,12 @@ def test_a_question_about_a_users_share_is_answered_with_that_users_figures(lang
 
 
 def test_one_more_user_is_the_best_of_those_left_out_or_not_known() -> None:
-    asked, more, _, nobody = talk(
+    asked, more, _, nobody, _, unmet = talk(
         asks("max_rate", leave_out=("1", "2"), max_power_w=10.0),
         question("step", users=1.0),
         asks("max_rate", max_power_w=10.0),
+        question("step", users=1.0),
+        asks("max_rate", min_rate_bps=1e8),
         question("step", users=1.0),
     )
     assert asked.run is not None
@@ -130,6 +132,7 @@ def test_one_more_user_is_the_best_of_those_left_out_or_not_known() -> None:
     assert f"user {best + 1}" in more.reply
     assert human(values[best], "bit/s") in more.reply
     assert "All 4 users" in nobody.reply
+    assert "What can be met" in unmet.reply
 
 
 def test_a_method_that_does_not_solve_it_says_what_it_does_not_know() -> None:

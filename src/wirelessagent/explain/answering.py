@@ -43,14 +43,14 @@ def answered(
     usable = case.decision.is_usable
     if topic == "why_user" and user is not None:
         return user_answer(case, account(case, user), language), ()
-    if topic == "step" and usable and "users" in figures:
-        return more_users_answer(case, language), ()
-    if topic == "step":
+    if topic == "step" and "users" not in figures:
         return _step(case, language, user, figures), ()
     if topic == "why_infeasible" or not usable:
         if usable:
             return feasible_answer(case, language), ()
         return nearest_answer(case, nearest(case), language), ()
+    if topic == "step":
+        return more_users_answer(case, language), ()
     users = user_table(report, case.estimate, language)
     if topic in ("users", "prices") and user is not None:
         row = dataclasses.replace(users, rows=(users.rows[user],))
