@@ -1,24 +1,28 @@
 """Which constraint each figure of a sentence means, or the question that it raises.
 
-A power is the budget unless the words around it say circuit or subcarrier; a rate is promised to whoever stands beside
-it, to everybody otherwise, unless it is bounded from above; a percentage is an outage, a reliability or a share of the
-power. Everything that does not fit (a total rate, an amount to save, a figure without a unit, zero watts) raises a
-doubt instead of being dropped or bent.
+What a power, a rate or a percentage is there for, and for whom, a small model judges from the words beside it
+(``judged``); where it is not sure, and where a figure does not fit in whatever role (a total rate, an amount to save,
+no unit, zero watts), a doubt is raised instead of dropping or bending the figure.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from wirelessagent.language import figure_words
-from wirelessagent.language.allotments import Allotments, Target, target_of
+from wirelessagent.language.allotments import Allotments, Target
 from wirelessagent.language.intent import Constraint
-from wirelessagent.language.mentions import mentions
+from wirelessagent.language.judged import Judged
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.surroundings import describes_all, is_calculated, is_cells_power
+from wirelessagent.language.surroundings import beside, describes_all, is_calculated, is_cells_power
+
+_SURE, _SURE_OF_NOTHING = 0.6, 0.7
+_MOST_POWERS = 4
+_RANGE_GAP = 8
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,8 +64,8 @@ def read_constraints(
     ``names`` are the channel's users, ``max_power_w`` what shares of the power refer to.
     """
     reader = _Reader(text, plain, quantities, names, max_power_w)
-    for index in range(len(quantities)):
-        reader.take(index)
+    reader.take_numbers()
+    reader.take_figures()
     reader.take_users()
     return reader.result()
 
@@ -84,13 +88,13 @@ class _Reader:
         self._exact: set[str] = set()
         self._steps: dict[str, float] = {}
         self._missing: float | None = None
-        self._used_to = 0
         self._spoken_for: list[tuple[int, int]] = []
         self._take_blocks()
         self._take_share()
-        figures = [(figure.start, figure.end) for figure in quantities if figure.kind != "bare"]
-        self._mentions = mentions(plain, names, [*figures, *self._spoken_for])
-        self._allotments = Allotments(text, plain, self._mentions, quantities)
+        self._judged = Judged(plain, quantities, names, self._spoken_for)
+        self._figures = self._judged.figures
+        self._allotments = Allotments(text, plain, self._judged)
+        self._target = Target(role="everybody")
 
     def result(self) -> Reading:
         allotted = self._allotments
@@ -105,39 +109,56 @@ class _Reader:
             back=allotted.back, named=allotted.named,
         )  # fmt: skip
 
-    def take(self, index: int) -> None:
-        figure = self._quantities[index]
-        if any(start < figure.end and figure.start < end for start, end in self._spoken_for):
-            return
-        if figure.kind == "bare" and any(m.role == "named" and m.start < figure.end <= m.end for m in self._mentions):
-            return
-        before_from = max(self._quantities[index - 1].end, self._used_to) if index else 0
-        after_to = self._quantities[index + 1].phrase_start if index + 1 < len(self._quantities) else len(self._plain)
-        cuts = [cut.end() for cut in figure_words.CUT.finditer(self._plain, before_from, figure.start)]
-        before = self._plain[max([before_from, *cuts]) : figure.start]
-        cut = figure_words.CUT.search(self._plain, figure.end, after_to)
-        after = self._plain[figure.end : cut.start() if cut else after_to]
-        if self._allotments.is_weight(figure):
-            return
-        self._masked.append((figure.phrase_start, figure.phrase_end))
-        if figure.kind == "bare" and 0 < figure.value < 1 and _is_probability(before, after):
-            self._take_ratio(figure, before, after)
-        elif figure.kind == "bare":
-            self._doubt("unit_missing", figure)
-        elif figure.kind == "other":
-            self._doubt("not_understood", figure)
-        elif figure.doubtful:
-            self._doubt("bits_or_bytes", figure)
-        elif is_calculated(before, after):
-            self._doubt("calculated", figure)
-        elif figure.kind == "ratio":
-            self._take_ratio(figure, before, after)
-        elif not 0 < figure.value < math.inf:
-            self._doubt("impossible", figure)
-        elif figure.kind == "power":
-            self._take_power(figure, before, after)
-        else:
-            self._take_rate(index, before, after)
+    def take_numbers(self) -> None:
+        """Numbers without a unit: users, weights and descriptions are settled, a bare probability is taken."""
+        self._counted += self._judged.harmless
+        named = [(m.start, m.end) for m in self._judged.mentions if m.role == "named"]
+        settled = [*self._counted, *named, *self._allotments.spans, *self._spoken_for]
+        for index, figure in enumerate(self._quantities):
+            if figure.kind != "bare" or any(start < figure.end and figure.start < end for start, end in settled):
+                continue
+            before, after = beside(self._plain, self._quantities, index)
+            self._masked.append((figure.phrase_start, figure.phrase_end))
+            role = self._judged.outages.get(figure.start)
+            if 0 < figure.value < 1 and (role is not None or _is_probability(before, after)):
+                self._take_ratio(figure, before, after, {role: 1.0} if role is not None else None)
+            else:
+                self._doubt("unit_missing", figure)
+
+    def take_figures(self) -> None:
+        """Powers, rates and percentages, from left to right."""
+        roles = self._roles_of_powers()
+        for index, figure in enumerate(self._figures):
+            before, after = beside(self._plain, self._figures, index)
+            self._masked.append((figure.phrase_start, figure.phrase_end))
+            if figure.kind == "other":
+                self._doubt("not_understood", figure)
+            elif figure.doubtful:
+                self._doubt("bits_or_bytes", figure)
+            elif is_calculated(before, after):
+                self._doubt("calculated", figure)
+            elif figure.kind == "ratio":
+                self._take_ratio(figure, before, after, self._judged.figure(index))
+            elif not 0 < figure.value < math.inf:
+                self._doubt("impossible", figure)
+            elif figure.kind == "power":
+                self._take_power(figure, before, after, roles.get(index, ""))
+            else:
+                self._take_rate(index, before, after)
+
+    def _roles_of_powers(self) -> dict[int, str]:
+        """The role of each power, "" where that is not certain: two different figures are not both the limit."""
+        chances = {index: self._judged.figure(index) for index, q in enumerate(self._figures) if q.kind == "power"}
+        places = sorted(chances)[:_MOST_POWERS]
+        together: dict[tuple[str, ...], float] = {}
+        for roles in itertools.product(*(chances[index] for index in places)):
+            held = {(role, self._figures[index].value) for role, index in zip(roles, places, strict=True)}
+            if all(sum(role == name for role, _ in held) < 2 for name in ("max_power_w", "circuit_power_w")):
+                together[roles] = math.prod(chances[index][role] for role, index in zip(roles, places, strict=True))
+        likeliest = max(together, key=lambda roles: together[roles])
+        sure = together[likeliest] / sum(together.values())
+        fits = all(sure > (_SURE_OF_NOTHING if role == "none" else _SURE) for role in likeliest)
+        return dict(zip(places, likeliest if fits else [""] * len(places), strict=True))
 
     def take_users(self) -> None:
         """How many users there are is the channel's affair; a user who is named and gets nothing raises a doubt."""
@@ -155,9 +176,8 @@ class _Reader:
         if some is not None:
             self._doubts.append(Doubt(key="some_users", names={"text": self._text[some.start() : some.end()]}))
         halved = figure_words.HALVED.search(self._plain)
-        if halved is not None and not any(
-            start <= halved.start() < end for start, end in [*self._spoken_for, *self._allotments.spans]
-        ):
+        settled = [*self._spoken_for, *self._allotments.spans, *self._counted]
+        if halved is not None and not any(start < halved.end() and halved.start() < end for start, end in settled):
             self._doubts.append(Doubt(key="change", names={"text": self._text[halved.start() : halved.end()]}))
         nobody = figure_words.NOBODY.search(self._plain)
         if nobody is not None:
@@ -211,16 +231,18 @@ class _Reader:
         cut = figure_words.CUT.search(self._plain, end, to)
         return self._plain[max([from_, *cuts]) : start], self._plain[end : cut.start() if cut else to]
 
-    def _take_power(self, figure: Quantity, before: str, after: str) -> None:
-        ahead = figure_words.CIRCUIT.search(before)
-        if ahead is not None and figure_words.RADIATED.search(before, ahead.end()):
-            ahead = None  # "for the fixed site a transmit power of 43 dBm"
-        circuit = ahead or figure_words.CIRCUIT.search(after)
-        setting = figure_words.SET_TO.search(before)
-        if circuit is not None:
-            offset = figure.start - len(before) if ahead is not None else figure.end
-            self._masked.append((offset + circuit.start(), offset + circuit.end()))
-            self._used_to = offset + circuit.end()
+    def _take_power(self, figure: Quantity, before: str, after: str, role: str) -> None:
+        circuit = role == "circuit_power_w"
+        known = circuit and figure_words.CIRCUIT.search(before + " " + after) is not None
+        if _is_change(before, after):
+            self._steps["power_w"] = figure.value
+            self._doubt("change", figure)
+        elif figure.comparator == "at_least" and role != "none":
+            self._doubt("power_floor", figure)
+        elif not known and not is_cells_power(before, after):
+            self._doubt("whose_power", figure)
+        elif circuit:
+            self._mask_circuit(figure, before, after)
             self._set("circuit_power_w", figure.value, figure)
         elif figure.value > figure_words.HUGE_POWER_W:
             self._doubt("huge", figure)
@@ -228,29 +250,37 @@ class _Reader:
             self._set("subcarrier_max_power_w", figure.value, figure)
         elif figure_words.PER_USER.match(after):
             self._doubt("power_per_user", figure)
-        elif figure.comparator == "at_least":
-            self._doubt("power_floor", figure)
-        elif _is_change(before, after):
-            self._steps["power_w"] = figure.value
-            self._doubt("change", figure)
-        elif not is_cells_power(before, after):
+        elif role == "none":
+            self._counted.append((figure.start, figure.end))
+        elif role == "":
             self._doubt("whose_power", figure)
         else:
+            setting = figure_words.SET_TO.search(before)
             if setting is not None:
                 self._masked.append((figure.start - len(before) + setting.start(), figure.end))
             self._set("max_power_w", figure.value, figure)
 
+    def _mask_circuit(self, figure: Quantity, before: str, after: str) -> None:
+        """The words for the circuits are no wish for a "fixed" or a "constant" anything."""
+        for words, offset in ((before, figure.start - len(before)), (after, figure.end)):
+            circuit = figure_words.CIRCUIT.search(words)
+            if circuit is not None:
+                self._masked.append((offset + circuit.start(), offset + circuit.end()))
+
     def _take_rate(self, index: int, before: str, after: str) -> None:
-        figure = self._quantities[index]
-        lead = (
-            before[: len(before) - (figure.start - figure.phrase_start)]
-            if figure.phrase_start < figure.start
-            else before
-        )
+        figure = self._figures[index]
+        lead = before[: max(0, len(before) - (figure.start - figure.phrase_start))]
         setting = figure_words.RATE_SET_TO.search(before)
         if setting is not None:
             self._masked.append((figure.start - len(before) + setting.start(), figure.end))
-        target = target_of(self._plain, self._mentions, self._quantities, index, self._allotments.roles)
+        if not self._ends_a_range(index):
+            self._target = self._allotments.target_of(figure.start)
+        target, chances = self._target, self._judged.figure(index)
+        if self._ends_a_range(index) or self._ends_a_range(index + 1):
+            chances = {"max_rate_bps" if figure.comparator == "at_most" else "min_rate_bps": 1.0}
+        elif figure.comparator == "exactly":
+            chances = {"both": 1.0 - chances["none"], "none": chances["none"]}
+        role = max(chances, key=lambda name: chances[name])
         if (
             not figure_words.PER_USER.match(after)
             and target.role == "everybody"
@@ -260,35 +290,49 @@ class _Reader:
         elif _is_change(before, after):
             self._steps["rate_bps"] = figure.value
             self._doubt("change", figure)
-        elif figure.comparator is None and figure_words.STATUS.search(before + after):
+        elif role == "none" and chances[role] > _SURE_OF_NOTHING:
+            self._counted.append((figure.start, figure.end))
+        elif role == "none" or chances[role] < _SURE:
             self._doubt("status", figure)
-        elif figure.comparator == "at_most":
-            self._allot("max_rate_bps", target, figure)
+        elif not target.sure:
+            self._doubt("whose_rate", figure)
         else:
-            self._allot("min_rate_bps", target, figure)
-            if figure.comparator == "exactly":
-                self._allot("max_rate_bps", target, figure)
+            for name in ("min_rate_bps", "max_rate_bps"):
+                if role in (name, "both"):
+                    self._allot(name, target, figure)
+
+    def _ends_a_range(self, index: int) -> bool:
+        """Whether a figure is the upper end of a range, and so for whomever the lower one is."""
+        if not 0 < index < len(self._figures):
+            return False
+        lower, figure = self._figures[index - 1], self._figures[index]
+        near = figure.start - lower.end <= _RANGE_GAP and lower.kind == figure.kind
+        return near and (lower.comparator, figure.comparator) == ("at_least", "at_most")
 
     def _allot(self, name: str, target: Target, figure: Quantity) -> None:
         earlier = self._allotments.give(name, target, figure, corrects=figure_words.CORRECTION)
         if earlier is not None:
             self._doubts.append(Doubt(key="conflict", names={"one": earlier, "other": figure.text}))
 
-    def _take_ratio(self, figure: Quantity, before: str, after: str) -> None:
+    def _take_ratio(
+        self, figure: Quantity, before: str, after: str, chances: Mapping[str, float] | None = None
+    ) -> None:
         around = before + " " + after
         if figure_words.MISSING.search(around):
             self._missing = figure.value
             self._not_used.append(figure.text)
             return
-        if _is_change(before, after) or not (
-            figure_words.OUTAGE.search(around) or figure_words.RELIABLE.search(around)
-        ):
+        if chances is None:
+            chances = {"outage": 1.0} if figure_words.OUTAGE.search(around) else {"reliability": 1.0}
+        role = max(chances, key=lambda name: chances[name])
+        if role == "none" and chances[role] > _SURE_OF_NOTHING and not _is_change(before, after):
+            self._counted.append((figure.start, figure.end))
+        elif role == "none" or chances[role] < _SURE or _is_change(before, after):
             self._doubt("share", figure)
-            return
-        outage = figure.value if figure_words.OUTAGE.search(around) else round(1 - figure.value, 15)
-        if not 0 < outage < 1:
+        elif not 0 < figure.value < 1:
             self._doubt("impossible", figure)
         else:
+            outage = figure.value if role == "outage" else round(1 - figure.value, 15)
             self._set("outage_probability", outage, figure)
 
     def _set(self, name: str, value: float, figure: Quantity) -> None:

@@ -90,9 +90,11 @@ NOBODY = re.compile(
     r"\bleav(?:e|ing) (?:everyone|everybody|all users|all of them) out\b|"
     r"(?:所有|全部|全体)(?:用户|人|终端)(?:一个)?(?:都|全)?不(?:服务|带|管)|(?:一个|谁)(?:用户)?都不(?:服务|带|管)"
 )
+_OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
 HALVED = re.compile(
-    r"(?i)\bby (?:a )?(?:half|third|quarter)\b|\bhalf (?:the|of the|as much)\b|\bhalve\b|\b(?:double|twice) the\b|"
-    r"减半|一半|翻倍"
+    r"(?i)\bby (?:a )?(?:half|third|quarter)\b|"
+    rf"\b(?:half (?:the|of the|as much)|halve|(?:double|twice) the)\s+{_OF_OURS}|"
+    r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)"
 )
 SHARE = re.compile(
     r"(?i)(?<!save )(?<!by )(?<!saving )(?<!cut )(?:(?P<half>\bhalf\b|\bla mitad\b|\bla moitié\b|\bhalbe[rn]?\b)|"

@@ -10,7 +10,9 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterator, Sequence
+from decimal import Decimal
 
+from wirelessagent.language.factors import factors
 from wirelessagent.language.numerals import Number, numbers
 from wirelessagent.language.units import unit_at
 
@@ -56,9 +58,13 @@ _OF_THINGS = re.compile(  # "24 élèves", "350 guests", "14 Endgeräte": a numb
     r"[^\W\d_]{4,}"
 )
 _SETS_A_LIMIT = re.compile(
-    r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max\w*|min\w*|most|least|than|under|below|over|above|to|at|is|"
-    r"exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥])\s*$"
+    r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max|min|maximum|minimum|exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥])\s*$"
 )
+_UNIT_OF_ANOTHER_KIND = re.compile(
+    r"(?i)\s?(?:[kMG](?![A-Za-z])|dB|[km]?Wh|[km]?V|J|[km]?A|[kMG]?Hz|joules?|julios?|volts?|voltios?|amps?|amperes?|"
+    r"decibels?|hertz|(?:kilo|mega|giga)hertz)(?![A-Za-z])|\s*[千兆毫]?(?:伏|焦|安培|赫|分贝)"
+)
+_WHOLE = re.compile(r"[0-9]+")
 _IDIOMS = ("a", "an", "one")
 _CHINESE_FIGURE = re.compile(r"[二三四五六七八九]|十(?!分)|两(?=\s*[个名位台倍])")
 _TO_THE_RIGHT = re.compile(r"[^\s,;:!?\uff0c\uff1b。、)]*(?:\s*[\^*×·/+÷x]\s*[^\s,;]+)*(?:\s?(?:of\s+)?[A-Za-zμΩ/]+)?")
@@ -72,17 +78,50 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
     >>> text[start:end]
     '43 dB'
     """
-    harmless = (match.span() for pattern in (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR) for match in pattern.finditer(plain))
     things = (
         match.span() for match in _OF_THINGS.finditer(plain) if _SETS_A_LIMIT.search(plain, 0, match.start()) is None
     )
-    known = [*covered, *harmless, *things]
+    known = [*covered, *idioms(plain), *things]
     places = sorted(place for place in _numbers_at(plain) if not _inside(place, known))
     if not places:
         return None
     match = _TO_THE_RIGHT.match(plain, places[0])
     end = match.end() if match is not None else places[0]
     return places[0], max(end, places[0] + 1)
+
+
+def idioms(plain: str) -> list[Span]:
+    """Where numbers are part of a name, a time or a turn of phrase."""
+    return [match.span() for pattern in (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR) for match in pattern.finditer(plain)]
+
+
+def loose_numbers(plain: str, covered: Sequence[Span]) -> list[Number]:
+    """The numbers and multiplying words of a normalised text that lie in none of the covered spans.
+
+    Names ("5G") and mere idiom ("one") are none.
+    """
+    taken = [*covered, *idioms(plain)]
+    found: list[Number] = []
+    for number in [*factors(plain), *(n for n in numbers(plain) if n.form == "digits" or _is_figure(plain, n))]:
+        number = _cut(plain, number, taken)
+        if not any(start < number.end and number.start < end for start, end in taken):
+            found.append(number)
+            taken.append((number.start, number.end))
+    return sorted(found, key=lambda number: number.start)
+
+
+def _cut(plain: str, number: Number, taken: Sequence[Span]) -> Number:
+    """The number without a part that belongs to somebody's name: "权重3,9号用户" holds 3, not 3.9."""
+    match = _WHOLE.match(plain, number.start)
+    if match is None or not any(match.end() < start < number.end for start, _ in taken):
+        return number
+    return Number(value=Decimal(match.group()), start=number.start, end=match.end(), form=number.form)
+
+
+def may_be_a_limit(plain: str, number: Number) -> bool:
+    """Whether a number stands where a limit would, or before a unit that no limit here has ("43 dB", "10 joules")."""
+    after = _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None
+    return after or _SETS_A_LIMIT.search(plain, 0, number.start) is not None
 
 
 def _numbers_at(plain: str) -> Iterator[int]:

@@ -43,32 +43,44 @@ _NUMBER_WORDS = {
 }
 
 _NOUN = (
-    r"(?:users?|ues?|subscribers?|terminals?|customers?|clients?|devices?|phones?|handsets?|sensors?|stations?|"
-    r"usuari[oa]s?|abonad[oa]s?|terminales|clientes?|utilisat(?:eur|rice)s?|usagers?|abonnés?|nutzer(?:n|in|s)?|"
-    r"teilnehmer(?:n|in|s)?|kunden?|endgeräte?)"
+    r"(?:users?|ues?|subscribers?|subs?|terminals?|customers?|clients?|devices?|phones?|handsets?|sensors?|stations?|"
+    r"nodes?|meters?|cpes?|accounts?|usuari[oa]s?|abonad[oa]s?|terminales|clientes?|equipos?|sensores|"
+    r"utilisat(?:eur|rice)s?|usagers?|abonn[ée]e?s?|appareils?|capteurs?|nutzer(?:n|in|s)?|anwender(?:n|in|s)?|"
+    r"teilnehmer(?:n|in|s)?|abonnent(?:en|in)?|kund(?:en?|in)|(?:end)?ger[äa]e?te?[ns]?|sensoren)"
 )
 _WORD_NUMBER = "(?:" + "|".join(sorted(_NUMBER_WORDS, key=len, reverse=True)) + ")"
 _NUMBER = rf"(?:[0-9]{{1,4}}(?![0-9.,]*[0-9%])|{_WORD_NUMBER}\b)"
-_AND = r"(?:\s*(?:,|&|\+|/)\s*(?:and\s+|y\s+|et\s+|und\s+|or\s+)?|\s+(?:and|or|plus|nor|y|e|o|et|ou|und|oder)\s+)"
+_AND = (
+    r"(?:\s*(?:,|&|\+|/)\s*(?:and\s+|y\s+|et\s+|und\s+|or\s+)?|\s+(?:and|or|plus|nor|y|e|o|ni|et|ou|und|oder|noch|sowie)"
+    r"\s+(?:(?:the|el|al|le|au|die|den)\s+)?)"
+)
 _TO = r"(?:\s*(?:-|–|~)\s*|\s+(?:to|through|a|à|bis)\s+)"
-_LIST = rf"{_NUMBER}(?:(?:{_AND}|{_TO})(?:(?:no\.?|number|#)\s*)?{_NUMBER})*"
+_OF_ITS_OWN = r"(?!\s+(?:for|to|para|pour|für)\s)"  # "6 for user 2, 3 for user 3": no list of users
+_NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"
+_DIGITS = r"[0-9]{1,4}(?![0-9.,]*[0-9%])"
+_WORD_LIST = rf"{_WORD_NUMBER}\b(?:(?:{_AND}|{_TO}){_WORD_NUMBER}\b)*"
+_LIST = rf"(?:{_DIGITS}(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
 _NAMED = re.compile(
-    rf"(?i)(?<![A-Za-z0-9]){_NOUN}[\s_-]*(?:ids?\s*|(?:no|nr|num)\.?\s*|numbers?\s+|número\s+|numéro\s+|nummer\s+|"
-    rf"[#№])?\s*(?P<list>{_LIST})"
-    rf"|(?<![A-Za-z0-9])(?:u|ue)(?P<short>[0-9]{{1,4}})(?![A-Za-z0-9])|"
+    rf"(?i)(?<![A-Za-z0-9]){_NOUN}[\s_-]*(?:ids?\s*|{_NO}\s*)?\s*(?P<list>{_LIST})"
+    rf"|(?<![A-Za-z0-9])(?:u|ue)(?P<short>[0-9]{{1,4}})(?![A-Za-z0-9])"
+    rf"|(?<![A-Za-z])[RrWw]_?\{{?(?P<symbol>[0-9]{{1,2}})\}}?(?=\s*(?:[=≥≤<>]))|"
     rf"#\s?(?P<hash>[0-9]{{1,4}}(?:{_AND}#?\s?[0-9]{{1,4}})*)"
-    rf"|(?<![A-Za-z])(?:numbers?|number|no\.)\s+(?P<number>{_LIST})"
+    rf"|(?<![A-Za-z])(?:numbers?|n[úu]mero|numéro|nummer|no\.)\s+(?P<number>{_LIST})"
     rf"|(?<![A-Za-z])(?P<ordinal>{'|'.join(sorted(_ORDINALS, key=len, reverse=True))})\s+{_NOUN}(?![A-Za-z])"
 )
 _ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
-_ZH_NOUN = r"(?:用户|终端|UE|ue|客户|设备|手机|节点)"
-_ZH_LIST = (
-    rf"{_ZH_NUMBER}(?:\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*{_ZH_NUMBER}|"
-    rf"\s*号\s*{_ZH_NUMBER}(?=\s*号))*"
-)
+_ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手机|节点)"
+
+
+def _zh_list(number: str) -> str:
+    joint = r"\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*"
+    return rf"{number}(?:{joint}{number}|\s*号\s*{number}(?=\s*号))*"
+
+
+_ZH_LIST = rf"(?:{_zh_list('[0-9]{1,4}')}|{_zh_list('[一二三四五六七八九十]{1,3}')})"
 _ZH = re.compile(
-    rf"(?<!其他)(?<!其它)(?<!其余){_ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户])号?"
-    rf"|(?P<hao>{_ZH_LIST})\s*号(?!线|楼|院|机房|站|小区|基站)\s*{_ZH_NOUN}?"
+    rf"(?<!其他)(?<!其它)(?<!其余)(?:{_ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致下])号?)"
+    rf"|(?<![权重乘取为=.0-9月])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{_ZH_NOUN}?"
     rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{_ZH_NOUN}"
 )
 _OTHERS = re.compile(
@@ -96,8 +108,9 @@ _EVERYBODY = re.compile(
     r"大家|人均|没人|谁也"
 )
 _PRONOUN = re.compile(
-    r"(?i)\b(?:him|her|he|she|them|(?:those|these)(?: two| three| four| five| users)?|that one|él|ella|lui|elle|"
-    r"ihm|ihr|ihn)\b|[他她它]们?(?!人)"
+    r"(?i)\b(?:him|her|he|she|them|(?:those|these)(?: two| three| four| five| users)?|that one|both|it|"
+    r"él|ella|ellos|ambos|los dos|"
+    r"lui|elle|eux|les deux|ihm|ihr|ihn|ihnen|den|die beiden|beide[nr]?)\b|[他她它]们?(?!人)"
 )
 _JOINT = re.compile(r"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|or|and|nor|plus|y|et|und)+\s*(?:also\s+|the\s+)?")
 
@@ -123,7 +136,7 @@ def mentions(plain: str, names: Sequence[str] = (), taken: Sequence[tuple[int, i
         clear = not any(mention.start < end and start < mention.end for start, end in taken)
         if clear and not any(mention.start < other.end and other.start < mention.end for other in found):
             found.append(mention)
-    return _merged(plain, sorted(found, key=lambda mention: mention.start))
+    return merged(plain, sorted(found, key=lambda mention: mention.start))
 
 
 def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
@@ -153,7 +166,7 @@ def _named(plain: str) -> Iterator[Mention]:
 
 def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
     """Where the list ends when its last number belongs to a unit: "users 1 and 2, 10 W"."""
-    if group in ("ordinal", "short", "nth"):
+    if group in ("ordinal", "short", "symbol", "nth"):
         return match.end()
     parts = list(re.finditer(rf"(?i)[0-9]+|{_WORD_NUMBER}\b|[一二三四五六七八九十]+", match.group(group)))
     offset = match.start(group)
@@ -209,7 +222,7 @@ def _lists(plain: str, last: Mention, mention: Mention) -> bool:
     return re.match(r"(?i)\s*(?:$|[,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)", plain[mention.end :]) is not None
 
 
-def _merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
+def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
     """Neighbours that an "and" joins made one: "user 3 and user 5"."""
     merged: list[Mention] = []
     for mention in found:

@@ -130,7 +130,7 @@ def role_of(plain: str, start: int, end: int) -> tuple[UserRole, int, int]:
     if part is not None and behind is not None:
         return "leave_out", from_ + part.start(), behind.end()
     lead = _OUT_BEFORE.search(before)
-    if lead is not None and _SOMETHING_OF.match(plain, end):
+    if lead is not None and is_something_of(plain, end):
         return "none", start, end
     if lead is not None:
         behind = _PART_AFTER.match(plain, end)
@@ -139,6 +139,11 @@ def role_of(plain: str, start: int, end: int) -> tuple[UserRole, int, int]:
     if after is not None:
         return "leave_out", start, after.end()
     return _only(plain, start, end, from_)
+
+
+def is_something_of(plain: str, end: int) -> bool:
+    """Whether something of the users named up to ``end`` is meant, not they: "user 2's minimum"."""
+    return _SOMETHING_OF.match(plain, end) is not None
 
 
 def _only(plain: str, start: int, end: int, from_: int) -> tuple[UserRole, int, int]:

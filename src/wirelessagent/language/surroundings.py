@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import functools
 import re
+from collections.abc import Sequence
 
-from wirelessagent.language import lexicon
+from wirelessagent.language import figure_words, lexicon
+from wirelessagent.language.quantities import Quantity
 
 _OPERATOR = r"\^*×·⋅∙÷+±√∛"
 _CALCULATED_BEFORE = re.compile(
@@ -59,6 +61,35 @@ _DESCRIBED_AFTER = re.compile(
     r"(?i)\s*(?:$|(?:in|on|and|at|within|under|with|each|per|over|connected|total|online|active|now|max|min|maximum|"
     r"minimum|or|share|sharing)\b|[每都共同])"
 )
+
+
+def beside(plain: str, quantities: Sequence[Quantity], index: int) -> tuple[str, str]:
+    """What stands before and after a figure within its clause, other figures being borders too."""
+    figure = quantities[index]
+    start = quantities[index - 1].end if index else 0
+    end = quantities[index + 1].phrase_start if index + 1 < len(quantities) else len(plain)
+    cuts = [cut.end() for cut in figure_words.CUT.finditer(plain, start, figure.start)]
+    cut = figure_words.CUT.search(plain, figure.end, end)
+    return plain[max([start, *cuts]) : figure.start], plain[figure.end : cut.start() if cut else end]
+
+
+def signs(figure: Quantity, before: str, after: str) -> list[str]:
+    """What the words beside a power, a rate or a ratio say of it by themselves."""
+    found: list[str] = []
+    if figure.kind == "power":
+        ahead = figure_words.CIRCUIT.search(before)
+        if ahead is not None and figure_words.RADIATED.search(before, ahead.end()):
+            ahead = None
+        found += ["circuit ahead"] if ahead is not None else []
+        found += ["circuit behind"] if figure_words.CIRCUIT.search(after) else []
+        found += ["radiated"] if figure_words.RADIATED.search(before + after) else []
+        found += [] if is_cells_power(before, after) else ["not ours"]
+    elif figure.kind == "rate":
+        found += ["status"] if figure_words.STATUS.search(before + after) else []
+    else:
+        found += ["outage"] if figure_words.OUTAGE.search(before + " " + after) else []
+        found += ["reliable"] if figure_words.RELIABLE.search(before + " " + after) else []
+    return found or ["nothing"]
 
 
 def is_calculated(before: str, after: str) -> bool:

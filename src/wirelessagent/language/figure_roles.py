@@ -1,0 +1,180 @@
+"""What each figure, number and user of a sentence is there for, as a small linear model judges by the words beside it.
+
+Six questions, each with its own labels: what a power, a rate, a ratio, a bare number and a named user are, and whose a
+rate or a weight is. The model says how likely each answer is; what is done with it is decided in ``constraints``.
+Trained by :mod:`wirelessagent.language.training.roles` on sentences with their meanings.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from wirelessagent.language.figure_words import CORRECTION
+from wirelessagent.language.mentions import Mention
+from wirelessagent.language.numerals import Number
+from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.role_features import Span, Token, around, hashed, tokens_of
+from wirelessagent.language.roles import role_of
+from wirelessagent.language.surroundings import beside, signs
+
+ROLES_FILE = Path(__file__).with_name("roles.npz")
+LABELS: Mapping[str, tuple[str, ...]] = {
+    "power": ("max_power_w", "circuit_power_w", "none"),
+    "rate": ("min_rate_bps", "max_rate_bps", "both", "none"),
+    "ratio": ("outage", "reliability", "none"),
+    "number": ("user", "weight", "outage", "reliability", "harmless", "limit"),
+    "user": ("leave_out", "users", "none"),
+    "link": ("link",),
+}
+_PLACEHOLDERS = {"named": "@user", "others": "@others", "everybody": "@all", "pronoun": "@them"}
+Answer = TypeVar("Answer")
+_MOST_USERS = 20
+SCALED = re.compile(r"\s?[kKMG](?![A-Za-z])")
+_FAR = 8
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoleModel:
+    """Weights (bucket, label) as int8, a scale and an intercept per label, for each question."""
+
+    weights: Mapping[str, npt.NDArray[np.int8]]
+    scales: Mapping[str, npt.NDArray[np.float32]]
+
+    def scores(self, question: str, features: set[str]) -> npt.NDArray[np.float64]:
+        """How strongly the features speak for each label of the question."""
+        found = hashed(question, features)
+        total = self.weights[question][found].sum(axis=0, dtype=np.int32)
+        return self.scales[question] * total / math.sqrt(len(found))
+
+
+@functools.cache
+def shipped_roles() -> RoleModel:
+    """The model of this release."""
+    with np.load(ROLES_FILE) as arrays:
+        return RoleModel(
+            weights={question: arrays[f"{question}_weights"] for question in LABELS},
+            scales={question: arrays[f"{question}_scales"] for question in LABELS},
+        )
+
+
+class View:
+    """A normalised sentence as tokens in which figures and users are placeholders, and the features of each.
+
+    ``figures`` are its quantities with a unit, ``found`` everybody mentioned, ``loose`` the numbers that are neither.
+    """
+
+    def __init__(
+        self, plain: str, figures: Sequence[Quantity], found: Sequence[Mention], loose: Sequence[Number]
+    ) -> None:
+        spans = [Span(start=q.start, end=q.end, placeholder=f"@{q.kind}") for q in figures]
+        spans += [Span(start=m.start, end=m.end, placeholder=_PLACEHOLDERS[m.role]) for m in found]
+        spans += [Span(start=n.start, end=n.end, placeholder="@number") for n in loose]
+        self._plain, self._figures = plain, figures
+        self._tokens = tokens_of(plain, spans)
+        self._places = {token.start: place for place, token in enumerate(self._tokens) if token.is_placeholder}
+        self._kinds = [token.word for token in self._tokens]
+        self._held = {f"has:{kind}" for kind in self._kinds if kind[0] == "@"}
+
+    def figure(self, index: int) -> set[str]:
+        """The features of a power, a rate or a ratio."""
+        figure = self._figures[index]
+        place = self._places[figure.start]
+        alike = [place for place, kind in enumerate(self._kinds) if kind == f"@{figure.kind}"]
+        unit = figure.text.lstrip("0123456789.,'’ -").lower()
+        size = math.floor(2 * math.log10(figure.value)) if 0 < figure.value < math.inf else 0
+        known = [
+            f"is:{figure.comparator}", f"unit:{unit}", f"size:{size}", f"of:{len(alike)}", f"nth:{alike.index(place)}",
+            f"begins:{figure.text.split()[0][:4].lower()}", *signs(figure, *beside(self._plain, self._figures, index)),
+            *self._beside_alike(index),
+        ]  # fmt: skip
+        return around(self._tokens, place, known) | self._held
+
+    def _beside_alike(self, index: int) -> list[str]:
+        """How the figures of the same kind right before and after are bounded, and whether one corrects the other."""
+        found: list[str] = []
+        figure = self._figures[index]
+        for name, other in (("previous", index - 1), ("next", index + 1)):
+            if 0 <= other < len(self._figures) and self._figures[other].kind == figure.kind:
+                low, high = sorted((figure, self._figures[other]), key=lambda each: each.start)
+                corrected = CORRECTION.search(self._plain, low.end, high.start) is not None
+                found.append(f"{name}:{self._figures[other].comparator}:{corrected}")
+        return found
+
+    def user(self, mention: Mention) -> set[str]:
+        """The features of somebody named."""
+        words = self._plain[mention.start : mention.end].lower()
+        role, _, _ = role_of(self._plain, mention.start, mention.end)
+        known = [f"first:{words.split()[0][:8]}", f"last:{words[-1:]}", f"of:{min(len(mention.users), 3)}", role]
+        return around(self._tokens, self._places[mention.start], known) | self._held
+
+    def number(self, number: Number) -> set[str]:
+        """The features of a number without a unit."""
+        value = number.value
+        whole = value is not None and value == int(value)
+        size = "vague" if value is None else "part" if value < 1 else "small" if value <= _MOST_USERS else "large"
+        words = self._plain[number.start : number.end].lower()
+        scaled = SCALED.match(self._plain, number.end) is not None
+        known = [f"form:{number.form}", f"{size}:{whole}", f"exact:{words}", f"scaled:{scaled}"]
+        return around(self._tokens, self._places[number.start], known) | self._held
+
+    def owners(self, start: int, candidates: Sequence[Mention | None]) -> list[set[str]]:
+        """The features of each mention, or of nobody in particular, as the one whom the figure at ``start`` is for."""
+        place = self._places[start]
+        mentioned = [kind for kind in self._kinds if kind in _PLACEHOLDERS.values()]
+        nobody = {"bias", "nobody", f"nobody:{len(mentioned)}", *(f"nobody:{kind}" for kind in mentioned)}
+        return [
+            nobody if mention is None else _between(self._tokens, place, self._places[mention.start])
+            for mention in candidates
+        ]
+
+
+def _between(tokens: Sequence[Token], figure: int, mention: int) -> set[str]:
+    """The features of a figure and a mention as a pair."""
+    low, high = min(figure, mention), max(figure, mention)
+    inside = [token.word for token in tokens[low + 1 : high]]
+    side = "behind" if mention > figure else "before"
+    kind = f"kind:{side}{tokens[mention].word}"
+    figures = sum(word in ("@rate", "@number", "@power", "@ratio") for word in inside)
+    alike = sum(word == tokens[figure].word for word in inside)
+    people = sum(word in ("@user", "@others", "@all", "@them") for word in inside)
+    marks = "".join(word for word in inside if word in _CLAUSE_MARKS)[:3]
+    distance = min(len(inside), _FAR)
+    found = {
+        "bias", kind, f"{kind}:{figures}", f"{kind}:{alike}:{people}", f"{kind}:{alike}:{people}:{marks}",
+        f"{kind}:{marks}", f"{kind}:d{distance}", f"{kind}:{alike}:{people}:d{distance}",
+    }  # fmt: skip
+    if len(inside) <= 4:
+        found.add(f"{kind}:all {' '.join(inside)}")
+    found.update(f"{kind}:in {word}" for word in inside[:6])
+    if inside:
+        found |= {f"{kind}:near {inside[-1] if mention > figure else inside[0]}"}
+        found |= {f"{kind}:at {inside[0] if mention > figure else inside[-1]}"}
+    beyond = mention + 1 if mention > figure else mention - 1
+    outer = tokens[beyond].word if 0 <= beyond < len(tokens) else "end"
+    found |= {f"{kind}:outer {outer}", f"{kind}:{alike}:{people}:outer {outer}"}
+    after = tokens[figure + 1].word if figure + 1 < len(tokens) else "end"
+    before = tokens[figure - 1].word if figure else "end"
+    found |= {f"{kind}:after {after}", f"{kind}:ahead {before}", f"{kind}:{alike}:{people}:after {after}"}
+    nearest = next((word for word in (t.word for t in tokens) if word[0] == "@" and word != "@power"), "")
+    found |= {f"{kind}:starts {nearest}", f"{kind}:{alike}:{people}:starts {nearest}"}
+    return found
+
+
+_CLAUSE_MARKS = frozenset(",;:.，。；：、!?！？")
+
+
+def likely(scores: Sequence[float] | npt.NDArray[np.float64], answers: Sequence[Answer]) -> dict[Answer, float]:
+    """Scores as probabilities of the answers."""
+    most = max(scores)
+    parts = [math.exp(score - most) for score in scores]
+    total = sum(parts)
+    return {answer: part / total for answer, part in zip(answers, parts, strict=True)}

@@ -1,0 +1,125 @@
+"""What stands around a figure or a user: the words beside it, as hashed features for the model of roles.
+
+Figures and users are placeholders, so that the model knows no numbers. What lies beyond the end of a clause counts
+apart from what is near; letters within words catch compounds such as "Ruheverbrauch".
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+import unicodedata
+import zlib
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from wirelessagent.language.text import CJK
+
+BUCKETS = 1 << 14
+_REACH = 12
+_TOKEN = re.compile(rf"[{CJK}]|(?:(?![{CJK}])[^\W\d_])+(?:'(?=[^\W\d_]))?|[0-9]+|\S")
+_IS_CJK = re.compile(f"[{CJK}]")
+_CLAUSE_ENDS = frozenset(",;!?.。，；！？…—\n")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Span:
+    """A figure or somebody mentioned, at characters [start, end), and the placeholder that stands for it."""
+
+    start: int
+    end: int
+    placeholder: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Token:
+    """A word, a Chinese character, a mark or a placeholder of a sentence."""
+
+    word: str
+    start: int
+    end: int
+
+    @property
+    def is_placeholder(self) -> bool:
+        return self.word[0] == "@"
+
+
+def tokens_of(plain: str, spans: Iterable[Span]) -> list[Token]:
+    """The tokens of a normalised sentence from left to right, each span being one."""
+    found: list[Token] = []
+    place = 0
+    for span in sorted(spans, key=lambda each: (each.start, -each.end)):
+        if span.start < place:
+            continue
+        found.extend(_words(plain, place, span.start))
+        found.append(Token(word=span.placeholder, start=span.start, end=span.end))
+        place = span.end
+    found.extend(_words(plain, place, len(plain)))
+    return found
+
+
+def _words(plain: str, start: int, end: int) -> Iterator[Token]:
+    for match in _TOKEN.finditer(plain, start, end):
+        yield Token(word=_simple(match.group()), start=match.start(), end=match.end())
+
+
+@functools.lru_cache(maxsize=4096)
+def _simple(word: str) -> str:
+    """Lower case without accents."""
+    decomposed = unicodedata.normalize("NFD", word.lower())
+    return "".join(letter for letter in decomposed if unicodedata.category(letter) != "Mn") or word
+
+
+def around(tokens: Sequence[Token], place: int, known: Sequence[str] = ()) -> set[str]:
+    """The features of the token at ``place``; ``known`` are things that the rules say of it."""
+    found = {"bias", *known}
+    found.update(f"{one}&{other}" for index, one in enumerate(known) for other in known[index + 1 :])
+    for side, step in (("L", -1), ("R", 1)):
+        found.update(_beside(tokens, place, side, step))
+    left = tokens[place - 1].word if place else "<"
+    right = tokens[place + 1].word if place + 1 < len(tokens) else ">"
+    found.add(f"M{left} {right}")
+    return found
+
+
+def _beside(tokens: Sequence[Token], place: int, side: str, step: int) -> Iterator[str]:
+    clauses, near, previous, before_previous = 0, True, "", ""
+    for distance in range(1, _REACH + 1):
+        index = place + step * distance
+        if not 0 <= index < len(tokens):
+            yield f"{side}{min(clauses, 1)}end{min(distance, 3)}"
+            return
+        word = tokens[index].word
+        where = f"{side}{min(clauses, 2)}"
+        yield f"{where}{word}"
+        if distance <= 4:
+            yield f"{where}{'=' if distance < 2 else '~'}{word}"
+        if previous:
+            yield f"{where}{previous} {word}"
+            if before_previous and distance <= 6:
+                yield f"{where}{before_previous} {previous} {word}"
+        if word[0] == "@" and near:
+            near = False
+            yield f"{side}next{clauses > 0}{word}"
+        elif clauses == 0:
+            yield f"near {word}"
+            yield from (f"letters {gram}" for gram in (_letters(word) if len(word) > 4 else ()))
+        if word in _CLAUSE_ENDS:
+            clauses += 1
+        before_previous, previous = previous, word
+
+
+@functools.lru_cache(maxsize=4096)
+def _letters(word: str) -> tuple[str, ...]:
+    padded = f"^{word[:20]}$"
+    return tuple(padded[start : start + 4] for start in range(len(padded) - 3))
+
+
+def hashed(question: str, features: Iterable[str]) -> npt.NDArray[np.int64]:
+    """The distinct buckets of features, ascending; each question has its own hash."""
+    seed = zlib.crc32(question.encode())
+    found = {zlib.crc32(each.encode("utf-8", "replace"), seed) % BUCKETS for each in features}
+    return np.fromiter(sorted(found), dtype=np.int64, count=len(found))

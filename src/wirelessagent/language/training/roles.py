@@ -1,0 +1,328 @@
+"""Make the model of roles anew: ``python -m wirelessagent.language.training.roles [FILE]``.
+
+Each sentence with its constraints shows what its figures and users are: a power that is the wanted circuit power has
+that role, a user who is wanted left out is named to be left out. A sentence whose wanted figures were not all read
+shows nothing about figures of their kind.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import math
+import sys
+import time
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy import optimize, sparse
+
+from wirelessagent.language.figure_roles import LABELS, ROLES_FILE, View
+from wirelessagent.language.intent import EVERYBODY
+from wirelessagent.language.judged import with_numbers
+from wirelessagent.language.leftovers import loose_numbers
+from wirelessagent.language.mentions import Mention, mentions
+from wirelessagent.language.numerals import Number
+from wirelessagent.language.quantities import Quantity, parse_quantities
+from wirelessagent.language.role_features import BUCKETS, hashed
+from wirelessagent.language.text import normalise
+
+_RIDGE = 1e-5
+_STEPS = 80
+_BALANCE = 0.3
+_CLOSE = 1e-6
+OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Example:
+    """One figure or user: the buckets of each answer and which answers are right.
+
+    For a question with labels there is one row of buckets, for "link" one for each candidate.
+    """
+
+    question: str
+    rows: tuple[npt.NDArray[np.int64], ...]
+    right: tuple[bool, ...]
+
+
+def examples(text: str, constraints: Mapping[str, Any]) -> Iterator[Example]:
+    """What a sentence with its meaning shows."""
+    plain = normalise(text)
+    quantities = parse_quantities(text)
+    read = [q for q in quantities if q.kind != "bare"]
+    spans = [(q.start, q.end) for q in read]
+    found = mentions(plain, (), spans)
+    loose = loose_numbers(plain, [*spans, *((m.start, m.end) for m in found)])
+    wanted = _Wanted(constraints, read)
+    numbers = [(number, wanted.of_number(number)) for number in loose]
+    view = View(plain, read, found, loose)
+    for number, roles in numbers:
+        yield from _example("number", view.number(number), roles)
+    users = [number for number, roles in numbers if roles == {"user"}]
+    found = with_numbers(plain, found, users)
+    view = View(plain, read, found, [number for number in loose if number not in users])
+    for mention in found:
+        if mention.role == "named":
+            yield from _example("user", view.user(mention), wanted.of_user(mention, found))
+        elif mention.role == "pronoun":
+            yield from _example("user", view.user(mention), wanted.of_pronoun(mention, found))
+    for index, figure in enumerate(read):
+        if figure.kind in ("power", "rate", "ratio"):
+            yield from _example(figure.kind, view.figure(index), wanted.of_figure(figure))
+        if figure.kind == "rate":
+            yield from _link(view, figure.start, found, wanted.owners(figure))
+    for number, roles in numbers:
+        if roles == {"weight"} and number.value is not None:
+            yield from _link(view, number.start, found, wanted.weighed(float(number.value)))
+
+
+def _example(question: str, features: set[str], roles: set[str]) -> Iterator[Example]:
+    if roles:
+        right = tuple(label in roles for label in LABELS[question])
+        yield Example(question=question, rows=(hashed(question, features),), right=right)
+
+
+def _link(view: View, start: int, found: Sequence[Mention], owners: set[str]) -> Iterator[Example]:
+    candidates: list[Mention | None] = [*found, None]
+    right = [_is_for(mention, found, owners) for mention in candidates]
+    if owners == {EVERYBODY} and any(m is not None and m.role == "others" for m in candidates):
+        right = [ok and m is not None and m.role != "everybody" for ok, m in zip(right, candidates, strict=True)]
+        if not any(right):
+            right = [_is_for(mention, found, owners) for mention in candidates]
+    if any(right):
+        rows = [hashed("link", each) for each in view.owners(start, candidates)]
+        yield Example(question="link", rows=tuple(rows), right=tuple(right))
+
+
+def _is_for(mention: Mention | None, found: Sequence[Mention], owners: set[str]) -> bool:
+    if mention is None or mention.role in ("others", "everybody"):
+        return EVERYBODY in owners
+    if mention.role == "pronoun":
+        named = [other for other in found if other.role == "named" and other.end <= mention.start]
+        return bool(named) and owners.issuperset(named[-1].users)
+    return owners.issuperset(mention.users)
+
+
+class _Wanted:
+    """The meaning of a sentence, asked by figure."""
+
+    def __init__(self, constraints: Mapping[str, Any], read: Sequence[Quantity]) -> None:
+        self._constraints = constraints
+        self._values = {
+            name: _by_user(constraints[name])
+            for name in ("min_rate_bps", "max_rate_bps", "weights")
+            if name in constraints
+        }
+        self._powers = {
+            name: float(constraints[name]) for name in ("max_power_w", "circuit_power_w") if name in constraints
+        }
+        self._users = {name: {str(user) for user in constraints.get(name, ())} for name in ("users", "leave_out")}
+        self._all_users = self._users["users"] | self._users["leave_out"]
+        for figures in self._values.values():
+            self._all_users |= figures.keys() - {EVERYBODY}
+        rates = [value for name in ("min_rate_bps", "max_rate_bps") for value in self._values.get(name, {}).values()]
+        self._complete = {
+            "power": all(_among(value, read, "power") for value in self._powers.values()),
+            "rate": all(_among(value, read, "rate") for value in rates),
+            "ratio": all(
+                _among(constraints[name], read, "ratio") or _among(1 - constraints[name], read, "ratio")
+                for name in ("outage_probability",)
+                if name in constraints
+            ),
+        }
+        self._rates = rates
+
+    def of_figure(self, figure: Quantity) -> set[str]:
+        if not self._complete[figure.kind]:
+            return set()
+        if figure.kind == "ratio":
+            outage = self._constraints.get("outage_probability")
+            if outage is None:
+                return {"none"}
+            roles = {"outage"} if _close(figure.value, outage) else set[str]()
+            return roles | ({"reliability"} if _close(1 - figure.value, outage) else set()) or {"none"}
+        if figure.kind == "power":
+            return {name for name, value in self._powers.items() if _close(value, figure.value)} or {"none"}
+        roles = {
+            name
+            for name in ("min_rate_bps", "max_rate_bps")
+            if any(_close(value, figure.value) for value in self._values.get(name, {}).values())
+        }
+        return {"both"} if len(roles) > 1 and set(self._rates) == {figure.value} else roles or {"none"}
+
+    def of_user(self, mention: Mention, found: Sequence[Mention]) -> set[str]:
+        users = set(mention.users)
+        again = any(other is not mention and users & set(other.users) for other in found)
+        for name in ("leave_out", "users"):
+            if users <= self._users[name]:
+                figured = any(users & figures.keys() for figures in self._values.values())
+                return {name, "none"} if figured or again else {name}
+            if users & self._users[name]:
+                return set()
+        return {"none"}
+
+    def of_pronoun(self, pronoun: Mention, found: Sequence[Mention]) -> set[str]:
+        named = [other for other in found if other.role == "named" and other.end <= pronoun.start]
+        return {"none", *self.of_user(named[-1], found)} if named else {"none"}
+
+    def of_number(self, number: Number) -> set[str]:
+        value = None if number.value is None else float(number.value)
+        if value is None:
+            return {"limit"} if not all(self._complete.values()) else set()
+        if (
+            any(_is_scaled(value, rate, (1.0, 1e3, 1e6, 8e3, 8e6)) for rate in self._rates)
+            and not self._complete["rate"]
+        ):
+            return {"limit"}
+        if not self._complete["power"] and any(_is_power(value, power) for power in self._powers.values()):
+            return {"limit"}
+        outage = self._constraints.get("outage_probability")
+        if not self._complete["ratio"] and outage is not None:
+            near = [name for name, each in (("outage", value), ("reliability", 1 - value)) if _close(each, outage)]
+            return set(near) or {"limit"}
+        user = value == int(value) and str(int(value)) in self._all_users | self._values.get("weights", {}).keys()
+        weight = any(_close(value, each) for each in self._values.get("weights", {}).values())
+        if user and weight:
+            return set()
+        if user or weight:
+            return {"user"} if user else {"weight"}
+        if value == 1 and "weights" in self._values:
+            return {"weight", "harmless"}  # "all others 1" is what they count anyway
+        return {"harmless"} if all(self._complete.values()) else set()
+
+    def owners(self, figure: Quantity) -> set[str]:
+        """The users whose rate a figure is."""
+        figures = [self._values.get(name, {}) for name in ("min_rate_bps", "max_rate_bps")]
+        return {user for each in figures for user, value in each.items() if _close(value, figure.value)}
+
+    def weighed(self, value: float) -> set[str]:
+        return {user for user, weight in self._values.get("weights", {}).items() if _close(weight, value)}
+
+
+def _by_user(value: float | Mapping[str, float]) -> dict[str, float]:
+    return (
+        {str(user): float(each) for user, each in value.items()}
+        if isinstance(value, Mapping)
+        else {EVERYBODY: float(value)}
+    )
+
+
+def _among(value: float, read: Sequence[Quantity], kind: str) -> bool:
+    return any(figure.kind == kind and _close(figure.value, value) for figure in read)
+
+
+def _close(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=_CLOSE, abs_tol=1e-12)
+
+
+def _is_scaled(value: float, other: float, factors: Iterable[float]) -> bool:
+    return any(_close(value * factor, other) for factor in factors)
+
+
+def _is_power(value: float, power: float) -> bool:
+    return _is_scaled(value, power, (1.0, 1e-3)) or (value < 300 and _close(10 ** ((value - 30) / 10), power))
+
+
+def fit(question: str, shown: Sequence[Example], ridge: float = _RIDGE) -> npt.NDArray[np.float32]:
+    """Weights (bucket, label) that make the right answers likeliest, with a ridge."""
+    classes = len(LABELS[question])
+    rows = [row for example in shown for row in example.rows]
+    matrix = _matrix(rows)
+    # Row i of ``group`` belongs to sentence ``owner[i]``: answers of one example compete with each other.
+    owner = np.repeat(np.arange(len(shown)), [len(example.rows) for example in shown])
+    right = np.array([each for example in shown for each in example.right], dtype=bool).reshape(len(rows), classes)
+    columns = matrix.T.tocsr()
+    importance = _importance(right, owner, len(shown)) if classes > 1 else np.full(len(shown), 1 / len(shown))
+
+    def loss(flat: npt.NDArray[np.float64]) -> tuple[float, npt.NDArray[np.float64]]:
+        weights = flat.reshape(BUCKETS, classes)
+        score = np.asarray(matrix @ weights)
+        score -= _most(score.max(axis=1), owner, len(shown))[owner][:, None]
+        likely = np.exp(score)
+        likely /= np.bincount(owner, likely.sum(axis=1), len(shown))[owner][:, None]
+        chosen = likely * right
+        total = np.bincount(owner, chosen.sum(axis=1), len(shown)) + 1e-300
+        slope = (likely - chosen / total[owner][:, None]) * importance[owner][:, None]
+        value = -float(importance @ np.log(total)) + ridge * float((weights**2).sum())
+        return value, (np.asarray(columns @ slope) + 2 * ridge * weights).ravel()
+
+    found = optimize.minimize(
+        loss, np.zeros(BUCKETS * classes), jac=True, method="L-BFGS-B", options={"maxiter": _STEPS, "maxcor": 5}
+    )
+    return np.asarray(found.x, dtype=np.float32).reshape(BUCKETS, classes)
+
+
+def _importance(right: npt.NDArray[np.bool_], owner: npt.NDArray[np.int64], count: int) -> npt.NDArray[np.float64]:
+    """What each example counts: rare answers more, though not equally."""
+    share = right.mean(axis=0)
+    rows = np.where(right, np.maximum(share, 1e-9) ** -_BALANCE, 0).max(axis=1)
+    importance = np.zeros(count)
+    np.maximum.at(importance, owner, rows)
+    return importance / importance.sum()
+
+
+def _most(values: npt.NDArray[np.float64], owner: npt.NDArray[np.int64], count: int) -> npt.NDArray[np.float64]:
+    most = np.full(count, -np.inf)
+    np.maximum.at(most, owner, values)
+    return most
+
+
+def _matrix(rows: Sequence[npt.NDArray[np.int64]]) -> sparse.csr_matrix:
+    sizes = np.array([len(row) for row in rows])
+    values = np.repeat(1 / np.sqrt(sizes), sizes)
+    starts = np.concatenate([[0], np.cumsum(sizes)])
+    return sparse.csr_matrix((values, np.concatenate(rows), starts), shape=(len(rows), BUCKETS))
+
+
+def trained(sentences: Iterable[tuple[str, Mapping[str, Any]]]) -> dict[str, npt.NDArray[np.float32]]:
+    """The weights of each question, from sentences with their constraints."""
+    shown: dict[str, list[Example]] = {question: [] for question in LABELS}
+    for text, constraints in sentences:
+        for example in examples(text, constraints):
+            shown[example.question].append(example)
+    return {question: fit(question, each) for question, each in shown.items()}
+
+
+def rounded(weights: npt.NDArray[np.float32]) -> tuple[npt.NDArray[np.int8], npt.NDArray[np.float32]]:
+    """Weights as int8 and a scale per label."""
+    scales = np.asarray(np.abs(weights).max(axis=0) / 127, dtype=np.float32)
+    return np.asarray(np.rint(weights / scales), dtype=np.int8), scales
+
+
+def save(path: Path, found: Mapping[str, npt.NDArray[np.float32]]) -> None:
+    """Write the model."""
+    arrays: dict[str, npt.NDArray[Any]] = {}
+    for question, weights in found.items():
+        arrays[f"{question}_weights"], arrays[f"{question}_scales"] = rounded(weights)
+    np.savez_compressed(path, allow_pickle=False, **arrays)
+
+
+def sentences(folder: Path) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """(sentence, constraints): ``meanings/*.tsv``, and the spoken ones that say what they mean."""
+    for path in sorted((folder / "meanings").glob("*.tsv")):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            text, _, meaning = line.partition("\t")
+            yield text, json.loads(meaning)
+    for path in sorted((folder / "spoken").glob("*.tsv")):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            label, text, meaning = [*line.split("\t"), ""][:3]
+            if label in OBJECTIVES and meaning:
+                yield text, json.loads(meaning)
+
+
+def main(path: Path) -> None:
+    """Read, fit and write."""
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    start = time.perf_counter()
+    save(path, trained(sentences(Path(__file__).parent)))
+    seconds = time.perf_counter() - start
+    logging.getLogger(__name__).info("%s: %d kB (%.0f s)", path.name, path.stat().st_size // 1000, seconds)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else ROLES_FILE)
