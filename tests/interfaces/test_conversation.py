@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 from conversations import LOSS, SCENE, SEED, Scripted, asks, means
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from wirelessagent.agent.request import Request
 from wirelessagent.agent.session import Session
@@ -478,6 +480,21 @@ def test_both_languages_tell_the_same_of_turns() -> None:
 
 def _names(sentence: str) -> set[str]:
     return {name for _, name, _, _ in string.Formatter().parse(sentence) if name}
+
+
+_WORDS = ["不是", "应该是", "改成", "的", "给", "no", "sorry", ",", "user\xa03", "3号", "再", "加上", "增加", "also", "in", "then", "double", "half", "the", "rate", "power", "be", "been", "速率", "功率", "提高", "一倍", "一半", "取消", "第1轮", "turn", "compare", "with", "is", "channel", "信道", "what", "if", "had", "10\xa0W", "1\xa0Mbit/s", "至少", "那就", "照", "这么", "不再", "需要", "限制", "needs\xa0no", "limit", "20\xa0%", "undo", "2", "all"]
+_OPEN = Context(
+    user_names=SCENE.sensed.user_names, objective="max_rate", constraints={"min_rate_bps": 1e6}, awaits="clarification",
+    pending_objective="max_rate", pending_users=("3",), stated={"min_rate_bps": {"2": 1e6}}, offered="undo",
+    supposed_objective="max_rate",
+)  # fmt: skip
+
+
+@given(st.lists(st.sampled_from(_WORDS), min_size=1, max_size=4), st.sampled_from(["", " "]), st.booleans())
+@settings(max_examples=150, deadline=1000)
+def test_any_line_is_read_at_once_and_nothing_is_raised(words: list[str], between: str, repeated: bool) -> None:
+    text = between.join(words * (40 if repeated else 1))[:199]
+    assert isinstance(understood(text, _OPEN, Scripted([means("out_of_scope")])), Intent)
 
 
 @pytest.mark.parametrize(

@@ -15,25 +15,23 @@ from wirelessagent.language.followups import joined, merged, numbers_of, taken_i
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Intent
 
 _CORRECTING = (
-    r"(?:no|nope|sorry|oops|wait|hmm|actually|rather|instead|i\s+(?:mean|meant|said)|correction|make\s+(?:it|that|this)|"
+    r"(?:nope|no|sorry|oops|wait|hmm|actually|rather|instead|i\s+(?:meant|mean|said)|correction|make\s+(?:it|that|this)|"
     r"(?:it|that|this)\s+(?:should|must)\s+be|should\s+(?:be|have\s+been)|change\s+(?:it|that|this)\s+to|"
-    r"(?:it's|that's|it\s+is|that\s+is|that\s+was)|"
-    r"不|不对|不是|错了|其实|我是说|我说的是|我的意思是|我是指|我指的是|应该是|应当是|应该|改成|改为|换成|搞错了|说错了|抱歉|对不起|更正)"
+    r"(?:it's|that's|it\s+is|that\s+is|that\s+was)|不对|不是|不|说错了|搞错了|错了|其实|我是说|我说的是|我的意思是|我是指|"
+    "我指的是|应该是|应当是|应该|改成|改为|换成|抱歉|对不起|更正)"
 )
 _BESIDE = r"(?:for|to|the|one|of|be|与|给|的|是|[,，\s])"
+_BOUND = r"(?:at\s+least|at\s+most|至少|最多|不超过)"
+_CORRECTS = re.compile(rf"{_CORRECTING}")
 _THAT_USER = re.compile(
-    rf"(?:{_CORRECTING}|{_BESIDE})*{_CORRECTING}(?:{_CORRECTING}|{_BESIDE})*@(?:[,，\s]*(?:instead|then|才对|才是))?"
+    rf"(?:{_CORRECTING}|{_BESIDE})*+@(?:[,，\s]*(?:instead|then|才对|才是))?"
     r"(?P<not>[,，\s]*(?:and\s+)?(?:not|而?不是|rather\s+than|instead\s+of)\s*@)?|"
-    r"(?P<other>(?:not|不是)\s*@[,，\s]*(?:but\s+(?:rather\s+)?|是|而是)?\s*@)|@[,，\s]*instead"
+    r"(?P<other>(?:not|不是)\s*@[,，\s]*(?:but\s+(?:rather\s+)?|是|而是)?\s*@)"
 )
-_THAT_FIGURE = re.compile(
-    rf"(?:{_CORRECTING}|{_BESIDE})*{_CORRECTING}(?:{_CORRECTING}|{_BESIDE}|at\s+least|at\s+most|至少|最多|不超过)*#"
-    r"(?:[,，\s]*(?:instead|then|才对))?|#[,，\s]*instead"
-)
+_THAT_FIGURE = re.compile(rf"(?:{_BOUND}|{_CORRECTING}|{_BESIDE})*+#(?:[,，\s]*(?:instead|then|才对))?")
 _BARE = re.compile(
-    rf"(?:{_CORRECTING}|{_BESIDE}|at\s+least|at\s+most|yes|about|say|min(?:imum)?|max(?:imum)?|和|至少|最多|不超过|就|"
-    r"and|嗯|好|用|要)*#(?:(?:and|和|[,，\s]|at\s+least|at\s+most|至少|最多|不超过)*#)*(?:以上|以内|就行|就好|就可以|吧|at\s+least|"
-    r"at\s+most|[,.\s])*"
+    rf"(?:{_BOUND}|{_CORRECTING}|{_BESIDE}|yes|about|say|min(?:imum)?|max(?:imum)?|and|和|就|嗯|好|用|要)*+#"
+    rf"(?:(?:and|和|[,，\s]|{_BOUND})*+#)*+(?:以上|以内|就行|就好|就可以|吧|at\s+least|at\s+most|[,.\s])*+"
 )
 _NO_LONGER = (
     r"(?:(?:does\s+not|doesn't|do\s+not|don't|did\s+not|didn't)\s+(?:need|want|require|have\s+to\s+(?:have|get))\b.*|"
@@ -64,15 +62,14 @@ _FREED = re.compile(
 _OF_A_LIMIT = re.compile(rf"#|{_LIMIT.replace('|#', '')}|速率|速度|要求|保证|下限|上限|限制|约束|限速|保底|权重|优先级")
 _CAPS = re.compile(r"\b(?:max(?:imum)?|caps?|ceilings?|capped|limited)\b|at\s+most|上限|最高|最大|限速|最多|不超过")
 _WEIGHTS = re.compile(r"weights?|priority|权重|优先级")
-_ALSO = r"(?:also|and|too|as\s+well|again|back|in|now|then|再|也|还|另外|同时|并且|并|请|把|将|[,，\s])"
+_ALSO = r"(?:(?:also|and|too|as\s+well|again|back|in|now|then)\b|再|也|还|另外|同时|并且|并|请|把|将|[,，\s])"
 _TAKE_IN = (
     "(?:serve|add|include|cover|admit|bring|take|加上|加入|加进来?|加进去|添加|增加|服务|纳入|包括|算上|带上|补上|"
     "接入|加)"
 )
 _TAKEN_IN = re.compile(
-    rf"(?:{_ALSO})*{_TAKE_IN}(?:{_ALSO})*@(?:{_ALSO}|to\s+(?:them|those|the\s+(?:list|users|group|others|rest)))*"
-    r"(?:进来|进去|一起|吧)*|"
-    rf"(?:{_ALSO})*@(?:{_ALSO})*{_TAKE_IN}(?:进来|进去|上|吧|一起)*"
+    rf"{_ALSO}*+{_TAKE_IN}{_ALSO}*+@(?:{_ALSO}|to\s+(?:them|those|the\s+(?:list|users|group|others|rest)))*+"
+    rf"(?:进来|进去|一起|吧)*+|{_ALSO}*+@{_ALSO}*+{_TAKE_IN}(?:进来|进去|上|吧|一起)*+"
 )
 _SAME_FOR = re.compile(
     r"(?:the\s+)?same\s+(?:goes\s+)?for\s+@(?:\s+too)?|also\s+(?:for\s+)?@|@\s+(?:too|as\s+well|also)|"
@@ -142,7 +139,7 @@ def _users_with_rates(pending: Mapping[str, Constraint]) -> tuple[str, ...]:
 def _other_user(line: Line) -> Intent | None:
     """ "Actually make that user 3": what was stated last is for somebody else."""
     match = _THAT_USER.fullmatch(line.wish)
-    if match is None or not line.users:
+    if match is None or not line.users or not _CORRECTS.search(line.wish):
         return None
     users, instead_of = line.users, ""
     freed = _freed_instead(line, users)
@@ -195,7 +192,7 @@ def _for_users(name: str, value: Constraint, users: tuple[str, ...], instead_of:
 
 def _other_figure(line: Line) -> Intent | None:
     """ "No, I meant 2 Mbit/s": what was stated last has another figure."""
-    if len(line.figures) != 1 or line.users or not _THAT_FIGURE.fullmatch(line.wish):
+    if len(line.figures) != 1 or line.users or not _is_another(line.wish):
         return None
     figure, stated = line.figures[0], line.context.stated
     names = _RATES if figure.kind == "rate" else ("max_power_w", "subcarrier_max_power_w", "circuit_power_w")
@@ -212,6 +209,11 @@ def _other_figure(line: Line) -> Intent | None:
         return line.ask("whose_figure", text=figure.text, users=line.voice.users(users))
     new: dict[str, Constraint] = {name: dict.fromkeys(value, figure.value)}
     return _restated(line, new) if name == held[0] else _restated(line, new, gone=held[0])
+
+
+def _is_another(wish: str) -> bool:
+    """Whether a line is a figure with words that correct one."""
+    return _THAT_FIGURE.fullmatch(wish) is not None and _CORRECTS.search(wish) is not None
 
 
 def _restated(line: Line, new: Mapping[str, Constraint], *, gone: str = "") -> Intent:

@@ -10,7 +10,7 @@ from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
 from wirelessagent.language.recogniser import Context
 
-_OWN = r"(?:(?:the|our|its|their|my|all|of|every(?:one|body)(?:'s)?|each|users?'?|@'?s?|for|this|that)\s+)*"
+_OWN = r"(?:(?:the|our|its|their|my|all|of|every(?:one|body)(?:'s)?|each|users?'?|@'?s?|for|this|that)\s+)*+"
 _POWER = (
     rf"{_OWN}(?:(?:total|transmit(?:ted)?|tx|radiated|maximum|max)\s+)*(?:power|budget|wattage)"
     r"(?:\s+(?:limit|budget|cap))?"
@@ -28,9 +28,9 @@ _ZH_NOUN = (
 )
 _PERCENT = r"(?P<percent>\d+(?:\.\d+)?)\s*(?:%|percent|per\s+cent)"
 _ZH_PERCENT = r"(?:(?P<percent>\d+(?:\.\d+)?)\s*%|百分之(?P<zh_percent>\d+))"
-_BE = r"(?:were|was|is|are|be|being|been|should|to|would|has|had|get|gets|got|goes|went)"
+_BE = r"(?:were|was|is|are|being|been|be|should|to|would|has|had|gets|get|got|goes|went)"
 _MORE = r"(?:(?P<up>more|higher)|(?P<down>less|lower))"
-_ZH_ALSO = "(?:再|都|全部|整体|统一|也|能)*"
+_ZH_ALSO = "(?:再|都|全部|整体|统一|也|能)*+"
 
 _TWICE = r"(?:doubled?|twice|two\s+times)"
 _FACTORS: tuple[tuple[float, str], ...] = (
@@ -63,13 +63,13 @@ _PATTERNS = (
     # "double the rate", "half the power", "cut the power in half", "the power were halved"
     rf"{_FACTOR}\s+(?:of\s+)?{_NOUN}",
     rf"(?:cut|reduce|lower|decrease|drop|bring)\s+{_NOUN}\s+(?:down\s+)?(?:(?:in|by|to)\s+)?(?:a\s+)?(?P<half>half)",
-    rf"{_NOUN}\s+(?:{_BE}|only|increased?|rises?|raised|grows?|cut|reduced|times|\s)*(?:(?:to|by)\s+)?{_FACTOR}(?:\s+it)?",
+    rf"{_NOUN}\s+(?:{_BE}|only|increased?|rises?|raised|grows?|cut|reduced|times|\s)*+(?:(?:to|by|in)\s+)?{_FACTOR}(?:\s+it)?",
     rf"(?:make|set|raise|increase|boost)\s+{_NOUN}\s+(?:to\s+)?{_FACTOR}",
     # "raise the power by 20 %", "20 % less power", "the power were 20 % lower"
     rf"(?:(?P<up>increase|raise|boost|lift)|(?P<down>decrease|reduce|lower|cut|drop))\s+{_NOUN}\s+by\s+{_PERCENT}",
     rf"{_PERCENT}\s+{_MORE}\s+{_NOUN}",
-    rf"{_NOUN}\s+(?:{_BE}|\s)*{_PERCENT}\s+{_MORE}",
-    rf"{_NOUN}\s+(?:{_BE}|\s)*(?:(?P<up>increased|raised|up)|(?P<down>decreased|reduced|lowered|cut|down))\s+by\s+{_PERCENT}",
+    rf"{_NOUN}\s+(?:{_BE}|\s)*+{_PERCENT}\s+{_MORE}",
+    rf"{_NOUN}\s+(?:{_BE}|\s)*+(?:(?P<up>increased|raised|up)|(?P<down>decreased|reduced|lowered|cut|down))\s+by\s+{_PERCENT}",
     # "速率提高一倍", "一半的功率", "功率降低20%"
     rf"(?:{_ZH_NOUN}|把?它)?{_ZH_ALSO}{_ZH_FACTOR}",
     rf"(?:只)?(?:用|有|给)?(?:(?P<half>一半|半数)|(?P<twice>[两二2]倍|双倍))的?{_ZH_NOUN}",
