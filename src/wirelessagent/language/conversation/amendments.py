@@ -59,6 +59,12 @@ _FREED = re.compile(
     rf"(?:现在)?(?:不再|不用|不必|无需|不需要)(?:再)?(?:给|为|对)@(?:再)?(?:保证|限制|设)?(?:{_ZH_LIMIT})?(?:了)?|"
     rf"{_ZH_DROP}(?:对|给)?@{_ZH_LIMIT}(?:了)?|(?:把)?@{_ZH_LIMIT}(?:也|就|都)?(?:取消|去掉|不要了|解除|拿掉|撤掉|放开|删掉|删除|免了|作废)(?:掉|了)?"
 )
+_NOBODY = re.compile(
+    rf"(?:now\s+)?(?:nobody|no\s+one|no\s+user)\s+(?:needs?|requires?)\s+(?:an?\s+|the\s+|any\s+)?{_LIMIT}"
+    r"(?:\s+(?:any\s?more|any\s+longer|now))?|"
+    r"(?:the\s+)?(?:#|(?:min(?:imum)?\s+)?(?:rate|guarantee))\s+is\s+(?:no\s+longer|not)\s+needed(?:\s+any\s?more)?|"
+    rf"(?:大家|所有人|所有用户|每个用户|谁)?都?(?:不再|不|不用)(?:需要|要)(?:保证)?{_ZH_LIMIT}了?"
+)
 _OF_A_LIMIT = re.compile(rf"#|{_LIMIT.replace('|#', '')}|速率|速度|要求|保证|下限|上限|限制|约束|限速|保底|权重|优先级")
 _CAPS = re.compile(r"\b(?:max(?:imum)?|caps?|ceilings?|capped|limited)\b|at\s+most|上限|最高|最大|限速|最多|不超过")
 _WEIGHTS = re.compile(r"weights?|priority|权重|优先级")
@@ -240,6 +246,9 @@ def _without(held: Constraint | None, stated: Constraint | None) -> Constraint |
 def _freed(line: Line) -> Intent | None:
     """ "User 2 does not need 1 Mbit/s any more": these users' limit goes, and no other."""
     context = line.context
+    if not line.users and _NOBODY.fullmatch(line.wish):
+        held = [name for name in _RATES if name in context.constraints]
+        return line.allocate(str(context.objective), {}, amends=True, dropped=(held[0],)) if held else None
     if not line.users or not _FREED.fullmatch(line.wish) or not _OF_A_LIMIT.search(line.wish):
         return None
     freed = numbers_of(line.users, context.user_names)

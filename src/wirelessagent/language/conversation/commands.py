@@ -64,7 +64,9 @@ _SHOW = re.compile(
     r"(?:(?:show|display|give|tell)\s+(?:me\s+)?|repeat\s+)?(?:the\s+)?(?:history\s+(?:of\s+)?)?"
     rf"(?:turn|entry)\s+{_REF}|"
     r"(?:(?:show|display)\s+(?:me\s+)?)?(?:the\s+)?history\s+(?:no\.?\s*|#)?(?P<number>[-+]?\d[\w.]*)|"
-    rf"(?:显示|查看|看看|看一下|看)?(?:历史(?:记录)?)?{_ZH_NTH}的?(?:内容|记录|对话|结果|请求|要求)?|"
+    rf"(?:显示|查看|看看|看一下|看)?(?:历史(?:记录)?)?{_ZH_NTH}的?(?:内容|记录|对话|结果|请求|要求|说了什么)?|"
+    r"what\s+(?:was\s+(?:said|asked|decided)|did\s+(?:i|you|we)\s+(?:say|ask|decide))\s+in\s+turn\s+"
+    r"(?P<said>[-+]?[\w.]*\w)|"
     r"(?:显示|查看|看看|看一下|看)?历史(?:记录)?\s*第?(?P<past>[-+]?[\d.]+|[一二三四五六七八九十]+)(?:轮|条|次)?"
 )
 _NO_REFERENCE = {

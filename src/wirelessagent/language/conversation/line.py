@@ -21,7 +21,7 @@ from wirelessagent.language.text import language_of, normalise
 NAME = "conversation"
 _WORD = re.compile(r"[^\W\d_]{3,}")
 _POLITE = re.compile(
-    r"^(?:(?:(?:ok(?:ay)?|please|hey|well|then|so|now|and|could you|can you|let's|let us)\b|请|"
+    r"^(?:(?:(?:ok(?:ay)?|please|hey|well|then|so|now|and|(?:could|can|would|will) you|let's|let us)\b|请|"
     r"麻烦(?:你|您)?|帮我|那就?)[,，\s]*)+(?=\S)|[,，\s]*(?:please|thanks|thank you|谢谢|吧|了吧)?[\s.!。！~]*$"
 )
 

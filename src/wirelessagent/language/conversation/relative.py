@@ -76,7 +76,10 @@ _PATTERNS = (
     rf"{_ZH_NOUN}{_ZH_ALSO}(?:(?P<up>{_ZH_UP}|上调|多)|(?P<down>{_ZH_DOWN}|下调|少))(?:了)?{_ZH_PERCENT}",
 )
 _SHAPES = tuple(re.compile(pattern) for pattern in _PATTERNS)
-_CHANGING = re.compile(r"(?:(?:now|actually|also|then|just|only)\s+|(?:现在|再|也)[,，]?)*")
+_CHANGING = re.compile(
+    r"(?:(?:now|actually|also|then|just|only|use|with|at\s+most|no\s+more\s+than)\s+|(?:现在|再|也|最多|只用)[,，]?)*"
+)
+_WILL_YOU = re.compile(r"(?:please\s+)?(?:could|can|would|will)\s+you\b|能不能|可以|能否|可否")
 _SUPPOSING = re.compile(
     r"(?:(?:and|but|so)\s+)?(?:what\s+(?:if|about|happens\s+(?:if|with)|would\s+happen\s+(?:if|with))|suppose|supposing|"
     r"imagine|assume|how\s+about|if)\s+(?:(?:we|you|i|they|it|the\s+cell)\s+)?(?:(?:only|had|have|has|got|used?|were\s+to|could)\s+)*|"
@@ -111,7 +114,11 @@ def read_relative(line: Line) -> Intent | None:
         return None
     lead = _SUPPOSING.match(line.wish)
     said = line.wish if lead is None else line.wish[lead.end() :]
-    scaled = scaled_in(_SUPPOSED_END.sub("", said) if lead is not None else _CHANGING.sub("", said, count=1))
+    if lead is not None:
+        said = _SUPPOSED_END.sub("", said)
+    elif _WILL_YOU.match(line.shape):
+        said = _WILL_YOU.sub("", said).rstrip("?？吗 ")
+    scaled = scaled_in(_CHANGING.sub("", said, count=1))
     if scaled is None:
         return None
     name = scaled.name_in(context)
