@@ -13,7 +13,7 @@ from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.roles import UserRole, is_something_of, role_of
 
-_SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.7, 0.5, 0.6
+_SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.65, 0.5, 0.45
 
 
 @dataclass(frozen=True, kw_only=True)

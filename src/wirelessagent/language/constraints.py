@@ -20,7 +20,8 @@ from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.surroundings import beside, describes_all, is_calculated, is_cells_power
 
-_SURE, _SURE_OF_NOTHING = 0.6, 0.7
+_SURE, _CERTAIN = 0.6, 0.9
+_SURE_OF_A_LIMIT = 0.75  # most figures are limits, so that the model takes a strange one for one too easily
 _MOST_POWERS = 4
 _RANGE_GAP = 8
 
@@ -142,12 +143,13 @@ class _Reader:
             elif not 0 < figure.value < math.inf:
                 self._doubt("impossible", figure)
             elif figure.kind == "power":
-                self._take_power(figure, before, after, roles.get(index, ""))
+                role, certain = roles.get(index, ("", False))
+                self._take_power(figure, before, after, role, certain=certain)
             else:
                 self._take_rate(index, before, after)
 
-    def _roles_of_powers(self) -> dict[int, str]:
-        """The role of each power, "" where that is not certain: two different figures are not both the limit."""
+    def _roles_of_powers(self) -> dict[int, tuple[str, bool]]:
+        """The role of each power and whether it is certain, "" where it is unsure; there is one limit, not two."""
         chances = {index: self._judged.figure(index) for index, q in enumerate(self._figures) if q.kind == "power"}
         places = sorted(chances)[:_MOST_POWERS]
         together: dict[tuple[str, ...], float] = {}
@@ -157,8 +159,9 @@ class _Reader:
                 together[roles] = math.prod(chances[index][role] for role, index in zip(roles, places, strict=True))
         likeliest = max(together, key=lambda roles: together[roles])
         sure = together[likeliest] / sum(together.values())
-        fits = all(sure > (_SURE_OF_NOTHING if role == "none" else _SURE) for role in likeliest)
-        return dict(zip(places, likeliest if fits else [""] * len(places), strict=True))
+        fits = sure > (_SURE_OF_A_LIMIT if likeliest == ("max_power_w",) else _SURE)
+        certain = {index: chances[index][role] > _CERTAIN for index, role in zip(places, likeliest, strict=True)}
+        return {index: (role if fits else "", certain[index]) for index, role in zip(places, likeliest, strict=True)}
 
     def take_users(self) -> None:
         """How many users there are is the channel's affair; a user who is named and gets nothing raises a doubt."""
@@ -231,9 +234,9 @@ class _Reader:
         cut = figure_words.CUT.search(self._plain, end, to)
         return self._plain[max([from_, *cuts]) : start], self._plain[end : cut.start() if cut else to]
 
-    def _take_power(self, figure: Quantity, before: str, after: str, role: str) -> None:
+    def _take_power(self, figure: Quantity, before: str, after: str, role: str, *, certain: bool) -> None:
         circuit = role == "circuit_power_w"
-        known = circuit and figure_words.CIRCUIT.search(before + " " + after) is not None
+        known = circuit and (certain or figure_words.CIRCUIT.search(before + " " + after) is not None)
         if _is_change(before, after):
             self._steps["power_w"] = figure.value
             self._doubt("change", figure)
@@ -277,7 +280,7 @@ class _Reader:
             self._target = self._allotments.target_of(figure.start)
         target, chances = self._target, self._judged.figure(index)
         if self._ends_a_range(index) or self._ends_a_range(index + 1):
-            chances = {"max_rate_bps" if figure.comparator == "at_most" else "min_rate_bps": 1.0}
+            chances = {"max_rate_bps" if figure.comparator == "at_most" else "min_rate_bps": 1.0, "none": 0.0}
         elif figure.comparator == "exactly":
             chances = {"both": 1.0 - chances["none"], "none": chances["none"]}
         role = max(chances, key=lambda name: chances[name])
@@ -290,9 +293,9 @@ class _Reader:
         elif _is_change(before, after):
             self._steps["rate_bps"] = figure.value
             self._doubt("change", figure)
-        elif role == "none" and chances[role] > _SURE_OF_NOTHING:
+        elif role == "none" and chances[role] > _SURE:
             self._counted.append((figure.start, figure.end))
-        elif role == "none" or chances[role] < _SURE:
+        elif chances[role] < _SURE or chances["none"] > 1 - _SURE_OF_A_LIMIT:
             self._doubt("status", figure)
         elif not target.sure:
             self._doubt("whose_rate", figure)
@@ -325,7 +328,7 @@ class _Reader:
         if chances is None:
             chances = {"outage": 1.0} if figure_words.OUTAGE.search(around) else {"reliability": 1.0}
         role = max(chances, key=lambda name: chances[name])
-        if role == "none" and chances[role] > _SURE_OF_NOTHING and not _is_change(before, after):
+        if role == "none" and chances[role] > _SURE and not _is_change(before, after):
             self._counted.append((figure.start, figure.end))
         elif role == "none" or chances[role] < _SURE or _is_change(before, after):
             self._doubt("share", figure)

@@ -80,7 +80,7 @@ class View:
         spans += [Span(start=n.start, end=n.end, placeholder="@number") for n in loose]
         self._plain, self._figures = plain, figures
         self._tokens = tokens_of(plain, spans)
-        self._places = {token.start: place for place, token in enumerate(self._tokens) if token.is_placeholder}
+        self._places = {token.start: place for place, token in enumerate(self._tokens) if token.word[0] == "@"}
         self._kinds = [token.word for token in self._tokens]
         self._held = {f"has:{kind}" for kind in self._kinds if kind[0] == "@"}
 

@@ -6,7 +6,6 @@ the users and the figures are there for, with all of them in sight.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language.figure_roles import LABELS, SCALED, View, likely, shipped_roles
@@ -16,7 +15,7 @@ from wirelessagent.language.mentions import Mention, mentions, merged
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 
-_SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_AN_OUTAGE, _SURE_OF_NOTHING = 0.7, 0.7, 0.6, 0.7
+_SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_AN_OUTAGE, _SURE_OF_NOTHING = 0.7, 0.8, 0.6, 0.7
 
 
 class Judged:
@@ -67,14 +66,14 @@ class Judged:
             for number in plausible
             if roles[number]["harmless"] + (number.value == 1) * roles[number]["weight"] > _SURE_OF_NOTHING
         ]
-        self.mentions = with_numbers(plain, found, users)
-        self._view = View(plain, self.figures, self.mentions, [number for number in loose if number not in users])
+        self.mentions = with_numbers(plain, found, users) if users else found
+        rest = [number for number in loose if number not in users]
+        self._view = View(plain, self.figures, self.mentions, rest) if users else view
 
     def figure(self, index: int) -> Mapping[str, float]:
         """How likely a power, a rate or a ratio has each role."""
         return _answers(self.figures[index].kind, self._view.figure(index))
 
-    @functools.cache  # noqa: B019 - a sentence is short-lived
     def user(self, mention: Mention) -> Mapping[str, float]:
         """How likely somebody named is left out, served alone, or neither."""
         return _answers("user", self._view.user(mention))

@@ -12,6 +12,7 @@ import unicodedata
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -34,17 +35,11 @@ class Span:
     placeholder: str
 
 
-@dataclass(frozen=True, kw_only=True)
-class Token:
-    """A word, a Chinese character, a mark or a placeholder of a sentence."""
+class Token(NamedTuple):
+    """A word, a Chinese character, a mark or a placeholder ("@rate") of a sentence."""
 
     word: str
     start: int
-    end: int
-
-    @property
-    def is_placeholder(self) -> bool:
-        return self.word[0] == "@"
 
 
 def tokens_of(plain: str, spans: Iterable[Span]) -> list[Token]:
@@ -55,7 +50,7 @@ def tokens_of(plain: str, spans: Iterable[Span]) -> list[Token]:
         if span.start < place:
             continue
         found.extend(_words(plain, place, span.start))
-        found.append(Token(word=span.placeholder, start=span.start, end=span.end))
+        found.append(Token(span.placeholder, span.start))
         place = span.end
     found.extend(_words(plain, place, len(plain)))
     return found
@@ -63,7 +58,7 @@ def tokens_of(plain: str, spans: Iterable[Span]) -> list[Token]:
 
 def _words(plain: str, start: int, end: int) -> Iterator[Token]:
     for match in _TOKEN.finditer(plain, start, end):
-        yield Token(word=_simple(match.group()), start=match.start(), end=match.end())
+        yield Token(_simple(match.group()), match.start())
 
 
 @functools.lru_cache(maxsize=4096)
