@@ -7,6 +7,7 @@ misunderstood may never cost an action.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -565,7 +566,8 @@ def test_any_text_is_answered_and_no_impossible_figure_leaves(text: str) -> None
     assert (intent.kind == "allocate") == (intent.objective is not None)
     assert set(intent.constraints) <= set(CONSTRAINTS)
     for name, value in intent.constraints.items():
-        assert 0 < value < math.inf
+        values = value.values() if isinstance(value, Mapping) else [value]
+        assert value if isinstance(value, tuple) else all(0 < figure < math.inf for figure in values)
         assert name != "outage_probability" or value < 1
 
 

@@ -23,6 +23,7 @@ from wirelessagent.language.surroundings import beside, describes_all, is_calcul
 _SURE, _CERTAIN = 0.6, 0.9
 _SURE_OF_A_LIMIT = 0.75  # most figures are limits, so that the model takes a strange one for one too easily
 _MOST_POWERS = 4
+_ONCE = ("max_power_w", "circuit_power_w")
 _RANGE_GAP = 8
 
 
@@ -155,11 +156,12 @@ class _Reader:
         together: dict[tuple[str, ...], float] = {}
         for roles in itertools.product(*(chances[index] for index in places)):
             held = {(role, self._figures[index].value) for role, index in zip(roles, places, strict=True)}
-            if all(sum(role == name for role, _ in held) < 2 for name in ("max_power_w", "circuit_power_w")):
+            twice = len(held) > len({value for _, value in held})  # the same figure is the same thing
+            if not twice and all(sum(role == name for role, _ in held) < 2 for name in _ONCE):
                 together[roles] = math.prod(chances[index][role] for role, index in zip(roles, places, strict=True))
         likeliest = max(together, key=lambda roles: together[roles])
         sure = together[likeliest] / sum(together.values())
-        fits = sure > (_SURE_OF_A_LIMIT if likeliest == ("max_power_w",) else _SURE)
+        fits = sure > (_SURE_OF_A_LIMIT if set(likeliest) == {"max_power_w"} else _SURE)
         certain = {index: chances[index][role] > _CERTAIN for index, role in zip(places, likeliest, strict=True)}
         return {index: (role if fits else "", certain[index]) for index, role in zip(places, likeliest, strict=True)}
 
@@ -167,7 +169,8 @@ class _Reader:
         """How many users there are is the channel's affair; a user who is named and gets nothing raises a doubt."""
         for match in figure_words.COUNTED_USERS.finditer(self._plain):
             taken = [(figure.start, figure.end) for figure in self._quantities] + self._spoken_for
-            if any(start <= match.start() < end for start, end in [*taken, *self._allotments.spans]):
+            described = any(match.start() <= start < match.end() for start, _ in self._judged.recounted)
+            if described or any(start <= match.start() < end for start, end in [*taken, *self._allotments.spans]):
                 continue
             words = self._text[match.start() : match.end()]
             self._counted.append(match.span())
@@ -242,7 +245,7 @@ class _Reader:
             self._doubt("change", figure)
         elif figure.comparator == "at_least" and role != "none":
             self._doubt("power_floor", figure)
-        elif not known and not is_cells_power(before, after):
+        elif not (known or (certain and role == "max_power_w") or is_cells_power(before, after)):
             self._doubt("whose_power", figure)
         elif circuit:
             self._mask_circuit(figure, before, after)

@@ -86,7 +86,8 @@ SOME_USERS = re.compile(
     r"(?:部分|一些|某些|某个)用户"
 )
 NOBODY = re.compile(
-    r"(?i)\bserv(?:e|ing) (?:nobody|no one|none of (?:them|the users)|no users?(?! (?:below|under|above|with)))\b|"
+    r"(?i)\bserv(?:e|ing) (?:(?:nobody|no one)(?!\s+(?:else|but|except|apart|other))|"
+    r"none of (?:them|the users)|no users?(?! (?:below|under|above|with)))\b|"
     r"\bleav(?:e|ing) (?:everyone|everybody|all users|all of them) out\b|"
     r"(?:所有|全部|全体)(?:用户|人|终端)(?:一个)?(?:都|全)?不(?:服务|带|管)|(?:一个|谁)(?:用户)?都不(?:服务|带|管)"
 )

@@ -57,7 +57,7 @@ _AND = (
 _TO = r"(?:\s*(?:-|–|~)\s*|\s+(?:to|through|a|à|bis)\s+)"
 _OF_ITS_OWN = r"(?!\s+(?:for|to|para|pour|für)\s)"  # "6 for user 2, 3 for user 3": no list of users
 _NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"
-_DIGITS = r"[0-9]{1,4}(?![0-9.,]*[0-9%])"
+_DIGITS = r"[0-9]{1,4}(?![0-9.,]*[0-9%]|[A-Za-z])"
 _WORD_LIST = rf"{_WORD_NUMBER}\b(?:(?:{_AND}|{_TO}){_WORD_NUMBER}\b)*"
 _LIST = rf"(?:{_DIGITS}(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
 _NAMED = re.compile(
@@ -112,7 +112,11 @@ _PRONOUN = re.compile(
     r"él|ella|ellos|ambos|los dos|"
     r"lui|elle|eux|les deux|ihm|ihr|ihn|ihnen|den|die beiden|beide[nr]?)\b|[他她它]们?(?!人)"
 )
-_JOINT = re.compile(r"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|or|and|nor|plus|y|et|und)+\s*(?:also\s+|the\s+)?")
+JOINT = re.compile(
+    r"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|\b(?:or|and|nor|plus|y|e|o|ni|et|ou|und|oder|sowie|noch)\b|\s)+\s*"
+    r"(?:(?:also|the|al|el|los|la|le|les|au|aux|die|den|der|del)\s+)?"
+)
+_RANGE = re.compile(rf"(?i){_TO}|\s*[到至]\s*")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -223,15 +227,20 @@ def _lists(plain: str, last: Mention, mention: Mention) -> bool:
 
 
 def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
-    """Neighbours that an "and" joins made one: "user 3 and user 5"."""
+    """Neighbours that an "and" or a "to" joins made one: "user 3 and user 5", "UE 1 to UE 4"."""
     merged: list[Mention] = []
     for mention in found:
         last = merged[-1] if merged else None
-        if (
+        beside = last is not None and last.role == mention.role == "named"
+        if last is not None and beside and _RANGE.fullmatch(plain, last.end, mention.start):
+            users = _listed(f"{last.users[-1]} to {mention.users[0]}")
+            users = tuple(dict.fromkeys([*last.users, *users, *mention.users]))
+            merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
+        elif (
             last is not None
-            and last.role == mention.role == "named"
+            and beside
             and _lists(plain, last, mention)
-            and _JOINT.fullmatch(plain, last.end, mention.start)
+            and JOINT.fullmatch(plain, last.end, mention.start)
         ):
             users = tuple(dict.fromkeys([*last.users, *mention.users]))
             merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
