@@ -122,8 +122,8 @@ class _Reader:
             before, after = beside(self._plain, self._quantities, index)
             self._masked.append((figure.phrase_start, figure.phrase_end))
             role = self._judged.outages.get(figure.start)
-            if 0 < figure.value < 1 and (role is not None or _is_probability(before, after)):
-                self._take_ratio(figure, before, after, {role: 1.0} if role is not None else None)
+            if role is not None and 0 < figure.value < 1:
+                self._take_ratio(figure, before, after, {role: 1.0})
             else:
                 self._doubt("unit_missing", figure)
 
@@ -153,6 +153,8 @@ class _Reader:
         """The role of each power and whether it is certain, "" where it is unsure; there is one limit, not two."""
         chances = {index: self._judged.figure(index) for index, q in enumerate(self._figures) if q.kind == "power"}
         places = sorted(chances)[:_MOST_POWERS]
+        for index in places:
+            self._supersede(chances, index)
         together: dict[tuple[str, ...], float] = {}
         for roles in itertools.product(*(chances[index] for index in places)):
             held = {(role, self._figures[index].value) for role, index in zip(roles, places, strict=True)}
@@ -164,6 +166,18 @@ class _Reader:
         fits = sure > (_SURE_OF_A_LIMIT if set(likeliest) == {"max_power_w"} else _SURE)
         certain = {index: chances[index][role] > _CERTAIN for index, role in zip(places, likeliest, strict=True)}
         return {index: (role if fits else "", certain[index]) for index, role in zip(places, likeliest, strict=True)}
+
+    def _supersede(self, chances: dict[int, Mapping[str, float]], index: int) -> None:
+        """A power that the next one corrects says nothing any more, but what that one is."""
+        first, second = chances[index], chances.get(index + 1)
+        if second is None:
+            return
+        low, high = self._figures[index], self._figures[index + 1]
+        same = max(first, key=lambda role: first[role]) == max(second, key=lambda role: second[role])
+        doubtful = max(second.values()) < _CERTAIN
+        if (same or doubtful) and figure_words.CORRECTION.search(self._plain, low.end, high.start):
+            chances[index] = {**dict.fromkeys(first, 0.0), "none": 1.0}
+            chances[index + 1] = {role: max(first[role], second[role]) if role != "none" else 0.0 for role in second}
 
     def take_users(self) -> None:
         """How many users there are is the channel's affair; a user who is named and gets nothing raises a doubt."""
@@ -320,16 +334,12 @@ class _Reader:
         if earlier is not None:
             self._doubts.append(Doubt(key="conflict", names={"one": earlier, "other": figure.text}))
 
-    def _take_ratio(
-        self, figure: Quantity, before: str, after: str, chances: Mapping[str, float] | None = None
-    ) -> None:
+    def _take_ratio(self, figure: Quantity, before: str, after: str, chances: Mapping[str, float]) -> None:
         around = before + " " + after
         if figure_words.MISSING.search(around):
             self._missing = figure.value
             self._not_used.append(figure.text)
             return
-        if chances is None:
-            chances = {"outage": 1.0} if figure_words.OUTAGE.search(around) else {"reliability": 1.0}
         role = max(chances, key=lambda name: chances[name])
         if role == "none" and chances[role] > _SURE and not _is_change(before, after):
             self._counted.append((figure.start, figure.end))
@@ -360,13 +370,6 @@ class _Reader:
 
     def _doubt(self, key: str, figure: Quantity) -> None:
         self._doubts.append(Doubt(key=key, names={"text": figure.text}))
-
-
-def _is_probability(before: str, after: str) -> bool:
-    return any(
-        pattern.search(before + " " + after)
-        for pattern in (figure_words.OUTAGE, figure_words.RELIABLE, figure_words.MISSING)
-    )
 
 
 def _is_change(before: str, after: str) -> bool:

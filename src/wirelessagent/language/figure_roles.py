@@ -38,7 +38,7 @@ LABELS: Mapping[str, tuple[str, ...]] = {
 _PLACEHOLDERS = {"named": "@user", "others": "@others", "everybody": "@all", "pronoun": "@them"}
 Answer = TypeVar("Answer")
 _MOST_USERS = 20
-SCALED = re.compile(r"\s?[kKMG](?![A-Za-z])")
+SCALED = re.compile(r"\s?[kKMG](?![^\W\d_])")
 _FAR = 8
 
 

@@ -61,17 +61,6 @@ RATE_SET_TO = re.compile(
     r"(?:min\w*\s+|user\w*\s+|data\s+|bit\s+)*(?:rates?|speeds?|throughput)\s+(?:up\s+|down\s+)?to\s+$|"
     r"(?:速率|速度|网速)(?:提高|提升|增加|升|调|设)(?:到|至|为)\s*$"
 )
-STATUS = re.compile(
-    r"(?ia)\b(?:currently|right now|at the moment|at present|only (?:get|gets|getting|have))\b|目前|当前|现在只|只有"
-)
-OUTAGE = re.compile(
-    r"(?ia)\b(?:outage|corte|coupure|ausfall\w*|fail\w*|miss(?:es)?|risk|violat\w*|drop\w*)\b|中断|失败|违约|风险|"
-    r"达不到|掉话"
-)
-RELIABLE = re.compile(
-    r"(?ia)\b(?:reliab\w*|availab\w*|confiden\w*|certain\w*|sure|guarantee\w*|probability|success|fiab\w*|"
-    r"confianza|confiance|zuverlässig\w*|verlässlich\w*|sicherheit)\b|可靠|把握|置信|成功|概率|保证率|达标率"
-)
 MISSING = re.compile(
     r"(?ia)\b(?:missing|lost|loss|unknown|holes?|absent|gone|faltar\w*|falta\w*|perd\w*|manqu\w*|fehl\w*|"
     r"verloren)\b|缺失|丢失|缺少|丢包|未知|缺|丢"

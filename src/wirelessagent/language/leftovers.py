@@ -43,26 +43,12 @@ _VAGUE = re.compile(
     r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
     r"(?<=a )number)\s+(?:of\s+)?"
 )
-_COUNTS = re.compile(  # "sixty thousand people", "three in the morning"
-    r"(?i)\s+(?:more\s+|other\s+|good\s+|big\s+|small\s+)?(?:people|persons|fans|guests|visitors|students|men|"
-    r"women|kids|children|cars|cameras|robots|"
-    r"meters|phones|passengers|spectators|viewers|customers|employees|machines|tickets|times a day|hours?|minutes?|"
-    r"days?|weeks?|months?|years?|floors?|rooms?|"
-    r"of (?:us|them|you)|in the (?:morning|afternoon|evening|night)|at night|o'clock|sharp|or so people|"
-    r"hundred people)\b"
-)
-_OF_THINGS = re.compile(  # "24 élèves", "350 guests", "14 Endgeräte": a number of things that are no unit
-    r"(?i)(?<![\w.,^+*/×·-])[0-9]{1,3}(?:[.,' ]?[0-9]{3})*\s+(?!(?:watts?|vatios?|"
-    r"milli|kilo|mega|giga|tera|deci|dezi|déci|[kmgt]?bits?|[kmgt]?bytes?|[kmgt]?bps|octets?|joules?|percent|prozent|por|pour|volts?|volt|amp|hertz|times|veces|fois|mal|"
-    r"out|plus|minus|squared|power|units?|points?|steps?|more|less|than|notches|zeros?)\b|mega|kilo|giga|milli)"
-    r"[^\W\d_]{4,}"
-)
 _SETS_A_LIMIT = re.compile(
     r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max|min|maximum|minimum|exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥])\s*$"
 )
 _UNIT_OF_ANOTHER_KIND = re.compile(
-    r"(?i)\s?(?:[kMG](?![A-Za-z])|dB|[km]?Wh|[km]?V|J|[km]?A|[kMG]?Hz|joules?|julios?|volts?|voltios?|amps?|amperes?|"
-    r"decibels?|hertz|(?:kilo|mega|giga)hertz)(?![A-Za-z])|\s*[千兆毫]?(?:伏|焦|安培|赫|分贝)"
+    r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|[km]?Wh|[km]?V|J|[km]?A|[kMG]?Hz|joules?|julios?|volts?|voltios?|amps?|amperes?|"
+    r"decibels?|hertz|(?:kilo|mega|giga)hertz)(?![^\W\d_])|\s*[千兆毫]?(?:伏|焦|安培|赫|分贝)"
 )
 _WHOLE = re.compile(r"[0-9]+")
 _IDIOMS = ("a", "an", "one")
@@ -78,10 +64,7 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
     >>> text[start:end]
     '43 dB'
     """
-    things = (
-        match.span() for match in _OF_THINGS.finditer(plain) if _SETS_A_LIMIT.search(plain, 0, match.start()) is None
-    )
-    known = [*covered, *idioms(plain), *things]
+    known = [*covered, *idioms(plain)]
     places = sorted(place for place in _numbers_at(plain) if not _inside(place, known))
     if not places:
         return None
@@ -137,8 +120,7 @@ def _is_figure(plain: str, number: Number) -> bool:
     if number.value is None:
         return False
     if number.form == "words":
-        counts = _COUNTS.match(plain, number.end) is not None
-        return not counts and plain[number.start : number.end].lower() not in _IDIOMS
+        return plain[number.start : number.end].lower() not in _IDIOMS
     return number.form == "chinese" and _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None
 
 

@@ -74,22 +74,19 @@ def beside(plain: str, quantities: Sequence[Quantity], index: int) -> tuple[str,
 
 
 def signs(figure: Quantity, before: str, after: str) -> list[str]:
-    """What the words beside a power, a rate or a ratio say of it by themselves."""
-    found: list[str] = []
-    if figure.kind == "power":
-        ahead = figure_words.CIRCUIT.search(before)
-        if ahead is not None and figure_words.RADIATED.search(before, ahead.end()):
-            ahead = None
-        found += ["circuit ahead"] if ahead is not None else []
-        found += ["circuit behind"] if figure_words.CIRCUIT.search(after) else []
-        found += ["radiated"] if figure_words.RADIATED.search(before + after) else []
-        found += [] if is_cells_power(before, after) else ["not ours"]
-    elif figure.kind == "rate":
-        found += ["status"] if figure_words.STATUS.search(before + after) else []
-    else:
-        found += ["outage"] if figure_words.OUTAGE.search(before + " " + after) else []
-        found += ["reliable"] if figure_words.RELIABLE.search(before + " " + after) else []
-    return found or ["nothing"]
+    """What the words beside a power say of it by themselves; nothing of other figures."""
+    if figure.kind != "power":
+        return []
+    ahead = figure_words.CIRCUIT.search(before)
+    if ahead is not None and figure_words.RADIATED.search(before, ahead.end()):
+        ahead = None
+    found = {
+        "circuit ahead": ahead is not None,
+        "circuit behind": figure_words.CIRCUIT.search(after) is not None,
+        "radiated": figure_words.RADIATED.search(before + after) is not None,
+        "not ours": not is_cells_power(before, after),
+    }
+    return [name for name, holds in found.items() if holds] or ["nothing"]
 
 
 def is_calculated(before: str, after: str) -> bool:
