@@ -49,6 +49,8 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     # who weighs
     ("2号用户权重3,9号用户权重2", {"weights": {"2": 3.0, "9": 2.0}}),
     ("PF metric, w4=2, w8=0.5, total 16 W", {"weights": {"4": 2.0, "8": 0.5}, "max_power_w": 16.0}),
+    ("double weight for user 1, one and a half for user 14, proportional fair", {"weights": {"1": 2.0, "14": 1.5}}),
+    ("R4, R5 >= 1 Mbps, 8 W cap", {"min_rate_bps": {"4": 1e6, "5": 1e6}, "max_power_w": 8.0}),
     ("Nutzer 2 mit Gewicht 3, der Rest 1", {"weights": {"2": 3.0}}),
     # probabilities without a unit, or in words
     ("Energieeffizienz maximieren, Ausfallwahrscheinlichkeit 0,02", {"outage_probability": 0.02}),
@@ -129,14 +131,7 @@ def shown(text: str, constraints: dict[str, Any]) -> list[tuple[str, set[str]]]:
 def test_a_meaning_shows_what_its_figures_are() -> None:
     text = "3 W in the circuits, 10 W on air, user 4 at 1 Mbit/s at most, skip user 5, room 12"
     meaning = {"circuit_power_w": 3, "max_power_w": 10, "max_rate_bps": {"4": 1e6}, "leave_out": [5]}
-    assert shown(text, meaning) == [
-        ("number", {"harmless"}),
-        ("power", {"circuit_power_w"}),
-        ("power", {"max_power_w"}),
-        ("user", {"none"}),
-        ("rate", {"max_rate_bps"}),
-        ("user", {"leave_out"}),
-    ] or sorted(shown(text, meaning), key=str) == sorted(
+    assert sorted(shown(text, meaning), key=str) == sorted(
         [
             ("number", {"harmless"}), ("user", {"none"}), ("user", {"leave_out"}), ("power", {"circuit_power_w"}),
             ("power", {"max_power_w"}), ("rate", {"max_rate_bps"}),
@@ -150,7 +145,7 @@ def test_a_meaning_whose_figure_was_not_read_shows_nothing_of_its_kind() -> None
 
 
 def test_whose_a_rate_is() -> None:
-    links = [e for e in training.examples("user 1 2 Mbit/s, user 2 1 Mbit/s", {"min_rate_bps": {"1": 2e6, "2": 1e6}})]
+    links = training.examples("user 1 2 Mbit/s, user 2 1 Mbit/s", {"min_rate_bps": {"1": 2e6, "2": 1e6}})
     assert [example.right for example in links if example.question == "link"] == [
         (True, False, False),
         (False, True, False),

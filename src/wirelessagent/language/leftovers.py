@@ -85,7 +85,8 @@ def loose_numbers(plain: str, covered: Sequence[Span]) -> list[Number]:
     """
     taken = [*covered, *idioms(plain)]
     found: list[Number] = []
-    for number in [*factors(plain), *(n for n in numbers(plain) if n.form == "digits" or _is_figure(plain, n))]:
+    candidates = [*factors(plain), *(n for n in numbers(plain) if n.form == "digits" or _is_figure(plain, n))]
+    for number in sorted(candidates, key=lambda each: each.start - each.end):  # "one and a half" before "half"
         number = _cut(plain, number, taken)
         if not any(start < number.end and number.start < end for start, end in taken):
             found.append(number)

@@ -63,7 +63,8 @@ _LIST = rf"(?:{_DIGITS}(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|
 _NAMED = re.compile(
     rf"(?i)(?<![A-Za-z0-9]){_NOUN}[\s_-]*(?:ids?\s*|{_NO}\s*)?\s*(?P<list>{_LIST})"
     rf"|(?<![A-Za-z0-9])(?:u|ue)(?P<short>[0-9]{{1,4}})(?![A-Za-z0-9])"
-    rf"|(?<![A-Za-z])[RrWw]_?\{{?(?P<symbol>[0-9]{{1,2}})\}}?(?=\s*(?:[=≥≤<>]))|"
+    rf"|(?<![A-Za-z])[RrWw]_?\{{?(?P<symbol>[0-9]{{1,2}})\}}?(?=\s*(?:[=≥≤<>]))"
+    rf"|(?<![A-Za-z0-9])(?-i:R)(?P<rate_of>[0-9]{{1,2}})(?![A-Za-z0-9.])|"
     rf"#\s?(?P<hash>[0-9]{{1,4}}(?:{_AND}#?\s?[0-9]{{1,4}})*)"
     rf"|(?<![A-Za-z])(?:numbers?|n[úu]mero|numéro|nummer|no\.)\s+(?P<number>{_LIST})"
     rf"|(?<![A-Za-z])(?P<ordinal>{'|'.join(sorted(_ORDINALS, key=len, reverse=True))})\s+{_NOUN}(?![A-Za-z])"
@@ -170,7 +171,7 @@ def _named(plain: str) -> Iterator[Mention]:
 
 def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
     """Where the list ends when its last number belongs to a unit: "users 1 and 2, 10 W"."""
-    if group in ("ordinal", "short", "symbol", "nth"):
+    if group in ("ordinal", "short", "symbol", "rate_of", "nth"):
         return match.end()
     parts = list(re.finditer(rf"(?i)[0-9]+|{_WORD_NUMBER}\b|[一二三四五六七八九十]+", match.group(group)))
     offset = match.start(group)
@@ -223,7 +224,7 @@ def _lists(plain: str, last: Mention, mention: Mention) -> bool:
     """Whether two neighbours are items of one list: an "and" joins them, or a comma where the list goes on."""
     if re.search(r"(?i)[a-z和与跟及&/、]", plain[last.end : mention.start]):
         return True
-    return re.match(r"(?i)\s*(?:$|[,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)", plain[mention.end :]) is not None
+    return re.match(r"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)", plain[mention.end :]) is not None
 
 
 def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
