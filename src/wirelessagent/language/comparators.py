@@ -106,13 +106,18 @@ _LATIN = re.compile(r"[A-Za-z]")
 
 
 def _any_of(words: list[str]) -> str:
-    """An alternation, longest first, in which spaces match any run and Latin words end at their borders."""
-    parts: list[str] = []
+    """An alternation, longest first, in which spaces match any run and Latin words end at their borders.
+
+    The borders stand once around all Latin words: a pattern that repeats them for each word compiles ten times slower.
+    """
+    latin: list[str] = []
+    others: list[str] = []
     for word in sorted(words, key=len, reverse=True):
-        body = word if word.endswith("s?") or word.startswith("(?") else re.escape(word).replace(r"\ ", r"\s+")
-        border = r"(?<![A-Za-z_])", r"(?![A-Za-zÀ-ÿ])"
-        parts.append(f"{border[0]}{body}{border[1]}" if _LATIN.search(word) else body)
-    return "(?:" + "|".join(parts) + ")"
+        is_pattern = word.endswith("s?") or word.startswith("(?")
+        body = word if is_pattern else re.escape(word).replace(r"\ ", r"\s+")
+        (latin if _LATIN.search(word) else others).append(body)
+    bordered = rf"(?<![A-Za-z_])(?:{'|'.join(latin)})(?![A-Za-zÀ-ÿ])"
+    return "(?:" + "|".join([bordered, *others]) + ")"
 
 
 _GAP = re.compile(rf"(?i)(?:\s|{_any_of([*_FILLERS, *_POWER_NOUNS, *_RATE_NOUNS])}){{0,16}}$")
