@@ -73,6 +73,7 @@ LIMITS = [
     "maximum throughput, power 10",
     "fastest, at most 50",
     "max rate, 1 2 Mbps",
+    "proportional fair, weight -1 for user 2",
 ]
 
 

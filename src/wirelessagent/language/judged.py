@@ -16,6 +16,7 @@ from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 
 _ONE_OF_A_LIST, _NEAR = 0.3, 24
+_MOST_WEIGHT = 10**6
 _SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_AN_OUTAGE, _SURE_OF_NOTHING = 0.7, 0.8, 0.6, 0.7
 
 
@@ -51,7 +52,10 @@ class Judged:
         self.weights = [
             number
             for number in loose
-            if SCALED.match(plain, number.end) is None and roles[number]["weight"] > _SURE_OF_A_WEIGHT
+            if roles[number]["weight"] > _SURE_OF_A_WEIGHT
+            and number.value is not None
+            and 0 <= number.value < _MOST_WEIGHT
+            and SCALED.match(plain, number.end) is None
         ]
         self.outages = {
             number.start: "outage" if roles[number]["outage"] > roles[number]["reliability"] else "reliability"

@@ -224,7 +224,10 @@ def _lists(plain: str, last: Mention, mention: Mention) -> bool:
     """Whether two neighbours are items of one list: an "and" joins them, or a comma where the list goes on."""
     if re.search(r"(?i)[a-z和与跟及&/、]", plain[last.end : mention.start]):
         return True
-    return re.match(r"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)", plain[mention.end :]) is not None
+    return (
+        re.match(r"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)", plain[mention.end :])
+        is not None
+    )
 
 
 def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
