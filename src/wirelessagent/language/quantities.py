@@ -16,7 +16,7 @@ from wirelessagent.language.comparators import Comparator, comparison
 from wirelessagent.language.leaning import with_units
 from wirelessagent.language.readings import GENERATION, Reading
 from wirelessagent.language.readings import readings as read_numbers
-from wirelessagent.language.text import CJK, USER_NOUN, normalise
+from wirelessagent.language.text import USER_NOUN, has_chinese, normalise
 
 QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
 
@@ -24,7 +24,7 @@ QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
 _AFTER_BARE = re.compile(
     r"\s*(?:$|[,;:!?。\uff0c\uff1b、)\]]|\.(?![0-9])|(?i:(?:please|and|or|for|each|per|max|maximum|min|minimum|"
     r"with|at|but|then|now|thanks|"
-    rf"to|in|on|the|while|when|apiece)\b|(?:de\s+)?(?:probabilit|outage|wahrscheinlich))|[{CJK}])"
+    r"to|in|on|the|while|when|apiece)\b|(?:de\s+)?(?:probabilit|outage|wahrscheinlich)))"
 )
 _NAMES = re.compile(
     r"(?i:(?:\b(?:users?|ues?|slots?|subcarriers?|channels?|carrier|cells?|number|numbers|no\.?|and|to|release|"
@@ -230,7 +230,9 @@ def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> Quanti
         return "other" if bounded else None
     if named:
         return None
-    if _AFTER_BARE.match(plain, reading.end) or (reading.factor != 1 and _VARIABLE.match(plain, reading.end)):
+    if _AFTER_BARE.match(plain, reading.end) or has_chinese(plain[reading.end :].lstrip()[:1]):
+        return "bare"
+    if reading.factor != 1 and _VARIABLE.match(plain, reading.end):
         return "bare"
     apiece = _FOREIGN_APIECE.match(plain, reading.end) is not None
     return "other" if bounded or apiece else None

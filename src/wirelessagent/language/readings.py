@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from decimal import Decimal
 
 from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
-from wirelessagent.language.text import CJK, USER_NOUN
+from wirelessagent.language.text import USER_NOUN, has_chinese
 from wirelessagent.language.units import Unit, unit_at
 
 _SUFFIX = re.compile(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9/])")
 _CHINESE_SUFFIX = re.compile(
     r"\s?(?P<suffix>[kKM])(?!\s*[A-Za-z0-9/瓦赫焦伏安米克])"
 )  # "每人2M": so are rates written there
-_CJK = re.compile(f"[{CJK}]")
 _SUFFIXES = {"k": Decimal(10**3), "K": Decimal(10**3), "M": Decimal(10**6), "G": Decimal(10**9)}
 GENERATION = re.compile(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
 _PICTURE = re.compile(r"[248]K")
@@ -73,7 +72,7 @@ def _read(plain: str, number: Number) -> Reading:
         return _with_half(plain, number, unit)
     suffix = _SUFFIX.match(plain, number.end) if number.form == "digits" else None
     spoken = number.form == "chinese" and number.value is not None and number.end - number.start > 1
-    written = (number.form == "digits" or spoken) and _CJK.search(plain)
+    written = (number.form == "digits" or spoken) and has_chinese(plain)
     chinese = _CHINESE_SUFFIX.match(plain, number.end) if written else None
     if chinese is not None and not _PICTURE.match(plain, number.start):
         unit = Unit(kind="rate", end=chinese.end(), factor=_SUFFIXES[chinese["suffix"]])
