@@ -6,6 +6,7 @@ so that nobody acts on half of one ("a few hundred" is not 100).
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -79,8 +80,13 @@ class Number:
     form: str
 
 
-def numbers(text: str) -> Iterator[Number]:
+@functools.lru_cache(maxsize=64)
+def numbers(text: str) -> tuple[Number, ...]:
     """Every number in normalised text, from left to right, not overlapping."""
+    return tuple(_numbers(text))
+
+
+def _numbers(text: str) -> Iterator[Number]:
     language = language_of(text)
     own, position = "en" if language == "zh" else language, 0
     while match := _NUMBER.search(text, position):
