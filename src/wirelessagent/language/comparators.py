@@ -82,23 +82,23 @@ _AFTER: dict[str, Comparator] = {
     "exactly": "exactly",
 }
 
-_POWER_NOUNS = _listed("power budget consumption watts? wattage energy 功率 功耗 能耗 发射功率 总功率 预算")
+_POWER_NOUNS = _listed("power budget consumption watt watts wattage energy 功率 功耗 能耗 发射功率 总功率 预算")
 _RATE_NOUNS = _listed(
-    "rates? speeds? throughput bitrate bandwidth goodput download upload 速率 速度 网速 吞吐量 带宽 码率"
+    "rate rates speed speeds throughput bitrate bandwidth goodput download upload 速率 速度 网速 吞吐量 带宽 码率"
 )
 _FILLERS = _listed(
     "of is are to at be by a an the about around roughly set total overall sum transmit tx radiated transmission rf "
     "data bit use using used get gets getting each every user everyone everybody with go going it more limit limited "
-    "circuit static fixed outage reliability probability : = one person subscriber customer rate_of phones phone "
+    "circuit static fixed outage reliability probability : = one person subscriber customer phones phone "
     "ue ues uses "
     "people must still let promise keep hold have deliver de la el un una del los le les du des une der die das "
     "dem den "
     "von bei mit con avec por para à auf für pro je jeder jeden jedem jede alle allen kopf person teilnehmer kunde "
-    "nie je_nutzer wird soll darf sind ist einzelne einzelner irgendein "
+    "nie wird soll darf sind ist einzelne einzelner irgendein "
     "chacun chaque cada usuario persona uno personne abonné client utilisateur nutzer puissance potencia en lo las se "
-    "que est sont soit debe debit leistung sendeleistung débit rate velocidad vitesse tasa caudal ganze lediglich "
+    "que est sont soit debe debit leistung sendeleistung débit velocidad vitesse tasa caudal ganze lediglich "
     "为 是 在 到 用 约 大约 发射 总 的 每 个 人 用户 每人 给 设 成 调 控制 卡 定 放 跑 跑到 达 得 拿到 拿 分到 "
-    "各 速率 网速 均 统一 至 也 就 都 过 能 只 只能 "
+    "各 均 统一 至 也 就 都 过 能 只 只能 "
     "数据 传输 传 消耗 使用 要 达到 有 给 保证 中断 概率 可靠性"
 )
 
@@ -113,14 +113,17 @@ def _any_of(words: list[str]) -> str:
     latin: list[str] = []
     others: list[str] = []
     for word in sorted(words, key=len, reverse=True):
-        is_pattern = word.endswith("s?") or word.startswith("(?")
-        body = word if is_pattern else re.escape(word).replace(r"\ ", r"\s+")
+        body = word if word.startswith("(?") else re.escape(word).replace(r"\ ", r"\s+")
         (latin if _LATIN.search(word) else others).append(body)
     bordered = rf"(?<![A-Za-z_])(?:{'|'.join(latin)})(?![A-Za-zÀ-ÿ])"
     return "(?:" + "|".join([bordered, *others]) + ")"
 
 
-_GAP = re.compile(rf"(?i)(?:\s|{_any_of([*_FILLERS, *_POWER_NOUNS, *_RATE_NOUNS])}){{0,16}}$")
+_WORD = re.compile(r"[A-Za-zÀ-ÿ]++")
+_BETWEEN = frozenset([*_FILLERS, *_POWER_NOUNS, *_RATE_NOUNS])  # what may stand between a comparator and its figure
+_GAP = re.compile(
+    rf"(?:\s|{_WORD.pattern}|{'|'.join(sorted((w for w in _BETWEEN if not _WORD.match(w)), key=len, reverse=True))}){{0,16}}$"
+)
 _WORDS = rf"(?:(?!(?:and|y|et|und)\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"
 _CAP = (  # "cap users at", "limite l'utilisateur 5 à", "limitado a", "auf … begrenzt" stands behind
     rf"\b(?:rate-)?(?:cap|limit|restrict|throttl|clamp|polic|chok|stop|held\s+down|cut\s+off)(?:s|e|es|p?ed|t?ing|ping|ing)?\s+{_WORDS}"
@@ -200,7 +203,7 @@ def _before(text: str, start: int, end: int, *, kind: str, after: int) -> tuple[
     matches = list(_BEFORE.finditer(text, clause_start, start))
     for match in reversed(matches):
         gap = text[match.end() : start]
-        if not _GAP.match(gap) or _foreign_noun(gap, kind):
+        if not _is_filler(gap) or _foreign_noun(gap, kind):
             continue
         word = match.lastgroup
         if word in ("above", "below"):
@@ -209,6 +212,10 @@ def _before(text: str, start: int, end: int, *, kind: str, after: int) -> tuple[
         if word == "at_least" or word == "at_most" or word == "exactly":
             return word, match.start()
     return None
+
+
+def _is_filler(gap: str) -> bool:
+    return _GAP.match(gap) is not None and all(word.lower() in _BETWEEN for word in _WORD.findall(gap))
 
 
 def _is_denied(text: str, from_: int, start: int, end: int) -> bool:
