@@ -121,9 +121,8 @@ def _any_of(words: list[str]) -> str:
 
 _WORD = re.compile(r"[A-Za-zÀ-ÿ]++")
 _BETWEEN = frozenset([*_FILLERS, *_POWER_NOUNS, *_RATE_NOUNS])  # what may stand between a comparator and its figure
-_GAP = re.compile(
-    rf"(?:\s|{_WORD.pattern}|{'|'.join(sorted((w for w in _BETWEEN if not _WORD.match(w)), key=len, reverse=True))}){{0,16}}$"
-)
+_SIGNS = "|".join(sorted((word for word in _BETWEEN if not _WORD.match(word)), key=len, reverse=True))
+_GAP = re.compile(rf"(?:\s|{_WORD.pattern}|{_SIGNS}){{0,16}}$")
 _WORDS = rf"(?:(?!(?:and|y|et|und)\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"
 _CAP = (  # "cap users at", "limite l'utilisateur 5 à", "limitado a", "auf … begrenzt" stands behind
     rf"\b(?:rate-)?(?:cap|limit|restrict|throttl|clamp|polic|chok|stop|held\s+down|cut\s+off)(?:s|e|es|p?ed|t?ing|ping|ing)?\s+{_WORDS}"

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.comparators import Comparator, comparison
-from wirelessagent.language.leaning import with_units
 from wirelessagent.language.readings import GENERATION, Reading
 from wirelessagent.language.readings import readings as read_numbers
 from wirelessagent.language.text import USER_NOUN, has_chinese, normalise
@@ -96,7 +95,7 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
     [('rate', 1000000.0, 'at_least'), ('power', 0.1, 'at_most')]
     """
     plain = normalise(text)
-    readings = with_units(plain, read_numbers(plain))
+    readings = _with_units(plain, read_numbers(plain))
     found: list[Quantity] = []
     after = 0
     for index, reading in enumerate(readings):
@@ -115,6 +114,15 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
             found.append(_like_the_last(plain, found, quantity))
         after = found[-1].phrase_end
     return tuple(found)
+
+
+def _with_units(plain: str, found: list[Reading]) -> list[Reading]:
+    """The readings with units for the numbers that lean on another's; a sentence without any need not load them."""
+    if all(reading.unit is not None for reading in found):
+        return found
+    from wirelessagent.language.leaning import with_units
+
+    return with_units(plain, found)
 
 
 def _like_the_last(plain: str, found: list[Quantity], quantity: Quantity) -> Quantity:
