@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import importlib
+import re
+import subprocess
+import sys
+
 import pytest
 
 from wirelessagent.language.number_words import spoken
 from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.text import CJK
 
 ENGLISH = [
     ("forty-five hundred kilobits", "rate", 4.5e6), ("a quarter of a megabit", "rate", 250e3),
@@ -214,3 +220,23 @@ def test_shares_in_words_are_ratios(text: str, value: float | None) -> None:
 )
 def test_a_bound_holds_for_the_next_figure_of_the_same_form(text: str, ceilings: list[float]) -> None:
     assert [figure.value for figure in parse_quantities(text) if figure.comparator == "at_most"] == ceilings
+
+
+@pytest.mark.parametrize(
+    "module", ["text", "units", "number_words", "numerals", "readings", "leaning", "comparators", "quantities"]
+)
+def test_the_patterns_of_the_parser_are_quick_to_compile(module: str) -> None:
+    """A microsecond for each character of a pattern, milliseconds for a range over all of Chinese: every start pays."""
+    members = vars(importlib.import_module(f"wirelessagent.language.{module}")).values()
+    patterns = [member.pattern for member in members if isinstance(member, re.Pattern)]
+    assert sum(map(len, patterns)) < 10_000
+    assert not [pattern for pattern in patterns if CJK in pattern]
+
+
+def test_numbers_with_units_load_nothing_for_numbers_without() -> None:
+    code = (
+        "import sys; from wirelessagent.language.quantities import parse_quantities as parse; parse('at most 9 W');"
+        "name = 'wirelessagent.language.leaning'; before = name in sys.modules; parse('10 W, sorry, 12');"
+        "sys.exit(before or name not in sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
