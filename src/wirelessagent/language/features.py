@@ -1,4 +1,4 @@
-"""A sentence as hashed n-grams: of words, of letters within words, of Chinese characters, and of concepts.
+"""A sentence as hashed n-grams: of words, of base words, of letters within words, of Chinese characters, of concepts.
 
 Figures and users have been made placeholders before, so that the model knows no numbers. The hash is CRC-32: the same
 on every machine and in every process.
@@ -14,27 +14,26 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import numpy.typing as npt
 
+from wirelessagent.language.base_words import based
 from wirelessagent.language.spelling import SOUND_OF
 from wirelessagent.language.text import CJK
 
-BUCKETS = 1 << 15
+BUCKETS = 1 << 16
 _MAX_TOKENS = 120
 _TOKEN = re.compile(rf"@[a-z]+|[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|[?\uff1f]")
 _IS_CJK = re.compile(f"[{CJK}]")
 
 
-def buckets(text: str, concepts: Sequence[str] = ()) -> npt.NDArray[np.int64]:
+def buckets(text: str, concepts: Sequence[str] = (), language: str = "en") -> npt.NDArray[np.int64]:
     """The distinct buckets that a sentence falls into, ascending."""
-    found = {zlib.crc32(gram.encode("utf-8", "replace")) % BUCKETS for gram in _grams(text, concepts)}
+    found = {zlib.crc32(gram.encode("utf-8", "replace")) % BUCKETS for gram in _grams(text, concepts, language)}
     return np.fromiter(sorted(found), dtype=np.int64, count=len(found))
 
 
-def word_hashes(text: str) -> npt.NDArray[np.uint32]:
+def word_hashes(text: str) -> list[int]:
     """The hashes of a sentence's words and Chinese characters, placeholders aside."""
     words = [token for token in _tokens(text) if token[0] not in "@?\uff1f"]
-    return np.fromiter(
-        (zlib.crc32(word.encode("utf-8", "replace")) for word in words), dtype=np.uint32, count=len(words)
-    )
+    return [zlib.crc32(word.encode("utf-8", "replace")) for word in words]
 
 
 def _tokens(text: str) -> list[str]:
@@ -47,8 +46,9 @@ def _plain(text: str) -> str:
     return "".join(letter for letter in lowered if unicodedata.category(letter) != "Mn") if lowered != text else lowered
 
 
-def _grams(text: str, concepts: Sequence[str]) -> Iterator[str]:
+def _grams(text: str, concepts: Sequence[str], language: str) -> Iterator[str]:
     tokens = _tokens(text)
+    yield from _of_base_words(["<", *based(tokens, language), ">"])
     padded = ["<", *tokens, ">"]
     for place, token in enumerate(padded):
         yield "w" + token
@@ -74,3 +74,13 @@ def _grams(text: str, concepts: Sequence[str]) -> Iterator[str]:
         yield "C" + concept
         for other in concepts[place + 1 : place + 3]:
             yield f"D{concept} {other}"
+
+
+def _of_base_words(words: Sequence[str]) -> Iterator[str]:
+    for place, word in enumerate(words):
+        yield "W" + word
+        if place + 1 < len(words):
+            yield f"B{word} {words[place + 1]}"
+        if place + 2 < len(words):
+            yield f"S{word} _ {words[place + 2]}"
+            yield f"T{word} {words[place + 1]} {words[place + 2]}"

@@ -49,10 +49,8 @@ _SAME = re.compile(
     r"保持(?:原有|现有|原来)?的?(?:条件|限制|要求|需求|约束)|还是"
 )
 
-_PAIR = re.compile(
-    r"(?i)\s*(?:(?!but\b|yet\b)[\w'-]+\s+){1,3}(?:but|yet|though)(?:\s+(?!not\b)[\w'-]+){1,4}[\s.!?]*|"
-    r"\s*[^但却\uff0c,。]{2,8}[\uff0c,]?(?:但是?|却)(?!不|别)[^\uff0c,。]{2,8}[\s。!\uff01?\uff1f]*"
-)
+
+_GOES = re.compile(rf"(?i)(?<![A-Za-z]){_GO}|{_ZH_GO}|{_ZH_GONE}|\s(?:is|are)\s+(?:gone|off|lifted|no\s+longer|void)")
 
 
 def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tuple[tuple[int, int], ...]]:
@@ -63,7 +61,7 @@ def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tu
     """
     names: list[str] = []
     spans: list[tuple[int, int]] = []
-    for name, english, chinese in _LIMITS:
+    for name, english, chinese in _LIMITS if _GOES.search(plain) else ():
         match = re.search(
             rf"(?i)(?<![A-Za-z]){_GO}(?:{english})(?![A-Za-z])|{_ZH_GO}(?:{chinese})|(?:{chinese})(?:也|都|"
             rf"就)?{_ZH_GONE}"
@@ -120,11 +118,6 @@ def numbers_of(users: Iterable[str], user_names: Sequence[str]) -> set[int | str
 def keeps_the_limits(plain: str) -> bool:
     """Whether a sentence with a wish changes the request at hand rather than replacing it."""
     return _SAME.search(plain) is not None
-
-
-def is_a_bare_pair(plain: str) -> bool:
-    """Whether a sentence only sets one wish against another: "energy efficient but fastest", "省电但要最快"."""
-    return _PAIR.fullmatch(plain) is not None
 
 
 def merged(earlier: Mapping[str, Constraint], later: Mapping[str, Constraint]) -> dict[str, Constraint]:

@@ -27,16 +27,16 @@ class LinearModel:
     weights: npt.NDArray[np.int8]
     scales: npt.NDArray[np.float32]
     intercepts: npt.NDArray[np.float32]
-    known: npt.NDArray[np.uint32]
+    known: frozenset[int]
 
     def familiarity(self, text: str) -> float:
         """The share of a sentence's words that the model was trained with; 0 for none at all."""
         words = word_hashes(text)
-        return float(np.isin(words, self.known).mean()) if len(words) else 0.0
+        return sum(word in self.known for word in words) / len(words) if words else 0.0
 
-    def probabilities(self, text: str, concepts: Sequence[str] = ()) -> Mapping[str, float]:
+    def probabilities(self, text: str, concepts: Sequence[str] = (), language: str = "en") -> Mapping[str, float]:
         """How likely each label is for a sentence whose figures are placeholders."""
-        found = buckets(text, concepts)
+        found = buckets(text, concepts, language)
         score = self.intercepts + self.scales * self.weights[found].sum(axis=0, dtype=np.int32) / np.sqrt(len(found))
         likely = np.exp(score - score.max())
         likely /= likely.sum()
@@ -52,5 +52,5 @@ def shipped_model() -> LinearModel:
             weights=arrays["weights"],
             scales=arrays["scales"],
             intercepts=arrays["intercepts"],
-            known=arrays["known"],
+            known=frozenset(arrays["known"].tolist()),
         )

@@ -14,7 +14,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from wirelessagent.language.followups import dropped_in, is_a_bare_pair, keeps_the_limits, merged, with_users_back
+from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, CONSTRAINTS, Constraint, Detail, Intent, IntentKind
 from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
@@ -31,8 +31,6 @@ _DEFAULT_CONFIDENCE = 0.75
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
 _CHANGING = ("apply", "confirm", "undo", "reset")
 _SURE_OF_A_COMMAND = 0.6
-_SURE_OF_LESS = 0.9
-_INTERFERENCE = ("interference", "干扰")
 _CUES = {  # a command that changes something has one of these in it
     "reset": re.compile(
         r"(?i)reset|clear|wip|eras|forget|delet|start over|again|scratch|afresh|anew|zero|new|fresh|slate|"
@@ -56,7 +54,7 @@ _CUES = {  # a command that changes something has one of these in it
         r"déplo|envoie|anwend|wende|übern|ausf|ausroll|spiel|mach|leg|setz|aktiv|damit"
     ),
 }
-_SETTLED = {"fair": 0.9, "same": 0.5, "fairly": 0.8}  # how sure the model must be that these words are clear
+_FAIR_WORDS = {"fair", "same", "fairly"}
 _REFUSED = re.compile(
     r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$"
 )  # "max rate? no"
@@ -210,91 +208,61 @@ class _Understanding:
             assert topic in COMMANDS
             details = details_of(topic, self._sentence)
             return self._answer.tell("command", f"command.{topic}", judged.certainty, topic=topic, details=details)
-        unsupported = "unsupported" in self._sentence.concepts and self._goal.verdict in ("none", "weak", "opposite")
-        if unsupported and judged.kind == "clarify" and not self._reading.values:
-            text = self._words_for("unsupported")
-            return self._answer.tell("out_of_scope", "unsupported", judged.certainty, {"text": text})
-        figures = any(figure.kind in ("power", "rate", "other") for figure in self._sentence.quantities)
-        misread = figures and bool(self._reading.doubts or self._unread)
-        if judged.kind == "out_of_scope" and "strange" not in self._sentence.concepts and not misread:
+        if judged.kind == "out_of_scope":
             if "unsupported" in self._sentence.concepts:
-                return self._answer.tell(
-                    "out_of_scope", "unsupported", judged.certainty, {"text": self._words_for("unsupported")}
-                )
-            return self._answer.tell("out_of_scope", "out_of_scope", judged.certainty)
+                names = {"text": self._words_for("unsupported")}
+                return self._answer.tell("out_of_scope", "unsupported", judged.certainty, names)
+            key = "hello" if "greeting" in self._sentence.concepts else "out_of_scope"
+            return self._answer.tell("out_of_scope", key, judged.certainty)
         return None
 
     def _unfulfillable(self) -> Intent | None:
-        """The first thing in the sentence that can't be done as said, put as a question."""
+        """The first figure or user that can't be used as said, put as a question."""
         pending = self._reading.values
         if self._reading.doubts:
             doubt = self._reading.doubts[0]
             return self._answer.ask(doubt.key, 0.8, pending, **doubt.names)
         if self._unread is not None:
             return self._answer.ask("unread", 0.8, pending, text=self._text[slice(*self._unread)].strip())
-        if "strange" in self._sentence.concepts:
-            return self._answer.ask("strange", 0.8, pending, text=self._words_for("strange"))
-        if self._is_vaguely_fair():
-            offered = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
-            if not offered:
-                return self._answer.ask("unclear", 0.8, pending)
-            return self._answer.ask("fairness", 0.8, pending, both=self._voice.both(offered, "or"))
-        if (
-            "unsupported" in self._sentence.concepts
-            and self._goal.verdict == "clear"
-            and not self._is_helped_by_less_power()
-        ):
-            goal = self._voice.label(self._goal.objective)
-            return self._answer.ask(
-                "unsupported_with_goal", 0.8, pending, text=self._words_for("unsupported"), goal=goal
-            )
         if "max_power_w" in self._reading.exact and self._judged.objective == "min_power":
             return self._answer.ask("exact_power", 0.8, pending, text=self._reading.evidence["max_power_w"])
         return None
 
-    def _is_helped_by_less_power(self) -> bool:
-        """Whether interference is the reason why the least power is asked for, which serves it."""
-        judged = self._judged
-        agreed = judged.acts and judged.objective == "min_power" == self._goal.objective
-        return agreed and judged.likeliest > _SURE_OF_LESS and self._words_for("unsupported").lower() in _INTERFERENCE
-
-    def _is_vaguely_fair(self) -> bool:
-        """Whether something is to be equal or fair, and neither the words nor the model say in what way."""
-        concepts, judged = self._sentence.concepts, self._judged
-        if any(name in _FAIR_OBJECTIVES for name in self._goal.options):
-            return "fair" in concepts and not (judged.acts and judged.likeliest > 0.8)
-        sure = judged.likeliest if judged.acts else 0.0
-        of_whom = "everyone" in concepts or self._reading.named
-        settled = {concept for concept, least in _SETTLED.items() if sure > least and (concept != "same" or of_whom)}
-        return bool(concepts & (_SETTLED.keys() - settled))
-
     def _request(self) -> Intent:
-        goal, judged, pending = self._goal, self._judged, self._reading.values
-        offered = [name for name in goal.options if name in self._voice.labels or goal.verdict == "opposite"]
         if _REFUSED.search(self._sentence.plain):
-            return self._answer.ask("negated", pending=pending)
+            return self._answer.ask("negated", pending=self._reading.values)
+        goal, judged, default = self._goal, self._judged, self._default()
+        if default is not None and (judged.objective == "max_rate" or not judged.acts):
+            return default
         if judged.acts and judged.objective in self._voice.labels:
             words = (
                 " … ".join(self._text[start:end] for start, end in _merged(goal.spans)) if goal.spans else self._text
             )
             return self._allocate(judged.objective, words, judged.certainty)
-        default = self._default()
-        if default is not None:
-            return default
+        return self._question_back()
+
+    def _question_back(self) -> Intent:
+        """What to ask where no wish is sure."""
+        goal, pending, concepts = self._goal, self._reading.values, self._sentence.concepts
+        offered = [name for name in goal.options if name in self._voice.labels or goal.verdict == "opposite"]
+        fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
+        if concepts & _FAIR_WORDS and len(fair) > 1 and goal.verdict != "contradiction":
+            return self._answer.ask("fairness", 0.8, pending, both=self._voice.both(fair, "or"))
         if goal.verdict == "contradiction" and len(offered) > 1:
             key = "contradiction" if set(offered) == {"max_rate", "min_power"} else "rivals"
             return self._answer.ask(key, pending=pending, both=self._voice.both(offered))
-        if goal.verdict == "negated" or judged.topic == "negated":
+        if goal.verdict == "negated" or self._judged.topic == "negated":
             return self._answer.ask("negated", pending=pending)
         if goal.verdict == "opposite":
             names = [name for name in offered if name not in self._voice.labels]
             return self._answer.ask("opposite", pending=pending, goal=self._voice.both(names))
+        unclear = next((concept for concept in ("unsupported", "strange") if concept in concepts), None)
+        if unclear is not None:
+            return self._answer.ask("strange", 0.8, pending, text=self._words_for(unclear))
         return self._limits_alone() or self._unclear()
 
     def _allocate(self, objective: str, words: str, confidence: float) -> Intent:
         context, reading = self._context, self._reading
-        if self._goal.verdict == "contradiction" and is_a_bare_pair(self._sentence.plain):
-            return self._answer.ask("rivals", both=self._voice.both(self._goal.options))
         values, dropped = dict(reading.values), self._dropped
         evidence = {"objective": words} if words else {}
         evidence |= reading.evidence
@@ -315,13 +283,8 @@ class _Understanding:
 
     def _default(self) -> Intent | None:
         """A promised rate under a power limit has one sensible reading."""
-        values, judged = self._reading.values, self._judged
-        plain_wish = self._goal.verdict in ("none", "weak") and self._goal.objective in ("", "max_rate")
-        free = (
-            plain_wish
-            and judged.topic in ("limits", "vague", "")
-            and (judged.objective == "max_rate" or judged.likeliest < 0.45)
-        )
+        values, goal = self._reading.values, self._goal
+        free = goal.verdict in ("none", "weak") and goal.objective in ("", "max_rate")
         if {"min_rate_bps", "max_power_w"} <= set(values) and free and "max_rate" in self._voice.labels:
             return self._allocate("max_rate", "", _DEFAULT_CONFIDENCE)
         return None
@@ -338,8 +301,9 @@ class _Understanding:
 
     def _unclear(self) -> Intent:
         values = self._reading.values
-        guess = self._goal.objective if self._goal.verdict == "weak" else self._judged.objective
-        if guess in self._voice.labels and (self._goal.verdict == "weak" or self._judged.likeliest > 0.4):
+        found = self._goal.verdict in ("weak", "clear")
+        guess = self._goal.objective if found else self._judged.objective
+        if guess in self._voice.labels and (found or self._judged.likeliest > 0.4):
             others = self._voice.choices(without=guess)
             return self._answer.ask("weak", 0.6, values, goal=self._voice.label(guess), choices=others)
         return self._answer.ask("greeting" if "greeting" in self._sentence.concepts else "unclear", 0.5, values)

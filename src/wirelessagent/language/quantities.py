@@ -183,7 +183,7 @@ def _bounded(text: str, plain: str, reading: Reading, *, after: int, until: int)
         return None
     if kind == "power" and number.value == 1 and bounds.comparator is None and _is_price(plain, reading):
         return None
-    if number.value == 1 and bounds.comparator is None and _is_step(plain, reading):
+    if number.value == 1 and number.form != "digits" and bounds.comparator is None and _is_step(plain, reading):
         return None
     if _is_article(plain, reading) and not (unit is not None and (bounds.comparator or unit.kind == "rate")):
         return None

@@ -38,8 +38,8 @@ class Sentence:
         self.concepts = {item.term.concept for item in self.found}
         self.goal: Goal = goals.equally_fast(goals.goal_of(self.found), self._spelt)
 
-    def for_model(self) -> tuple[str, list[str]]:
-        """The words with placeholders for figures and users, and the concepts in their order."""
+    def for_model(self) -> tuple[str, list[str], str]:
+        """The words with placeholders for figures and users, the concepts in their order, and the language."""
         spans = [(q.phrase_start, q.phrase_end, _PLACEHOLDERS[q.kind]) for q in self.quantities]
         taken = [(start, end) for start, end, _ in spans]
         spans += [(m.start, m.end, " @user ") for m in mentions(self.plain, (), taken) if m.role == "named"]
@@ -51,7 +51,7 @@ class Sentence:
                 place = end
         terms = [item.term.objective or item.term.concept for item in self.found]
         goal = f"goal:{self.goal.verdict}:{self.goal.objective}"
-        return "".join([*parts, self._spelt[place:]]), [*terms, goal]
+        return "".join([*parts, self._spelt[place:]]), [*terms, goal], self.language
 
 
 def own_words() -> tuple[OwnWords, ...]:

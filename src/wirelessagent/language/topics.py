@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from wirelessagent.language.intent import Constraint, Detail
 from wirelessagent.language.numerals import chinese_value
+from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence import Sentence
 
 _COMPARED = (
@@ -23,6 +24,11 @@ _NUMBER = re.compile(
     r"\bhistory\s+(?:show\s+)?(?P<m>[0-9]+)"
 )
 _FORMATS = (("tmf921", re.compile(r"(?i)tmf\s*-?921")), ("ts28312", re.compile(r"(?i)28\.?312|3gpp")))
+_MORE = re.compile(r"(?i)\b(?:more|extra|additional|further|another)\s+")
+_MORE_USERS = re.compile(
+    r"(?i)\b(?:one|an?|another)\s+(?:more|extra|additional|further)?\s*(?:user|subscriber|customer|terminal)\b|"
+    r"[多加]一?[个位名]?(?:用户|终端)"
+)
 _HALF_MISSING = re.compile(
     r"(?i)\bhalf\b.{0,30}\b(?:missing|lost|unknown|gone)\b|(?:一半.{0,12}(?:缺|丢)|(?:缺|丢).{0,8}一半)"
 )
@@ -32,13 +38,13 @@ _MISSING_OF = re.compile(r"(?i)\b(?:missing|lost|unknown|gone|loss)\b|缺|丢|fa
 def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
     """The figures and names of a question or command of this topic."""
     reading = sentence.reading
-    if topic in ("why_user", "users"):
+    if topic in ("why_user", "users", "prices"):
         return {"user": reading.named[0]} if reading.named else {}
     if topic == "what_if":
         return _what_if(sentence)
     if topic == "step":
         user: dict[str, Detail] = {"user": reading.named[0]} if reading.named else {}
-        steps: Mapping[str, Detail] = reading.steps or _stated(reading.values) or {"power_w": 1.0}
+        steps = _step(sentence)
         return {**steps, **(user if "rate_bps" in steps else {})}
     if topic == "compare":
         return {"with": _compared(sentence.plain)}
@@ -67,6 +73,16 @@ def _what_if(sentence: Sentence) -> dict[str, Detail]:
     if sentence.goal.verdict == "clear":
         details["objective"] = sentence.goal.objective
     return details
+
+
+def _step(sentence: Sentence) -> Mapping[str, Detail]:
+    """How much more is asked about: power, rate or users; a watt where nothing is said."""
+    if _MORE_USERS.search(sentence.plain):
+        return {"users": 1.0}
+    said = parse_quantities(_MORE.sub("", sentence.plain))  # "5 more watts"
+    power = next((figure.value for figure in said if figure.kind == "power" and figure.value > 0), None)
+    fallback: Mapping[str, Detail] = {"power_w": power if power is not None else 1.0}
+    return sentence.reading.steps or _stated(sentence.reading.values) or fallback
 
 
 def _stated(values: Mapping[str, Constraint]) -> dict[str, Detail]:

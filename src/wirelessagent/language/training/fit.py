@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -12,11 +13,12 @@ from scipy import optimize, sparse
 from wirelessagent.language.features import BUCKETS, buckets, word_hashes
 from wirelessagent.language.sentence import Sentence, own_words
 
-_RIDGE = 2e-6
+ForModel: TypeAlias = tuple[str, list[str], str]
+_RIDGE = 5e-7
 _STEPS = 120
 
 
-def matrix_of(read: Sequence[tuple[str, list[str]]]) -> sparse.csr_matrix:
+def matrix_of(read: Sequence[ForModel]) -> sparse.csr_matrix:
     """(sentence, bucket) of sentences as the model sees them: every row has length one."""
     columns = [buckets(*each) for each in read]
     sizes = np.array([len(each) for each in columns])
@@ -25,16 +27,16 @@ def matrix_of(read: Sequence[tuple[str, list[str]]]) -> sparse.csr_matrix:
     return sparse.csr_matrix((values.astype(np.float32), np.concatenate(columns), starts), shape=(len(read), BUCKETS))
 
 
-def read_by_rules(texts: Sequence[str]) -> list[tuple[str, list[str]]]:
+def read_by_rules(texts: Sequence[str]) -> list[ForModel]:
     """What the parsers and the lexicon make of each sentence, as the model gets it at run time."""
     own = own_words()
     return [Sentence(text, own).for_model() for text in texts]
 
 
-def known_words(read: Sequence[tuple[str, list[str]]]) -> npt.NDArray[np.uint32]:
+def known_words(read: Sequence[ForModel]) -> npt.NDArray[np.uint32]:
     """The hashes of the words that stand in at least two sentences, ascending."""
-    words, counts = np.unique(np.concatenate([np.unique(word_hashes(text)) for text, _ in read]), return_counts=True)
-    return words[counts > 1]
+    words, counts = np.unique([word for text, *_ in read for word in set(word_hashes(text))], return_counts=True)
+    return np.asarray(words[counts > 1], dtype=np.uint32)
 
 
 def fit(
