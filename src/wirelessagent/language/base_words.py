@@ -13,7 +13,7 @@ from pathlib import Path
 
 from wirelessagent.language.text import CJK
 
-_FOLDER = Path(__file__).with_name("base_words")
+FOLDER = Path(__file__).with_name("base_words")
 _SMALL = frozenset(("the", "a", "and", "of", "in", "to", "it", "be"))
 _IS_CJK = re.compile(f"[{CJK}]")
 
@@ -57,7 +57,7 @@ def _cut(run: str, words: Mapping[str, str]) -> Iterator[str]:
 
 @functools.cache
 def _base_words(language: str) -> Mapping[str, str]:
-    path = _FOLDER / f"{language}.tsv"
+    path = FOLDER / f"{language}.tsv"
     if not path.is_file():
         return {}
     pairs = (line.partition("\t") for line in path.read_text(encoding="utf-8").splitlines())

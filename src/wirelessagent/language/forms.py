@@ -32,11 +32,13 @@ _ANSWERS = {
     ),
 }
 _COMPARES = re.compile(r"(?i)\s*(?:please\s+|请)?(?:compare|vergleiche?|compara|比较|对比)(?![A-Za-z])")
-_CODE = re.compile(  # programs and mark-up are no wishes
+_CODE = re.compile(  # programs, mark-up and injections are no wishes
     r"<[|/!a-zA-Z]|\{\{|\}\}|\$\(|--\s*$|\\x|__\w+__|"
     r"(?i:\b(?:select|delete|drop|insert|update)\b.*\b(?:from|table|into|set)\b.*[;*=]|;\s*commit\b|"
     r"\bbegin\b.*\bdelet|\b(?:os|"
-    r"sys)\.\w+\()"
+    r"sys)\.\w+\()|"
+    r"(?i:\b(?:ignore|disregard|forget)\s+(?:all\s+|any\s+|the\s+|your\s+)*(?:previous|prior|above|earlier)\s+"
+    r"(?:instructions?|rules?|prompts?))|(?:忽略|无视)[^,\uff0c]{0,6}(?:指令|规则|提示)"
 )
 _ASKS_IN_CHINESE = re.compile(
     r"^\s*(?:我?想)?(?:请教|请问|问一下|打听)|^\s*(?:为啥|为什么|为何|凭什么|咋)(?![不别])|(?:多少|什么|怎么|"
@@ -63,7 +65,7 @@ def begins_like_a_question(plain: str) -> bool:
 
 
 def is_a_program(text: str) -> bool:
-    """Whether a text is a program, a query or mark-up."""
+    """Whether a text is a program, a query, mark-up, or speaks to a language model rather than of a cell."""
     return _CODE.search(text) is not None
 
 

@@ -103,7 +103,8 @@ def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
     other = max(_OTHER_KINDS, key=lambda kind: shares.kinds[kind])
     if forms.is_a_program(sentence.text):
         return "out_of_scope"
-    if not shares.familiar or forms.is_a_statement(sentence.text):
+    sign = len(sentence.units) == 1 and len(sentence.units[0].word) == 1  # a letter, a Chinese character
+    if sign or not shares.familiar or forms.is_a_statement(sentence.text):
         return "clarify"
     if shares.kinds[other] >= shares.labels[objective]:
         back = other == "command" and sentence.reading.back  # "bring user 3 back" changes a request, it undoes none
