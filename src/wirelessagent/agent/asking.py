@@ -39,13 +39,15 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
     share = details.get("missing_share")
     constraints = cast("Mapping[str, Constraint]", details.get("constraints") or {})
     objective = cast("str | None", details.get("objective"))
-    if share is None and not constraints and objective is None:
+    dropped = tuple(str(details.get("dropped", "")).split())
+    if share is None and not constraints and objective is None and not dropped:
         return Reply(text=say(language, "what_if_nothing"), stage="asked")
     if state.request is None and objective is None:
         return Reply(text=say(language, "nothing_yet"))
     if share is not None and not 0 <= cast(float, share) < 1:
         return Reply(text=say(language, "what_if_missing_share", share=percent(cast(float, share))), stage="asked")
-    request = (state.request or Request(objective=cast(str, objective))).amended(constraints, objective=objective)
+    held = state.request or Request(objective=cast(str, objective))
+    request = held.amended(constraints, objective=objective, dropped=dropped)
     sight = None if share is None else site.sight_missing(cast(float, share), language)
     run = site.foreseen(site.plan(intent, request, sight=sight))
     answer = _verdict(state, run, language)

@@ -29,7 +29,8 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
     if "missing_share" not in details:
         constraints = cast("Mapping[str, Constraint]", details.get("constraints") or {})
         objective = cast("str | None", details.get("objective"))
-        supposed = (state.request or Request(objective=str(objective))).amended(constraints, objective=objective)
+        held, dropped = state.request or Request(objective=str(objective)), str(details.get("dropped", "")).split()
+        supposed = held.amended(constraints, objective=objective, dropped=tuple(dropped))
     if state.planned is not None and state.request is not None:
         key = "plan_still_waits" if supposed is None else "plan_or_what_if"
         plan = restated(state.request, language).rstrip(".。")

@@ -135,6 +135,7 @@ class Session:
     def _context(self) -> Context:
         state, request, supposed = self._state, self._state.request, self._state.supposed
         question = state.question or Question()
+        before: Mapping[str, Detail] = self._turns[-1].intent.details if self._turns else {}
         return Context(
             user_names=self._site.user_names,
             max_power_w=self._site.scene.cell.max_power_w,
@@ -148,6 +149,8 @@ class Session:
             stated=state.stated,
             supposed_objective=None if supposed is None else supposed.objective,
             supposed={} if supposed is None else supposed.constraints,
+            share_of=cast("Mapping[str, Constraint]", before.get("share_of") or {}),
+            share_how=str(before.get("share_how", "of")),
             language=self._language,
         )
 

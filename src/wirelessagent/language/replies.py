@@ -100,6 +100,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
             "for, {choices}?",
         "exact_power": "Exactly {text} and the least power don't go together. Did you mean at most {text}?",
         "no_rate_to_change": "There is no such rate to change yet. What should each user get, at least or at most?",
+        "nothing_left_of_it": "That would leave nothing of it. What should the limit be?",
         "no_limit_of_its_own": "Nothing of that kind is promised to {users} or asked of them. What should change?",
         "served_already": "All that is asked for serves {users} already. What should change?",
         "what_changes": "I am not sure what should change. Say for example 'now with 5 W', 'leave user 3 out' or "
@@ -181,6 +182,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "named_user": "{text}要怎样：速率、权重、不服务，还是只服务它？小区应以什么为目标：{choices}？",
         "exact_power": "正好 {text} 与功率最低不能并存。您是指不超过 {text} 吗？",
         "no_rate_to_change": "目前没有可以更改的速率要求。每个用户的速率应是多少，至少还是不超过？",
+        "nothing_left_of_it": "这样就什么都不剩了。限制应是多少？",
         "no_limit_of_its_own": "{users}没有这样的要求。应更改什么？",
         "served_already": "{users}已在服务之中。应更改什么？",
         "what_changes": "我不确定要更改什么。例如说“改为 5 W”“不要用户3”，或另一个目标。",

@@ -15,6 +15,7 @@ from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.relative import read_relative
 from wirelessagent.language.conversation.unanswered import Unanswered, leaves_the_question, unanswered
+from wirelessagent.language.conversation.wondering import is_worked_out, supposed, wondered
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
 
@@ -28,14 +29,30 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     """What a line means in its conversation; never raises, whatever the text."""
     if len(text) > _LONGEST:
         return recogniser.recognise(text, context)
-    line = Line.of(text, context)
+    line, asked = Line.of(text, context), wondered(text) if context.objective is not None else None
     for read in (read_command, read_relative, read_question, read_amendment):
         intent = read(line)
         if intent is not None:
             return intent
+    if asked is not None:
+        return _possible(line, asked, recogniser)
     if leaves_the_question(line):
         context = dataclasses.replace(
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
         )  # fmt: skip
     intent = recogniser.recognise(text, context)
     return asked_instead(line, intent) or intent
+
+
+def _possible(line: Line, asked: str, recogniser: Recogniser) -> Intent:
+    """A what-if of what a line asks to be possible, where that is a request; else what the whole line means."""
+    plain = Line.of(asked, line.context)
+    for read in (read_relative, read_amendment):
+        intent = read(plain)
+        if intent is not None and intent.kind == "allocate":
+            return supposed(line, intent)
+    whole = recogniser.recognise(line.text, line.context)
+    if whole.kind in ("allocate", "command") or is_worked_out(whole):
+        return supposed(line, whole)
+    intent = recogniser.recognise(asked, line.context)
+    return supposed(line, intent) if intent.kind == "allocate" and (intent.constraints or intent.dropped) else whole

@@ -14,23 +14,23 @@ from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.followups import joined, merged, numbers_of, taken_in
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Intent
 
-_CORRECTING = (
+CORRECTING = (
     r"(?:nope|no|sorry|oops|wait|hmm|actually|rather|instead|i\s+(?:meant|mean|said)|correction|make\s+(?:it|that|this)|"
     r"(?:it|that|this)\s+(?:should|must)\s+be|should\s+(?:be|have\s+been)|change\s+(?:it|that|this)\s+to|"
     r"(?:it's|that's|it\s+is|that\s+is|that\s+was)|不对|不是|不|说错了|搞错了|错了|其实|我是说|我说的是|我的意思是|我是指|"
     "我指的是|应该是|应当是|应该|改成|改为|换成|抱歉|对不起|更正)"
 )
-_BESIDE = r"(?:for|to|the|one|of|be|与|给|的|是|[,，\s])"
+BESIDE = r"(?:for|to|the|one|of|be|与|给|的|是|[,，\s])"
 _BOUND = r"(?:at\s+least|at\s+most|至少|最多|不超过)"
-_CORRECTS = re.compile(rf"{_CORRECTING}")
+CORRECTS = re.compile(rf"{CORRECTING}")
 _THAT_USER = re.compile(
-    rf"(?:{_CORRECTING}|{_BESIDE})*+@(?:[,，\s]*(?:instead|then|才对|才是))?"
+    rf"(?:{CORRECTING}|{BESIDE})*+@(?:[,，\s]*(?:instead|then|才对|才是))?"
     r"(?P<not>[,，\s]*(?:and\s+)?(?:not|而?不是|rather\s+than|instead\s+of)\s*@)?|"
     r"(?P<other>(?:not|不是)\s*@[,，\s]*(?:but\s+(?:rather\s+)?|是|而是)?\s*@)"
 )
-_THAT_FIGURE = re.compile(rf"(?:{_BOUND}|{_CORRECTING}|{_BESIDE})*+#(?:[,，\s]*(?:instead|then|才对))?")
+_THAT_FIGURE = re.compile(rf"(?:{_BOUND}|{CORRECTING}|{BESIDE})*+#(?:[,，\s]*(?:instead|then|才对))?")
 _BARE = re.compile(
-    rf"(?:{_BOUND}|{_CORRECTING}|{_BESIDE}|yes|about|say|min(?:imum)?|max(?:imum)?|and|和|就|嗯|好|用|要)*+#"
+    rf"(?:{_BOUND}|{CORRECTING}|{BESIDE}|yes|about|say|min(?:imum)?|max(?:imum)?|and|和|就|嗯|好|用|要)*+#"
     rf"(?:(?:and|和|[,，\s]|{_BOUND})*+#)*+(?:以上|以内|就行|就好|就可以|吧|at\s+least|at\s+most|[,.\s])*+"
 )
 _NO_LONGER = (
@@ -145,7 +145,7 @@ def _users_with_rates(pending: Mapping[str, Constraint]) -> tuple[str, ...]:
 def _other_user(line: Line) -> Intent | None:
     """ "Actually make that user 3": what was stated last is for somebody else."""
     match = _THAT_USER.fullmatch(line.wish)
-    if match is None or not line.users or not _CORRECTS.search(line.wish):
+    if match is None or not line.users or not CORRECTS.search(line.wish):
         return None
     users, instead_of = line.users, ""
     freed = _freed_instead(line, users)
@@ -219,7 +219,7 @@ def _other_figure(line: Line) -> Intent | None:
 
 def _is_another(wish: str) -> bool:
     """Whether a line is a figure with words that correct one."""
-    return _THAT_FIGURE.fullmatch(wish) is not None and _CORRECTS.search(wish) is not None
+    return _THAT_FIGURE.fullmatch(wish) is not None and CORRECTS.search(wish) is not None
 
 
 def _restated(line: Line, new: Mapping[str, Constraint], *, gone: str = "") -> Intent:

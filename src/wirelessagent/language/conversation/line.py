@@ -68,15 +68,16 @@ class Line:
 
     def allocate(
         self, objective: str, constraints: Mapping[str, Constraint], *, amends: bool, dropped: tuple[str, ...] = (),
-        taken_off: Mapping[str, Constraint] | None = None,
+        taken_off: Mapping[str, Constraint] | None = None, details: Mapping[str, Detail] | None = None,
     ) -> Intent:  # fmt: skip
         """A request, or a change of the one that holds; ``taken_off`` are figures of users that no longer hold."""
+        further: dict[str, Detail] = {**(details or {}), **({"taken_off": taken_off} if taken_off else {})}
         said = self.voice.amended if amends else None
         reply = said(constraints, dropped) if said else self.voice.restated(objective, constraints, ())
         evidence = {name: self.text.strip() for name in constraints}
         return self._intent(
             "allocate", reply, objective=objective, constraints=constraints, evidence=evidence, amends=amends,
-            dropped=dropped, details={"taken_off": taken_off} if taken_off else {},
+            dropped=dropped, details=further,
         )  # fmt: skip
 
     def command(self, topic: str, **details: Detail) -> Intent:

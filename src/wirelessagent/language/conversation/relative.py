@@ -1,4 +1,7 @@
-"""Figures that are said by what holds: "double the rates", "half the power", "速率提高一倍"."""
+"""Figures that are said by what holds: "double the rates", "half the power", "2 W less power", "功率降20%".
+
+A share, an amount in W or bit/s and one in dB are read alike: "~", "#" and "^" stand for them in the shapes.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +9,10 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from wirelessagent.language.conversation.amendments import BESIDE, CORRECTING, CORRECTS
+from wirelessagent.language.conversation.amounts import Amount, with_amount
 from wirelessagent.language.conversation.line import Line
-from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
+from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.recogniser import Context
 
 _OWN = r"(?:(?:the|our|its|their|my|all|of|every(?:one|body)(?:'s)?|each|users?'?|@'?s?|for|this|that)\s+)*+"
@@ -26,10 +31,8 @@ _ZH_NOUN = (
     r"(?:总|发射|最大)?功率(?:上限|限制|预算)?|(?:最低|最小|最高|最大|保证|保底|承诺)?的?(?:速率|速度|网速)"
     r"(?:要求|保证|下限|上限)?)"
 )
-_PERCENT = r"(?P<percent>\d+(?:\.\d+)?)\s*(?:%|percent|per\s+cent)"
-_ZH_PERCENT = r"(?:(?P<percent>\d+(?:\.\d+)?)\s*%|百分之(?P<zh_percent>\d+))"
+_ZH_POWER = "(?:总|发射|最大)?功率(?:上限|限制|预算)?|用?电量?|能耗|功耗|耗电量?"
 _BE = r"(?:were|was|is|are|being|been|be|should|to|would|has|had|gets|get|got|goes|went)"
-_MORE = r"(?:(?P<up>more|higher)|(?P<down>less|lower))"
 _ZH_ALSO = "(?:再|都|全部|整体|统一|也|能)*+"
 
 _TWICE = r"(?:doubled?|twice|two\s+times)"
@@ -41,7 +44,10 @@ _FACTORS: tuple[tuple[float, str], ...] = (
     (10.0, r"ten\s+times(?:\s+as\s+(?:much|high|big|fast))?"),
 )
 _FACTOR = "(?:" + "|".join(f"(?P<a{place}>{words})" for place, (_, words) in enumerate(_FACTORS)) + ")"
-_ZH_UP, _ZH_DOWN = "(?:提高|增加|提升|加大|增大|调高|加快|升高)", "(?:减少|降低|减小|缩小|下降|调低)"
+_ZH_UP, _ZH_DOWN = (
+    "(?:提高|增加|提升|加大|增大|调高|加快|升高|上调|涨)",
+    "(?:减少|降低|减小|缩小|下降|调低|下调|削减|压低|减掉|省掉|省下)",
+)
 _ZH_TO = "(?:到|成|为|至)(?:现在|原来)?的?"
 _ZH_HALF = (
     f"减半|砍半|折半|(?:{_ZH_DOWN}|降|少|砍|减)(?:掉|了)?一半|(?:{_ZH_DOWN}|降|变|减){_ZH_TO}一半|"
@@ -65,21 +71,47 @@ _PATTERNS = (
     rf"(?:cut|reduce|lower|decrease|drop|bring)\s+{_NOUN}\s+(?:down\s+)?(?:(?:in|by|to)\s+)?(?:a\s+)?(?P<half>half)",
     rf"{_NOUN}\s+(?:{_BE}|only|increased?|rises?|raised|grows?|cut|reduced|times|\s)*+(?:(?:to|by|in)\s+)?{_FACTOR}(?:\s+it)?",
     rf"(?:make|set|raise|increase|boost)\s+{_NOUN}\s+(?:to\s+)?{_FACTOR}",
-    # "raise the power by 20 %", "20 % less power", "the power were 20 % lower"
-    rf"(?:(?P<up>increase|raise|boost|lift)|(?P<down>decrease|reduce|lower|cut|drop))\s+{_NOUN}\s+by\s+{_PERCENT}",
-    rf"{_PERCENT}\s+{_MORE}\s+{_NOUN}",
-    rf"{_NOUN}\s+(?:{_BE}|\s)*+{_PERCENT}\s+{_MORE}",
-    rf"{_NOUN}\s+(?:{_BE}|\s)*+(?:(?P<up>increased|raised|up)|(?P<down>decreased|reduced|lowered|cut|down))\s+by\s+{_PERCENT}",
     # "速率提高一倍", "一半的功率", "功率降低20%"
     rf"(?:{_ZH_NOUN}|把?它)?{_ZH_ALSO}{_ZH_FACTOR}",
     rf"(?:只)?(?:用|有|给)?(?:(?P<half>一半|半数)|(?P<twice>[两二2]倍|双倍))的?{_ZH_NOUN}",
-    rf"{_ZH_NOUN}{_ZH_ALSO}(?:(?P<up>{_ZH_UP}|上调|多)|(?P<down>{_ZH_DOWN}|下调|少))(?:了)?{_ZH_PERCENT}",
 )
 _SHAPES = tuple(re.compile(pattern) for pattern in _PATTERNS)
+
+_RAISE, _LOWER = "(?P<up>increase|raise|boost|lift)", "(?P<down>decrease|reduce|lower|cut|drop|shrink|trim)"
+_TURN = "(?:turn|bring|take|dial)"
+_LESS = r"(?:(?P<up>more|higher|up|extra)|(?P<down>less|lower|down|fewer))"
+_BY = r"(?:by\s+[~#^]|[~^])"
+_ZH_CHANGE = f"(?:(?P<up>{_ZH_UP}|多|升|加)|(?P<down>{_ZH_DOWN}|少|降|减|砍|省|节省))(?:了|掉)?"
+_ZH_USED = f"(?:(?P<up>{_ZH_UP}|多用|多给|多)|(?P<down>{_ZH_DOWN}|少用|少给|少|降|减|省|节省|节约))(?:了|掉)?"
+_OF_NOW = r"(?:\s+of\s+(?:(?:the\s+)?current\s+(?:one|limit|value)|it|that|what\s+it\s+(?:is|was)(?:\s+now)?))?"
+_USING = r"(?:(?:run|work|live|operate|manage|do|go)\s+(?:on|with|at)\s+|(?:use|take|have)\s+)?(?:(?:only|just)\s+)?"
+_AMOUNT_PATTERNS = (
+    # "raise the power by 20 %", "lower the power by 2 W", "turn the power down by 3 dB", "20 % less power"
+    rf"(?:{_RAISE}|{_LOWER})\s+{_NOUN}\s+(?:(?:up|down)\s+)?{_BY}",
+    rf"{_TURN}\s+{_NOUN}\s+{_LESS}\s+{_BY}",
+    rf"{_TURN}\s+{_LESS}\s+{_NOUN}\s+{_BY}",
+    rf"[~#^](?:\s+of)?\s+{_LESS}(?:\s+{_NOUN})?",
+    rf"{_NOUN}\s+(?:{_BE}|\s)*+[~#^]\s+{_LESS}",
+    rf"{_NOUN}\s+(?:{_BE}|\s)*+(?:(?P<up>increased|raised|up)|(?P<down>decreased|reduced|lowered|cut|down))\s+{_BY}",
+    # "run on a third of the power", "reduce the power to a third"
+    rf"{_USING}~\s+(?:of\s+)?{_NOUN}",
+    rf"(?:cut|reduce|lower|decrease|drop|bring|set|make|limit|raise|increase)\s+{_NOUN}\s+(?:down\s+)?to\s+~{_OF_NOW}",
+    # "总功率降20%", "降低20%功率", "功率降到三分之一", "只用三分之一的功率"
+    rf"{_ZH_NOUN}{_ZH_ALSO}{_ZH_CHANGE}[~#^]",
+    rf"{_ZH_ALSO}{_ZH_USED}[~#^]的?(?:{_ZH_NOUN}|(?P<power>{_ZH_POWER}))?",
+    rf"{_ZH_NOUN}(?:{_ZH_ALSO}|只)*+(?:{_ZH_DOWN}|{_ZH_UP}|降|减|变|改|调|设|用|限制|压)?(?:到|成|为|至)(?:现在|原来)?的?~",
+    rf"{_ZH_NOUN}只(?:用|有|是|给)?(?:现在|原来)?的?~",
+    rf"(?:只)?(?:用|有|给)?~的?(?:{_ZH_NOUN}|(?P<power>{_ZH_POWER}))(?:就行|就够了?|就好|行不行)?",
+)
+_AMOUNT_SHAPES = tuple(re.compile(pattern) for pattern in _AMOUNT_PATTERNS)
+_OTHER_AMOUNT = re.compile(
+    rf"(?:{CORRECTING}|{BESIDE}|(?:by|only|just|about)\s|[只降减少])*+(?:到|成|为)?[~#^]"
+    rf"(?:of\s+(?:it|that|the\s+power)|less|more|的?功率|{CORRECTING}|才对|[,，\s])*+"
+)
 _CHANGING = re.compile(
     r"(?:(?:now|actually|also|then|just|only|use|with|at\s+most|no\s+more\s+than)\s+|(?:现在|再|也|最多|只用)[,，]?)*"
 )
-_WILL_YOU = re.compile(r"(?:please\s+)?(?:could|can|would|will)\s+you\b|能不能|可以|能否|可否")
+_WILL_YOU = re.compile(r"(?:please\s+)?(?:could|can|would|will)\s+you\b|可以")
 _SUPPOSING = re.compile(
     r"(?:(?:and|but|so)\s+)?(?:what\s+(?:if|about|happens\s+(?:if|with)|would\s+happen\s+(?:if|with))|suppose|supposing|"
     r"imagine|assume|how\s+about|if)\s+(?:(?:we|you|i|they|it|the\s+cell)\s+)?(?:(?:only|had|have|has|got|used?|were\s+to|could)\s+)*|"
@@ -89,15 +121,24 @@ _SUPPOSED_END = re.compile(
     r"[,，]?\s*(?:(?:then\s+)?what(?:\s+(?:would\s+happen|then|happens))?|又?会?(?:怎么样|怎样|如何|怎么办)|的话|呢|结果如何)*"
     r"[?？。.\s]*$"
 )
+_TO_AMOUNT = re.compile(r"\bto\s+[~#^]|[到成为]\s*[~#^]")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Scaled:
-    """A figure that is to be a multiple of what holds: of "power", "rate" or "that"; a floor unless ``cap``."""
+    """A figure that is to be changed by what holds: of "power", "rate" or "that"; a floor unless ``cap``.
+
+    Attributes:
+        how: "of" for a multiple of what holds, "less" or "more" for a change by it.
+        factor: of what holds.
+        signed: 1 or -1 where the figure that is said is added, in W or bit/s; else 0.
+    """
 
     of: str
     factor: float
-    cap: bool
+    cap: bool = False
+    how: str = "of"
+    signed: int = 0
 
     def name_in(self, context: Context) -> str | None:
         """The constraint that is meant; None where "that" could be several or none."""
@@ -108,10 +149,13 @@ class Scaled:
 
 
 def read_relative(line: Line) -> Intent | None:
-    """A change of a limit by a factor, or what would be if it were so changed; None for any other line."""
+    """A change of a limit by what holds, or what would be if it were so changed; None for any other line."""
     context = line.context
-    if context.objective is None or line.figures or len(line.users) > 1:
+    if context.objective is None or len(line.figures) > 1 or len(line.users) > 1:
         return None
+    other = _other_amount(line)
+    if other is not None:
+        return other
     lead = _SUPPOSING.match(line.wish)
     said = line.wish if lead is None else line.wish[lead.end() :]
     if lead is not None:
@@ -119,39 +163,90 @@ def read_relative(line: Line) -> Intent | None:
     elif _WILL_YOU.match(line.shape):
         said = _WILL_YOU.sub("", said).rstrip("?？吗 ")
     scaled = scaled_in(_CHANGING.sub("", said, count=1))
-    if scaled is None:
+    name = None if scaled is None else scaled.name_in(context)
+    if scaled is None or name is None or not _fits(line, scaled, name):
         return None
-    name = scaled.name_in(context)
-    if name is None:
-        return None
-    value = _times(_held(scaled, name, context), scaled.factor, line.users)
-    if value is None:
+    basis = _of_users(_held(scaled, name, context), line.users)
+    if basis is None:
         return line.ask("no_rate_to_change")
-    if lead is not None:
-        return line.question("what_if", constraints={name: value})
-    return line.allocate(context.objective, {name: value}, amends=True)
+    return _changed(line, name, basis, scaled, supposed=lead is not None)
+
+
+def _fits(line: Line, scaled: Scaled, name: str) -> bool:
+    """Whether the figure that is to be added, if any, is of the limit's kind."""
+    kinds = {"power"} if name == "max_power_w" else {"rate"}
+    return {figure.kind for figure in line.figures} == (kinds if scaled.signed else set())
+
+
+def _changed(line: Line, name: str, basis: float | Mapping[str, float], scaled: Scaled, *, supposed: bool) -> Intent:
+    """The limit after the change, as a request or a what-if that remembers what the change was of."""
+    step = scaled.signed * float(line.figures[0].value) if scaled.signed else 0.0
+    value = _each(basis, scaled.factor, step)
+    if min(value.values() if isinstance(value, Mapping) else (value,)) <= 0:
+        return line.ask("nothing_left_of_it")
+    share: dict[str, Detail] = {"share_of": {name: basis}, "share_how": scaled.how}
+    if supposed:
+        return line.question("what_if", constraints={name: value}, **share)
+    return line.allocate(str(line.context.objective), {name: value}, amends=True, details=share)
+
+
+def _other_amount(line: Line) -> Intent | None:
+    """ "No, a third": the change of the line before by another amount; asked about where there was none."""
+    said, amount = with_amount(line.wish)
+    match = _OTHER_AMOUNT.fullmatch(said)
+    if match is None or line.users or not CORRECTS.search(said):
+        return None
+    context = line.context
+    if not context.share_of:
+        return line.ask("what_changes") if amount is not None and "outage_probability" not in context.stated else None
+    name, basis = next(iter(context.share_of.items()))
+    how = "of" if _TO_AMOUNT.search(said) else context.share_how
+    scaled = _scaled(how, amount, "that", cap=False)
+    if scaled is None or isinstance(basis, tuple) or not _fits(line, scaled, name):
+        return None
+    return _changed(line, name, basis, scaled, supposed=context.supposed_objective is not None)
 
 
 def scaled_in(said: str) -> Scaled | None:
-    """What a shape without its lead-in changes, and by which factor.
+    """What a shape without its lead-in changes, and how.
 
-    >>> scaled_in("double the rates")
-    Scaled(of='rate', factor=2.0, cap=False)
+    >>> scaled_in("double the rates").factor, scaled_in("20 % less power").factor
+    (2.0, 0.8)
     """
-    match = next((match for match in (shape.fullmatch(said.strip()) for shape in _SHAPES) if match is not None), None)
+    said = said.strip()
+    shape, amount = with_amount(said)
+    match = next((match for match in (each.fullmatch(shape) for each in _AMOUNT_SHAPES) if match is not None), None)
+    if match is not None:
+        groups = match.groupdict()
+        how = "more" if groups.get("up") else "less" if groups.get("down") else "of"
+        noun = groups.get("power") or groups.get("noun") or "it"
+        return _scaled(how, amount, _of(noun), cap=_caps(noun))
+    match = next((match for match in (each.fullmatch(said) for each in _SHAPES) if match is not None), None)
     if match is None:
         return None
     noun = match["noun"] or "it"
-    of = "power" if re.search("power|budget|wattage|功率", noun) else "rate"
-    of = "that" if noun in ("it", "that", "this") else of
-    return Scaled(of=of, factor=_factor(match), cap=re.search(r"max|cap|limit|上限|最高|最大", noun) is not None)
+    return Scaled(of=_of(noun), factor=_factor(match), cap=_caps(noun))
+
+
+def _scaled(how: str, amount: Amount | None, of: str, *, cap: bool) -> Scaled | None:
+    """A change by a share, or by the figure of the line where there is none; None for a share of a figure."""
+    if amount is not None:
+        return Scaled(of=of, factor=amount.factor(how), cap=cap, how=how)
+    return None if how == "of" else Scaled(of=of, factor=1.0, cap=cap, how=how, signed=1 if how == "more" else -1)
+
+
+def _of(noun: str) -> str:
+    if noun in ("it", "that", "this"):
+        return "that"
+    return "power" if re.search("power|budget|wattage|功率|电|能耗|功耗", noun) else "rate"
+
+
+def _caps(noun: str) -> bool:
+    return re.search(r"max|cap|limit|上限|最高|最大", noun) is not None
 
 
 def _factor(match: re.Match[str]) -> float:
     groups = match.groupdict()
-    percent = groups.get("percent") or groups.get("zh_percent")
-    if percent:
-        return 1 + float(percent) / 100 if groups.get("up") else 1 - float(percent) / 100
     if groups.get("half") or groups.get("twice"):
         return 0.5 if groups.get("half") else 2.0
     prefix, factors = ("zh", _ZH_FACTORS) if "zh0" in groups else ("a", _FACTORS)
@@ -159,7 +254,7 @@ def _factor(match: re.Match[str]) -> float:
 
 
 def _held(scaled: Scaled, name: str, context: Context) -> Constraint | None:
-    """What the factor is of: the limit that holds, which for power is the cell's where it is the lower one."""
+    """What the change is of: the limit that holds, which for power is the cell's where it is the lower one."""
     held = context.constraints.get(name)
     if name == "max_power_w":
         return min(held, context.max_power_w) if isinstance(held, float) else context.max_power_w
@@ -169,15 +264,17 @@ def _held(scaled: Scaled, name: str, context: Context) -> Constraint | None:
     return held
 
 
-def _times(held: Constraint | None, factor: float, users: tuple[str, ...]) -> Constraint | None:
-    """What holds times a factor, for these users alone where any are named; None where they have no figure."""
-    if held is None or factor <= 0 or isinstance(held, tuple):
+def _of_users(held: Constraint | None, users: tuple[str, ...]) -> float | Mapping[str, float] | None:
+    """What holds, for these users alone where any are named; None where they have no figure."""
+    if held is None or isinstance(held, tuple):
         return None
     if not users:
-        return _each(held, factor) if isinstance(held, Mapping) else held * factor
+        return held
     own = held.get(users[0], held.get(EVERYBODY)) if isinstance(held, Mapping) else held
-    return None if own is None else {users[0]: own * factor}
+    return None if own is None else {users[0]: own}
 
 
-def _each(held: Mapping[str, float], factor: float) -> dict[str, float]:
-    return {user: figure * factor for user, figure in held.items()}
+def _each(basis: float | Mapping[str, float], factor: float, step: float) -> float | dict[str, float]:
+    if isinstance(basis, Mapping):
+        return {user: figure * factor + step for user, figure in basis.items()}
+    return basis * factor + step

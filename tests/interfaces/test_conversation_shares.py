@@ -1,0 +1,107 @@
+"""Shares and amounts of what holds, their corrections, and questions whether something can be done."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from conversations import LOSS, SCENE, SEED, Scripted, asks, means
+
+from wirelessagent.agent.session import Session
+from wirelessagent.agent.turn import Turn
+from wirelessagent.language.conversation import understood
+from wirelessagent.language.intent import Intent
+from wirelessagent.language.recogniser import Context
+
+Said = str | tuple[str, Intent]
+HELD = ("highest total rate", asks("max_rate", max_power_w=10.0, min_rate_bps=1e5))
+
+
+def talk(*lines: Said) -> tuple[dict[str, Any], list[Turn]]:
+    """What is asked for after a conversation whose lines need a recogniser only where an intent stands by them."""
+    script = Scripted([line[1] for line in lines if not isinstance(line, str)])
+    session = Session(SCENE, LOSS, seed=SEED, recogniser=script, confirm=False)
+    turns = [session.say(line if isinstance(line, str) else line[0]) for line in lines]
+    assert session.request is not None
+    assert session.request.objective == "max_rate"
+    return dict(session.request.constraints), turns
+
+
+@pytest.mark.parametrize(
+    ("said", "power_w"),
+    [
+        ("把总功率降20%", 8.0), ("降低20%功率", 8.0), ("lower the power by 20 %", 8.0), ("20 % less power", 8.0),
+        ("reduce power by 2 W", 8.0), ("2 W less power", 8.0), ("功率降低2瓦", 8.0), ("再省两成的电", 8.0),
+        ("reduce the power by a third", 20 / 3), ("reduce the power to a third", 10 / 3), ("功率降到三分之一", 10 / 3),
+        ("10 dB less power", 1.0), ("turn the power down by 10 dB", 1.0), ("raise the power by 50 %", 15.0),
+        ("只用四分之一的功率", 2.5), ("use half the power", 5.0), ("a quarter of the power", 2.5),
+    ],
+)  # fmt: skip
+def test_a_share_or_an_amount_changes_the_limit_that_holds_and_nothing_else(said: str, power_w: float) -> None:
+    held, _ = talk(HELD, said)
+    assert held == {"max_power_w": pytest.approx(power_w), "min_rate_bps": 1e5}
+
+
+def test_without_a_limit_the_change_is_of_what_the_cell_may_radiate() -> None:
+    assert talk(("max rate", asks("max_rate")), "lower the power by 5 W")[0] == {"max_power_w": 15.0}
+
+
+def test_what_would_leave_nothing_is_asked_about() -> None:
+    held, turns = talk(HELD, "reduce the power by 12 W")
+    assert (held["max_power_w"], turns[-1].stage) == (10.0, "asked")
+
+
+def test_a_rate_of_one_user_changes_by_an_amount() -> None:
+    held, _ = talk(HELD, "raise user 2's rate by 50 kbit/s")
+    assert held["min_rate_bps"] == {"all": 1e5, "2": 1.5e5}
+
+
+@pytest.mark.parametrize(
+    ("said", "corrected", "power_w"),
+    [
+        ("half the power", "no, a third", 10 / 3), ("功率减半", "不是，我说的是三分之一", 10 / 3),
+        ("lower the power by 20 %", "sorry, by 30 %", 7.0), ("lower the power by 20 %", "no, to 30 %", 3.0),
+        ("reduce power by 2 W", "I meant 3 W", 7.0), ("把功率降20%", "说错了，降三成", 7.0),
+    ],
+)  # fmt: skip
+def test_another_share_corrects_the_one_before(said: str, corrected: str, power_w: float) -> None:
+    held, _ = talk(HELD, said, corrected)
+    assert held == {"max_power_w": pytest.approx(power_w), "min_rate_bps": 1e5}
+
+
+def test_a_corrected_share_of_nothing_is_asked_about_unless_a_reliability_was_stated() -> None:
+    held, turns = talk(HELD, "no, a third")
+    assert (turns[-1].stage, held["max_power_w"]) == ("asked", 10.0)
+    stated = Context(objective="max_rate", stated={"outage_probability": 0.1})
+    assert understood("no, 95 %", stated, Scripted([means("out_of_scope")])).kind == "out_of_scope"
+
+
+@pytest.mark.parametrize("said", ["能不能只用一半功率?", "can we run on half the power?", "能只用一半功率吗？"])
+def test_whether_a_share_is_possible_is_a_what_if(said: str) -> None:
+    held, turns = talk(HELD, said)
+    assert (held["max_power_w"], turns[-1].intent.topic) == (10.0, "what_if")
+    assert talk(HELD, said, "do that")[0]["max_power_w"] == 5.0
+    held, turns = talk(HELD, said, "no, a third")
+    assert (held["max_power_w"], turns[-1].intent.topic) == (10.0, "what_if")
+    assert talk(HELD, said, "不是，我说的是三分之一", "就这么办")[0]["max_power_w"] == pytest.approx(10 / 3)
+
+
+@pytest.mark.parametrize("said", ["可不可以不服务4号?", "can we leave user 4 out?", "不服务4号行不行？"])
+def test_whether_a_request_is_possible_is_a_what_if(said: str) -> None:
+    would = (said, asks("max_rate", amends=True, leave_out=("4",)))
+    held, turns = talk(HELD, would)
+    assert (turns[-1].stage, "leave_out" in held) == ("answered", False)
+    assert talk(HELD, would, "do that")[0]["leave_out"] == ("4",)
+
+
+def test_a_limit_that_would_go_goes_in_the_what_if_and_in_what_takes_it() -> None:
+    free = means("allocate", "max_rate", amends=True, dropped=("max_power_w",))
+    held, turns = talk(HELD, ("can we drop the power limit?", free))
+    assert turns[-1].run is not None
+    assert turns[-1].run.decision.problem.max_power_w is None
+    assert "max_power_w" in held
+    assert "max_power_w" not in talk(HELD, ("can we drop the power limit?", free), "do that")[0]
+
+
+def test_could_you_is_a_polite_command() -> None:
+    assert talk(HELD, "could you halve the power?")[0]["max_power_w"] == 5.0
