@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 import itertools
+import json
 import random
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from wirelessagent.language import training
+from wirelessagent.language.base_words import FOLDER as FOLDER_OF_BASE_WORDS
+from wirelessagent.language.base_words import based
 from wirelessagent.language.features import BUCKETS, buckets
-from wirelessagent.language.intent import COMMANDS, QUESTIONS
+from wirelessagent.language.intent import COMMANDS, QUESTIONS, checked_constraints
 from wirelessagent.language.linear_model import MODEL_FILE, shipped_model
 from wirelessagent.language.sentence import BUILT_IN
 from wirelessagent.language.spelling import nearest, respelt
 from wirelessagent.language.training.compose import LANGUAGES, SLOTS, SURROUNDINGS, sentences
 from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save
 from wirelessagent.language.training.grammar import Grammar
+from wirelessagent.language.training.spoken import spoken
+from wirelessagent.model.errors import InputError
 
 FOLDER = Path(training.__file__).parent
 
@@ -58,11 +64,58 @@ def test_the_same_sentences_for_a_seed(drawn: list[tuple[str, str]]) -> None:
     assert len(drawn) > 20_000
 
 
-def test_no_sentence_of_the_test_set_is_trained_on(drawn: list[tuple[str, str]]) -> None:
-    path = Path(__file__).parents[1] / "intents" / "development.jsonl"
-    said = path.read_text(encoding="utf-8").lower()
-    long = {text for text, _ in drawn if len(text) > (12 if not text.isascii() else 40)}
-    assert not [text for text in long if f'"text": "{text.lower()}"' in said]
+def letters(text: str) -> str:
+    return re.sub(r"\W+", "", text.lower())
+
+
+@pytest.fixture(scope="module")
+def tested() -> set[str]:
+    files = sorted((Path(__file__).parents[1] / "intents").glob("*.jsonl"))
+    assert len(files) == 4
+    return {letters(json.loads(line)["text"]) for file in files for line in file.read_text("utf-8").splitlines()}
+
+
+def test_no_long_sentence_of_the_test_sets_is_drawn(drawn: list[tuple[str, str]], tested: set[str]) -> None:
+    long = {letters(text) for text, _ in drawn if len(text) > (12 if not text.isascii() else 40)}
+    assert not long & tested
+
+
+def test_no_sentence_of_the_test_sets_was_spoken_for_training(tested: set[str]) -> None:
+    assert [each.text for each in spoken() if letters(each.text) in tested] == []
+
+
+def test_spoken_sentences_have_labels_of_the_model_and_constraints_of_an_intent() -> None:
+    heads = {label.partition(".")[0] for label in shipped_model().labels} | set(shipped_model().labels)
+    wrong = [each for each in spoken() if each.label not in heads or not checked_constraints(each.constraints or {})]
+    assert [each for each in wrong if each.label not in heads or each.constraints] == []
+
+
+def test_an_installed_package_says_that_the_sentences_are_in_the_sources(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="checkout"):
+        list(spoken(tmp_path))
+
+
+@pytest.mark.parametrize(
+    ("language", "tokens", "expected"),
+    [
+        ("de", ["dem", "langsamsten", "nutzer", "xqzt"], ["slow", "user", "xqzt"]),
+        ("es", ["la", "maxima", "velocidad"], ["most", "speed"]),
+        ("fr", ["le", "debit"], ["rate"]),
+        ("zh", list("最慢的用户"), ["slow", "user"]),
+        ("zh", [*"速率", "users", "龘"], ["rate", "user"]),
+        ("xx", ["the", "speed"], ["speed"]),
+    ],
+)
+def test_words_of_all_languages_meet_in_base_words(language: str, tokens: list[str], expected: list[str]) -> None:
+    assert based(tokens, language) == expected
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_base_words_are_forms_as_the_features_see_them(language: str) -> None:
+    lines = (FOLDER_OF_BASE_WORDS / f"{language}.tsv").read_text("utf-8").splitlines()
+    pairs = [line.split("\t") for line in lines]
+    assert len({word for word, _ in pairs}) == len(pairs) > 3000
+    assert [word for word, base in pairs if word != word.lower() or not base.isascii() or not base] == []
 
 
 def test_the_shipped_model_knows_the_labels_of_the_templates(drawn: list[tuple[str, str]]) -> None:

@@ -6,14 +6,18 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from wirelessagent.language.exceptions import Standing, exception_of
 from wirelessagent.language.intent import EVERYBODY, Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import Mention, Role
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.roles import UserRole, is_something_of, role_of
+from wirelessagent.language.text import CLAUSE_END
 
 _SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.65, 0.5, 0.45
+
+_CUT = re.compile(CLAUSE_END)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,6 +50,7 @@ class Allotments:
         self._lists: dict[str, dict[str, str]] = {"users": {}, "leave_out": {}, "back": {}}
         self._used: set[Mention] = set()
         self._unsure: list[Mention] = []
+        self._excepted: set[Mention] = set()
         self.exact: set[str] = set()
         self.spans: list[tuple[int, int]] = []
         self._roles: dict[Mention, UserRole] = {}
@@ -57,11 +62,16 @@ class Allotments:
             self._weigh(number)
 
     def _assign(self, mention: Mention) -> None:
+        standing = exception_of(self._plain, mention.start, mention.end) if mention.role == "named" else ""
+        if self._is_settled(mention, standing):
+            return
         role, start, end = role_of(self._plain, mention.start, mention.end)
         users = mention.users
         if mention.role == "pronoun":
             users = self._meant_by(mention).users
-        if role != "back":
+        if standing == "leaves":
+            role = "leave_out"
+        elif role != "back":
             likeliest = self._likeliest(mention)
             role, start, end = (role, start, end) if likeliest == role else (likeliest, mention.start, mention.end)
         if role == "none" or not users:
@@ -72,6 +82,29 @@ class Allotments:
         self.spans.append((start, end))
         for user in users:
             self._lists[role][user] = self._text[start:end].strip()
+
+    def _is_settled(self, mention: Mention, standing: Standing) -> bool:
+        """Whether somebody is an exception: kept, who needs nothing, or excepted from a rate, who is asked about."""
+        if standing == "kept":
+            self._used.add(mention)
+            self.spans.append((mention.start, mention.end))
+            return True
+        if standing == "excepted" and any(self._is_excepted_from(figure, mention) for figure in self._judged.figures):
+            self._unsure.append(mention)
+            self._excepted.add(mention)
+            return True
+        return False
+
+    def _is_excepted_from(self, figure: Quantity, mention: Mention) -> bool:
+        """Whether the exception is from this rate, in its clause or right after it: "1 Mbit/s each, not user 3"."""
+        if figure.kind != "rate":
+            return False
+        before = figure.end <= mention.start
+        between = self._plain[figure.end : mention.start] if before else self._plain[mention.end : figure.start]
+        cuts = len(_CUT.findall(between))
+        first = max((cut.end() for cut in _CUT.finditer(self._plain, 0, mention.start)), default=0)
+        others = any(m.role in ("everybody", "others") and first <= m.start < mention.start for m in self._found)
+        return cuts == 0 or (before and cuts == 1 and not others)
 
     def _likeliest(self, mention: Mention) -> UserRole:
         """What the model says of somebody named; without certainty nobody is left out or served alone."""
@@ -90,7 +123,11 @@ class Allotments:
 
     def target_of(self, start: int) -> Target:
         """Whom the figure at ``start`` is for, which are none of those who are left out."""
-        candidates = [mention for mention in self._found if self._roles.get(mention, "none") != "leave_out"]
+        candidates = [
+            mention
+            for mention in self._found
+            if self._roles.get(mention, "none") != "leave_out" and mention not in self._excepted
+        ]
         chances = self._judged.owners(start, candidates)
         target = self._target(max(chances, key=lambda mention: chances[mention]))
         same = [chance for mention, chance in chances.items() if self._are_the_same(self._target(mention), target)]

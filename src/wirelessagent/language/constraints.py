@@ -162,7 +162,8 @@ class _Reader:
             if not twice and all(sum(role == name for role, _ in held) < 2 for name in _ONCE):
                 together[roles] = math.prod(chances[index][role] for role, index in zip(roles, places, strict=True))
         likeliest = max(together, key=lambda roles: together[roles])
-        sure = together[likeliest] / sum(together.values())
+        total = sum(together.values())
+        sure = together[likeliest] / total if total > 0 else 0.0
         fits = sure > (_SURE_OF_A_LIMIT if set(likeliest) == {"max_power_w"} else _SURE)
         certain = {index: chances[index][role] > _CERTAIN for index, role in zip(places, likeliest, strict=True)}
         return {index: (role if fits else "", certain[index]) for index, role in zip(places, likeliest, strict=True)}

@@ -115,6 +115,8 @@ def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
 def _enough(goal: Goal, objective: str) -> float:
     """How likely the objective has to be for acting on it, given what the lexicon finds."""
     refused = goal.verdict == "negated" and objective in goal.options  # "power saving isn't what I want"
-    if refused or goal.verdict == "opposite":  # "drain the battery"
+    turned = goal.verdict == "opposite" and objective != "max_min_rate"  # "drain the battery", not "lift the slow ones"
+    if refused or turned:
         return _ENOUGH_FOR_THE_OPPOSITE
-    return _ENOUGH_AGAINST_THE_LEXICON if goal.verdict == "clear" and goal.objective != objective else _ENOUGH
+    another = goal.verdict == "opposite" or (goal.verdict == "clear" and goal.objective != objective)
+    return _ENOUGH_AGAINST_THE_LEXICON if another else _ENOUGH
