@@ -41,7 +41,7 @@ WISHES: list[tuple[str, str, bool]] = [
     ("the same with the least power", POWER, True),
     ("条件不变,改为功率最低", POWER, True),
     ("what about proportional fairness instead?", FAIR, True),
-    ("save power", POWER, False),
+    ("save power", POWER, True),
 ]
 
 COMMANDS: list[tuple[str, str, dict[str, Any]]] = [

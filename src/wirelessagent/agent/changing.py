@@ -13,7 +13,7 @@ from wirelessagent.agent.acting import Effect, same_allocation
 from wirelessagent.agent.events import Event
 from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.referring import no_such_turn
-from wirelessagent.agent.request import requested
+from wirelessagent.agent.request import Request, requested
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.run import applied_line, with_outcome
 from wirelessagent.agent.site import Site
@@ -23,6 +23,7 @@ from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import joined, say
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.restating import limits_in_words
 from wirelessagent.model.units import human
 
 
@@ -33,7 +34,8 @@ def allocate(site: Site, state: State, intent: Intent) -> Reply:
     new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good, stated=state.stated)
     turn = intent.details.get("turn")
     back = [] if turn is None else [told(intent.language, "back_to_turn", number=turn)]
-    said = joined(intent.language, [*back, restated(request, intent.language), *_notes(run), _sentence(run)])
+    changed = _changed(state.request, request, intent)
+    said = joined(intent.language, [*back, restated(request, intent.language), *changed, *_notes(run), _sentence(run)])
     if not run.decision.is_usable:
         return _reply(site, intent, [said, say(intent.language, "not_applied")], "nothing", new, run)
     if state.on_air is not None and same_allocation(run.decision, state.on_air.decision):
@@ -41,6 +43,17 @@ def allocate(site: Site, state: State, intent: Intent) -> Reply:
         new = dataclasses.replace(new, run=kept, on_air=kept)
         return _reply(site, intent, [said, say(intent.language, "no_change")], "nothing", new, kept)
     return _carry_or_ask(site, new, intent, run, said)
+
+
+def _changed(before: Request | None, request: Request, intent: Intent) -> list[str]:
+    """What another aim keeps of the limits that held, or what a new request drops of them."""
+    if before is None or not before.constraints:
+        return []
+    gone = {name: value for name, value in before.constraints.items() if name not in request.constraints}
+    if gone and not intent.amends:
+        return [told(intent.language, "no_longer", limits=limits_in_words(gone, intent.language))]
+    kept = request.objective != before.objective and dict(request.constraints) == dict(before.constraints)
+    return [told(intent.language, "limits_stay")] if kept else []
 
 
 def apply(site: Site, state: State, intent: Intent) -> Reply:
@@ -61,6 +74,8 @@ def apply(site: Site, state: State, intent: Intent) -> Reply:
 def confirm(site: Site, state: State, intent: Intent) -> Reply:
     """A yes: apply what waits for it."""
     if state.planned is None:
+        if "way" in intent.details:
+            return Reply(text=told(intent.language, "which_way"), stage="asked")
         return Reply(text=say(intent.language, "nothing_to_confirm"))
     return apply(site, state, intent)
 
@@ -71,6 +86,8 @@ def reject(state: State, intent: Intent, past: Sequence[State]) -> Reply:
     if state.question is not None:
         return Reply(text=told(language, "question_dropped"), stage="nothing", state=state.settled)
     if state.planned is None:
+        if "stop" in intent.details:
+            return Reply(text=told(language, "kept_as_it_is"), stage="nothing")
         if cancels:
             return Reply(text=told(language, "nothing_to_cancel"), stage="asked")
         return Reply(text=say(language, "nothing_to_confirm"))

@@ -12,6 +12,7 @@ import numpy as np
 
 from wirelessagent import plugins
 from wirelessagent.agent.request import Request
+from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import say
 from wirelessagent.explain.labels import called
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint
@@ -81,6 +82,7 @@ class _Posing:
         self._check_rates()
         self._check_outage()
         fields: dict[str, Any] = {"users": self._served()}
+        self._check_promised(fields["users"])
         for name, value in self._given.items():
             fields[name] = self._by_user(name, value) if name in FIGURES_OF_USERS else value
         self._check_order(fields)
@@ -160,6 +162,16 @@ class _Posing:
             user = crossed[0]
             low, high = (human(float(rate[user]), "bit/s") for rate in (least, most))
             raise UnclearRequestError(self._say("rates_crossed", user=self._names[user], low=low, high=high))
+
+    def _check_promised(self, served: tuple[int, ...] | None) -> None:
+        """Refuse a rate that is promised by name to somebody who is not served."""
+        promised = self._given.get("min_rate_bps")
+        for reference, rate in promised.items() if isinstance(promised, Mapping) and served is not None else ():
+            if reference != EVERYBODY and self._number(reference) not in served:
+                user = called(self._language, self._names[self._number(reference)])
+                raise UnclearRequestError(
+                    told(self._language, "promised_and_left_out", user=user, rate=human(rate, "bit/s"))
+                )
 
     def _check_group(self, fields: dict[str, Any]) -> None:
         size = fields.get("resource_block_group_size")

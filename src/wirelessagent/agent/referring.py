@@ -79,7 +79,9 @@ def history(intent: Intent, turns: Sequence[Turn]) -> Reply:
 
 
 def turn_of(turns: Sequence[Turn], number: Detail) -> Turn | None:
-    """The turn of this number; None where there is none."""
+    """The turn of this number, or the "first" with a decision; None where there is none."""
+    if number == "first":
+        return next((turn for turn in turns if turn.run is not None and turn.intent.kind == "allocate"), None)
     return next((turn for turn in turns if turn.number == number), None)
 
 

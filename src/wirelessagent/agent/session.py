@@ -48,6 +48,7 @@ _USER = re.compile(
 _NOTE = re.compile(r"[(（][^()（）]+[)）]$")
 """What a recogniser says of itself at the end of a reply."""
 
+_WHY = ("why_infeasible", "why_user")
 _LONGEST_NAME = 100
 """Characters of a line that may be such an answer."""
 
@@ -149,10 +150,18 @@ class Session:
             stated=state.stated,
             supposed_objective=None if supposed is None else supposed.objective,
             supposed={} if supposed is None else supposed.constraints,
+            ways=self._unmet() is not None,
             share_of=cast("Mapping[str, Constraint]", before.get("share_of") or {}),
             share_how=str(before.get("share_how", "of")),
             language=self._language,
         )
+
+    def _unmet(self) -> Run | None:
+        """What the line before asked for or supposed, where that can't be met; questions why lie between."""
+        asked = (turn for turn in reversed(self._turns) if turn.intent.topic not in _WHY)
+        last = next(asked, None)
+        run = None if last is None else last.run
+        return None if run is None or run.decision.is_usable else run
 
     def _reply(self, intent: Intent, text: str, context: Context) -> Reply:
         """What the intent leads to; what cannot be done becomes a reply, and changes nothing."""
@@ -161,7 +170,8 @@ class Session:
         except UnclearRequestError as question:
             reference = question.reference if isinstance(question, UnknownUserError) else None
             missing = None if reference is None else Missing(intent=intent, reference=reference)
-            open_ = Question(pending=intent.constraints, objective=intent.objective, missing=missing)
+            sure = {name: value for name, value in intent.constraints.items() if not isinstance(value, Mapping | tuple)}
+            open_ = Question(pending=sure if missing is None else {}, objective=intent.objective, missing=missing)
             asked = dataclasses.replace(self._state, planned=None, question=open_)
             return Reply(text=str(question), stage="asked", state=asked)
         except WirelessAgentError as error:
@@ -206,7 +216,9 @@ class Session:
         handle = (of_turns if "turn" in intent.details else {}).get(topic) or handlers.get(topic)
         if handle is not None:
             return handle()
-        return asking.question(site, state, intent, text) if intent.kind == "question" else Reply(text=intent.reply)
+        unmet = self._unmet() if topic in _WHY else None
+        seen = state if unmet is None else dataclasses.replace(state, run=unmet)
+        return asking.question(site, seen, intent, text) if intent.kind == "question" else Reply(text=intent.reply)
 
     def _take(self, reply: Reply, intent: Intent) -> None:
         """Let what the reply brought hold, and remember what held before another request."""

@@ -19,6 +19,12 @@ _ENGLISH: Mapping[str, str] = {
     "turn_without_decision": "Nothing was decided in turn {number}.",
     "compared_turn": "Beside {turn}: {line}.",
     "compared_with_itself": "The decision that holds is that of {turn}; name another turn to compare it with.",
+    "limits_stay": "The limits stay as they were.",
+    "no_longer": "No longer: {limits}.",
+    "kept_as_it_is": "All stays as it is.",
+    "which_way": "That cannot be met as asked. Which of the ways that can: say its figure, or whom to leave out.",
+    "promised_and_left_out": "{user} can't be promised {rate} and be left out at once. Which of the two should hold? "
+    "To give the promise up, say '{user} needs no minimum rate'.",
     "plan_or_what_if": "The plan still waits: 'yes' applies {request}; 'do that' takes the what-if instead.",
     "plan_still_waits": "The plan still waits: 'yes' applies {request}.",
 }
@@ -37,6 +43,12 @@ _CHINESE: Mapping[str, str] = {
     "turn_without_decision": "第 {number} 轮没有作出决定。",
     "compared_turn": "与{turn}比较：{line}。",
     "compared_with_itself": "现行的决定就是{turn}的决定；请说明与哪一轮比较。",
+    "limits_stay": "原有限制保持不变。",
+    "no_longer": "不再要求：{limits}。",
+    "kept_as_it_is": "一切保持不变。",
+    "which_way": "所要求的无法满足。要哪一种可以满足的方案？请说出其数值，或不服务哪个用户。",
+    "promised_and_left_out": "不能既向{user}承诺 {rate} 又不服务它。以哪一个为准？"
+    "要放弃承诺，请说“取消{user}的最低速率”。",
     "plan_or_what_if": "原计划仍在等待：说“是”即应用{request}；说“就这么办”则改用这个假设。",
     "plan_still_waits": "原计划仍在等待：说“是”即应用{request}。",
 }

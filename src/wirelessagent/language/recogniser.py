@@ -27,6 +27,7 @@ class Context:
         offered: the objective or the command that a yes to the question means; None where it has no such meaning.
         stated: what the last request stated, which "it" and "that" refer to.
         supposed_objective, supposed: the request of a what-if right before; None and empty where there was none.
+        ways: whether the line right before was told that it can't be met, and what can be met instead.
         share_of, share_how: what the line right before changed by a share or an amount, as it was before, and whether
             it became that share "of" it, or that much "less" or "more"; empty where it did not.
         language: of the conversation so far; "" at its start.
@@ -44,6 +45,7 @@ class Context:
     stated: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     supposed_objective: str | None = None
     supposed: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    ways: bool = False
     share_of: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     share_how: str = "of"
     language: str = ""

@@ -14,6 +14,7 @@ from wirelessagent.language.conversation.amendments import read_amendment
 from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.relative import read_relative
+from wirelessagent.language.conversation.reports import only_told
 from wirelessagent.language.conversation.unanswered import Unanswered, leaves_the_question, unanswered
 from wirelessagent.language.conversation.wondering import is_worked_out, supposed, wondered
 from wirelessagent.language.intent import Intent
@@ -41,7 +42,7 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
         )  # fmt: skip
     intent = recogniser.recognise(text, context)
-    return asked_instead(line, intent) or intent
+    return only_told(line, intent) or asked_instead(line, intent) or intent
 
 
 def _possible(line: Line, asked: str, recogniser: Recogniser) -> Intent:

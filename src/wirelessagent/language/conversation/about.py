@@ -23,6 +23,17 @@ _RESULT = re.compile(
     r"how\s+did\s+(?:it|that)\s+(?:go|turn\s+out)|"
     rf"{_NOW}(?:结果|分配|分配结果|效果)(?:的)?{_ZH_HOW}(?:呢|啊)?"
 )
+_IN_FORCE = re.compile(
+    r"(?:(?:show|tell)\s+(?:me\s+)?)?what(?:'s|\s+is)?\s+(?:(?:currently|now)\s+)?(?:holds?|in\s+(?:effect|force|place)|asked\s+for|"
+    r"(?:the\s+)?(?:current\s+)?request)(?:\s+(?:right\s+)?now|\s+at\s+the\s+moment)?|"
+    r"what\s+(?:did|do|have)\s+you\s+(?:understand|understood|get|got)(?:\s+(?:so\s+far|from\s+that))?|"
+    r"(?:现在|目前|当前)的?(?:要求|请求|限制)(?:是|有)?(?:什么|哪些)(?:呢|啊)?|(?:现在|目前)(?:生效|有效)的(?:是)?(?:什么|要求)(?:要求)?|"
+    r"你(?:是怎么)?理解(?:了|成)什么"
+)
+_THANKS = re.compile(
+    r"(?:(?:ok(?:ay)?|great|good|perfect|fine|many|all\s+right)[,!.\s]+)*(?:thanks|thank\s+you|thx|cheers|ta)"
+    r"(?:\s+(?:a\s+lot|very\s+much|so\s+much|again))?|(?:好的?[,，]?)?(?:谢谢|多谢|感谢|谢了)(?:你|您|啦|了)?"
+)
 _OF_THE_USERS = re.compile(
     r"\b(?:who|whose|which\s+(?:user|one)|what\s+(?:rate|speed)|rates?|speeds?|everyone|each\s+user)\b|"
     r"谁|哪[个些位]?(?:用户|人)?|速率|速度|多快|每个用户|各用户|用户"
@@ -38,9 +49,13 @@ _ASKING = re.compile(r"谁|哪|什么|怎么|怎样|如何|多少|几个|吗|呢
 
 def read_question(line: Line) -> Intent | None:
     """A question about the channel or the result as a whole, where there is one; None for any other line."""
+    said = line.wish.rstrip("?？ ").strip()
+    if _THANKS.fullmatch(line.shape.rstrip(".!。！~ ")):
+        return line.courtesy("welcome")
+    if _IN_FORCE.fullmatch(said):
+        return line.command("status")
     if line.context.objective is None:
         return None
-    said = line.wish.rstrip("?？ ").strip()
     if _CHANNEL.fullmatch(said):
         return line.question("uncertainty")
     return line.command("explain") if _RESULT.fullmatch(said) else None

@@ -77,10 +77,22 @@ _TAKEN_IN = re.compile(
     rf"{_ALSO}*+{_TAKE_IN}{_ALSO}*+@(?:{_ALSO}|to\s+(?:them|those|the\s+(?:list|users|group|others|rest)))*+"
     rf"(?:进来|进去|一起|吧)*+|{_ALSO}*+@{_ALSO}*+{_TAKE_IN}(?:进来|进去|上|吧|一起)*+"
 )
+_EVERYONE_IN = re.compile(
+    rf"(?:never\s?mind[,，.\s]+|no[,，\s]+)?{_ALSO}*+(?:serve|include|bring\s+back|take\s+back)\s+(?:everyone|everybody|all(?:\s+(?:the\s+)?"
+    rf"users)?|them\s+all){_ALSO}*+|(?:算了[,，]?)?(?:大家|所有人|所有用户|全部用户|每个人|全部|全都|都)+(?:都|再)?(?:恢复|重新)?服务|"
+    r"(?:算了[,，]?)?(?:恢复|重新)?服务(?:大家|所有人|所有用户|全部用户|全部)"
+)
+_KEPT_IN = re.compile(rf"{_ALSO}*+(?:keep|retain|保留|留下|留着){_ALSO}*+@{_ALSO}*+")
 _SAME_FOR = re.compile(
     r"(?:the\s+)?same\s+(?:goes\s+)?for\s+@(?:\s+too)?|also\s+(?:for\s+)?@|@\s+(?:too|as\s+well|also)|"
     r"@(?:也|同样)(?:是|一样|如此|这样|照此|要|同样)*(?:处理)?"
 )
+_BARE_NUMBER = re.compile(
+    rf"(?:{CORRECTING}|{BESIDE})*+(?P<number>\d+(?:\.\d+)?)\s*(?P<prefix>[kmg])?(?:[,，\s]*(?:instead|才对))?"
+)
+_PREFIXES = {"k": 1e3, "m": 1e6, "g": 1e9}
+_PLAUSIBLE = 100
+"""How many times more or less a corrected figure may be for its unit to be clear."""
 _RATES = ("min_rate_bps", "max_rate_bps")
 
 
@@ -92,7 +104,7 @@ def read_amendment(line: Line) -> Intent | None:
             return answer
     if line.context.objective is None:
         return None
-    for read in (_freed, _taken_in, _same_for, _other_user, _other_figure):
+    for read in (_freed, _taken_in, _same_for, _other_user, _other_figure, _other_number):
         intent = read(line)
         if intent is not None:
             return intent
@@ -217,6 +229,25 @@ def _other_figure(line: Line) -> Intent | None:
     return _restated(line, new) if name == held[0] else _restated(line, new, gone=held[0])
 
 
+def _other_number(line: Line) -> Intent | None:
+    """ "Make it 600": the figure that was stated last, in its own unit; asked about where that is not clear."""
+    match = _BARE_NUMBER.fullmatch(line.wish)
+    held = [name for name in ("max_power_w", *_RATES) if name in line.context.stated]
+    if match is None or line.users or line.figures or len(held) != 1 or not CORRECTS.search(line.wish):
+        return None
+    name, stated = held[0], line.context.stated[held[0]]
+    before = set(stated.values()) if isinstance(stated, Mapping) else {stated}
+    if len(before) > 1 or isinstance(stated, tuple):
+        return None
+    old, said = float(str(before.pop())), float(match["number"])
+    own = next((scale for scale in (1e9, 1e6, 1e3, 1.0, 1e-3) if old >= scale), 1e-3)
+    new = said * (_PREFIXES[match["prefix"]] if match["prefix"] else min(own, 1.0) if name == "max_power_w" else own)
+    if not old / _PLAUSIBLE <= new <= old * _PLAUSIBLE:
+        return line.ask("unit_missing", text=match["number"])
+    value: Constraint = dict.fromkeys(stated, new) if isinstance(stated, Mapping) else new
+    return _restated(line, {name: value})
+
+
 def _is_another(wish: str) -> bool:
     """Whether a line is a figure with words that correct one."""
     return _THAT_FIGURE.fullmatch(wish) is not None and CORRECTS.search(wish) is not None
@@ -285,7 +316,12 @@ def _reference(name: str, place: int) -> str:
 def _taken_in(line: Line) -> Intent | None:
     """ "Also serve user 2": a user more, where only some are served."""
     context = line.context
-    if not line.users or line.figures or not _TAKEN_IN.fullmatch(line.wish):
+    if _EVERYONE_IN.fullmatch(line.wish):
+        back = tuple(name for name in LISTS_OF_USERS if name in context.constraints)
+        if not back:
+            return line.ask("all_served")
+        return line.allocate(str(context.objective), {}, amends=True, dropped=back)
+    if not line.users or line.figures or not (_TAKEN_IN.fullmatch(line.wish) or _KEPT_IN.fullmatch(line.wish)):
         return None
     values, dropped = taken_in(line.users, context)
     if not values and not dropped:

@@ -73,9 +73,19 @@ _NO_REFERENCE = {
     "off", "on", "up", "down", "around", "over", "back", "out", "in", "into", "to", "it", "the", "this", "that", "last",
     "previous", "left", "right",
 }  # fmt: skip
+_STOP = re.compile(
+    r"stop(?:\s+(?:it|that|there|here))?|(?:do\s+not|don't)\s+(?:change|touch|do)\s+anything(?:\s+(?:now|yet|for\s+now))?|"
+    r"leave\s+(?:it|everything)\s+(?:as\s+it\s+is|alone)|停|停下|(?:先)?(?:什么都)?(?:不要|别)(?:再)?(?:改|动)(?:任何东西|了)?"
+)
+_FIRST = re.compile(
+    r"compare\s+(?:it\s+|this\s+|that\s+)?(?:with|to|against)\s+the\s+(?:very\s+)?first(?:\s+(?:one|result|plan|decision|"
+    r"request|turn))?|(?:比较|对比)?(?:跟|和|与|同)?(?:第一|最初|最开始)(?:次|个|的)?(?:结果|方案|那个|那次)?的?(?:比一比|比较|对比|相比|比)"
+    r"(?:一下)?"
+)
+_THIS_OR = re.compile(rf"(?:this(?:\s+one)?|now|the\s+current\s+one)\s*,?\s*(?:or|vs\.?|versus)\s+{_TURN}\s+{_REF}")
 _APPLY = re.compile(
-    r"(?:apply|activate|deploy|use|take)\s+(?:it|that|this)|do\s+(?:it|that|this|so)(?:\s+then)?|"
-    r"(?:go|proceed)\s+with\s+(?:it|that|this)|make\s+it\s+so|(?:go|do)\s+(?:for\s+it|it\s+that\s+way|like\s+that)|"
+    r"(?:(?:go\s+(?:on|ahead)|yes|fine|good|great|right|alright|sure)[,，.!\s]+(?:and\s+|then\s+)?)*+(?:(?:apply|activate|deploy|use|take)\s+(?:it|that|this)|do\s+(?:it|that|this|so)(?:\s+then)?|"
+    r"(?:go|proceed)\s+with\s+(?:it|that|this)|make\s+it\s+so|(?:go|do)\s+(?:for\s+it|it\s+that\s+way|like\s+that))|"
     r"(?:就|照|按)*(?:这么|这样|这个)(?:方案)?(?:去)?(?:办|做|定|来|干|执行|吧)|(?:就)?(?:用|采用)(?:这个|它)(?:方案)?|应用(?:它|这个)?"
 )
 _THAT = re.compile(r"(?:apply|activate|deploy|use|take)\s+it|应用(?:它)?")
@@ -91,7 +101,11 @@ def read_command(line: Line) -> Intent | None:
 def _taken_up(line: Line, said: str) -> Intent | None:
     """A what-if that becomes the request, for "do that" right behind it."""
     context = line.context
-    if context.supposed_objective is None or not _APPLY.fullmatch(said):
+    if not _APPLY.fullmatch(said) or context.awaits == "clarification":
+        return None
+    if context.ways and context.awaits == "nothing":
+        return line.command("confirm", way="which")
+    if context.supposed_objective is None:
         return None
     if context.awaits == "confirmation" and _THAT.fullmatch(said):
         return None
@@ -101,6 +115,8 @@ def _taken_up(line: Line, said: str) -> Intent | None:
 def _undone(line: Line, said: str) -> Intent | None:
     if _ALL_STEPS.fullmatch(said):
         return line.command("undo", steps="all")
+    if _STOP.fullmatch(said):
+        return line.command("reject", cancel="pending", stop="all")
     if _CANCEL.fullmatch(said):
         return line.command("reject", cancel="pending")
     match = _BACK_TO.fullmatch(said)
@@ -112,6 +128,11 @@ def _undone(line: Line, said: str) -> Intent | None:
 
 
 def _about_a_turn(line: Line, said: str) -> Intent | None:
+    if _FIRST.fullmatch(said):
+        return line.command("compare", turn="first")
+    match = _THIS_OR.fullmatch(said)
+    if match is not None and not _is_idiom(match):
+        return line.command("compare", turn=_reference(match))
     match = _COMPARE.fullmatch(said) if _COMPARES.search(said) else None
     if match is not None and not _is_idiom(match):
         details: dict[str, Detail] = {"turn": _reference(match)}

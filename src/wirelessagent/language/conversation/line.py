@@ -86,6 +86,10 @@ class Line:
     def question(self, topic: str, **details: Detail) -> Intent:
         return self._intent("question", self.voice.say(f"question.{topic}"), topic=topic, details=details)
 
+    def courtesy(self, key: str) -> Intent:
+        """Words that ask for nothing, answered in kind."""
+        return self._intent("out_of_scope", self.voice.say(key))
+
     def ask(self, key: str, pending: Mapping[str, Constraint] | None = None, /, **names: str) -> Intent:
         """A question back, whose answer may use what is pending."""
         return self._intent("clarify", self.voice.say(key, **names), pending=pending or {})

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.reports import is_report
 from wirelessagent.language.followups import merged
 from wirelessagent.language.intent import COMMANDS, Constraint, Intent
 from wirelessagent.language.recogniser import Context
@@ -46,9 +47,9 @@ def unanswered(text: str, intent: Intent, context: Context) -> Unanswered:
 
 
 def leaves_the_question(line: Line) -> bool:
-    """Whether a line speaks of other users than the question back was about, and so answers it not."""
+    """Whether a line is no answer: it only reports, or speaks of other users than the question back was about."""
     asked = line.context.pending_users
-    return bool(asked and line.users) and not set(asked) & set(line.users)
+    return is_report(line) or (bool(asked and line.users) and not set(asked) & set(line.users))
 
 
 def _offered(intent: Intent, line: Line) -> str | None:
@@ -57,6 +58,8 @@ def _offered(intent: Intent, line: Line) -> str | None:
     for topic in COMMANDS:
         if intent.reply == voice.say("unsure_command", text=voice.say(f"command.{topic}")):
             return topic
+    if intent.pending and intent.reply == voice.say("only_told", constraints=voice.constraints(intent.pending)):
+        return line.context.objective
     for name in voice.labels:
         goal = voice.label(name)
         if intent.reply == voice.say("weak", goal=goal, choices=voice.choices(without=name)):

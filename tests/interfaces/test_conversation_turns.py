@@ -1,0 +1,85 @@
+"""What a line asks for, keeps or leaves alone because of the lines before it, with the offline recogniser."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import pytest
+from conversations import LOSS, SCENE, SEED
+
+from wirelessagent.agent.session import Session
+from wirelessagent.agent.turn import Turn
+
+HELD = "highest total rate, at most 10 W"
+
+
+def talk(*lines: str) -> tuple[dict[str, Any], list[Turn]]:
+    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
+    turns = [session.say(line) for line in lines]
+    held = {} if session.request is None else session.request.constraints
+    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in held.items()}, turns
+
+
+@pytest.mark.parametrize("said", ["yesterday we had 15 W", "昨天我们是15瓦", "3号投诉说他只有1兆"])
+def test_a_report_is_noted_and_asked_about(said: str) -> None:
+    held, turns = talk(HELD, said)
+    assert (held, turns[-1].stage) == ({"max_power_w": 10.0}, "asked")
+    assert talk(HELD, said, "yes")[0] != held
+
+
+def test_reports_do_not_add_up() -> None:
+    assert "15 W" not in talk(HELD, "昨天我们是15瓦", "3号投诉说他只有1兆")[1][-1].reply
+
+
+def test_another_aim_keeps_the_limits_and_a_new_request_tells_which_go() -> None:
+    held, turns = talk(HELD, "proportional fairness")
+    assert held == {"max_power_w": 10.0}
+    assert "The limits stay as they were." in turns[-1].reply
+    held, turns = talk(HELD, "least power with 200 kbit/s each")
+    assert held == {"min_rate_bps": 2e5}
+    assert "No longer: at most 10 W of radiated power." in turns[-1].reply
+
+
+def test_nobody_is_promised_a_rate_and_left_out() -> None:
+    held, turns = talk(HELD, "user 3 at least 100 kbit/s", "leave user 3 out")
+    assert turns[-1].stage == "asked"
+    assert held == {"max_power_w": 10.0, "min_rate_bps": {"3": 1e5}}
+    first = "highest total rate, user 3 at least 1 Mbit/s, leave user 3 out"
+    assert talk(first, HELD)[0] == {"max_power_w": 10.0}
+
+
+@pytest.mark.parametrize(
+    "said", ["what holds now?", "what's in effect?", "what did you understand?", "现在要求是什么?"]
+)
+def test_what_holds_is_restated(said: str) -> None:
+    assert "10 W" in talk(HELD, said)[1][-1].reply.split("\n")[0]
+
+
+def test_why_not_is_of_what_could_not_be_met() -> None:
+    _, turns = talk(HELD, "what if we had 1 mW and 50 Mbit/s for each user?", "why not?", "do that")
+    assert "50 Mbit/s" in turns[2].reply
+    assert turns[3].stage == "asked"
+    assert "which of the ways" in turns[3].reply.lower()
+    _, turns = talk(HELD, "what if 5 W?", "go on, do that")
+    assert turns[-1].stage == "applied"
+
+
+@pytest.mark.parametrize(("said", "rate"), [("I meant 600k", 6e5), ("make it 600", 6e5), ("oops, 450", 4.5e5)])
+def test_a_bare_number_has_the_unit_of_what_it_corrects(said: str, rate: float) -> None:
+    assert talk(HELD, "user 3 at least 500 kbit/s", said)[0]["min_rate_bps"] == {"3": rate}
+    assert talk(HELD, "user 3 at least 5 Mbit/s", "make it 600")[1][-1].stage == "asked"
+
+
+def test_the_first_one_thanks_and_nothing_to_stop() -> None:
+    _, turns = talk(HELD, "now with 5 W", "compare with the first one", "和第一次比一比", "this or turn 1?")
+    assert all(turn.tables[0].columns[2] in ("turn 1", "第 1 轮") for turn in turns[2:])
+    held, turns = talk(HELD, "thanks", "谢谢", "don't change anything", "stop")
+    assert [turn.reply for turn in turns[1:]] == ["You're welcome.", "不客气。", *["All stays as it is."] * 2]
+    assert held == {"max_power_w": 10.0}
+
+
+@pytest.mark.parametrize("said", ["never mind, serve everyone", "都恢复服务", "保留3号"])
+def test_users_are_taken_back(said: str) -> None:
+    assert talk(HELD, "leave user 3 out", said)[0] == {"max_power_w": 10.0}
+    assert talk(HELD, said)[1][-1].stage == "asked"
