@@ -18,6 +18,7 @@ from wirelessagent.language.followups import dropped_in, keeps_the_limits, merge
 from wirelessagent.language.intent import COMMANDS, CONSTRAINTS, Constraint, Detail, Intent, IntentKind
 from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
+from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words
@@ -148,7 +149,7 @@ class _Understanding:
         self._reading, self._goal = self._sentence.reading, self._sentence.goal
         self._dropped, dropped_spans = dropped_in(self._sentence.plain, context)
         named = [(item.start, item.end) for item in self._sentence.found if item.term.concept != "domain"]
-        self._unread = unread(
+        self._unread = amount_of_another_time(self._sentence.plain) or unread(
             self._sentence.plain, [*self._reading.masked, *self._reading.counted, *named, *dropped_spans]
         )
         self._judged: Judgement = judge(self._sentence, set(voice.labels))
@@ -269,11 +270,10 @@ class _Understanding:
         if reading.not_used:
             evidence["not_used"] = " … ".join(reading.not_used)
         amends = False
-        whole = bool(words and values)  # a request of its own answers no earlier question
-        if context is not None and context.awaits == "clarification" and not (whole and context.objective is not None):
+        if context is not None and context.awaits == "clarification":
             values = merged(context.pending, values)
         if context is not None and context.objective is not None:
-            amends = bool(dropped or reading.back or not reading.values) or keeps_the_limits(self._sentence.plain)
+            amends = bool(dropped or reading.back) or keeps_the_limits(self._sentence.plain)
             if reading.back:
                 values, gone = with_users_back(reading, context)
                 dropped = tuple(dict.fromkeys((*dropped, *gone)))

@@ -13,9 +13,11 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.comparators import Comparator, comparison
+from wirelessagent.language.numerals import numbers
 from wirelessagent.language.readings import GENERATION, Reading
 from wirelessagent.language.readings import readings as read_numbers
 from wirelessagent.language.text import USER_NOUN, has_chinese, normalise
+from wirelessagent.language.units import unit_of_another_time
 
 QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
 
@@ -62,6 +64,15 @@ _STEP_AFTER = re.compile(
     r"(?i)\s*(?:more|less|faster|extra|too\s+much|de\s+m[aá]s|m[aá]s|de\s+plus|mehr|zu\s+viel|zuviel)\b"
 )
 _STEP_BEFORE = re.compile(r"(?i)\b(?:not|nor|ni|pas|nicht|without|last|per|by|an|what)\s+$")
+
+
+def amount_of_another_time(plain: str) -> tuple[int, int] | None:
+    """The first amount of bits of a normalised text that is no rate, such as "300 Mbit an hour"; it needs an answer."""
+    for number in numbers(plain):
+        end = unit_of_another_time(plain, number.end)
+        if end is not None:
+            return number.start, end
+    return None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -111,6 +111,16 @@ def unit_at(text: str, position: int) -> Unit | None:
     return None
 
 
+def unit_of_another_time(text: str, position: int) -> int | None:
+    """Where a unit of rate ends that is per minute or per day, after at most a space; None where there is none."""
+    gap = _GAP.match(text, position)
+    for start in sorted({gap.end() if gap else position, position}, reverse=True):
+        found = _rate(text, start)
+        if found is not None:
+            return found.end if _is_of_another_time(text, start, found) else None
+    return None
+
+
 def _is_of_another_time(text: str, start: int, found: Unit) -> bool:
     """Whether an amount is per minute or per day: "1 Mbit per minute" is no rate of 1 Mbit/s."""
     before = _OF_ANOTHER_TIME.search(text, max(0, start - 24), start)
