@@ -270,10 +270,11 @@ class _Understanding:
         if reading.not_used:
             evidence["not_used"] = " … ".join(reading.not_used)
         amends = False
-        if context is not None and context.awaits == "clarification":
+        whole = bool(words and values)  # a request of its own answers no earlier question
+        if context is not None and context.awaits == "clarification" and not (whole and context.objective is not None):
             values = merged(context.pending, values)
         if context is not None and context.objective is not None:
-            amends = bool(dropped or reading.back) or keeps_the_limits(self._sentence.plain)
+            amends = bool(dropped or reading.back or not reading.values) or keeps_the_limits(self._sentence.plain)
             if reading.back:
                 values, gone = with_users_back(reading, context)
                 dropped = tuple(dict.fromkeys((*dropped, *gone)))
