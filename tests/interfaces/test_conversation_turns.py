@@ -21,13 +21,6 @@ def talk(*lines: str) -> tuple[dict[str, Any], list[Turn]]:
     return {name: dict(value) if isinstance(value, Mapping) else value for name, value in held.items()}, turns
 
 
-@pytest.mark.parametrize("said", ["yesterday we had 15 W", "昨天我们是15瓦", "3号投诉说他只有1兆"])
-def test_a_report_is_noted_and_asked_about(said: str) -> None:
-    held, turns = talk(HELD, said)
-    assert (held, turns[-1].stage) == ({"max_power_w": 10.0}, "asked")
-    assert talk(HELD, said, "yes")[0] != held
-
-
 def test_reports_do_not_add_up() -> None:
     assert "15 W" not in talk(HELD, "昨天我们是15瓦", "3号投诉说他只有1兆")[1][-1].reply
 
@@ -83,3 +76,16 @@ def test_the_first_one_thanks_and_nothing_to_stop() -> None:
 def test_users_are_taken_back(said: str) -> None:
     assert talk(HELD, "leave user 3 out", said)[0] == {"max_power_w": 10.0}
     assert talk(HELD, said)[1][-1].stage == "asked"
+
+
+def test_a_correction_after_a_question_is_of_the_line_that_led_to_it() -> None:
+    held, turns = talk(HELD, "leave user 3 out", "user 2 at least 1 MB", "oops, I meant user 4")
+    assert (held, turns[-1].stage) == ({"max_power_w": 10.0, "leave_out": ("3",)}, "asked")
+
+
+def test_a_user_who_is_not_there_is_named_at_once() -> None:
+    _, turns = talk("user 9 gets 1 Mbit/s", "user 2", "highest total rate")
+    assert "no user 9" in turns[0].reply
+    held, _ = talk("user 9 gets 1 Mbit/s", "user 2", "highest total rate")
+    assert held == {"min_rate_bps": {"user 2": 1e6}}
+    assert talk(HELD, "user 9 gets 1 Mbit/s", "leave user 3 out")[0] == {"max_power_w": 10.0, "leave_out": ("3",)}

@@ -166,7 +166,9 @@ class _Posing:
     def _check_promised(self, served: tuple[int, ...] | None) -> None:
         """Refuse a rate that is promised by name to somebody who is not served."""
         promised = self._given.get("min_rate_bps")
-        for reference, rate in promised.items() if isinstance(promised, Mapping) and served is not None else ():
+        if served is None or not isinstance(promised, Mapping):
+            return
+        for reference, rate in promised.items():
             if reference != EVERYBODY and self._number(reference) not in served:
                 user = called(self._language, self._names[self._number(reference)])
                 raise UnclearRequestError(

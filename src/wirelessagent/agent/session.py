@@ -33,7 +33,7 @@ from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import joined, say
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
-from wirelessagent.language.intent import Constraint, Detail, Intent
+from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
@@ -185,6 +185,7 @@ class Session:
         if intent.kind == "allocate":
             return changing.allocate(site, state, intent)
         if intent.kind == "clarify":
+            _check_users(intent, site.user_names)
             left = unanswered(text, intent, context)
             question = Question(
                 pending=left.pending, objective=left.objective, users=left.users, offered=left.offered
@@ -311,8 +312,19 @@ def _with_user(missing: Missing, name: str) -> Intent:
     details: dict[str, Any] = {key: _renamed(value, reference, name) for key, value in intent.details.items()}
     if not reference:
         details["user"] = name
-    constraints = {key: _renamed(value, reference, name) for key, value in intent.constraints.items()}
-    return dataclasses.replace(intent, details=details, constraints=constraints)
+    constraints, pending = (
+        {key: _renamed(value, reference, name) for key, value in values.items()}
+        for values in (intent.constraints, intent.pending)
+    )
+    return dataclasses.replace(intent, details=details, constraints=constraints, pending=pending)
+
+
+def _check_users(intent: Intent, user_names: tuple[str, ...]) -> None:
+    """Raise for the first user in what waits for an answer who is not there."""
+    for value in intent.pending.values():
+        for reference in value if isinstance(value, Mapping | tuple) else ():
+            if reference != EVERYBODY:
+                user_number(reference, user_names, intent.language)
 
 
 def _renamed(value: Constraint | Detail, reference: str, name: str) -> Any:

@@ -104,7 +104,10 @@ def read_amendment(line: Line) -> Intent | None:
             return answer
     if line.context.objective is None:
         return None
-    for read in (_freed, _taken_in, _same_for, _other_user, _other_figure, _other_number):
+    readers = (_freed, _taken_in, _same_for, _other_user)
+    if line.context.awaits != "clarification":  # what was stated last is of a line before the one that was asked about
+        readers = (*readers, _other_figure, _other_number)
+    for read in readers:
         intent = read(line)
         if intent is not None:
             return intent
@@ -160,15 +163,19 @@ def _other_user(line: Line) -> Intent | None:
     if match is None or not line.users or not CORRECTS.search(line.wish):
         return None
     users, instead_of = line.users, ""
-    freed = _freed_instead(line, users)
+    open_ = line.context.awaits == "clarification"
+    freed = None if open_ else _freed_instead(line, users)
     if freed is not None:
         return freed
     if match["not"] or match["other"]:
         if len(users) != 2:
             return None
         users, instead_of = (users[:1], users[1]) if match["not"] else (users[1:], users[0])
-    changed = {name: _for_users(name, value, users, instead_of) for name, value in line.context.stated.items()}
+    said = line.context.pending if open_ else line.context.stated
+    changed = {name: _for_users(name, value, users, instead_of) for name, value in said.items()}
     moved = {name: value for name, value in changed.items() if value is not None}
+    if open_ and moved:
+        return line.allocate(str(line.context.objective), {**said, **moved}, amends=True)
     return _restated(line, moved) if moved else line.ask("what_of_user", users=line.voice.users(users))
 
 
