@@ -237,7 +237,7 @@ ASK_BACK = [
     "max rate, 2 MB/S each",
     "treat everyone equally", "share equally", "the same rate", "平均分配", "equal power for all",
     "make it fairly fast", "give everyone a fairly good speed", "share the power fairly", "fair power allocation",
-    "maximise the rate but share it fairly", "fairness and speed", "as fair as possible", "公平一点",
+    "maximise the rate but share it fairly", "fairness and speed", "as fair as possible",
     "energy efficiency and fairness", "公平和省电", "maximise the total rate without hurting the slowest user",
     "max rate, but don't forget the slowest user", "save power for the slowest user", "the slowest user",
     "higher speed for all and for the slowest user", "alpha fairness", "weighted fairness", "按α公平分配",
@@ -388,7 +388,6 @@ def test_what_is_said_beside_a_wish_does_not_hide_it(text: str, objective: str) 
 @pytest.mark.parametrize(
     ("text", "kind"),
     [
-        ("equal rates and maximum total rate", "clarify"),
         ("max rate, less interference", "clarify"),
         ("Je ne veux pas le débit maximal", "clarify"),
         ("no maximices el caudal", "clarify"),

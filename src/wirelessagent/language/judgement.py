@@ -17,6 +17,7 @@ from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.sentence import BUILT_IN, Sentence
 
 _ENOUGH, _ENOUGH_AGAINST_THE_LEXICON, _ENOUGH_FOR_THE_OPPOSITE = 0.45, 0.65, 0.95
+_ENOUGH_FOR_THE_SLOWEST = 0.8
 _OWN_PHRASE_ASKED = 0.8
 _FAMILIAR = 0.25
 _OTHER_KINDS = ("question", "command", "clarify", "out_of_scope")
@@ -63,7 +64,7 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     command = forms.plain_command(sentence.plain)
     if command:
         return Judgement(kind="command", topic=command, objective=objective, likeliest=share, certainty=1.0, acts=False)
-    own_phrase = goal.verdict == "clear" and goal.objective not in BUILT_IN
+    own_phrase = goal.verdict == "clear" and (goal.objective not in BUILT_IN or _is_all_said(sentence))
     if own_phrase and shares.kinds["question"] + shares.kinds["command"] < _OWN_PHRASE_ASKED:
         return Judgement(
             kind="allocate", topic="", objective=goal.objective, likeliest=1.0, certainty=goal.confidence,
@@ -79,6 +80,12 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     return Judgement(
         kind=kind, topic=topic, objective=objective, likeliest=share, certainty=round(min(1.0, sure), 4), acts=acts
     )
+
+
+def _is_all_said(sentence: Sentence) -> bool:
+    """Whether a sentence is nothing but the words for its wish: "max rate", "P1"."""
+    (start, end), *others = sentence.goal.spans
+    return not others and sentence.plain[start:end] == sentence.plain.strip(" .!。\uff01")
 
 
 def _shares(sentence: Sentence) -> _Shares:
@@ -118,5 +125,6 @@ def _enough(goal: Goal, objective: str) -> float:
     turned = goal.verdict == "opposite" and objective != "max_min_rate"  # "drain the battery", not "lift the slow ones"
     if refused or turned:
         return _ENOUGH_FOR_THE_OPPOSITE
-    another = goal.verdict == "opposite" or (goal.verdict == "clear" and goal.objective != objective)
-    return _ENOUGH_AGAINST_THE_LEXICON if another else _ENOUGH
+    if goal.verdict == "opposite":
+        return _ENOUGH_FOR_THE_SLOWEST
+    return _ENOUGH_AGAINST_THE_LEXICON if goal.verdict == "clear" and goal.objective != objective else _ENOUGH
