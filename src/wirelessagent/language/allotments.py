@@ -89,22 +89,24 @@ class Allotments:
             self._used.add(mention)
             self.spans.append((mention.start, mention.end))
             return True
-        if standing == "excepted" and any(self._is_excepted_from(figure, mention) for figure in self._judged.figures):
+        if standing == "excepted" and self._is_excepted_from_a_rate(mention):
             self._unsure.append(mention)
             self._excepted.add(mention)
             return True
         return False
 
-    def _is_excepted_from(self, figure: Quantity, mention: Mention) -> bool:
-        """Whether the exception is from this rate, in its clause or right after it: "1 Mbit/s each, not user 3"."""
-        if figure.kind != "rate":
-            return False
-        before = figure.end <= mention.start
-        between = self._plain[figure.end : mention.start] if before else self._plain[mention.end : figure.start]
-        cuts = len(_CUT.findall(between))
+    def _is_excepted_from_a_rate(self, mention: Mention) -> bool:
+        """Whether an exception is one from a rate beside it, which may stand before: "1 Mbit/s each, not user 3".
+
+        With a rate on either side it has one of its own: "1 Mbit/s each but users 2 and 3 should have 3".
+        """
+        rates = [figure for figure in self._judged.figures if figure.kind == "rate"]
         first = max((cut.end() for cut in _CUT.finditer(self._plain, 0, mention.start)), default=0)
-        others = any(m.role in ("everybody", "others") and first <= m.start < mention.start for m in self._found)
-        return cuts == 0 or (before and cuts == 1 and not others)
+        of_all = any(m.role in ("everybody", "others") and first <= m.start < mention.start for m in self._found)
+        before = [len(_CUT.findall(self._plain, f.end, mention.start)) for f in rates if f.end <= mention.start]
+        after = [f for f in rates if f.start >= mention.end and not _CUT.search(self._plain, mention.end, f.start)]
+        stated = 0 in before or (1 in before and not of_all)
+        return stated != bool(after)
 
     def _likeliest(self, mention: Mention) -> UserRole:
         """What the model says of somebody named; without certainty nobody is left out or served alone."""
