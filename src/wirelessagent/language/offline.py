@@ -286,7 +286,7 @@ class _Understanding:
     def _default(self) -> Intent | None:
         """A promised rate under a power limit has one sensible reading."""
         values, goal = self._reading.values, self._goal
-        free = goal.verdict in ("none", "weak") and goal.objective in ("", "max_rate")
+        free = goal.verdict in ("none", "weak") and goal.objective in ("", "max_rate") and self._sentence.worded
         if {"min_rate_bps", "max_power_w"} <= set(values) and free and "max_rate" in self._voice.labels:
             return self._allocate("max_rate", "", _DEFAULT_CONFIDENCE)
         return None

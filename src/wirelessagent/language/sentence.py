@@ -38,6 +38,13 @@ class Sentence:
         self.concepts = {item.term.concept for item in self.found}
         self.goal: Goal = goals.equally_fast(goals.goal_of(self.found), self._spelt)
 
+    @property
+    def worded(self) -> bool:
+        """Whether any word stands beside the figures."""
+        spans = [(figure.start, figure.end) for figure in self.quantities]
+        letters = (place for place, letter in enumerate(self.plain) if letter.isalpha())
+        return any(not any(start <= place < end for start, end in spans) for place in letters)
+
     def for_model(self) -> tuple[str, list[str], str]:
         """The words with placeholders for figures and users, the concepts in their order, and the language."""
         spans = [(q.phrase_start, q.phrase_end, _PLACEHOLDERS[q.kind]) for q in self.quantities]
