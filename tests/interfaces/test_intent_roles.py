@@ -188,7 +188,7 @@ def test_probabilities_add_up() -> None:
 
 
 def test_the_sentences_to_learn_from_say_what_they_mean() -> None:
-    sentences = list(training.sentences(Path(training.__file__).parent))
+    sentences = list(training.sentences())
     assert len(sentences) > 300
     named = {name for _, meaning in sentences for name in meaning}
     assert {"max_power_w", "circuit_power_w", "users", "leave_out", "weights"} <= named

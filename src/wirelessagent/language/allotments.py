@@ -15,7 +15,8 @@ from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.roles import UserRole, is_something_of, role_of
 from wirelessagent.language.text import CLAUSE_END
 
-_SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.65, 0.5, 0.45
+_SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.5, 0.45
+_SAID = 0.4
 
 _CUT = re.compile(CLAUSE_END)
 
@@ -57,6 +58,7 @@ class Allotments:
         for mention in self._found:
             if mention.role in ("named", "pronoun"):
                 self._assign(mention)
+        self._one_each = dict(self._one_for_each())
         self._weights: dict[str, tuple[float, tuple[int, int]]] = {}
         for number in judged.weights:
             self._weigh(number)
@@ -113,7 +115,8 @@ class Allotments:
         chances = self._judged.user(mention)
         roles: tuple[UserRole, ...] = ("leave_out", "users")
         role = max(roles, key=lambda each: chances[each])
-        if chances[role] > _SURE_OF_A_ROLE and not is_something_of(self._plain, mention.end):
+        said = self._judged.said_of(mention)[role] > _SAID
+        if said and chances[role] > _SURE_OF_A_ROLE and not is_something_of(self._plain, mention.end):
             return role
         if chances["none"] < _SURE_OF_NO_ROLE and mention.role == "named":
             self._unsure.append(mention)
@@ -123,8 +126,20 @@ class Allotments:
         named = [other for other in self._found if other.role == "named" and other.end <= pronoun.start]
         return Target(role="named", users=named[-1].users, mention=named[-1]) if named else Target(role="everybody")
 
+    def _one_for_each(self) -> Iterator[tuple[int, Target]]:
+        """The figures of lists as long as a list of users, one for each: "users 1 and 4 get 2 and 3 Mbit/s"."""
+        for starts in self._judged.lists:
+            able = [m for m in self._found if len(m.users) == len(starts) and self._roles.get(m) != "leave_out"]
+            chances = [self._judged.owners(start, able) for start in starts]
+            best = max(able, key=lambda mention: sum(each[mention] for each in chances), default=None)
+            if best is not None:
+                for start, user in zip(starts, best.users, strict=True):
+                    yield start, Target(role="named", users=(user,), mention=best)
+
     def target_of(self, start: int) -> Target:
         """Whom the figure at ``start`` is for, which are none of those who are left out."""
+        if start in self._one_each:
+            return self._one_each[start]
         candidates = [
             mention
             for mention in self._found
@@ -191,7 +206,9 @@ class Allotments:
             if mention.role != "named":
                 continue
             self.spans.append((mention.start, mention.end))
-            if mention in self._unsure or not spoken_of.issuperset(mention.users):
+            others = {user for other in self._used if other != mention for user in other.users} | set(self._weights)
+            unsure = mention in self._unsure and not others.issuperset(mention.users)
+            if unsure or not spoken_of.issuperset(mention.users):
                 yield mention.start, mention.end
 
     def values(self) -> dict[str, Constraint]:

@@ -20,11 +20,13 @@ from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.surroundings import beside, describes_all, is_calculated, is_cells_power
 
-_SURE, _CERTAIN = 0.6, 0.9
+_SURE, _CERTAIN = 0.6, 0.8
 _SURE_OF_A_LIMIT = 0.75  # most figures are limits, so that the model takes a strange one for one too easily
 _MOST_POWERS = 4
 _ONCE = ("max_power_w", "circuit_power_w")
 _RANGE_GAP = 8
+_CONTRARY = {"at_least": "max_rate_bps", "at_most": "min_rate_bps"}
+_CONTRARY_CHANCE = 0.1  # "at least" seldom caps
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,20 +114,18 @@ class _Reader:
         )  # fmt: skip
 
     def take_numbers(self) -> None:
-        """Numbers without a unit: users, weights and descriptions are settled, a bare probability is taken."""
+        """Numbers without a unit: users, weights, descriptions and what borrows a unit are settled."""
         self._counted += self._judged.harmless
         named = [(m.start, m.end) for m in self._judged.mentions if m.role == "named"]
-        settled = [*self._counted, *named, *self._allotments.spans, *self._spoken_for]
-        for index, figure in enumerate(self._quantities):
+        read = [(figure.start, figure.end) for figure in self._figures]
+        settled = [*self._counted, *named, *read, *self._allotments.spans, *self._spoken_for]
+        for figure in self._quantities:
             if figure.kind != "bare" or any(start < figure.end and figure.start < end for start, end in settled):
                 continue
-            before, after = beside(self._plain, self._quantities, index)
             self._masked.append((figure.phrase_start, figure.phrase_end))
-            role = self._judged.outages.get(figure.start)
-            if role is not None and 0 < figure.value < 1:
-                self._take_ratio(figure, before, after, {role: 1.0})
-            else:
-                self._doubt("unit_missing", figure)
+            self._doubt("unit_missing", figure)
+        for start, end in self._judged.doubtful:
+            self._doubts.append(Doubt(key="unit_missing", names={"text": self._text[start:end]}))
 
     def take_figures(self) -> None:
         """Powers, rates and percentages, from left to right."""
@@ -157,7 +157,9 @@ class _Reader:
             self._supersede(chances, index)
         together: dict[tuple[str, ...], float] = {}
         for roles in itertools.product(*(chances[index] for index in places)):
-            held = {(role, self._figures[index].value) for role, index in zip(roles, places, strict=True)}
+            held = {
+                (role, self._figures[index].value) for role, index in zip(roles, places, strict=True) if role != "none"
+            }
             twice = len(held) > len({value for _, value in held})  # the same figure is the same thing
             if not twice and all(sum(role == name for role, _ in held) < 2 for name in _ONCE):
                 together[roles] = math.prod(chances[index][role] for role, index in zip(roles, places, strict=True))
@@ -231,7 +233,8 @@ class _Reader:
         if match is None or figure_words.CHANGE_BEFORE.search(before) or figure_words.MOVE_BEFORE.search(before):
             return
         group = match.lastgroup or ""
-        share = figure_words.SHARES.get(group) or float(match[group]) / 100
+        tenths = figure_words.TENTHS.get(match[group]) if group.endswith("tenths") else None
+        share = figure_words.SHARES.get(group) or tenths or float(match[group]) / 100
         words = self._text[match.start() : match.end()]
         self._spoken_for.append(match.span())
         self._masked.append(match.span())
@@ -258,7 +261,7 @@ class _Reader:
         if _is_change(before, after):
             self._steps["power_w"] = figure.value
             self._doubt("change", figure)
-        elif figure.comparator == "at_least" and role != "none":
+        elif figure.comparator == "at_least" and role != "none" and not figure_words.NEGATED.search(before + after):
             self._doubt("power_floor", figure)
         elif not (known or (certain and role == "max_power_w") or is_cells_power(before, after)):
             self._doubt("whose_power", figure)
@@ -296,12 +299,9 @@ class _Reader:
             self._masked.append((figure.start - len(before) + setting.start(), figure.end))
         if not self._ends_a_range(index):
             self._target = self._allotments.target_of(figure.start)
-        target, chances = self._target, self._judged.figure(index)
-        if self._ends_a_range(index) or self._ends_a_range(index + 1):
-            chances = {"max_rate_bps" if figure.comparator == "at_most" else "min_rate_bps": 1.0, "none": 0.0}
-        elif figure.comparator == "exactly":
-            chances = {"both": 1.0 - chances["none"], "none": chances["none"]}
+        target, chances = self._target, self._roles_of_rate(index)
         role = max(chances, key=lambda name: chances[name])
+        sure = chances[role] / sum(chances.values())
         if (
             not figure_words.PER_USER.match(after)
             and target.role == "everybody"
@@ -311,9 +311,9 @@ class _Reader:
         elif _is_change(before, after):
             self._steps["rate_bps"] = figure.value
             self._doubt("change", figure)
-        elif role == "none" and chances[role] > _SURE:
+        elif role == "none" and sure > _SURE:
             self._counted.append((figure.start, figure.end))
-        elif chances[role] < _SURE or chances["none"] > 1 - _SURE_OF_A_LIMIT:
+        elif sure < _SURE or chances["none"] > 1 - _SURE_OF_A_LIMIT:
             self._doubt("status", figure)
         elif not target.sure:
             self._doubt("whose_rate", figure)
@@ -322,13 +322,27 @@ class _Reader:
                 if role in (name, "both"):
                     self._allot(name, target, figure)
 
+    def _roles_of_rate(self, index: int) -> Mapping[str, float]:
+        """How likely a rate is a floor, a cap, both or nothing."""
+        figure = self._figures[index]
+        if self._ends_a_range(index) or self._ends_a_range(index + 1):
+            return {"max_rate_bps" if figure.comparator == "at_most" else "min_rate_bps": 1.0, "none": 0.0}
+        chances = self._judged.figure(index)
+        before, after = beside(self._plain, self._figures, index)
+        exact = figure_words.EXACT.match(after) or figure_words.EXACT_BEFORE.search(before)
+        if figure.comparator == "exactly" or exact:
+            return {"both": 1.0 - chances["none"], "none": chances["none"]}
+        contrary = _CONTRARY.get(figure.comparator or "")
+        return {role: chance * (_CONTRARY_CHANCE if role == contrary else 1) for role, chance in chances.items()}
+
     def _ends_a_range(self, index: int) -> bool:
         """Whether a figure is the upper end of a range, and so for whomever the lower one is."""
         if not 0 < index < len(self._figures):
             return False
         lower, figure = self._figures[index - 1], self._figures[index]
         near = figure.start - lower.end <= _RANGE_GAP and lower.kind == figure.kind
-        return near and (lower.comparator, figure.comparator) == ("at_least", "at_most")
+        parted = any(lower.end <= mention.start < figure.start for mention in self._judged.mentions)
+        return near and not parted and (lower.comparator, figure.comparator) == ("at_least", "at_most")
 
     def _allot(self, name: str, target: Target, figure: Quantity) -> None:
         earlier = self._allotments.give(name, target, figure, corrects=figure_words.CORRECTION)

@@ -6,23 +6,45 @@ import re
 from collections.abc import Iterator
 from decimal import Decimal
 
-from wirelessagent.language.numerals import Number
+from wirelessagent.language.numerals import Number, chinese_value
 
-_TIMES = re.compile(
-    r"(?i)\b(?P<two>twice|double[ds]?|doubly|el doble|doble|le double|doppelt\w*|compte(?:r)? pour deux)\b|"
-    r"\b(?P<three>three ?times|triple[ds]?|thrice|"
-    r"threefold|el triple|trois fois|dreifach|tres veces|dreimal|compte(?:r)? pour trois)\b|\b(?P<four>four ?times|"
-    r"fourfold|quadruple|cuatro veces|quatre fois|vierfach)\b|"
-    r"\b(?P<five>five ?times|fivefold|fünffach|cinco veces|cinq fois)\b|\b(?P<ten>ten ?times|tenfold|zehnfach|"
-    r"diez veces|dix fois)\b|\b(?P<half>half|halb|la mitad|la moitié|mitad)\b|"
-    r"(?<![\w.])(?P<n>[0-9]+(?:\.[0-9]+)?)\s*(?:times|x\b|-fold|veces|fois|mal|倍)|(?P<zh2>翻倍|加倍|双倍|[两二]倍|"
-    r"[两二]份|顶[两二]个|当[两二]个|算[两二]个|翻一番)|"
-    r"(?P<zh3>三倍|三份|顶三个|当三个)|(?P<zh4>四倍)|(?P<zh5>五倍)|(?P<zh10>十倍)|(?P<zhhalf>减半|一半|半份)"
-)
-_FACTORS = {
-    "two": 2.0, "three": 3.0, "four": 4.0, "five": 5.0, "ten": 10.0, "half": 0.5, "zh2": 2.0, "zh3": 3.0, "zh4": 4.0,
-    "zh5": 5.0, "zh10": 10.0, "zhhalf": 0.5,
+_COUNTS = {
+    **dict.fromkeys(("two", "zwei", "dos", "deux"), 2),
+    **dict.fromkeys(("three", "drei", "tres", "trois"), 3),
+    **dict.fromkeys(("four", "vier", "cuatro", "quatre"), 4),
+    **dict.fromkeys(("five", "fünf", "cinco", "cinq"), 5),
+    **dict.fromkeys(("six", "sechs", "seis"), 6),
+    **dict.fromkeys(("ten", "zehn", "diez", "dix"), 10),
+    **dict.fromkeys(("anderthalb", "eineinhalb"), Decimal("1.5")),
+    **dict.fromkeys(("zweieinhalb",), Decimal("2.5")),
+    **dict.fromkeys(("uno y medio", "un et demi", "one and a half", "una y media"), Decimal("1.5")),
+    **dict.fromkeys(("dos y medio", "deux et demi", "two and a half"), Decimal("2.5")),
+    **dict.fromkeys(("une fois et demie", "una vez y media"), Decimal("1.5")),
+    "deux fois et demie": Decimal("2.5"),
+}
+_WORD = "(?:" + "|".join(sorted(_COUNTS, key=len, reverse=True)) + ")"
+_NAMED = {
+    **dict.fromkeys(("twice", "double", "doubles", "doubled", "doubly", "doble", "dupla", "doublement"), 2),
+    **dict.fromkeys(("thrice", "triple", "triples", "tripled", "threefold"), 3),
+    **dict.fromkeys(("quadruple", "quadruples", "cuádruple", "fourfold"), 4),
+    "fivefold": 5, "tenfold": 10,
+    **dict.fromkeys(("half", "halb", "moitié", "mitad", "hälfte"), Decimal("0.5")),
 }  # fmt: skip
+_TIMES = re.compile(
+    rf"(?i)\b(?P<named>{'|'.join(_NAMED)})\b|\b(?P<german>doppelt|dreifach|vierfach|fünffach|zehnfach)\w*|"
+    rf"\b(?P<compound>{_WORD})(?:fach|mal)\w*|(?P<phrase>(?:une\s+fois\s+et\s+demie|deux\s+fois\s+et\s+demie|"
+    rf"una\s+vez\s+y\s+media))|"
+    rf"\b(?P<word>{_WORD})[\s-]?(?:times|veces|fois|mal|fold)\b|"
+    rf"\b(?:compt\w+|val\w+|pes\w+|p[eè]s\w+|cuent\w+|cont\w+|counts?|counting|count|zähl\w+)\s+(?:(?:al?|el|le|"
+    rf"l'|usuario|utilisateur|abonné|abonado|cliente?|user|[0-9]+)\s*){{0,4}}(?:pour|por|como|comme|for|as|für)\s+"
+    rf"(?P<counted>{_WORD})\b|"
+    r"(?<![\w.])(?:x\s?(?P<x>[0-9]+(?:\.[0-9]+)?)(?![\w.])|(?P<n>[0-9]+(?:[.,][0-9]+)?)\s*(?:times\b|x\b|-?fold\b|"
+    r"veces\b|fois\b|mal\b|-?fach\w*))|(?P<zhn>[0-9]+(?:\.[0-9]+)?)\s*倍|"
+    r"(?P<zhtwo>翻倍|加倍|双倍|双份|翻一番|顶[两二]个|当[两二]个|算[两二]个)|(?P<zhhalf>减半|一半|半份|半倍)|"
+    r"(?P<zh>[一二两三四五六七八九十](?:点[一二三四五六七八九])?)(?P<zhmore>[倍份]半?)"
+)
+_GERMAN = {"doppelt": 2, "dreifach": 3, "vierfach": 4, "fünffach": 5, "zehnfach": 10}
+_HALF = Decimal("0.5")
 
 
 def factors(plain: str) -> Iterator[Number]:
@@ -32,6 +54,19 @@ def factors(plain: str) -> Iterator[Number]:
     [(Decimal('2'), 14)]
     """
     for match in _TIMES.finditer(plain):
-        group = match.lastgroup or ""
-        value = Decimal(match["n"]) if group == "n" else Decimal(str(_FACTORS[group])).normalize()
-        yield Number(value=value, start=match.start(), end=match.end(), form="times")
+        group = "zh" if match["zh"] else match.lastgroup or ""
+        start = match.start(group) if group == "counted" else match.start()
+        value = _value(match, group)
+        if value is not None:
+            yield Number(value=value, start=start, end=match.end(), form="times")
+
+
+def _value(match: re.Match[str], group: str) -> Decimal | None:
+    word = " ".join(match[group].lower().split())
+    if group in ("n", "x", "zhn"):
+        return Decimal(word.replace(",", "."))
+    if group == "zh":
+        value = chinese_value(word)
+        return None if value is None else Decimal(str(value)) + (_HALF if match["zhmore"].endswith("半") else 0)
+    known = {"named": _NAMED, "german": _GERMAN, "zhtwo": {word: 2}, "zhhalf": {word: _HALF}}.get(group, _COUNTS)
+    return Decimal(known[word])

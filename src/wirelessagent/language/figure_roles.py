@@ -18,24 +18,28 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.figure_words import CORRECTION
+from wirelessagent.language.figure_words import CORRECTION, CUT
+from wirelessagent.language.hints import HINTS, hints
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.role_features import Span, Token, around, hashed, tokens_of
+from wirelessagent.language.role_features import Span, Token, around, around_base, hashed, in_base_words, tokens_of
 from wirelessagent.language.roles import role_of
 from wirelessagent.language.surroundings import beside, signs
+from wirelessagent.language.text import language_of
 
 ROLES_FILE = Path(__file__).with_name("roles.npz")
 LABELS: Mapping[str, tuple[str, ...]] = {
     "power": ("max_power_w", "circuit_power_w", "none"),
     "rate": ("min_rate_bps", "max_rate_bps", "both", "none"),
     "ratio": ("outage", "reliability", "none"),
-    "number": ("user", "weight", "outage", "reliability", "harmless", "limit"),
+    "number": ("user", "weight", "rate", "power", "multiple", "outage", "reliability", "harmless", "limit"),
     "user": ("leave_out", "users", "none"),
     "link": ("link",),
 }
 _PLACEHOLDERS = {"named": "@user", "others": "@others", "everybody": "@all", "pronoun": "@them"}
+_EACH = re.compile(r"(?i)(?:each|apiece|je|jeweils|cada un[oa]|chacune?|各)(?!\w)")  # of all, or of those just named
+_PEOPLE = (*_PLACEHOLDERS.values(), "@each", "@weighed")
 Answer = TypeVar("Answer")
 _MOST_USERS = 20
 SCALED = re.compile(r"\s?[kKMG](?![^\W\d_])")
@@ -69,19 +73,35 @@ def shipped_roles() -> RoleModel:
 class View:
     """A normalised sentence as tokens in which figures and users are placeholders, and the features of each.
 
-    ``figures`` are its quantities with a unit, ``found`` everybody mentioned, ``loose`` the numbers that are neither.
+    ``figures`` are its quantities with a unit, ``found`` everybody mentioned, ``loose`` the numbers that are neither,
+    ``ones`` words such as "one" that may be a figure and stay words.
     """
 
     def __init__(
-        self, plain: str, figures: Sequence[Quantity], found: Sequence[Mention], loose: Sequence[Number]
+        self,
+        plain: str,
+        figures: Sequence[Quantity],
+        found: Sequence[Mention],
+        loose: Sequence[Number],
+        ones: Sequence[Number] = (),
     ) -> None:
         spans = [Span(start=q.start, end=q.end, placeholder=f"@{q.kind}") for q in figures]
-        spans += [Span(start=m.start, end=m.end, placeholder=_PLACEHOLDERS[m.role]) for m in found]
+        spans += [Span(start=m.start, end=m.end, placeholder=_placeholder(plain, m)) for m in found]
         spans += [Span(start=n.start, end=n.end, placeholder="@number") for n in loose]
         self._plain, self._figures = plain, figures
+        self._spans = [span for span in spans if span.placeholder != _PLACEHOLDERS["pronoun"]]
         self._tokens = tokens_of(plain, spans)
-        self._places = {token.start: place for place, token in enumerate(self._tokens) if token.word[0] == "@"}
+        starts = {number.start for number in ones}
+        self._base = in_base_words(self._tokens, language_of(plain))
+        self._base_places = {token.start: place for place, token in enumerate(self._base) if token.start >= 0}
+        self._places = {
+            token.start: place
+            for place, token in enumerate(self._tokens)
+            if token.word[0] == "@" or token.start in starts
+        }
         self._kinds = [token.word for token in self._tokens]
+        self._known: dict[Mention, list[str]] = {}
+        self._users = {user for mention in found for user in mention.users}
         self._held = {f"has:{kind}" for kind in self._kinds if kind[0] == "@"}
 
     def figure(self, index: int) -> set[str]:
@@ -91,12 +111,18 @@ class View:
         alike = [place for place, kind in enumerate(self._kinds) if kind == f"@{figure.kind}"]
         unit = figure.text.lstrip("0123456789.,'’ -").lower()
         size = math.floor(2 * math.log10(figure.value)) if 0 < figure.value < math.inf else 0
+        sides = beside(self._plain, self._figures, index)
         known = [
             f"is:{figure.comparator}", f"unit:{unit}", f"size:{size}", f"of:{len(alike)}", f"nth:{alike.index(place)}",
-            f"begins:{figure.text.split()[0][:4].lower()}", *signs(figure, *beside(self._plain, self._figures, index)),
+            f"begins:{figure.text.split()[0][:4].lower()}", *signs(figure, *sides),
             *self._beside_alike(index),
         ]  # fmt: skip
-        return around(self._tokens, place, known) | self._held
+        found = around(self._tokens, place, known) | self._held | self._hinted(figure.kind, figure.start, figure.end)
+        return found | self._based(figure.start)
+
+    def _based(self, start: int) -> set[str]:
+        place = self._base_places.get(start)
+        return set() if place is None else around_base(self._base, place)
 
     def _beside_alike(self, index: int) -> list[str]:
         """How the figures of the same kind right before and after are bounded, and whether one corrects the other."""
@@ -114,38 +140,74 @@ class View:
         words = self._plain[mention.start : mention.end].lower()
         role, _, _ = role_of(self._plain, mention.start, mention.end)
         known = [f"first:{words.split()[0][:8]}", f"last:{words[-1:]}", f"of:{min(len(mention.users), 3)}", role]
-        return around(self._tokens, self._places[mention.start], known) | self._held
+        found = around(self._tokens, self._places[mention.start], known) | self._held
+        return found | self._hinted("user", mention.start, mention.end) | self._based(mention.start)
 
-    def number(self, number: Number) -> set[str]:
-        """The features of a number without a unit."""
+    def _hinted(self, kind: str, start: int, end: int) -> set[str]:
+        """The hints beside something, within its clause and beyond, up to the next figures and users."""
+        names = HINTS.get(kind, ())
+        low = max((span.end for span in self._spans if span.end <= start), default=0)
+        high = min((span.start for span in self._spans if span.start >= end), default=len(self._plain))
+        cuts = [cut.end() for cut in CUT.finditer(self._plain, low, start)]
+        cut = CUT.search(self._plain, end, high)
+        first, last = cuts[-1] if cuts else low, cut.start() if cut else high
+        near = hints(names, self._plain[first:start], self._plain[end:last])
+        far = {*near, *hints(names, self._plain[low:first], self._plain[last:high])}
+        found = {f"hint {each}" for each in near} | {f"hint far {each}" for each in far}
+        return found | {f"hint {one}+{other}" for one in near for other in near if one < other}
+
+    def number(self, number: Number, bound: str = "") -> set[str]:
+        """The features of a number without a unit; ``bound`` is how it is bounded, "" where it is not."""
         value = number.value
         whole = value is not None and value == int(value)
         size = "vague" if value is None else "part" if value < 1 else "small" if value <= _MOST_USERS else "large"
         words = self._plain[number.start : number.end].lower()
         scaled = SCALED.match(self._plain, number.end) is not None
-        known = [f"form:{number.form}", f"{size}:{whole}", f"exact:{words}", f"scaled:{scaled}"]
-        return around(self._tokens, self._places[number.start], known) | self._held
+        user = whole and value is not None and str(int(value)) in self._users
+        known = [f"form:{number.form}", f"{size}:{whole}", f"exact:{words}", f"scaled:{scaled}", f"bound:{bound}"]
+        known.append(f"named:{user}:{bool(self._users)}")
+        found = around(self._tokens, self._places[number.start], known) | self._held
+        return found | self._hinted("number", number.start, number.end) | self._based(number.start)
 
     def owners(self, start: int, candidates: Sequence[Mention | None]) -> list[set[str]]:
         """The features of each mention, or of nobody in particular, as the one whom the figure at ``start`` is for."""
         place = self._places[start]
-        mentioned = [kind for kind in self._kinds if kind in _PLACEHOLDERS.values()]
+        mentioned = [kind for kind in self._kinds if kind in _PEOPLE]
         nobody = {"bias", "nobody", f"nobody:{len(mentioned)}", *(f"nobody:{kind}" for kind in mentioned)}
         return [
-            nobody if mention is None else _between(self._tokens, place, self._places[mention.start])
+            nobody
+            if mention is None
+            else _between(self._tokens, place, self._places[mention.start], self._who(mention))
             for mention in candidates
         ]
 
+    def _who(self, mention: Mention) -> list[str]:
+        """What the words beside a mention say of it."""
+        if mention.role not in ("named", "pronoun"):
+            return []
+        if mention not in self._known:
+            hinted = self._hinted("user", mention.start, mention.end)
+            role, _, _ = role_of(self._plain, mention.start, mention.end)
+            self._known[mention] = [f"who:{each}" for each in (role, *hinted)]
+        return self._known[mention]
 
-def _between(tokens: Sequence[Token], figure: int, mention: int) -> set[str]:
-    """The features of a figure and a mention as a pair."""
+
+def _placeholder(plain: str, mention: Mention) -> str:
+    if mention.role == "named" and plain[mention.start] in "wW":
+        return "@weighed"  # w3 = 2
+    each = mention.role == "everybody" and _EACH.fullmatch(plain, mention.start, mention.end) is not None
+    return "@each" if each else _PLACEHOLDERS[mention.role]
+
+
+def _between(tokens: Sequence[Token], figure: int, mention: int, who: Sequence[str]) -> set[str]:
+    """The features of a figure and a mention as a pair; ``who`` is what the words beside the mention say of it."""
     low, high = min(figure, mention), max(figure, mention)
     inside = [token.word for token in tokens[low + 1 : high]]
     side = "behind" if mention > figure else "before"
     kind = f"kind:{side}{tokens[mention].word}"
     figures = sum(word in ("@rate", "@number", "@power", "@ratio") for word in inside)
     alike = sum(word == tokens[figure].word for word in inside)
-    people = sum(word in ("@user", "@others", "@all", "@them") for word in inside)
+    people = sum(word in _PEOPLE for word in inside)
     marks = "".join(word for word in inside if word in _CLAUSE_MARKS)[:3]
     distance = min(len(inside), _FAR)
     found = {
@@ -164,6 +226,11 @@ def _between(tokens: Sequence[Token], figure: int, mention: int) -> set[str]:
     after = tokens[figure + 1].word if figure + 1 < len(tokens) else "end"
     before = tokens[figure - 1].word if figure else "end"
     found |= {f"{kind}:after {after}", f"{kind}:ahead {before}", f"{kind}:{alike}:{people}:after {after}"}
+    found |= {*who, *(f"{kind}:{each}" for each in who)}
+    for name, place in (("m", mention), ("f", figure)):
+        for step in (-3, -2, -1, 1, 2, 3):
+            if 0 <= place + step < len(tokens):
+                found.add(f"{kind}:{name}{step // abs(step)} {tokens[place + step].word}")
     nearest = next((word for word in (t.word for t in tokens) if word[0] == "@" and word != "@power"), "")
     found |= {f"{kind}:starts {nearest}", f"{kind}:{alike}:{people}:starts {nearest}"}
     return found

@@ -32,6 +32,18 @@ CORRECTION = re.compile(
     r"let's say)\b|"
     r"不对|不是|应该是|改成|改为|算了|错了|说错|还是|哦不|不不|口误|更正|纠正"
 )
+NEGATED = re.compile(  # "more than 10 W are not to be had", 超过4瓦不行
+    r"(?i)\b(?:not|no|never|nicht|ned|nie|kein\w*|nunca|sin|pas|jamais|garde-toi|évite|vermeide|avoid|gibt's aber)\b|"
+    r"[别不勿禁]|报警|跳闸"
+)
+EXACT = re.compile(
+    r"(?i)(?:\s+(?:each|apiece|per user|por usuario|par personne|chacun|cada uno|pro nutzer))?\s*,?\s*(?:exactly|exact|"
+    r"precisely|no more,? no less|exact[oa]s?|clavad[oa]s?|ni más ni menos|exactement|pile|tout rond|"
+    r"ni plus ni moins|genau|exakt)\b"
+)
+EXACT_BEFORE = re.compile(
+    r"(?i)\b(?:exactly|precisely|exactamente|exactement|précisément|genau|exakt)\s+$|(?:锁定?在?|锁死在|恰好|正好|刚好)\s*$"
+)
 PER_USER = re.compile(
     r"(?i)\s*(?:each\b|apiece\b|(?:per|a|for (?:each|every))\s+(?:user|ue|person|head|subscriber|device|sensor|"
     r"subcarrier|channel|carrier|antenna|tone)|/\s*(?:user|ue)|每|(?:por|par|pro|je)\s+(?:usuario|utilisateur|"
@@ -65,10 +77,14 @@ MISSING = re.compile(
     r"(?ia)\b(?:missing|lost|loss|unknown|holes?|absent|gone|faltar\w*|falta\w*|perd\w*|manqu\w*|fehl\w*|"
     r"verloren)\b|缺失|丢失|缺少|丢包|未知|缺|丢"
 )
+_COUNT = (
+    r"(?:[0-9]+|two|three|four|five|six|seven|eight|nine|ten|twelve|sixteen|twenty|dos|tres|cuatro|cinco|seis|ocho|diez|"
+    r"deux|trois|quatre|cinq|huit|dix|zwei|drei|vier|fünf|sechs|acht|zehn)"
+)
 COUNTED_USERS = re.compile(
-    r"(?i)(?<![\w.,/^*-])(?:[0-9]+|two|three|four|five|six|seven|eight|nine|ten|twelve|sixteen|twenty) (?:users|ues|"
-    r"subscribers|devices|sensors|terminals|subcarriers|channels)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|设备|"
-    r"传感器|子载波)"
+    rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:users|ues|subscribers|devices|sensors|terminals|subcarriers|channels|usuarios|"
+    r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
+    r"设备|传感器|子载波)"
 )
 SOME_USERS = re.compile(
     r"(?i)\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
@@ -86,18 +102,31 @@ HALVED = re.compile(
     rf"\b(?:half (?:the|of the|as much)|halve|(?:double|twice) the)\s+{_OF_OURS}|"
     r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)"
 )
-SHARE = re.compile(
-    r"(?i)(?<!save )(?<!by )(?<!saving )(?<!cut )(?:(?P<half>\bhalf\b|\bla mitad\b|\bla moitié\b|\bhalbe[rn]?\b)|"
-    r"(?P<third>\b(?:a|one) third\b)|"
-    r"(?P<quarter>\b(?:a|one) quarter\b)|(?P<thirds>\btwo thirds\b)|(?P<quarters>\bthree quarters\b)|"
-    r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:\.[0-9]+)?)\s*(?:%|percent|per cent))\s*(?:of\s+|de\s+)?"
-    r"(?:(?:the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|der|die)\s+)*(?:power|budget|watts|"
-    r"wattage|potencia|puissance|leistung|"
-    r"sendeleistung)\b(?:\s+(?:budget|limit))?"
-    r"|(?:用|以|只用|最多用|不超过)(?:(?P<zh_half>一半)|(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|"
-    r"百分之(?P<zh_word>[0-9]{1,3}))的?(?:发射|总)?(?:功率|预算)"
+_POWER = (
+    r"(?:power|budget|watts|wattage|potencia|presupuesto|puissance|leistung|sendeleistung)\b(?:\s+(?:budget|limit))?"
 )
-SHARES = {"half": 1 / 2, "zh_half": 1 / 2, "third": 1 / 3, "quarter": 1 / 4, "thirds": 2 / 3, "quarters": 3 / 4}
+_FULL = (
+    r"(?:\s+|of|de|d'|the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|el|del|notre|nuestra|der|die|"
+    r"unserer|vollen|maximalen)*"
+)
+SHARE = re.compile(
+    r"(?i)(?<!save )(?<!by )(?<!saving )(?<!cut )(?:(?P<half>\bhalf\b|\b(?:la )?mitad\b|\b(?:la )?moitié\b|"
+    r"\bhalbe[rn]?\b|\bhälfte\b)|(?P<thirds>\b(?:two thirds|dos tercios|deux tiers|zwei dritteln?)\b)|"
+    r"(?P<third>\b(?:(?:a|one|un|ein(?:em)?) )?(?:third|tercio|tiers|drittel)\b)|"
+    r"(?P<quarters>\b(?:three quarters|tres cuartos|trois quarts|drei vierteln?|dreiviertel)\b)|"
+    r"(?P<quarter>\b(?:(?:a|one|un|ein(?:em)?) )?(?:quarter|cuarto|quart|viertel)\b)|"
+    r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:\.[0-9]+)?)\s*(?:%|percent|per cent|prozent|por ciento|pour cent))"
+    rf"{_FULL}\s*{_POWER}"
+    r"|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_half>一半)|(?<![0-9.])(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|"
+    r"百分之(?P<zh_word>[0-9]{1,3})|(?P<zh_third>三分之一)|(?P<zh_thirds>三分之二)|(?P<zh_quarter>四分之一)|"
+    r"(?P<zh_tenths>[一二三四五六七八九])成)的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
+    r"|(?:功率)(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?:(?P<of_half>一半)|(?P<of_tenths>[一二三四五六七八九])成)(?!五)"
+)
+TENTHS = {letter: place / 10 for place, letter in enumerate("一二三四五六七八九", start=1)}
+SHARES = {
+    "half": 1 / 2, "zh_half": 1 / 2, "of_half": 1 / 2, "third": 1 / 3, "zh_third": 1 / 3, "thirds": 2 / 3,
+    "zh_thirds": 2 / 3, "quarter": 1 / 4, "zh_quarter": 1 / 4, "quarters": 3 / 4,
+}  # fmt: skip
 SUBCARRIER = re.compile(
     r"(?i)\s*(?:of\s+power\s+)?(?:/|per|on (?:each|every|any|a)|for (?:each|every)|each|any)\s*(?:sub-?carrier|"
     r"tone|carrier|rb|resource block)\b|\s*(?:per|on any) (?:sub-?carrier|tone)"

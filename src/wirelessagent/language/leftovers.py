@@ -7,6 +7,7 @@ cannot be mere idiom ("half of", "ten volts"; not "a", "one", "十分").
 
 from __future__ import annotations
 
+import functools
 import re
 import unicodedata
 from collections.abc import Iterator, Sequence
@@ -23,14 +24,39 @@ _NAMES = re.compile(
     r"(?i)(?<![A-Za-z0-9.])(?:[2-6]G|[248]K|(?:720|1080|1440|2160)p|wi-?fi\s?[4-7]|24/7)(?![A-Za-z0-9])"
     r"(?!\s*(?:each|per|apiece|every|for (?:each|every))\b)"
 )
+_SPELL = (
+    r"(?:h|hours?|minutes?|seconds?|days?|nights?|weeks?|months?|years?|horas?|minutos?|segundos?|d[ií]as?|noches?|"
+    r"semanas?|mes(?:es)?|años?|heures?|secondes?|jours?|nuits?|semaines?|mois|ans|années?|uhr|stunden?|minuten?|"
+    r"sekunden?|tage?n?|nächten?|wochen?|monate?n?|jahre?n?|a\.?m\.?|p\.?m\.?|o'clock)(?![A-Za-zÀ-ÿ/])"
+)
+_MONTH = (
+    r"(?:jan(?:uary|vier|uar)|enero|février|feb(?:ruary|ruar|rero)|märz|mar(?:ch|s|zo)|april|avril|"
+    r"abril|(?-i:May)|mai|mayo|june?|juin|juni|junio|july|juillet|juli|julio|august|août|agosto|sept?(?:ember|embre|"
+    r"iembre)|oct(?:ober|obre|ubre)|oktober|nov(?:ember|embre|iembre)|de[cz]ember|"
+    r"diciembre|décembre)(?![A-Za-zÀ-ÿ])"
+)
 _TIMES = re.compile(
-    r"(?i)(?<![\w.,])[0-9]{1,2}(?::[0-9]{2})?\s?(?:a\.?m\.?|p\.?m\.?|o'clock|uhr)(?![A-Za-z])|"
-    r"(?<![\w.,])[0-9]{1,2}:[0-9]{2}(?![0-9])|"
-    r"\b(?:for|in|within|after|until|during|next|last|past|every)\s+(?:the\s+)?(?:next\s+|last\s+)?(?:[0-9]{1,3}|"
-    r"two|three|four|five|six|ten|twelve|thirty)\s+"
+    rf"(?i)(?<![\w.,])[0-9]{{1,3}}(?::[0-9]{{2}}|[.,]5)?\s?{_SPELL}|(?<![\w.,])[0-9]{{1,2}}[:：][0-9]{{2}}(?![0-9])|"
+    rf"(?<![\w.,])[0-9]{{1,2}}(?:\.|st|nd|rd|th|er)?\s+(?:de\s+|of\s+)?{_MONTH}|\b{_MONTH}\s+[0-9]{{1,2}}(?![\w.,]?[0-9])|"
+    r"(?<![\w.,])(?:19|20)[0-9]{2}(?=\s*(?:$|[,.;:!?)]|年))|"
+    rf"(?<=\bde )[0-9]{{1,2}}(?= à [0-9]{{1,2}} h\b)|"
+    rf"\b(?:von|zwischen|entre|between|from) [0-9]{{1,2}}(?=(?: h)? (?:bis|und|y|et|and|to|à) [0-9]{{1,2}}\s?{_SPELL})|"
+    r"\b(?:half an?|a half|next half) hour\b|\blas? [0-9]{1,2} de la (?:mañana|tarde|noche|madrugada)|"
+    r"\b(?:for|in|within|after|until|during|next|last|past|every)\s+(?:the\s+)?(?:next\s+|last\s+)?"
+    r"(?:two|three|four|five|six|ten|twelve|thirty)\s+"
     r"(?:hours?|minutes?|mins?|days?|weeks?|months?|years?)\b|[0-9一二两三四五六七八九十半]{1,3}(?:点钟?|小时|分钟|"
     r"个小时|天|周|个月|年)(?!\s*[W瓦])|"
     r"(?:周|星期|礼拜)[一二三四五六日天]|[一二三四五六七八九十0-9]{1,2}月|[一二三四五六七八九十0-9]{1,2}[日]"
+)
+_PRICES = re.compile(  # and other amounts of what no limit here is
+    r"(?i)[€$£¥]\s?[0-9][0-9.,]*|(?<![\w.,])[0-9][0-9.,]*\s?(?:€|\$|£|¥|euros?|cents?|dollars?|pounds?|pesos?|francs?|"
+    r"centimes?|céntimos?|yuan|kronen|[kM]?Wh|kilowatt-?hours?|kilowattheures?|[kMGT]B(?!/|\s?per|ps)|gigabytes?|"
+    r"terabytes?|gigas?octets?|km|metres?|meters?|kilometres?)(?![A-Za-zÀ-ÿ])|"
+    r"[0-9.]+\s?(?:元|块钱?|毛|欧元|美元|度电?)(?!带宽)"
+)
+_GLUED = re.compile(  # CO2, TV5, A9, 9th, 3GPP
+    r"(?<![A-Za-z0-9_])(?:(?!(?:[UuRrPpWwXx]|UE|ue|Ue)[0-9])[A-Za-z]{1,4}[0-9₀-₉]{1,3}|[0-9]{1,3}(?:st|nd|rd|th|er|ère|ème|º|ª))"
+    r"(?![A-Za-z0-9]*[=<>≤≥])(?![A-Za-z0-9.,]*[0-9])|3GPP|CO₂"
 )
 _OF_THE_YEAR = re.compile(r"(?i)\b(?:this|last|next|each|every|per|the) (?:first |last )?quarter\b(?! of)")
 _PAIRS = re.compile(
@@ -47,11 +73,25 @@ _SETS_A_LIMIT = re.compile(
     r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max|min|maximum|minimum|exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥])\s*$"
 )
 _UNIT_OF_ANOTHER_KIND = re.compile(
-    r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|[km]?Wh|[km]?V|J|[km]?A|[kMG]?Hz|joules?|julios?|volts?|voltios?|amps?|amperes?|"
-    r"decibels?|hertz|(?:kilo|mega|giga)hertz)(?![^\W\d_])|\s*[千兆毫]?(?:伏|焦|安培|赫|分贝)"
+    r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"
+)
+_ALONE_AHEAD = re.compile(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
+_ALONE_BEHIND = re.compile(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
+_ALL_IDIOMS = (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR, _PRICES, _GLUED)
+_RATING = re.compile(  # what a device has, and a limit only where nothing else is said
+    r"(?i)\s?-?(?:[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz|(?:kilo|mega|giga)hertz)(?![^\W\d_])|\s*[千兆毫]?(?:伏|赫)"
+)
+FOREIGN_UNIT = re.compile(  # no user's number stands before one
+    r"(?i)\s?-?(?:[kMG]?Hz|hertz|[km]?V|volts?|voltios?|[km]?A|[km]?Wh|J|joules?|julios?|dB|°|[kMGT]?B|bits?|bytes?|"
+    r"kilo\w+|mega\w+|giga\w+|cm|mm|km|m²|ms|grad|degrees?|percent)(?![^\W\d_])"
 )
 _WHOLE = re.compile(r"[0-9]+")
-_IDIOMS = ("a", "an", "one")
+_IDIOMS = frozenset(
+    (
+        "a", "an", "one", "un", "une", "uno", "una", "ein", "eins", "eine", "einen", "einem", "einer", "eines", "cero",
+        "medio", "media", "medios", "medias", "demi", "demie", "halb", "halbe", "halben", "halbes", "halber",
+    )
+)  # fmt: skip
 _CHINESE_FIGURE = re.compile(r"[二三四五六七八九]|十(?!分)|两(?=\s*[个名位台倍])")
 _TO_THE_RIGHT = re.compile(r"[^\s,;:!?\uff0c\uff1b。、)]*(?:\s*[\^*×·/+÷x]\s*[^\s,;]+)*(?:\s?(?:of\s+)?[A-Za-zμΩ/]+)?")
 
@@ -73,9 +113,20 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
     return places[0], max(end, places[0] + 1)
 
 
-def idioms(plain: str) -> list[Span]:
+@functools.lru_cache(maxsize=64)
+def idioms(plain: str) -> tuple[Span, ...]:
     """Where numbers are part of a name, a time or a turn of phrase."""
-    return [match.span() for pattern in (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR) for match in pattern.finditer(plain)]
+    return tuple(
+        match.span()
+        for pattern in _ALL_IDIOMS
+        for match in pattern.finditer(plain)
+        if pattern is not _PRICES or not is_all_said(plain, *match.span())
+    )
+
+
+def is_all_said(plain: str, start: int, end: int) -> bool:
+    """Whether a clause says nothing but the figure at [start, end), as limits are said: "max rate, 10 Wh"."""
+    return _ALONE_AHEAD.search(plain, 0, start) is not None and _ALONE_BEHIND.match(plain, end) is not None
 
 
 def loose_numbers(plain: str, covered: Sequence[Span]) -> list[Number]:
@@ -105,6 +156,9 @@ def _cut(plain: str, number: Number, taken: Sequence[Span]) -> Number:
 def may_be_a_limit(plain: str, number: Number) -> bool:
     """Whether a number stands where a limit would, or before a unit that no limit here has ("43 dB", "10 joules")."""
     after = _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None
+    foreign = _RATING.match(plain, number.end)
+    if foreign is not None and is_all_said(plain, number.start, foreign.end()):
+        return True
     return after or _SETS_A_LIMIT.search(plain, 0, number.start) is not None
 
 
@@ -120,7 +174,7 @@ def _is_figure(plain: str, number: Number) -> bool:
     """Whether a number in words stands for an amount, not for a turn of phrase."""
     if number.value is None:
         return False
-    if number.form == "words":
+    if number.form in ("words", "foreign"):
         return plain[number.start : number.end].lower() not in _IDIOMS
     return number.form == "chinese" and _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None
 

@@ -51,17 +51,17 @@ _NOUN = (
 _WORD_NUMBER = "(?:" + "|".join(sorted(_NUMBER_WORDS, key=len, reverse=True)) + ")"
 _NUMBER = rf"(?:[0-9]{{1,4}}(?![0-9.,]*[0-9%])|{_WORD_NUMBER}\b)"
 _AND = (
-    r"(?:\s*(?:,|&|\+|/)\s*(?:and\s+|y\s+|et\s+|und\s+|or\s+)?|\s+(?:and|or|plus|nor|y|e|o|ni|et|ou|und|oder|noch|sowie)"
-    r"\s+(?:(?:the|el|al|le|au|die|den)\s+)?)"
+    r"(?:\s*(?:,|&|\+|/)\s*(?:and\s+|y\s+|et\s+|und\s+|or\s+)?|\s+(?:and|or|plus|nor|as\s+well\s+as|y|e|o|ni|así\s+como|"
+    r"et|ou|ainsi\s+que|und|oder|noch|sowie)\s+(?:(?:the|el|al|del|le|au|du|die|den|der)\s+)?)"
 )
-_TO = r"(?:\s*(?:-|–|~)\s*|\s+(?:to|through|a|à|bis)\s+)"
+_TO = r"(?:\s*(?:-|–|~)\s*|\s+(?:up\s+to|to|through|al?|hasta\s+el|hasta|à|au|jusqu'(?:à|au)|bis(?:\s+zu)?)\s+)"
 _OF_ITS_OWN = r"(?!\s+(?:for|to|para|pour|für)\s)"  # "6 for user 2, 3 for user 3": no list of users
 _NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"
 _DIGITS = r"[0-9]{1,4}(?![0-9.,]*[0-9%]|[A-Za-z])"
 _WORD_LIST = rf"{_WORD_NUMBER}\b(?:(?:{_AND}|{_TO}){_WORD_NUMBER}\b)*"
 _LIST = rf"(?:{_DIGITS}(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
 _NAMED = re.compile(
-    rf"(?i)(?<![A-Za-z0-9]){_NOUN}[\s_-]*(?:ids?\s*|{_NO}\s*)?\s*(?P<list>{_LIST})"
+    rf"(?i)(?<![A-Za-z0-9]){_NOUN}[\s_-]*(?:ids?\s*|{_NO}\s*|(?:del?|from|von)\s+(?=[0-9]{{1,3}}{_TO}))?\s*(?P<list>{_LIST})"
     rf"|(?<![A-Za-z0-9])(?:u|ue)(?P<short>[0-9]{{1,4}})(?![A-Za-z0-9])"
     rf"|(?<![A-Za-z])[RrWw]_?\{{?(?P<symbol>[0-9]{{1,2}})\}}?(?=\s*(?:[=≥≤<>]))"
     rf"|(?<![A-Za-z0-9])(?-i:R)(?P<rate_of>[0-9]{{1,2}})(?![A-Za-z0-9.])|"
@@ -87,11 +87,12 @@ _ZH = re.compile(
 _OTHERS = re.compile(
     r"(?i)\b(?:everyone else|everybody else|every other (?:one|user|person|subscriber)|"
     r"all (?:the )?others?(?: users?)?|(?:the )?others?(?: users?| ones)?|each of the "
-    r"(?:rest|others)|(?:the )?(?:rest|remaining users?|remainder)(?: of (?:them|the users|us))?|anyone else|"
-    r"los demás|el resto|los otros|los restantes|les autres|tous les autres|le reste|die (?:anderen|übrigen|"
-    r"restlichen)|"
-    r"alle (?:anderen|übrigen)|der rest|allen anderen)\b|(?:其他|其它|其余|剩下|剩余|另外)的?(?:所有)?(?:的)?(?:人|"
-    r"用户|终端)?(?:都)?|别人|旁人"
+    r"(?:rest|others)|(?:the )?(?:rest|remaining(?: users?| ones)?|remainder)(?: of (?:them|the users|us))?|"
+    r"those (?:remaining|left|that remain|who remain|who are left)|anyone else|"
+    r"(?:a )?(?:los|las) (?:demás|otr[oa]s|restantes)|(?:al|el) resto|(?:a )?(?:los|las) que qued[ae]n|"
+    r"(?:(?:à )?tous |chacun )?(?:les|aux|des) autres|(?:le|au) reste|ceux qui restent|"
+    r"(?:(?:die|den|der|alle[nr]?|wir) )?(?:anderen|andern|übrigen|restlichen|verbleibenden)|(?:der|den|dem) rest)\b|"
+    r"(?:其他|其它|其余|剩下|剩余|余下|另外|别的|旁的)的?(?:所有)?(?:的)?(?:人|用户|终端)?(?:都)?|别人|旁人"
 )
 _EVERYBODY = re.compile(
     r"(?i)\b(?:everyone|everybody|every (?:single )?(?:one|user|ue|person|subscriber|customer|terminal|device|"
@@ -100,13 +101,17 @@ _EVERYBODY = re.compile(
     r"each|apiece|all(?: the| our)? (?:users|ues|"
     r"subscribers|customers|terminals|devices|clients|phones|people)|all of them|all|(?:per|a|/)\s?(?:user|ue|"
     r"person|head|subscriber|customer|capita|"
-    r"device|terminal)|nobody|no one|noone|no user|none|anyone|anybody|people|users|(?:para |"
-    r"a )?todos(?: los usuarios)?|"
-    r"cada (?:uno|usuario)|por usuario|nadie|tous(?: les utilisateurs)?|tout le monde|chacun|chaque utilisateur|par "
-    r"utilisateur|personne|alle(?: nutzer)?|jeder?[nm]?(?: nutzer| einzelne[nr]?)?|(?:pro|je) (?:nutzer|kopf|"
-    r"teilnehmer)|niemand|keiner|"
-    r"für alle)\b|(?:每个|每位|每一个|每名|每|各|所有|全部|全体)(?:的)?(?:用户|人|终端|UE|户|客户|设备|位)?|人人|"
-    r"大家|人均|没人|谁也"
+    r"device|terminal|client|sensor|camera|meter|phone|handset|household|station|room)|"
+    r"whoever|nobody|no one|noone|no user|none|anyone|anybody|people|users|(?:para |"
+    r"a )?todos(?: los usuarios)?|cada (?!vatio|watt|julio|joule|bit|segundo|vez|mes|d[ií]a)\w+|"
+    r"por (?:usuario|abonado|cliente|persona|cabeza|terminal|sensor|cámara|medidor|equipo|dispositivo)|nadie|"
+    r"cualquiera|quien sea|tous(?: les utilisateurs)?|tout le monde|chacune?|"
+    r"chaque (?!watt|joule|bit|fois|seconde|mois|jour)\w+|par (?:utilisateur|abonné|client|personne|tête|terminal|"
+    r"capteur|caméra|appareil)|personne|qui que ce soit|quiconque|alle(?: nutzer)?|jeder?[nm]?(?: nutzer| "
+    r"einzelne[nr]?)?|(?:pro|je) (?:nutzer(?:in)?|kopf|teilnehmer(?:in)?|kunde|person|nase|(?:end)?gerät|sensor|"
+    r"kamera)|jedermann|niemand|keine[rmn]?|für alle)\b|"
+    r"(?:每个|每位|每一个|每名|每|各|所有|全部|全体)(?:的)?(?:用户|人|终端|UE|户|客户|设备|位)?|人人|"
+    r"大家|人均|没人|谁也|人手|(?:一人|一户)(?=[一两二三四五六七八九十百半0-9])"
 )
 _PRONOUN = re.compile(
     r"(?i)\b(?:him|her|he|she|them|(?:those|these)(?: two| three| four| five| users)?|that one|both|it|"
@@ -114,10 +119,15 @@ _PRONOUN = re.compile(
     r"lui|elle|eux|les deux|ihm|ihr|ihn|ihnen|den|die beiden|beide[nr]?)\b|[他她它]们?(?!人)"
 )
 JOINT = re.compile(
-    r"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|\b(?:or|and|nor|plus|y|e|o|ni|et|ou|und|oder|sowie|noch)\b|\s)+\s*"
-    r"(?:(?:also|the|al|el|los|la|le|les|au|aux|die|den|der|del)\s+)?"
+    r"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|\b(?:or|and|nor|plus|y|e|o|ni|et|ou|und|oder|sowie|noch|"
+    r"as\s+well\s+as|así\s+como|ainsi\s+que)\b|\s)+\s*(?:(?:also|the|al|el|los|la|le|les|au|aux|die|den|der|del|du)\s+)?"
+    r"(?:l'|à\s+l')?"
 )
-_RANGE = re.compile(rf"(?i){_TO}|\s*[到至]\s*")
+LISTED = re.compile(  # between the figures of a list
+    rf"(?i)\s*(?:[,;、\uff0c]|{JOINT.pattern.removeprefix('(?i)')}|,?\s*(?:and then|beziehungsweise|bzw\.?|"
+    r"respectively))\s*"
+)
+_RANGE = re.compile(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,10 +17,12 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from wirelessagent.language.base_words import based
 from wirelessagent.language.text import CJK
 
 BUCKETS = 1 << 14
 _REACH = 12
+_BASE_REACH, _BASE_NEAR = 8, 3
 _TOKEN = re.compile(rf"[{CJK}]|(?:(?![{CJK}])[^\W\d_])+(?:'(?=[^\W\d_]))?|[0-9]+|\S")
 _IS_CJK = re.compile(f"[{CJK}]")
 _CLAUSE_ENDS = frozenset(",;!?.。，；！？…—\n")
@@ -66,6 +68,39 @@ def _simple(word: str) -> str:
     """Lower case without accents."""
     decomposed = unicodedata.normalize("NFD", word.lower())
     return "".join(letter for letter in decomposed if unicodedata.category(letter) != "Mn") or word
+
+
+def in_base_words(tokens: Sequence[Token], language: str) -> list[Token]:
+    """The same with base words, which five languages share, in place of words; placeholders stay what they are."""
+    found: list[Token] = []
+    words: list[str] = []
+    for token in (*tokens, Token("@", -1)):
+        if token.word[0] != "@":
+            words.append(token.word)
+            continue
+        found.extend(Token(word, -1) for word in based(words, language))
+        words = []
+        found.append(token)
+    return found[:-1]
+
+
+def around_base(tokens: Sequence[Token], place: int) -> set[str]:
+    """The features of the base words about the token at ``place``."""
+    found: set[str] = set()
+    for side, step in (("L", -1), ("R", 1)):
+        clauses, previous = 0, ""
+        for distance in range(1, _BASE_REACH + 1):
+            index = place + step * distance
+            if not 0 <= index < len(tokens):
+                break
+            word = tokens[index].word
+            where = f"base {side}{min(clauses, 1)}"
+            found |= {f"{where}{word}", f"{where}{previous} {word}"}
+            if distance <= _BASE_NEAR:
+                found |= {f"{where}~{word}", f"base {word}"}
+            clauses += word in _CLAUSE_ENDS
+            previous = word
+    return found
 
 
 def around(tokens: Sequence[Token], place: int, known: Sequence[str] = ()) -> set[str]:

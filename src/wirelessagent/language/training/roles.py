@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import logging
 import math
+import re
 import sys
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -21,20 +22,25 @@ import numpy as np
 import numpy.typing as npt
 from scipy import optimize, sparse
 
+from wirelessagent.language.borrowed import BORROWING, figures_of
 from wirelessagent.language.figure_roles import LABELS, ROLES_FILE, View
 from wirelessagent.language.intent import EVERYBODY
-from wirelessagent.language.judged import with_numbers
-from wirelessagent.language.leftovers import loose_numbers
-from wirelessagent.language.mentions import Mention, mentions
+from wirelessagent.language.judged import Look, first_look, second_look
+from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.role_features import BUCKETS, hashed
 from wirelessagent.language.text import normalise
+from wirelessagent.language.training.shortened import shortened
+from wirelessagent.language.training.spoken import spoken
 
 _RIDGE = 1e-5
 _STEPS = 80
-_BALANCE = 0.3
+_BALANCE = 0.6
 _CLOSE = 1e-6
+_ENDS = re.compile(r"\s*(?:$|[,.;:!?)\uff0c。；、])")
+_SHORTENED = ("number", "user", "link")  # what is learned from sentences said shorter
+MEANINGS = Path(__file__).with_name("meanings")
 OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
 
 
@@ -53,31 +59,28 @@ class Example:
 def examples(text: str, constraints: Mapping[str, Any]) -> Iterator[Example]:
     """What a sentence with its meaning shows."""
     plain = normalise(text)
-    quantities = parse_quantities(text)
-    read = [q for q in quantities if q.kind != "bare"]
-    spans = [(q.start, q.end) for q in read]
-    found = mentions(plain, (), spans)
-    loose = loose_numbers(plain, [*spans, *((m.start, m.end) for m in found)])
-    wanted = _Wanted(constraints, read)
-    numbers = [(number, wanted.of_number(number)) for number in loose]
-    view = View(plain, read, found, loose)
+    look = first_look(plain, parse_quantities(text))
+    wanted = _Wanted(constraints, look)
+    numbers = [(number, wanted.of_number(number)) for number in (*look.loose, *look.ones)]
+    view = look.view()
     for number, roles in numbers:
-        yield from _example("number", view.number(number), roles)
-    users = [number for number, roles in numbers if roles == {"user"}]
-    found = with_numbers(plain, found, users)
-    view = View(plain, read, found, [number for number in loose if number not in users])
+        yield from _example("number", view.number(number, look.bound(number)), roles)
+    only = {number: next(iter(roles)) for number, roles in numbers if len(roles) == 1}
+    users = [number for number, role in only.items() if role == "user"]
+    look = second_look(look, users, {number: role for number, role in only.items() if role in BORROWING})
+    view, found = look.view(), look.mentions
+    weights = [number for number, role in only.items() if role == "weight"]
     for mention in found:
         if mention.role == "named":
             yield from _example("user", view.user(mention), wanted.of_user(mention, found))
         elif mention.role == "pronoun":
             yield from _example("user", view.user(mention), wanted.of_pronoun(mention, found))
-    for index, figure in enumerate(read):
-        if figure.kind in ("power", "rate", "ratio"):
-            yield from _example(figure.kind, view.figure(index), wanted.of_figure(figure))
+    for index, figure in enumerate(look.figures):
+        yield from _example(figure.kind, view.figure(index), wanted.of_figure(figure))
         if figure.kind == "rate":
             yield from _link(view, figure.start, found, wanted.owners(figure))
-    for number, roles in numbers:
-        if roles == {"weight"} and number.value is not None:
+    for number in weights:
+        if number.value is not None:
             yield from _link(view, number.start, found, wanted.weighed(float(number.value)))
 
 
@@ -90,7 +93,7 @@ def _example(question: str, features: set[str], roles: set[str]) -> Iterator[Exa
 def _link(view: View, start: int, found: Sequence[Mention], owners: set[str]) -> Iterator[Example]:
     candidates: list[Mention | None] = [*found, None]
     right = [_is_for(mention, found, owners) for mention in candidates]
-    if owners == {EVERYBODY} and any(m is not None and m.role == "others" for m in candidates):
+    if EVERYBODY in owners and any(m is not None and m.role == "others" for m in candidates):
         right = [ok and m is not None and m.role != "everybody" for ok, m in zip(right, candidates, strict=True)]
         if not any(right):
             right = [_is_for(mention, found, owners) for mention in candidates]
@@ -111,8 +114,8 @@ def _is_for(mention: Mention | None, found: Sequence[Mention], owners: set[str])
 class _Wanted:
     """The meaning of a sentence, asked by figure."""
 
-    def __init__(self, constraints: Mapping[str, Any], read: Sequence[Quantity]) -> None:
-        self._constraints = constraints
+    def __init__(self, constraints: Mapping[str, Any], look: Look) -> None:
+        self._constraints, self._look = constraints, look
         self._values = {
             name: _by_user(constraints[name])
             for name in ("min_rate_bps", "max_rate_bps", "weights")
@@ -125,17 +128,58 @@ class _Wanted:
         self._all_users = self._users["users"] | self._users["leave_out"]
         for figures in self._values.values():
             self._all_users |= figures.keys() - {EVERYBODY}
-        rates = [value for name in ("min_rate_bps", "max_rate_bps") for value in self._values.get(name, {}).values()]
+        self._rates = [
+            value for name in ("min_rate_bps", "max_rate_bps") for value in self._values.get(name, {}).values()
+        ]
+        self._worth = {number: self._worth_of(number) for number in (*look.loose, *look.ones)}
+        self._known = [(figure.kind, figure.value) for figure in look.figures]
+        self._borrowing = {number: roles for number in self._worth for roles in [self._borrows(number)] if roles}
+        self._known += [
+            (BORROWING[role], self._worth[number][role]) for number, roles in self._borrowing.items() for role in roles
+        ]
+        outage = constraints.get("outage_probability")
         self._complete = {
-            "power": all(_among(value, read, "power") for value in self._powers.values()),
-            "rate": all(_among(value, read, "rate") for value in rates),
-            "ratio": all(
-                _among(constraints[name], read, "ratio") or _among(1 - constraints[name], read, "ratio")
-                for name in ("outage_probability",)
-                if name in constraints
-            ),
+            "power": all(self._has("power", value) for value in self._powers.values()),
+            "rate": all(self._has("rate", value) for value in self._rates),
+            "ratio": outage is None or self._has("ratio", outage) or self._has("ratio", 1 - outage),
         }
-        self._rates = rates
+
+    def _has(self, kind: str, value: float) -> bool:
+        return any(kind == known and _close(value, each) for known, each in self._known)
+
+    def _worth_of(self, number: Number) -> dict[str, float]:
+        """What a number would be worth in each role that borrows a unit."""
+        look = self._look
+        found = {role: figures_of(look.plain, {number: role}, (), look.figures).get(number) for role in BORROWING}
+        return {role: figure.value for role, figure in found.items() if figure is not None}
+
+    def _borrows(self, number: Number) -> set[str]:
+        """The role in which a number is a wanted figure that stands nowhere with its unit."""
+        outage = self._constraints.get("outage_probability")
+        missing = {
+            "rate": [rate for rate in self._rates if not self._has("rate", rate)],
+            "power": [power for power in self._powers.values() if not self._has("power", power)],
+            "outage": [outage] if outage is not None and not self._has("ratio", outage) else [],
+            "reliability": [1 - outage] if outage is not None and not self._has("ratio", 1 - outage) else [],
+        }
+        missing["multiple"] = missing["rate"] if number.form == "times" else []
+        worth = self._worth[number]
+        roles = {role for role, value in worth.items() if any(_close(value, each) for each in missing[role])}
+        if "rate" in worth and not roles and not self._is_unnamed_user(number):
+            value = worth["rate"]
+            stated = sum(figure.kind == "rate" and _close(value, figure.value) for figure in self._look.figures)
+            more = sum(_close(value, rate) for rate in self._rates) > stated > 0 and not missing["rate"]
+            return {"rate"} if more and self._is_alone(number) else set()
+        return set() if roles and self._is_unnamed_user(number) else roles
+
+    def _is_alone(self, number: Number) -> bool:
+        """Whether nobody is counted by a number: "the other two" are users."""
+        return _ENDS.match(self._look.plain, number.end) is not None
+
+    def _is_unnamed_user(self, number: Number) -> bool:
+        named = {user for mention in self._look.mentions for user in mention.users}
+        value = number.value
+        return value is not None and value == int(value) and str(int(value)) in self._all_users - named
 
     def of_figure(self, figure: Quantity) -> set[str]:
         if not self._complete[figure.kind]:
@@ -160,8 +204,7 @@ class _Wanted:
         again = any(other is not mention and users & set(other.users) for other in found)
         for name in ("leave_out", "users"):
             if users <= self._users[name]:
-                figured = any(users & figures.keys() for figures in self._values.values())
-                return {name, "none"} if figured or again else {name}
+                return {name, "none"} if again else {name}
             if users & self._users[name]:
                 return set()
         return {"none"}
@@ -174,17 +217,17 @@ class _Wanted:
         value = None if number.value is None else float(number.value)
         if value is None:
             return {"limit"} if not all(self._complete.values()) else set()
-        if (
-            any(_is_scaled(value, rate, (1.0, 1e3, 1e6, 8e3, 8e6)) for rate in self._rates)
-            and not self._complete["rate"]
-        ):
-            return {"limit"}
-        if not self._complete["power"] and any(_is_power(value, power) for power in self._powers.values()):
-            return {"limit"}
+        if number in self._borrowing:
+            return self._borrowing[number]
+        scaled = any(_is_scaled(value, rate, (1.0, 1e3, 1e6, 8e3, 8e6)) for rate in self._rates)
+        powers = any(_is_power(value, power) for power in self._powers.values())
+        if (scaled and not self._complete["rate"]) or (powers and not self._complete["power"]):
+            return set() if self._is_unnamed_user(number) else {"limit"}
+        if number in self._look.ones:
+            return {"harmless"} if all(self._complete.values()) and "weights" not in self._values else set()
         outage = self._constraints.get("outage_probability")
         if not self._complete["ratio"] and outage is not None:
-            near = [name for name, each in (("outage", value), ("reliability", 1 - value)) if _close(each, outage)]
-            return set(near) or {"limit"}
+            return {"limit"}
         user = value == int(value) and str(int(value)) in self._all_users | self._values.get("weights", {}).keys()
         weight = any(_close(value, each) for each in self._values.get("weights", {}).values())
         if user and weight:
@@ -198,7 +241,8 @@ class _Wanted:
     def owners(self, figure: Quantity) -> set[str]:
         """The users whose rate a figure is."""
         figures = [self._values.get(name, {}) for name in ("min_rate_bps", "max_rate_bps")]
-        return {user for each in figures for user, value in each.items() if _close(value, figure.value)}
+        found = {user for each in figures for user, value in each.items() if _close(value, figure.value)}
+        return found | self._users["users"] if EVERYBODY in found else found
 
     def weighed(self, value: float) -> set[str]:
         return {user for user, weight in self._values.get("weights", {}).items() if _close(weight, value)}
@@ -210,10 +254,6 @@ def _by_user(value: float | Mapping[str, float]) -> dict[str, float]:
         if isinstance(value, Mapping)
         else {EVERYBODY: float(value)}
     )
-
-
-def _among(value: float, read: Sequence[Quantity], kind: str) -> bool:
-    return any(figure.kind == kind and _close(figure.value, value) for figure in read)
 
 
 def _close(one: float, other: float) -> bool:
@@ -285,6 +325,10 @@ def trained(sentences: Iterable[tuple[str, Mapping[str, Any]]]) -> dict[str, npt
     for text, constraints in sentences:
         for example in examples(text, constraints):
             shown[example.question].append(example)
+        for words in shortened(text):
+            for example in examples(words, constraints):
+                if example.question in _SHORTENED:
+                    shown[example.question].append(example)
     return {question: fit(question, each) for question, each in shown.items()}
 
 
@@ -302,24 +346,22 @@ def save(path: Path, found: Mapping[str, npt.NDArray[np.float32]]) -> None:
     np.savez_compressed(path, allow_pickle=False, **arrays)
 
 
-def sentences(folder: Path) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """(sentence, constraints): ``meanings/*.tsv``, and the spoken ones that say what they mean."""
-    for path in sorted((folder / "meanings").glob("*.tsv")):
+def sentences() -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """(sentence, constraints): ``meanings/*.tsv``, and the spoken requests that say what they mean."""
+    for path in sorted(MEANINGS.glob("*.tsv")):
         for line in path.read_text(encoding="utf-8").splitlines():
             text, _, meaning = line.partition("\t")
             yield text, json.loads(meaning)
-    for path in sorted((folder / "spoken").glob("*.tsv")):
-        for line in path.read_text(encoding="utf-8").splitlines():
-            label, text, meaning = [*line.split("\t"), ""][:3]
-            if label in OBJECTIVES and meaning:
-                yield text, json.loads(meaning)
+    for each in spoken():
+        if each.label in OBJECTIVES and each.constraints is not None:
+            yield each.text, each.constraints
 
 
 def main(path: Path) -> None:
     """Read, fit and write."""
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     start = time.perf_counter()
-    save(path, trained(sentences(Path(__file__).parent)))
+    save(path, trained(sentences()))
     seconds = time.perf_counter() - start
     logging.getLogger(__name__).info("%s: %d kB (%.0f s)", path.name, path.stat().st_size // 1000, seconds)
 

@@ -1,0 +1,82 @@
+"""How often something may fail or must hold, said as odds: "one miss in twenty", "une coupure sur dix", 十次里有九次.
+
+They are ratios like a percentage; whether of what fails or of what holds, the model of roles says.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from wirelessagent.language.numerals import chinese_value
+from wirelessagent.language.quantities import Quantity
+
+_PARTS = {
+    **dict.fromkeys(("one", "once", "a single", "un", "une", "una", "ein", "eine", "einen", "einer", "einmal"), 1),
+    **dict.fromkeys(("two", "twice", "dos", "deux", "zwei", "zweimal"), 2),
+    **dict.fromkeys(("three", "tres", "trois", "drei", "dreimal"), 3),
+    **dict.fromkeys(("four", "cuatro", "quatre", "vier", "viermal"), 4),
+    **dict.fromkeys(("five", "cinco", "cinq", "fünf", "fünfmal"), 5),
+    **dict.fromkeys(("nine", "nueve", "neuf", "neun", "neunmal"), 9),
+    **dict.fromkeys(("nineteen", "diecinueve", "dix-neuf", "neunzehn"), 19),
+}
+_WHOLES = {
+    **dict.fromkeys(("ten", "diez", "dix", "zehn"), 10),
+    **dict.fromkeys(("twenty", "veinte", "vingt", "zwanzig"), 20),
+    **dict.fromkeys(("fifty", "cincuenta", "cinquante", "fünfzig"), 50),
+    **dict.fromkeys(("a hundred", "one hundred", "hundred", "cien", "cent", "hundert"), 100),
+    **dict.fromkeys(("a thousand", "thousand", "mil", "mille", "tausend"), 1000),
+}
+_ORDINALS = {
+    "zehnte": 10, "zwanzigste": 20, "fünfzigste": 50, "hundertste": 100, "tausendste": 1000, "tenth": 10,
+    "twentieth": 20, "fiftieth": 50, "hundredth": 100, "thousandth": 1000,
+}  # fmt: skip
+_EVENT = (
+    r"(?:time|miss(?:es)?|fail(?:ure)?|outage|drop|packet|transmission|attempt|slot|night|day|case|coupure|raté|perte|"
+    r"échec|fois|panne|paquet|fallo|corte|vez|veces|pérdida|error|interrupción|ausfall|ausfälle|aussetzer|fehler|mal|"
+    r"paket|pakete|fälle|fällen)s?"
+)
+_PART = rf"(?P<part>[0-9]{{1,3}}|{'|'.join(sorted(_PARTS, key=len, reverse=True))})"
+_WHOLE = rf"(?P<whole>10|20|25|40|50|100|200|500|1[ .,']?000|{'|'.join(sorted(_WHOLES, key=len, reverse=True))})"
+_NUMERAL = "[0-9一二两三四五六七八九十百千]+"
+_ODDS = re.compile(
+    rf"(?i)(?<![\w.,]){_PART}(?:[\s-]+{_EVENT})?[\s-]+(?:in|out\s+of|of|por\s+cada|de\s+cada|cada|entre|sur|von|aus|auf)"
+    rf"[\s-]+(?:every\s+|each\s+|je\s+)?{_WHOLE}(?![\w%]|[.,][0-9]|\s?(?:[kmM]?W|dB\w*|[kKMG]?bit\S*|[kMG]bps)\b)|"
+    rf"\bjede[rsnm]?\s+(?P<ordinal>{'|'.join(_ORDINALS)})[nrsm]?\b|"
+    rf"(?P<zhwhole>{_NUMERAL})(?P<unit>次|回)(?:里|中|之中|当中)?[^,，。;；0-9一二两三四五六七八九十百千]{{0,6}}(?P<zhpart>{_NUMERAL})(?P=unit)"
+)
+
+
+def odds(plain: str, taken: Sequence[tuple[int, int]]) -> Iterator[Quantity]:
+    """The odds of a normalised text as ratios, where no ``taken`` span is.
+
+    >>> [(q.text, q.value) for q in odds("one miss in twenty is fine", ())]
+    [('one miss in twenty', 0.05)]
+    """
+    for match in _ODDS.finditer(plain):
+        value = _value(match)
+        if 0 < value < 1 and not any(match.start() < end and start < match.end() for start, end in taken):
+            yield Quantity(
+                value=value, kind="ratio", text=match.group(), start=match.start(), end=match.end(),
+                phrase_start=match.start(), phrase_end=match.end(),
+            )  # fmt: skip
+
+
+def _value(match: re.Match[str]) -> float:
+    """The ratio of a match; 0 where it is none."""
+    if match["ordinal"]:
+        return 1 / _ORDINALS[match["ordinal"].lower()]
+    if match["zhwhole"]:
+        part, whole = _chinese(match["zhpart"]), _chinese(match["zhwhole"])
+    else:
+        part, whole = _number(match["part"], _PARTS), _number(match["whole"], _WHOLES)
+    return part / whole if whole else 0.0
+
+
+def _number(word: str, words: dict[str, int]) -> float:
+    digits = re.sub(r"[ .,']", "", word)
+    return float(digits) if digits.isdigit() else float(words.get(" ".join(word.lower().split()), 0))
+
+
+def _chinese(word: str) -> float:
+    return float(word) if word.isdigit() else float(chinese_value(word) or 0)
