@@ -25,6 +25,7 @@ from wirelessagent.explain.report import cannot_be_served
 from wirelessagent.explain.table import Table
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Constraint, Intent
+from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.units import human, percent
@@ -73,11 +74,20 @@ def _verdict(state: State, run: Run, language: str) -> str:
     outcome = outcome_in_words(case, run.decision, language)
     met = say(language, "what_if_met", outcome=outcome)
     if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
-        value = human(now.decision.value, now.decision.unit)
-        met = say(language, "what_if_now", outcome=outcome, now=value)
+        met = say(language, "what_if_now", outcome=outcome, **_beside(now.decision, run.decision, language))
     left_out = cannot_be_served(run.decision, language)
     warned = [say(language, "note", note=left_out)] if left_out else []
     return joined(language, [*notes, met, *warned, nothing])
+
+
+def _beside(now: Decision, then: Decision, language: str) -> dict[str, str]:
+    """What the value is now, and by how much the other one differs; nothing of that where it does not show."""
+    change, value = then.value - now.value, human(now.value, now.unit)
+    if not now.value or value == human(then.value, then.unit):
+        return {"now": value, "change": ""}
+    size, share = human(abs(change), now.unit), percent(abs(change / now.value))
+    key = "what_if_more" if change > 0 else "what_if_less"
+    return {"now": value, "change": say(language, key, size=size, share=share)}
 
 
 def _figure_of(run: Run, language: str) -> tuple[str, str]:

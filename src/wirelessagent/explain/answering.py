@@ -16,8 +16,9 @@ from wirelessagent.explain.proof_words import (
     prices_table,
     uncertainty_answer,
 )
+from wirelessagent.explain.reaching import has_reach
 from wirelessagent.explain.report import Report
-from wirelessagent.explain.step_words import no_power_answer, step_answer
+from wirelessagent.explain.step_words import no_power_answer, reach_answer, step_answer
 from wirelessagent.explain.steps import power_step, rate_step
 from wirelessagent.explain.table import Table
 from wirelessagent.explain.tables import user_table
@@ -38,7 +39,8 @@ def answered(
         topic: why_user, why_infeasible, certificate, uncertainty, step, prices or users.
         language: the operator's.
         user: whom it is about, from 0.
-        figures: power_w, rate_bps or users of a step: how much more, or how many.
+        figures: power_w, rate_bps, rate_share or users of a step: how much more, or how many; "each" where the rate is
+            every user's.
     """
     usable = case.decision.is_usable
     if topic == "why_user" and user is not None:
@@ -67,7 +69,15 @@ def answered(
 
 
 def _step(case: Case, language: str, user: int | None, figures: Mapping[str, float]) -> str:
+    if "rate_share" in figures:
+        share, promised = figures["rate_share"], float(case.promised_bps.max())
+        if has_reach(case):
+            return reach_answer(case, share * case.decision.value, language)
+        if promised > 0:
+            return step_answer(case, rate_step(case, share * promised), language)
     if "rate_bps" in figures:
+        if user is None and "each" not in figures and has_reach(case):
+            return reach_answer(case, figures["rate_bps"], language)
         return step_answer(case, rate_step(case, figures["rate_bps"], user), language)
     step_w = figures.get("power_w", 1.0)
     step = power_step(case, step_w)

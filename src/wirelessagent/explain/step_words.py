@@ -8,6 +8,7 @@ from wirelessagent.explain.case import Case
 from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import Lexicon, outcome_in_words, paragraph, value_name
 from wirelessagent.explain.prices import marginal_prices
+from wirelessagent.explain.reaching import Reach, has_reach, reach
 from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.steps import Step
 from wirelessagent.model.units import human, percent
@@ -39,6 +40,15 @@ WORDS = Lexicon(
         "of_rate": "{level} promised to {who}",
         "up": "raise",
         "down": "lower",
+        "reached": "A {figure} of {target}, {step}, would take {power} instead of {before}: {size} {way} ({share}).",
+        "kept": "To keep the {figure} at {target} all the same, it would take {power} instead of {before}: {size} "
+        "{way} ({share}).",
+        "out_of_reach": "A {figure} of {target}, {step}, is out of reach: not even {power} would do.",
+        "nothing_left": "{step} leaves nothing of the {figure}, which is {before}.",
+        "rate_more": "{step} more",
+        "rate_less": "{step} less",
+        "more": "more",
+        "less": "less",
     },
     chinese={
         "power": "功率由 {before} 改为 {level}，重新求解，{change}。",
@@ -63,6 +73,14 @@ WORDS = Lexicon(
         "of_rate": "向{who}承诺 {level}",
         "up": "提高",
         "down": "降低",
+        "reached": "{figure}达到 {target}（{step}）需要 {power}，而不是 {before}：{way} {size}（{share}）。",
+        "kept": "若要{figure}仍为 {target}，则需要 {power}，而不是 {before}：{way} {size}（{share}）。",
+        "out_of_reach": "{figure}无法达到 {target}（{step}）：即使 {power} 也不够。",
+        "nothing_left": "{figure}现为 {before}，{step}就什么也不剩了。",
+        "rate_more": "多 {step}",
+        "rate_less": "少 {step}",
+        "more": "多",
+        "less": "少",
     },
 )
 
@@ -79,11 +97,46 @@ def step_answer(case: Case, step: Step, language: str) -> str:
         change = change_in_words(case, step, language)
         said.append(WORDS.say(language, "rate", who=_who(case, step, language), level=_level(step), change=change))
     if before.is_usable and after.is_usable:
+        said += _kept(case, step, language)
         said += _marginal(step, language)
         said += _bound(case, step, language)
     if after.is_usable and not np.isnan(step.limit_w):
         said.append(WORDS.say(language, "limit", limit=human(step.limit_w, "W")))
     return paragraph(said, language)
+
+
+def reach_answer(case: Case, step: float, language: str) -> str:
+    """What power it takes that the value is larger by ``step``, or what a smaller one saves."""
+    now, figure = case.decision.value, value_name(case, language)
+    more = WORDS.say(language, "rate_more" if step > 0 else "rate_less", step=human(abs(step), case.decision.unit))
+    if not now + step > 0:
+        return WORDS.say(language, "nothing_left", step=more, figure=figure, before=human(now, case.decision.unit))
+    return _reached(case, reach(case, now + step), "reached", language, step=more)
+
+
+def _reached(case: Case, found: Reach, key: str, language: str, *, step: str = "") -> str:
+    figure, target = value_name(case, language), human(found.target, case.decision.unit)
+    if np.isnan(found.power_w):
+        return WORDS.say(
+            language, "out_of_reach", figure=figure, target=target, step=step, power=human(found.tried_w, "W")
+        )
+    before = case.problem.budget_w(case.cell)
+    more = found.power_w - before
+    said = WORDS.say(
+        language, key, figure=figure, target=target, step=step, power=human(found.power_w, "W"),
+        before=human(before, "W"), size=human(abs(more), "W"), share=percent(abs(more) / before),
+        way=WORDS.say(language, "more" if more >= 0 else "less"),
+    )  # fmt: skip
+    beyond = [] if np.isnan(found.limit_w) else [WORDS.say(language, "limit", limit=human(found.limit_w, "W"))]
+    return paragraph([said, *beyond], language)
+
+
+def _kept(case: Case, step: Step, language: str) -> list[str]:
+    """What power would keep the value where it was in spite of what more is promised."""
+    if step.of_power or not has_reach(case) or step.change >= -_NOTHING * abs(step.before.value):
+        return []
+    found = reach(case, step.before.value, step.problem)
+    return [] if np.isnan(found.power_w) else [_reached(case, found, "kept", language)]
 
 
 def no_power_answer(case: Case, step_w: float, language: str) -> str:

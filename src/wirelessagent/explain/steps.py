@@ -43,6 +43,11 @@ class Step:
     limit_w: float = np.nan
 
     @property
+    def problem(self) -> Problem:
+        """What was solved after the step."""
+        return self.after.problem
+
+    @property
     def change(self) -> float:
         """Change of the value; NaN where either problem has no allocation."""
         return self.value_after - self.before.value

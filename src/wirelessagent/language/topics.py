@@ -25,6 +25,11 @@ _NUMBER = re.compile(
 )
 _FORMATS = (("tmf921", re.compile(r"(?i)tmf\s*-?921")), ("ts28312", re.compile(r"(?i)28\.?312|3gpp")))
 _MORE = re.compile(r"(?i)\b(?:more|extra|additional|further|another)\s+")
+_FEWER = re.compile(r"(?i)\b(?:less|fewer|lower|reduc\w+|cut\w*|sav\w+|drop\w*)\b|(?<!多)少|降|减|省")
+_EACH = re.compile(
+    r"(?i)\b(?:each|every(?:one|body)?|all\s+(?:the\s+)?users|per\s+(?:user|head)|apiece)\b|每[个位名]?|大家|所有人|所有用户|"
+    r"各用户|人人"
+)
 _MORE_USERS = re.compile(
     r"(?i)\b(?:one|an?|another)\s+(?:more|extra|additional|further)?\s*(?:user|subscriber|customer|terminal)\b|"
     r"[多加]一?[个位名]?(?:用户|终端)"
@@ -76,13 +81,20 @@ def _what_if(sentence: Sentence) -> dict[str, Detail]:
 
 
 def _step(sentence: Sentence) -> Mapping[str, Detail]:
-    """How much more is asked about: power, rate or users; a watt where nothing is said."""
+    """How much more is asked about: power, rate or users; a watt where nothing is said. Less is below zero."""
     if _MORE_USERS.search(sentence.plain):
         return {"users": 1.0}
-    said = parse_quantities(_MORE.sub("", sentence.plain))  # "5 more watts"
-    power = next((figure.value for figure in said if figure.kind == "power" and figure.value > 0), None)
-    fallback: Mapping[str, Detail] = {"power_w": power if power is not None else 1.0}
-    return sentence.reading.steps or _stated(sentence.reading.values) or fallback
+    plain, steps = _MORE.sub("", sentence.plain), dict[str, Detail](sentence.reading.steps)
+    said = parse_quantities(plain)  # "5 more watts"
+    for kind, name in (("power", "power_w"), ("rate", "rate_bps")):
+        figure = next((figure.value for figure in said if figure.kind == kind and figure.value > 0), None)
+        if figure is not None and not steps:
+            steps[name] = figure
+    steps = steps or _stated(sentence.reading.values) or {"power_w": 1.0}
+    if "rate_bps" in steps and _EACH.search(plain):
+        steps["each"] = 1.0
+    sign = -1.0 if _FEWER.search(plain) and said else 1.0
+    return {name: sign * value if isinstance(value, float) else value for name, value in steps.items()}
 
 
 def _stated(values: Mapping[str, Constraint]) -> dict[str, Detail]:

@@ -121,6 +121,19 @@ _SUPPOSED_END = re.compile(
     r"[,，]?\s*(?:(?:then\s+)?what(?:\s+(?:would\s+happen|then|happens))?|又?会?(?:怎么样|怎样|如何|怎么办)|的话|呢|结果如何)*"
     r"[?？。.\s]*$"
 )
+_OUTCOME = r"(?:rates?|throughput|speed|power|watts?)"
+_LOSES = r"(?:cost|lose|save|bring|buy|gain|mean|give|take|do|change|matter)"
+_WORTH = re.compile(
+    rf"(?:how\s+much|what)(?:\s+(?:total\s+)?{_OUTCOME})?\s+(?:would|does|do|will|could)\s+(?P<said>.+?)\s+{_LOSES}"
+    rf"(?:\s+(?:us|me|them|the\s+\w+|(?:in|of)\s+(?:the\s+)?(?:total\s+)?{_OUTCOME}))*|"
+    rf"(?:how\s+much|what)(?:\s+(?:total\s+)?{_OUTCOME})?\s+(?:would|do|does|will)\s+(?:we|i|it|they|the\s+\w+)\s+"
+    r"(?:lose|save|gain|get|have|give\s+up)\s+(?:(?:with|at|for|on|by|if)\s+)(?:we\s+|i\s+|you\s+)?(?:had\s+|used?\s+)?"
+    r"(?P<with>.+)|"
+    r"(?P<zh>.+?)(?:的话)?[,，]?(?:会|能|将|可以|大概|我们|总?速率|吞吐量)*"
+    r"(?:损失|需?要|得|少|失去|多|增加|带来|换来|换|省|节省|影响|掉|降低?|下降|提高|付出|牺牲|有)(?:掉|下|出)?(?:多少|什么|多大)"
+    r"(?:的?(?:总?速率|吞吐量?|功率|兆|瓦|代价|影响|好处))?|(?P<zh_then>.+?)(?:的话)?[,，]?(?:会|又会)(?:怎么样|怎样|如何)"
+)
+"""What a change is worth: "how much would 10 % less power cost?", "少10%功率会损失多少?"."""
 _TO_AMOUNT = re.compile(r"\bto\s+[~#^]|[到成为]\s*[~#^]")
 
 
@@ -156,6 +169,9 @@ def read_relative(line: Line) -> Intent | None:
     other = _other_amount(line)
     if other is not None:
         return other
+    weighed = _weighed(line)
+    if weighed is not None:
+        return weighed
     lead = _SUPPOSING.match(line.wish)
     said = line.wish if lead is None else line.wish[lead.end() :]
     if lead is not None:
@@ -170,6 +186,24 @@ def read_relative(line: Line) -> Intent | None:
     if basis is None:
         return line.ask("no_rate_to_change")
     return _changed(line, name, basis, scaled, supposed=lead is not None)
+
+
+def _weighed(line: Line) -> Intent | None:
+    """A change of which is asked what it is worth: a what-if of a share, a step of a figure; else None."""
+    match = _WORTH.fullmatch(line.wish.rstrip("?？吗呢 "))
+    scaled = None if match is None else scaled_in(next(said for said in match.groupdict().values() if said))
+    if scaled is None:
+        return None
+    if scaled.signed:
+        figure = line.figures[0]
+        user: dict[str, Detail] = {"user": line.users[0]} if line.users and figure.kind == "rate" else {}
+        step = scaled.signed * figure.value
+        return line.question("step", **{"rate_bps" if figure.kind == "rate" else "power_w": step}, **user)
+    name = scaled.name_in(line.context)
+    basis = None if name is None else _of_users(_held(scaled, name, line.context), line.users)
+    if name is not None and basis is not None:
+        return _changed(line, name, basis, scaled, supposed=True)
+    return line.question("step", rate_share=scaled.factor - 1.0) if scaled.of == "rate" and not line.users else None
 
 
 def _fits(line: Line, scaled: Scaled, name: str) -> bool:

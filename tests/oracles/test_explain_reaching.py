@@ -1,0 +1,73 @@
+"""The power that a larger value takes: handed back as the budget, it yields the value."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+import pytest
+
+import wirelessagent as wa
+from wirelessagent.explain.answering import answered
+from wirelessagent.explain.case import Case
+from wirelessagent.explain.reaching import has_reach, reach
+from wirelessagent.explain.steps import rate_step
+from wirelessagent.model.units import human
+
+CELL = wa.Cell(max_power_w=20)
+SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
+SEEN = wa.repair(SCENE.observe(wa.loss.random(0.3), seed=4))
+AIMS: tuple[tuple[str, dict[str, Any]], ...] = (
+    ("max_rate", {}),
+    ("max_rate", {"min_rate_bps": 2e5}),
+    ("max_min_rate", {}),
+    ("proportional_fairness", {}),
+)
+
+
+def case_of(objective: Any, **constraints: Any) -> Case:
+    problem = wa.Problem(objective, **{"max_power_w": 10.0, **constraints})
+    return Case(decision=wa.decide(SEEN, problem, CELL), estimate=SEEN)
+
+
+def told(case: Case, topic: str, language: str = "en", user: int | None = None, **figures: float) -> str:
+    found = answered(case, wa.report(case.decision), topic, language, user=user, figures=figures)
+    assert found is not None
+    return found[0]
+
+
+@pytest.mark.parametrize(("objective", "constraints"), AIMS)
+@pytest.mark.parametrize("factor", [1.0, 1.2, 0.7])
+def test_the_power_that_is_told_yields_the_value(objective: str, constraints: dict[str, Any], factor: float) -> None:
+    case = case_of(objective, **constraints)
+    target = factor * case.decision.value
+    found = reach(case, target)
+    cell = dataclasses.replace(CELL, max_power_w=1e3)
+    with_it = wa.decide(case.estimate, dataclasses.replace(case.problem, max_power_w=found.power_w), cell)
+    assert with_it.value == pytest.approx(target, rel=5e-3)
+    assert (found.power_w > CELL.max_power_w) == (found.limit_w == CELL.max_power_w)
+
+
+def test_what_no_power_reaches_is_told() -> None:
+    case = case_of("max_rate")
+    assert np.isnan(reach(case, 1e3 * case.decision.value).power_w)
+    assert "out of reach" in told(case, "step", rate_bps=1e12)
+    assert "nothing" in told(case, "step", rate_bps=-1e12)
+    assert not has_reach(case_of("min_power", min_rate_bps=3e5))
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_more_rate_costs_watts(language: str) -> None:
+    case = case_of("max_rate")
+    found = reach(case, case.decision.value + 5e5)
+    said = told(case, "step", language, rate_bps=5e5)
+    for figure in (human(found.power_w, "W"), human(found.power_w - 10, "W"), "10 W", "500 kbit/s"):
+        assert figure in said
+    share = told(case, "step", language, rate_share=0.1)
+    assert human(1.1 * case.decision.value, "bit/s") in share
+    kept = reach(case, case.decision.value, rate_step(case, 3e5, 0).problem)
+    assert human(kept.power_w, "W") in told(case, "step", language, 0, rate_bps=3e5)
+    assert "300 kbit/s" in told(case, "step", language, rate_bps=3e5, each=1.0)
+    least = case_of("min_power", min_rate_bps=3e5)
+    assert told(least, "step", language, rate_share=0.1) == told(least, "step", language, rate_bps=3e4)
