@@ -9,6 +9,7 @@ from conversations import LOSS, SCENE, SEED
 
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
+from wirelessagent.model.units import human
 
 HELD = "highest total rate, at most 10 W"
 
@@ -61,3 +62,35 @@ def test_a_share_less_is_solved_and_the_loss_told(said: str) -> None:
 def test_a_share_more_of_the_rate_is_told_in_watts() -> None:
     assert dict(answered("what would 10 % more rate cost?").intent.details) == {"rate_share": pytest.approx(0.1)}
     assert "W" in answered("速率提高10%要多少功率?").reply
+
+
+@pytest.mark.parametrize(
+    ("said", "power", "outage", "told"),
+    [
+        ("what's the most I could promise everyone at 10 W?", 10.0, 0.05, "each of the 4 users"),
+        ("10瓦下最多能给每个人保证多少?", 10.0, 0.05, "这 4 个用户每人"),
+        ("how much can we promise everyone at 99 %?", 10.0, 0.01, "99 %"),
+        ("最多能给每个人保证多少,不算3号", 10.0, 0.05, "这 3 个用户每人"),
+        ("how much can I promise user 3 with 5 W?", 5.0, 0.05, "user 3 with 5 W"),
+    ],
+)
+def test_the_most_that_can_be_promised_is_solved_and_proven(said: str, power: float, outage: float, told: str) -> None:
+    turn = answered(said)
+    assert turn.run is not None
+    decision = turn.run.decision
+    assert (decision.problem.max_power_w, decision.problem.outage_probability) == (power, outage)
+    for figure in (told, human(decision.value, "bit/s"), human(decision.bound, "bit/s")):
+        assert figure in turn.reply
+    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
+    for line in (HELD, said, "do that"):
+        session.say(line)
+    assert session.request is not None
+    assert session.request.constraints["outage_probability"] == outage
+
+
+@pytest.mark.parametrize(
+    "said", ["how many users get at most 1 Mbit/s?", "why does user 3 get the most?", "least power"]
+)
+def test_other_lines_ask_for_no_such_promise(said: str) -> None:
+    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
+    assert "asked" not in [session.say(line) for line in (HELD, said)][-1].intent.details

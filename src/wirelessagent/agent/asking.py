@@ -1,4 +1,4 @@
-"""Turns that change nothing: what if, compare, status, history, help, and questions about the decision."""
+"""Turns that change nothing: compare, status, history, help, and questions about the decision."""
 
 from __future__ import annotations
 
@@ -11,88 +11,22 @@ from typing import cast
 from wirelessagent import plugins
 from wirelessagent.agent import answers
 from wirelessagent.agent.figures import certificate_line, side_by_side
-from wirelessagent.agent.request import Request
 from wirelessagent.agent.restating import goal_words, restated
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
+from wirelessagent.agent.supposing import what_if
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.agent.words import joined, say
+from wirelessagent.agent.words import say
 from wirelessagent.explain.labels import called, worded
-from wirelessagent.explain.lexicon import outcome_in_words, value_name
-from wirelessagent.explain.nearest import nearest
-from wirelessagent.explain.nearest_words import nearest_answer
-from wirelessagent.explain.report import cannot_be_served
 from wirelessagent.explain.table import Table
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Constraint, Intent
-from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.problem import Problem
-from wirelessagent.model.units import human, percent
+from wirelessagent.model.units import human
 
 _SHOWN = 60
 """Characters of a sentence that the history shows."""
-
-
-def what_if(site: Site, state: State, intent: Intent) -> Reply:
-    """A decision for other circumstances beside the one that holds."""
-    language, details = intent.language, intent.details
-    share = details.get("missing_share")
-    constraints = cast("Mapping[str, Constraint]", details.get("constraints") or {})
-    objective = cast("str | None", details.get("objective"))
-    dropped = tuple(str(details.get("dropped", "")).split())
-    if share is None and not constraints and objective is None and not dropped:
-        return Reply(text=say(language, "what_if_nothing"), stage="asked")
-    if state.request is None and objective is None:
-        return Reply(text=say(language, "nothing_yet"))
-    if share is not None and not 0 <= cast(float, share) < 1:
-        return Reply(text=say(language, "what_if_missing_share", share=percent(cast(float, share))), stage="asked")
-    held = state.request or Request(objective=cast(str, objective))
-    request = held.amended(constraints, objective=objective, dropped=dropped)
-    sight = None if share is None else site.sight_missing(cast(float, share), language)
-    run = site.foreseen(site.plan(intent, request, sight=sight))
-    answer = _verdict(state, run, language)
-    if share is None:
-        asked = restated(request, language)
-        text = say(language, "what_if", request=asked[:1].lower() + asked[1:], answer=answer)
-    else:
-        text = say(language, "what_if_seen", share=percent(cast(float, share)), answer=answer)
-    runs = [(say(language, "what_if_column"), run)]
-    if state.run is not None:
-        runs.insert(0, (say(language, "now_column"), site.foreseen(state.run)))
-    return Reply(text=text, run=run, tables=(side_by_side(runs, language),))
-
-
-def _verdict(state: State, run: Run, language: str) -> str:
-    """Whether a request can be met and with what, or what can be met instead; and what was assumed only here."""
-    now, case = state.run, answers.case_of(run)
-    noted = () if now is None else now.notes
-    notes = [say(language, "note", note=note[:1].upper() + note[1:]) for note in run.notes if note not in noted]
-    nothing = say(language, "nothing_changed")
-    if not run.decision.is_usable:
-        return joined(language, [*notes, f"{nearest_answer(case, nearest(case), language)}\n{nothing}"])
-    outcome = outcome_in_words(case, run.decision, language)
-    met = say(language, "what_if_met", outcome=outcome)
-    if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
-        met = say(language, "what_if_now", outcome=outcome, **_beside(now.decision, run.decision, language))
-    left_out = cannot_be_served(run.decision, language)
-    warned = [say(language, "note", note=left_out)] if left_out else []
-    return joined(language, [*notes, met, *warned, nothing])
-
-
-def _beside(now: Decision, then: Decision, language: str) -> dict[str, str]:
-    """What the value is now, and by how much the other one differs; nothing of that where it does not show."""
-    change, value = then.value - now.value, human(now.value, now.unit)
-    if not now.value or value == human(then.value, then.unit):
-        return {"now": value, "change": ""}
-    size, share = human(abs(change), now.unit), percent(abs(change / now.value))
-    key = "what_if_more" if change > 0 else "what_if_less"
-    return {"now": value, "change": say(language, key, size=size, share=share)}
-
-
-def _figure_of(run: Run, language: str) -> tuple[str, str]:
-    """What a run's value is called, and its unit: values compare where both are the same."""
-    return value_name(answers.case_of(run), language), run.decision.unit
 
 
 def compare(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:

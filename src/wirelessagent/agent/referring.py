@@ -3,40 +3,33 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
-from typing import cast
+from collections.abc import Sequence
 
-from wirelessagent.agent import asking
+from wirelessagent.agent import asking, supposing
 from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.figures import certificate_line, side_by_side
-from wirelessagent.agent.request import Request
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import joined, say
-from wirelessagent.language.intent import Constraint, Detail, Intent
+from wirelessagent.language.intent import Detail, Intent
 
 
 def what_if(site: Site, state: State, intent: Intent) -> Reply:
     """A what-if, which a "do that" may turn into the request, and which plan a yes is still for."""
     language, details = intent.language, intent.details
-    reply = asking.what_if(site, state, intent)
+    reply = supposing.what_if(site, state, intent)
     if reply.run is None:
         return reply
-    supposed, text = None, reply.text
-    if "missing_share" not in details:
-        constraints = cast("Mapping[str, Constraint]", details.get("constraints") or {})
-        objective = cast("str | None", details.get("objective"))
-        held, dropped = state.request or Request(objective=str(objective)), str(details.get("dropped", "")).split()
-        supposed = held.amended(constraints, objective=objective, dropped=tuple(dropped))
+    text, request = reply.text, None if "missing_share" in details else supposing.supposed(state, intent)
     if state.planned is not None and state.request is not None:
-        key = "plan_still_waits" if supposed is None else "plan_or_what_if"
+        key = "plan_still_waits" if request is None else "plan_or_what_if"
         plan = restated(state.request, language).rstrip(".。")
         text = joined(language, [text, told(language, key, request=plan[:1].lower() + plan[1:])])
     return dataclasses.replace(
-        reply, text=text, state=dataclasses.replace(state, question=None, supposed=supposed)
+        reply, text=text, state=dataclasses.replace(state, question=None, supposed=request)
     )  # fmt: skip
 
 

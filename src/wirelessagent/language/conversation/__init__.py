@@ -13,6 +13,7 @@ from wirelessagent.language.conversation.about import asked_instead, read_questi
 from wirelessagent.language.conversation.amendments import read_amendment
 from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.line import NAME, Line
+from wirelessagent.language.conversation.promisable import read_promisable
 from wirelessagent.language.conversation.relative import read_relative
 from wirelessagent.language.conversation.reports import only_told
 from wirelessagent.language.conversation.unanswered import Unanswered, leaves_the_question, unanswered
@@ -31,7 +32,7 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     if len(text) > _LONGEST:
         return recogniser.recognise(text, context)
     line, asked = Line.of(text, context), wondered(text) if context.objective is not None else None
-    for read in (read_command, read_relative, read_question, read_amendment):
+    for read in (read_command, read_relative, read_promisable, read_question, read_amendment):
         intent = read(line)
         if intent is not None:
             return intent

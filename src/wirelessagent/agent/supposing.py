@@ -1,0 +1,120 @@
+"""Turns that ask what would be: a decision for other circumstances beside the one that holds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import cast
+
+import numpy as np
+
+from wirelessagent.agent import answers
+from wirelessagent.agent.figures import side_by_side
+from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, user_number
+from wirelessagent.agent.request import Request
+from wirelessagent.agent.restating import restated
+from wirelessagent.agent.site import Site
+from wirelessagent.agent.state import Reply, State
+from wirelessagent.agent.turn import Run
+from wirelessagent.agent.turn_words import told
+from wirelessagent.agent.words import joined, say
+from wirelessagent.explain.labels import called
+from wirelessagent.explain.lexicon import outcome_in_words, value_name
+from wirelessagent.explain.nearest import nearest
+from wirelessagent.explain.nearest_words import nearest_answer
+from wirelessagent.explain.report import cannot_be_served
+from wirelessagent.language.intent import Constraint, Intent
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.units import human, percent, reliability
+
+
+def what_if(site: Site, state: State, intent: Intent) -> Reply:
+    """A decision for other circumstances beside the one that holds."""
+    language, details = intent.language, intent.details
+    share = details.get("missing_share")
+    objective = details.get("objective")
+    if share is None and not any(details.get(name) for name in ("constraints", "objective", "dropped")):
+        return Reply(text=say(language, "what_if_nothing"), stage="asked")
+    if state.request is None and objective is None:
+        return Reply(text=say(language, "nothing_yet"))
+    if share is not None and not 0 <= cast(float, share) < 1:
+        return Reply(text=say(language, "what_if_missing_share", share=percent(cast(float, share))), stage="asked")
+    request = supposed(state, intent)
+    sight = None if share is None else site.sight_missing(cast(float, share), language)
+    run = site.foreseen(site.plan(intent, request, sight=sight))
+    answer = _verdict(state, run, language)
+    if details.get("asked") == "most" and run.decision.is_usable:
+        text = _most(run, intent)
+    elif share is None:
+        asked = restated(request, language)
+        text = say(language, "what_if", request=asked[:1].lower() + asked[1:], answer=answer)
+    else:
+        text = say(language, "what_if_seen", share=percent(cast(float, share)), answer=answer)
+    runs = [(say(language, "what_if_column"), run)]
+    if state.run is not None:
+        runs.insert(0, (say(language, "now_column"), site.foreseen(state.run)))
+    return Reply(text=text, run=run, tables=(side_by_side(runs, language),))
+
+
+def supposed(state: State, intent: Intent) -> Request:
+    """The request of a what-if; one of the most that can be promised is kept with the probability that is assumed."""
+    details = intent.details
+    constraints = dict(cast("Mapping[str, Constraint]", details.get("constraints") or {}))
+    objective = cast("str | None", details.get("objective"))
+    held = state.request or Request(objective=cast(str, objective))
+    if details.get("asked") == "most" and "outage_probability" not in held.constraints:
+        constraints.setdefault("outage_probability", ASSUMED_OUTAGE_PROBABILITY)
+    return held.amended(constraints, objective=objective, dropped=tuple(str(details.get("dropped", "")).split()))
+
+
+def _most(run: Run, intent: Intent) -> str:
+    """The most that can be promised to everybody or to a user, with its certificate."""
+    decision, language, user = run.decision, intent.language, intent.details.get("user")
+    served = decision.problem.serves(decision.rate_bps.size)
+    who = told(language, "every_user", count=int(served.sum()))
+    if user is not None:
+        who = called(language, decision.user_names[user_number(str(user), decision.user_names, language)[0]])
+    said = told(
+        language, "most_promised", rate=human(decision.value, decision.unit), who=who,
+        power=human(decision.problem.budget_w(decision.cell), "W"),
+        sure=reliability(decision.problem.outage_probability or 0.0),
+    )  # fmt: skip
+    proven = told(language, "most_proven", bound=human(decision.bound, decision.unit), gap=percent(decision.gap))
+    left_out = cannot_be_served(decision, language)
+    warned = [say(language, "note", note=left_out)] if left_out else []
+    notes = [say(language, "note", note=note[:1].upper() + note[1:]) for note in run.notes]
+    return joined(
+        language,
+        [said, *([] if np.isnan(decision.gap) else [proven]), *notes, *warned, say(language, "nothing_changed")],
+    )
+
+
+def _verdict(state: State, run: Run, language: str) -> str:
+    """Whether a request can be met and with what, or what can be met instead; and what was assumed only here."""
+    now, case = state.run, answers.case_of(run)
+    noted = () if now is None else now.notes
+    notes = [say(language, "note", note=note[:1].upper() + note[1:]) for note in run.notes if note not in noted]
+    nothing = say(language, "nothing_changed")
+    if not run.decision.is_usable:
+        return joined(language, [*notes, f"{nearest_answer(case, nearest(case), language)}\n{nothing}"])
+    outcome = outcome_in_words(case, run.decision, language)
+    met = say(language, "what_if_met", outcome=outcome)
+    if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
+        met = say(language, "what_if_now", outcome=outcome, **_beside(now.decision, run.decision, language))
+    left_out = cannot_be_served(run.decision, language)
+    warned = [say(language, "note", note=left_out)] if left_out else []
+    return joined(language, [*notes, met, *warned, nothing])
+
+
+def _beside(now: Decision, then: Decision, language: str) -> dict[str, str]:
+    """What the value is now, and by how much the other one differs; nothing of that where it does not show."""
+    change, value = then.value - now.value, human(now.value, now.unit)
+    if not now.value or value == human(then.value, then.unit):
+        return {"now": value, "change": ""}
+    size, share = human(abs(change), now.unit), percent(abs(change / now.value))
+    key = "what_if_more" if change > 0 else "what_if_less"
+    return {"now": value, "change": say(language, key, size=size, share=share)}
+
+
+def _figure_of(run: Run, language: str) -> tuple[str, str]:
+    """What a run's value is called, and its unit: values compare where both are the same."""
+    return value_name(answers.case_of(run), language), run.decision.unit
