@@ -94,3 +94,31 @@ def test_the_most_that_can_be_promised_is_solved_and_proven(said: str, power: fl
 def test_other_lines_ask_for_no_such_promise(said: str) -> None:
     session = Session(SCENE, LOSS, seed=SEED, confirm=False)
     assert "asked" not in [session.say(line) for line in (HELD, said)][-1].intent.details
+
+
+@pytest.mark.parametrize(
+    ("said", "columns", "limit", "values"),
+    [
+        ("compare 95 % and 99 %", ("95 %", "99 %"), "outage_probability", (0.05, 0.01)),
+        ("可靠性95%和99%对比一下", ("95 %", "99 %"), "outage_probability", (0.05, 0.01)),
+        ("which is better, 5 W or 8 W?", ("5 W", "8 W"), "max_power_w", (5.0, 8.0)),
+        ("compare with 5 W", ("now", "5 W"), "max_power_w", (5.0,)),
+        ("compare 50 % and 80 % of the power", ("5 W", "8 W"), "max_power_w", (5.0, 8.0)),
+        ("compare 100 kbit/s and 200 kbit/s each", ("100 kbit/s", "200 kbit/s"), "min_rate_bps", (1e5, 2e5)),
+    ],
+)
+def test_figures_are_compared_side_by_side(
+    said: str, columns: tuple[str, ...], limit: str, values: tuple[float, ...]
+) -> None:
+    turn = answered(said)
+    assert turn.tables[0].columns[1:] == columns
+    stated = [value for key, value in turn.intent.details.items() if key.startswith("either_")]
+    assert stated == [{limit: pytest.approx(value)} for value in values]
+    assert all(f"{column}: " in turn.reply or f"{column}：" in turn.reply for column in columns[-1:])
+
+
+def test_aims_and_several_methods_are_compared_side_by_side() -> None:
+    assert len(answered("compare max rate and proportional fairness").tables[0].columns) == 3
+    assert answered("compare with equal power and greedy").tables[0].columns[1:] == ("dual", "equal_power", "greedy")
+    assert answered("和论文的方法以及等功率比较").tables[0].columns[1:] == ("对偶法", "论文方法", "等功率法")
+    assert "Greedy: total rate" in answered("compare with greedy").reply

@@ -8,21 +8,18 @@ from collections.abc import Mapping, Sequence
 from datetime import datetime
 from typing import cast
 
-from wirelessagent import plugins
-from wirelessagent.agent import answers
+from wirelessagent.agent import answers, comparing
 from wirelessagent.agent.figures import certificate_line, side_by_side
-from wirelessagent.agent.restating import goal_words, restated
+from wirelessagent.agent.restating import restated
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.supposing import what_if
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.agent.words import say
-from wirelessagent.explain.labels import called, worded
+from wirelessagent.explain.labels import worded
 from wirelessagent.explain.table import Table
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Constraint, Intent
-from wirelessagent.model.errors import UnsupportedProblemError
-from wirelessagent.model.problem import Problem
 from wirelessagent.model.units import human
 
 _SHOWN = 60
@@ -34,9 +31,14 @@ def compare(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> 
     language = intent.language
     if state.run is None or state.request is None:
         return Reply(text=say(language, "nothing_yet"))
+    others = comparing.alternatives(state.request, intent)
+    if others:
+        return comparing.beside(site, state.run, intent, others)
     named = [str(intent.details[key]) for key in ("with", "methods", "repairers") if key in intent.details]
     names = [name for name in re.split(r"[,，、;\s]+", " ".join(named)) if name and name != "last"]
-    return _with_named(site, state, intent, names) if names else _with_last(state.run, language, turns)
+    if names:
+        return comparing.with_tools(site, state.run, state.request, intent, names)
+    return _with_last(state.run, language, turns)
 
 
 def _with_last(run: Run, language: str, turns: Sequence[Turn]) -> Reply:
@@ -57,42 +59,6 @@ def _with_last(run: Run, language: str, turns: Sequence[Turn]) -> Reply:
 def _same(one: Run | None, other: Run) -> bool:
     """Whether two runs are of one decision, applied or not."""
     return one is not None and one.decision is other.decision
-
-
-def _with_named(site: Site, state: State, intent: Intent, names: Sequence[str]) -> Reply:
-    language, run = intent.language, state.run
-    assert run is not None
-    assert state.request is not None
-    columns, refusals = [(run.decision.method, site.foreseen(run))], list[str]()
-    for name in names:
-        if name in plugins.names("method"):
-            tools, sight = site.with_tools(method=name), None
-        elif name in plugins.names("repairer"):
-            tools = site.with_tools(repairer=name)
-            sight = site.sight_by(tools, language)
-        else:
-            known = {f"{kind}s": ", ".join(plugins.names(kind)) for kind in ("method", "repairer")}
-            return Reply(text=say(language, "not_installed", name=name, **known), stage="asked")
-        try:
-            found = site.plan(intent, state.request, sight=sight, tools=tools)
-            columns.append((name, site.foreseen(found)))
-        except UnsupportedProblemError as refusal:
-            refusals.append(_refused(name, run.decision.problem, language) or str(refusal))
-    listed = say(language, "comma").join(called(language, name) for name in names)
-    text = "\n".join([say(language, "compared", names=listed), *refusals])
-    return Reply(text=text, tables=(side_by_side(columns, language),) if len(columns) > 1 else ())
-
-
-def _refused(name: str, problem: Problem, language: str) -> str:
-    """Why a method does not solve a problem; empty where it is not for its objective or its limits."""
-    method, objective = plugins.load("method", name), problem.objective
-    assert not isinstance(objective, str)
-    if method.objectives is not None and objective.name not in method.objectives:
-        return say(language, "refused_objective", name=name, goal=goal_words(objective.name, language))
-    known = {*method.constraints, "max_power_w", "outage_probability"}
-    surplus = [limit for limit in problem.constraints() if limit not in known]
-    limits = say(language, "comma").join(say(language, f"limit_{limit}") for limit in surplus)
-    return say(language, "refused_limits", name=name, limits=limits) if limits else ""
 
 
 def status(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:

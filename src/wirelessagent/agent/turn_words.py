@@ -26,6 +26,9 @@ _ENGLISH: Mapping[str, str] = {
     "promised_and_left_out": "{user} can't be promised {rate} and be left out at once. Which of the two should hold? "
     "To give the promise up, say '{user} needs no minimum rate'.",
     "plan_or_what_if": "The plan still waits: 'yes' applies {request}; 'do that' takes the what-if instead.",
+    "column": "{name}: {outcome}.",
+    "because": " ({reason})",
+    "able": "For this there are: {methods}.",
     "every_user": "each of the {count} users",
     "most_promised": "At most {rate} for {who} with {power}, kept with {sure}, solved for this.",
     "most_proven": "No promises do better than {bound}: that is proven (gap {gap}).",
@@ -53,6 +56,9 @@ _CHINESE: Mapping[str, str] = {
     "promised_and_left_out": "不能既向{user}承诺 {rate} 又不服务它。以哪一个为准？"
     "要放弃承诺，请说“取消{user}的最低速率”。",
     "plan_or_what_if": "原计划仍在等待：说“是”即应用{request}；说“就这么办”则改用这个假设。",
+    "column": "{name}：{outcome}。",
+    "because": "（{reason}）",
+    "able": "可用的方法：{methods}。",
     "every_user": "这 {count} 个用户每人",
     "most_promised": "以 {power} 最多可向{who}保证 {rate}，以 {sure} 的概率兑现（为此重新求解）。",
     "most_proven": "任何承诺都不会优于 {bound}：这已被证明（差距 {gap}）。",

@@ -6,19 +6,11 @@ import re
 from collections.abc import Mapping
 
 from wirelessagent.language.intent import Constraint, Detail
+from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence import Sentence
 
-_COMPARED = (
-    "dual", "exact", "greedy", "paper_bisection", "paper_inversion", "paper_scan", "paper", "equal_power",
-    "round_robin", "kriging", "linear", "nncf_paper", "nncf", "user_mean", "learned_covariance", "predictor",
-    "max_rate", "min_power",
-    "max_energy_efficiency", "proportional_fairness", "max_min_rate",
-)  # fmt: skip
-_SPOKEN = {"论文": "paper", "贪心": "greedy", "等功率": "equal_power", "equal "
-    "power": "equal_power", "round robin": "round_robin",
-           "轮询": "round_robin", "user mean": "user_mean", "exact": "exact"}  # fmt: skip
 _NUMBER = re.compile(
     r"(?i)(?:numbers?|turn|no\.?|#|request|entry|step|run|record|第|轮)\s*(?P<n>[0-9]+|[一二三四五六七八九十]+)|"
     r"\bhistory\s+(?:show\s+)?(?P<m>[0-9]+)"
@@ -52,7 +44,7 @@ def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
         steps = _step(sentence)
         return {**steps, **(user if "rate_bps" in steps else {})}
     if topic == "compare":
-        return {"with": _compared(sentence.plain)}
+        return {"with": " ".join(tools_named(sentence.plain, "method", "repairer")) or "last"}
     if topic == "history":
         match = _NUMBER.search(sentence.plain)
         word = (match["n"] or match["m"]) if match is not None else ""
@@ -106,12 +98,3 @@ def _stated(values: Mapping[str, Constraint]) -> dict[str, Detail]:
     if isinstance(rate, Mapping):
         return {"rate_bps": next(iter(rate.values()))}
     return {}
-
-
-def _compared(plain: str) -> str:
-    """The method or repairer that is named, else the last result."""
-    lowered = plain.lower().replace("-", "_")
-    for spoken, name in _SPOKEN.items():
-        if spoken in lowered:
-            return name
-    return next((name for name in _COMPARED if re.search(rf"(?<![a-z_]){name}(?![a-z_])", lowered)), "last")

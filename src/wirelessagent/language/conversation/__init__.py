@@ -12,6 +12,7 @@ import dataclasses
 from wirelessagent.language.conversation.about import asked_instead, read_question
 from wirelessagent.language.conversation.amendments import read_amendment
 from wirelessagent.language.conversation.commands import read_command
+from wirelessagent.language.conversation.comparing import read_comparison
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.promisable import read_promisable
 from wirelessagent.language.conversation.relative import read_relative
@@ -32,7 +33,7 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     if len(text) > _LONGEST:
         return recogniser.recognise(text, context)
     line, asked = Line.of(text, context), wondered(text) if context.objective is not None else None
-    for read in (read_command, read_relative, read_promisable, read_question, read_amendment):
+    for read in (read_command, read_comparison, read_relative, read_promisable, read_question, read_amendment):
         intent = read(line)
         if intent is not None:
             return intent

@@ -1,0 +1,108 @@
+"""The decision that holds beside what other figures, aims, methods and repairers make of its request."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import cast
+
+from wirelessagent import plugins
+from wirelessagent.agent import answers
+from wirelessagent.agent.figures import side_by_side
+from wirelessagent.agent.refusing import refused
+from wirelessagent.agent.request import Request
+from wirelessagent.agent.restating import goal_words
+from wirelessagent.agent.site import Site
+from wirelessagent.agent.state import Reply
+from wirelessagent.agent.turn import Run
+from wirelessagent.agent.turn_words import told
+from wirelessagent.agent.words import joined, say
+from wirelessagent.explain.labels import called
+from wirelessagent.explain.lexicon import outcome_in_words
+from wirelessagent.explain.reasons import reason_in_words
+from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
+from wirelessagent.model.errors import UnsupportedProblemError
+from wirelessagent.model.units import human, reliability
+
+Column = tuple[str, Run]
+
+
+def alternatives(request: Request, intent: Intent) -> list[tuple[str, Request]]:
+    """Other requests that a comparison names by their figures or aims, and what to call them."""
+    details, language = intent.details, intent.language
+    limits = [value for key, value in sorted(details.items()) if key.startswith("either_")]
+    stated = [value for value in limits if isinstance(value, Mapping)]
+    aims = [aim for aim in str(details.get("aims", "")).split() if aim in plugins.names("objective")]
+    return [
+        *((_figures(one), request.amended(one)) for one in stated),
+        *((goal_words(aim, language), request.amended({}, objective=aim)) for aim in aims),
+    ]
+
+
+def beside(site: Site, run: Run, intent: Intent, others: Sequence[tuple[str, Request]]) -> Reply:
+    """Requests solved beside each other; one alone stands beside the one that holds."""
+    language = intent.language
+    columns = [(name, site.foreseen(site.plan(intent, request))) for name, request in others]
+    if len(columns) == 1:
+        columns.insert(0, (say(language, "now_column"), site.foreseen(run)))
+    notes = dict.fromkeys(note for _, one in columns for note in one.notes if note not in run.notes)
+    told_notes = [say(language, "note", note=_capital(note)) for note in notes]
+    text = joined(language, [*told_notes, *lines(columns, language), say(language, "nothing_changed")])
+    return Reply(text=text, tables=(side_by_side(columns, language),))
+
+
+def with_tools(site: Site, run: Run, request: Request, intent: Intent, names: Sequence[str]) -> Reply:
+    """The decision that holds beside those of other methods, or on what other repairers make of the channel."""
+    language = intent.language
+    columns, refusals = [(run.decision.method, site.foreseen(run))], list[str]()
+    for name in names:
+        if name == run.decision.method and len(names) > 1:
+            continue  # it has its column already
+        if name in plugins.names("method"):
+            tools, sight = site.with_tools(method=name), None
+        elif name in plugins.names("repairer"):
+            tools = site.with_tools(repairer=name)
+            sight = site.sight_by(tools, language)
+        else:
+            known = {f"{kind}s": ", ".join(plugins.names(kind)) for kind in ("method", "repairer")}
+            return Reply(text=say(language, "not_installed", name=name, **known), stage="asked")
+        try:
+            columns.append((name, site.foreseen(site.plan(intent, request, sight=sight, tools=tools))))
+        except UnsupportedProblemError as refusal:
+            refusals.append(refused(name, run.decision.problem, language) or str(refusal))
+    listed = say(language, "comma").join(called(language, name) for name in names)
+    told_lines = lines(columns, language) if len(columns) > 1 else []
+    text = "\n".join([joined(language, [say(language, "compared", names=listed), *told_lines]), *refusals])
+    return Reply(text=text, tables=(side_by_side(columns, language),) if len(columns) > 1 else ())
+
+
+def lines(columns: Sequence[Column], language: str) -> list[str]:
+    """What each of the runs comes to, one sentence each."""
+    return [
+        told(language, "column", name=_capital(called(language, name)), outcome=_outcome(run, language))
+        for name, run in columns
+    ]
+
+
+def _capital(name: str) -> str:
+    return name[:1].upper() + name[1:]
+
+
+def _outcome(run: Run, language: str) -> str:
+    if run.decision.is_usable:
+        return outcome_in_words(answers.case_of(run), run.decision, language)
+    return say(language, run.decision.status) + told(
+        language, "because", reason=reason_in_words(run.decision, language)
+    )
+
+
+def _figures(limits: Mapping[str, Constraint]) -> str:
+    """The figures of limits as a label, as in "95 %"."""
+    return " ".join(_figure(name, value) for name, value in limits.items())
+
+
+def _figure(name: str, value: Constraint) -> str:
+    if isinstance(value, Mapping):
+        return " ".join(_figure(name, figure) for user, figure in value.items() if user != EVERYBODY or len(value) == 1)
+    if name == "outage_probability":
+        return reliability(cast(float, value))
+    return human(cast(float, value), "bit/s" if name.endswith("bps") else "W")
