@@ -169,7 +169,7 @@ class _Posing:
         if served is None or not isinstance(promised, Mapping):
             return
         for reference, rate in promised.items():
-            if reference != EVERYBODY and self._number(reference) not in served:
+            if rate > 0 and reference != EVERYBODY and self._number(reference) not in served:
                 user = called(self._language, self._names[self._number(reference)])
                 raise UnclearRequestError(
                     told(self._language, "promised_and_left_out", user=user, rate=human(rate, "bit/s"))

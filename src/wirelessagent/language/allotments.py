@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from wirelessagent.language.exceptions import Standing, exception_of
+from wirelessagent.language.exceptions import Standing, exception_of, promised_nothing
+from wirelessagent.language.figure_words import CORRECTION
 from wirelessagent.language.intent import EVERYBODY, Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import Mention, Role
@@ -17,8 +18,16 @@ from wirelessagent.language.text import CLAUSE_END
 
 _SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.5, 0.45
 _SAID = 0.4
+_NEAR = 30
 
 _CUT = re.compile(CLAUSE_END)
+_LEADING = re.compile(r"(?i)\s*(?:以外|之外|除外|外|aside|excepted|ausgenommen)?\s*")
+_INSERTED = re.compile(r"\s*[,(\uff0c][^,;()\uff0c]{0,24}")
+_COLLECTIVE = ("everybody", "others")
+_AT_ONCE = re.compile(  # what may stand between an exception that leads and what all get
+    r"(?i)\s*(?:(?:please|give|grant|guarantee|promise|ensure|keep|let|hold|with|and|there|is|a|must|should|da|dales|"
+    r"garantiza|donne|donnez|garantis|gib|gebt|garantiere)\s+)*(?:给|让|保证|确保|保障|保|请|都|要|得|满足)*\s*"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +60,7 @@ class Allotments:
         self._lists: dict[str, dict[str, str]] = {"users": {}, "leave_out": {}, "back": {}}
         self._used: set[Mention] = set()
         self._unsure: list[Mention] = []
-        self._excepted: set[Mention] = set()
+        self._excepted: dict[Mention, Standing] = {}
         self.exact: set[str] = set()
         self.spans: list[tuple[int, int]] = []
         self._roles: dict[Mention, UserRole] = {}
@@ -71,8 +80,8 @@ class Allotments:
         users = mention.users
         if mention.role == "pronoun":
             users = self._meant_by(mention).users
-        if standing == "leaves":
-            role = "leave_out"
+        if standing in ("leaves", "alone"):
+            role = "leave_out" if standing == "leaves" else "users"
         elif role != "back":
             likeliest = self._likeliest(mention)
             role, start, end = (role, start, end) if likeliest == role else (likeliest, mention.start, mention.end)
@@ -82,18 +91,33 @@ class Allotments:
         self._used.add(mention)
         self._used.update([self._meant_by(mention).mention or mention] if mention.role == "pronoun" else [])
         self.spans.append((start, end))
+        for user in self._corrected_users(mention, role):
+            self._lists[role].pop(user, None)
         for user in users:
             self._lists[role][user] = self._text[start:end].strip()
 
+    def _corrected_users(self, mention: Mention, role: UserRole) -> tuple[str, ...]:
+        """Those named just before whom somebody replaces: "leave user 5 out, no, user 6"."""
+        last = max((m for m in self._found if m.end <= mention.start), key=lambda m: m.end, default=None)
+        if last is None or self._roles.get(last) != role or mention.start - last.end > _NEAR:
+            return ()
+        corrected = CORRECTION.search(self._plain, last.end, mention.start)
+        return last.users if corrected is not None else ()
+
     def _is_settled(self, mention: Mention, standing: Standing) -> bool:
-        """Whether somebody is an exception: kept, who needs nothing, or excepted from a rate, who is asked about."""
+        """Whether somebody is an exception: kept, who needs nothing, or excepted from a rate, of which more is said."""
         if standing == "kept":
+            for user in mention.users:
+                self._lists["leave_out"].pop(user, None)
             self._used.add(mention)
             self.spans.append((mention.start, mention.end))
             return True
-        if standing == "excepted" and self._is_excepted_from_a_rate(mention):
+        rated = any(figure.kind == "rate" for figure in self._judged.figures)
+        if (rated and standing in ("exempt", "uncapped")) or (
+            standing == "excepted" and self._is_excepted_from_a_rate(mention)
+        ):
             self._unsure.append(mention)
-            self._excepted.add(mention)
+            self._excepted[mention] = standing
             return True
         return False
 
@@ -104,11 +128,42 @@ class Allotments:
         """
         rates = [figure for figure in self._judged.figures if figure.kind == "rate"]
         first = max((cut.end() for cut in _CUT.finditer(self._plain, 0, mention.start)), default=0)
-        of_all = any(m.role in ("everybody", "others") and first <= m.start < mention.start for m in self._found)
+        of_all = any(m.role in _COLLECTIVE and first <= m.start < mention.start for m in self._found)
         before = [len(_CUT.findall(self._plain, f.end, mention.start)) for f in rates if f.end <= mention.start]
         after = [f for f in rates if f.start >= mention.end and not _CUT.search(self._plain, mention.end, f.start)]
         stated = 0 in before or (1 in before and not of_all)
-        return stated != bool(after)
+        return stated != (bool(after) or self._leads_to_a_rate(mention))
+
+    def _leads_to_a_rate(self, mention: Mention) -> bool:
+        """Whether the clause after an exception says at once what all get: "except for user 3, each gets 1 Mbit/s"."""
+        cut = _CUT.search(self._plain, mention.end)
+        if cut is None or not _LEADING.fullmatch(self._plain, mention.end, cut.start()):
+            return False
+        stop = _CUT.search(self._plain, cut.end())
+        end = stop.start() if stop is not None else len(self._plain)
+        rates = [f for f in self._judged.figures if f.kind == "rate" and cut.end() <= f.start < end]
+        of_all = [m.start for m in self._found if m.role in _COLLECTIVE and cut.end() <= m.start < end]
+        begins = min([f.phrase_start for f in rates] + of_all, default=end)
+        inserted = any(  # "everyone, except user 3, gets"
+            _INSERTED.fullmatch(self._plain, m.end, mention.start) for m in self._found if m.role in _COLLECTIVE
+        )
+        return bool(rates) and (inserted or _AT_ONCE.fullmatch(self._plain, cut.end(), begins) is not None)
+
+    def _exempt(self) -> None:
+        """Whoever is excepted has a floor of zero where all others have one, and nothing else may be meant."""
+        floors, caps = self._rates["min_rate_bps"], self._rates["max_rate_bps"]
+        for mention, standing in self._excepted.items():
+            clear = EVERYBODY in floors and (standing == "exempt" or not (caps or standing == "uncapped"))
+            if not clear or any(
+                user in rates for user in mention.users for rates in (floors, *([caps] if caps else []))
+            ):
+                continue
+            self._used.add(mention)
+            self._unsure.remove(mention)
+            self.spans += filter(None, [promised_nothing(self._plain, mention.start, mention.end)])
+            text = self._text[mention.start : mention.end]
+            for user in mention.users:
+                floors[user] = _Given(value=0.0, text=text, end=mention.end)
 
     def _likeliest(self, mention: Mention) -> UserRole:
         """What the model says of somebody named; without certainty nobody is left out or served alone."""
@@ -201,6 +256,7 @@ class Allotments:
 
     def take_users(self) -> Iterator[tuple[int, int]]:
         """The named users of whom nothing was said, or nothing certain, as spans."""
+        self._exempt()
         spoken_of = {user for mention in self._used for user in mention.users} | set(self._weights)
         for mention in self._found:
             if mention.role != "named":

@@ -1,7 +1,7 @@
 """Users who are spoken of as exceptions: kept although a word of leaving out is near, or excepted from a rate.
 
-"Don't kick user 3 out" leaves nobody out. "Everyone except user 3 gets 500 kbit/s" promises user 3 nothing, but does
-not say whether user 3 is served.
+"Don't kick user 3 out" leaves nobody out. "Everyone except user 3 gets 500 kbit/s" promises user 3 nothing, who is
+served nevertheless; so is whoever is "exempt from the floor".
 """
 
 from __future__ import annotations
@@ -11,9 +11,12 @@ from typing import Literal, TypeAlias
 
 from wirelessagent.language.text import CLAUSE_END
 
-Standing: TypeAlias = Literal["kept", "excepted", "leaves", ""]
+Standing: TypeAlias = Literal["kept", "excepted", "exempt", "uncapped", "alone", "leaves", ""]
 
-_SMALL = r"(?:\s+(?:the|our|my|out|any|of|to|please|ever|a|al|la|el|los|le|les|l'|den|die))*\s*(?:l')?"
+_SMALL = (
+    r"(?:\s+(?:the|our|my|out|any|of|to|please|ever|for|a|al|de|del|la|el|los|las|para|le|les|des|pour|chez|l'|den|die|"
+    r"für|in\s+the\s+case\s+of))*\s*(?:l')?"
+)
 _OUT = (
     r"(?:kick|drop|leav|exclud|remov|cut|skip|forget|ignor|throw|disconnect|omit|bench|los|neglect|abandon|"
     r"quit|exclu|dej|elimin|olvid|retir|enlev|laiss|oubli|coup)\w*(?:\s+(?:out|off|aside|fuera|de\s+côté))?"
@@ -24,7 +27,8 @@ _KEPT_BEFORE = re.compile(
     rf"(?:别|不要|不许|不准|不能|不得|勿)再?(?:不服务|不管|不带|漏掉|漏|排除|踢掉|去掉|忽略|忘了|忘记|丢下|落下|丢掉))$"
 )
 _ZH_OUT_AFTER = re.compile(
-    r"\s*(?:给|都|也)?(?:踢|排除|去掉|剔除|移除|拿掉|停掉|断开|丢下|落下|漏掉|漏了|忘了|删|撤|摘|甩|扔|除名|不服务)"
+    r"\s*(?:给|都|也)?(?:踢|排除|去掉|剔除|移除|拿掉|停掉|断开|丢下|落下|漏掉|漏了|忘了|删|撤|摘|甩|扔|除名|不服务|"
+    r"弄(?:下线|没|掉)|出去|下线|砍|赶)"
 )
 _BARE_NOT = re.compile(r"(?:别|不要|不许|不准|不能|不得|勿|甭|不用|不必)再?(?:把|将|让)?\s*$")
 _KEPT_AFTER = re.compile(
@@ -34,11 +38,74 @@ _KEPT_AFTER = re.compile(
 )
 _EXCEPT_BEFORE = re.compile(
     r"(?i)(?:\b(?:except(?:ing)?(?:\s+for)?|but(?!\s+(?:only|also))|apart\s+from|aside\s+from|other\s+than|save(?:\s+for)?|"
-    r"excluding|besides|excepto|salvo|menos|aparte\s+de|sauf|hormis|excepté|à\s+part|außer|ausser|bis\s+auf|"
-    rf"mit\s+ausnahme\s+von){_SMALL}|除了?|除去|除开)$"
+    r"excluding|barring|bar|besides|not\s+counting|(?:but|just|only)\s+not(?:\s+for)?|with\s+the\s+exception\s+of|"
+    rf"excepto|salvo|menos|aparte\s+de|(?:a|con)\s+(?:la\s+)?excepción|"
+    rf"sauf|hormis|excepté|à\s+part|(?:à\s+l')?exception(?:\s+faite)?|außer|ausser|bis\s+auf|"
+    rf"mit\s+ausnahme\s+von){_SMALL}|除了?|除去|除开|不(?:包?括|包?含|算))$"
 )
 _EXCEPT_AFTER = re.compile(
-    r"\s*(?:以外|之外|除外|外(?=[\uff0c,的每都其]))|(?i:\s+(?:aside|excepted|exempt(?:ed)?|ausgenommen))\b"
+    r"\s*(?:以外|之外|除外|例外|不在此列|外(?=[\uff0c,的每都其]))|(?i:\s+(?:aside|excepted|ausgenommen|"
+    r"(?:is\s+|as\s+|being\s+)?the\s+(?:one\s+|only\s+|sole\s+)?exception))\b"
+)
+# Nothing is promised to somebody: a negation and a promise in a clause without a figure.
+_PROMISE = (
+    r"(?:\b(?:floors?|minim(?:um|a)|minimums|min|guarant\w+|promis\w+|assured?|m[ií]nimo|garant\w+|prom[ei][st]\w*|"
+    r"asegur\w+|plancher|mindest\w+|garantie\w*|zusagen?|zugesagt|verspr[eo]ch\w*|anspruch|untergrenze)\b|"
+    r"承诺|保证|保障|保底|最低速率|下限|速率(?:指标|要求)|答应)"
+)
+_NO = (
+    r"(?:\b(?:no|not|cannot|never|nothing|without|none|sin|nada|ningun\w*|pas|sans|rien|aucune?|nichts?|kein\w*|ohne)\b|"
+    r"n't\b|[不没无免])"
+)
+_NO_PROMISE = re.compile(
+    rf"(?i){_NO}[^0-9]{{0,25}}?{_PROMISE}|"
+    rf"{_PROMISE}[^0-9]{{0,12}}(?:\b(?:(?:do|does|is|are)(?:n't|\s+not)|n[o']|nicht)\b|不|取消|免)|"
+    r"\b(?:exempt\w*|excused?|off\s+the\s+hook|exent\w+|eximid\w+|exime|dispensad\w+|dispensée?s?|exemptée?s?|befreit|"
+    r"verzichtet)\b|豁免|不(?:用|必|需要|给|对|为)?保(?![留持护])|[免无]保|不[做作]要求|不设最低|[都就可]免[了掉]?\s*$"
+)
+_OF_A_CAP = re.compile(
+    r"(?i)\b(?:cap|caps|capped|ceiling|max\w*|upper|limit\w*|l[ií]mite|plafond|tope|obergrenze)\b|上限|限速|封顶|最高"
+)
+_CAP = (
+    r"(?:cap|caps|capped|ceiling|limit(?:ed|s)?|maximum|max|l[ií]mites?|limitad\w+|tope|plafonds?|plafonné\w*|limité\w*|"
+    r"obergrenze|begrenzt|gedeckelt|grenze)"
+)
+_NO_CAP = re.compile(  # "the cap doesn't apply to user 3", "3号不限速"
+    rf"(?i)@[^0-9]{{0,30}}?(?:{_NO}[^0-9]{{0,20}}?\b{_CAP}\b|\b(?:unlimited|uncapped|unbegrenzt)\b|\b(?:illimité|ilimitad)\w*)|"
+    rf"(?:{_NO}\s+(?:\w+\s+)?{_CAP}|\b{_CAP}\b[^0-9@]{{0,12}}(?:n't|\bnot|\bno|\bnicht)\b)[^0-9@]{{0,15}}@|"
+    r"\b(?:exempt|free|spare)\s+@\s*from\s+(?:the\s+|that\s+|any\s+)?(?:cap|max|ceil|limit|upper)|"
+    r"@\s*[^0-9]{0,4}?(?:不|无|没有?|别)[受设做]?(?:这个|此|该)?(?:限(?!制功率)|封顶|上限)|"
+    r"(?:上限|限速|封顶)[^0-9@]{0,6}@[^0-9]{0,4}?(?:不|除外|例外)|(?:不限|不封)@"
+)
+# In one clause with somebody, "@": that they stay in, or that nobody else is served.
+_OUT_LATER = (
+    r"(?:(?:left|kept|taken|cut|kicked|thrown|switched|dropped|shut|locked)\s+(?:out|off)|(?:kick|throw|shut|cut|leav|count)\w*"
+    r"\s+(?:@\s+)?(?:out|off)|dropp?(?:ed|ing|s)?|exclud\w+|remov\w+|disconnect\w*|skipp?\w*|ignor\w+|omit\w*|forgott?\w*|"
+    r"ech(?:es|ar|en|e)|expuls\w+|saqu?\w+|quit\w+|exclu\w+|vir(?:ez|er|e)|débranch\w+|coup(?:er|ez|e)|abandonn\w+|"
+    r"(?:dej\w+|laiss\w+)\s+(?:@\s+)?(?:fuera|de\s+côté)|abgeklemmt|ausgesperrt|unter\s+den\s+tisch|rausgeworfen|"
+    r"weggelassen|vergessen|ausgeschlossen)"
+)
+_NEVER = (
+    r"(?:\b(?:not|never|nobody|no\s+one|cannot|no\s+reason|rather\s+than|instead\s+of|why\s+(?:would|should)|tampoco|nadie|"
+    r"no(?=\s+(?:me\s+|nos\s+|se\s+|lo\s+)?(?:ech|expuls|saqu|quit|dej|exclu))|n[e']|pas|personne|nicht|niemand\w*)\b|n't\b)"
+)
+_ON = r"(?:(?!\b(?:only|nur|and|but|y|et|und|sondern|sino|mais)\b)[^0-9])"  # one thing goes on being said
+_ZH_OUT = r"(?:踢|赶|扔|丢|落下|漏|砍|断开|断掉|停|剔除|移除|排除|去掉|弄(?:下线|没|掉)|舍弃|放弃|出去|下线|除名|忘)"
+_STAYS = re.compile(
+    rf"(?i){_NEVER}{_ON}{{0,40}}?\b{_OUT_LATER}\b{_ON}{{0,12}}@|"
+    rf"@{_ON}{{0,20}}?{_NEVER}{_ON}{{0,20}}?\b{_OUT_LATER}\b|{_NEVER}{_ON}{{0,25}}@{_ON}{{0,15}}?\b{_OUT_LATER}\b|"
+    rf"{_NEVER}{_ON}{{0,25}}?\b(?:kick|throw|shut|cut|leav|count|tak|put|lock)\w*\s+@\s*(?:out|off)\b|"
+    r"@\s*(?:(?:must|should|shall|will|may|can|is|are|also|definitely)\s+)*(?:stay(?:s|ing)?|remains?|keeps?\s+(?:being\s+served|going)|"
+    r"bleibt\s+(?:drin|dabei)|sigue[n]?\s+dentro|drinlassen)\b(?!\s+(?:out|off|below|under|at|above|unserved|away|home)\b)|"
+    rf"(?:别|不要|不许|不准|不能|不得|勿|不可以?|谁也别|不必)[^0-9,\uff0c]{{0,8}}(?:@[^0-9]{{0,6}}{_ZH_OUT}|{_ZH_OUT}(?:了|掉|出)?\s*@)|"
+    rf"不{_ZH_OUT}(?:了|掉)?\s*@|@\s*[^0-9]{{0,4}}?(?:别|不许|不准|不能|不要|不可以?|勿|不)(?:再|给我|给)?{_ZH_OUT}|"
+    r"@\s*(?:也|还|都|必须|一定|要|得|先|继续)*(?:留(?!空)|保留|正常服务|照常服务|照旧服务)"
+)
+_NOBODY_ELSE = re.compile(
+    r"(?i)(?:\b(?:no\s*body|no\s+one|none)\b[^0-9@]{0,25}@|@[^0-9]{0,30}?\b(?:nobody|no\s+one|nothing\s+else|niemand|nadie|personne)\b"
+    r"[^0-9]{0,12}?(?:serv\w*|bedient|atiend\w+|atender|else|$)|"
+    r"@(?:[^0-9]{0,10})(?:谁|其他|其它|其余|别|全|的人|人|都|一律)[^0-9]{0,8}?(?:不用?|别|不要)(?:再)?(?:服务|管|发|带|给|理)|"
+    r"@\s*(?:以外|之外|外)?[,\uff0c]?\s*(?:全?都|一律)(?:不|别)(?:服务|管|带))"
 )
 _LEAVES_BEFORE = re.compile(r"(?:让|叫|请)\s*$")
 _LEAVES_AFTER = re.compile(r"\s*(?:离开|走吧|走开|走人|退场|下去|先走|出去)")
@@ -50,6 +117,8 @@ def exception_of(plain: str, start: int, end: int) -> Standing:
 
     >>> exception_of("don't kick user 3 out", 11, 17), exception_of("everyone except user 3 gets", 16, 22)
     ('kept', 'excepted')
+    >>> exception_of("user 3 needs no minimum", 0, 6)
+    'exempt'
     """
     cuts = [cut.end() for cut in _CUT.finditer(plain, 0, start)]
     before = plain[cuts[-1] if cuts else 0 : start]
@@ -59,6 +128,47 @@ def exception_of(plain: str, start: int, end: int) -> Standing:
         return "kept"
     if _LEAVES_BEFORE.search(before) and _LEAVES_AFTER.match(plain, end):
         return "leaves"
+    clause = f"{before}@{_rest(plain, end)}"
+    if _STAYS.search(clause):
+        return "kept"
+    if _NO_CAP.search(clause):
+        return "uncapped"
+    if promised_nothing(plain, start, end):
+        return "exempt"
     if _EXCEPT_BEFORE.search(before) or _EXCEPT_AFTER.match(plain, end):
-        return "excepted"
+        return "alone" if _serves_nobody_else(before, plain, end) else "excepted"
     return ""
+
+
+def promised_nothing(plain: str, start: int, end: int) -> tuple[int, int] | None:
+    """The words by which nothing is promised to the users named at [start, end); None where there are none.
+
+    >>> promised_nothing("user 3 needs no minimum", 0, 6)
+    (13, 23)
+    """
+    cuts = [cut.end() for cut in _CUT.finditer(plain, 0, start)]
+    before, after = plain[cuts[-1] if cuts else 0 : start], _rest(plain, end)
+    before = re.split("[0-9]", before)[-1]  # what stands before a figure is that figure's
+    match = _NO_PROMISE.search(f"{before} @ {after}")
+    if match is None or any(letter.isdigit() for letter in after) or _OF_A_CAP.search(before + after):
+        return None
+    ahead, behind = start - len(before), end - len(before) - 3
+    return (
+        match.start() + (ahead if match.start() < len(before) else behind),
+        min(match.end(), len(before)) + ahead if match.end() <= len(before) + 3 else match.end() + behind,
+    )
+
+
+def _rest(plain: str, end: int) -> str:
+    """The rest of the clause after ``end``."""
+    cut = _CUT.search(plain, end)
+    return plain[end : cut.start() if cut else len(plain)]
+
+
+def _serves_nobody_else(before: str, plain: str, end: int) -> bool:
+    """Whether nobody but those excepted is served: "nobody except user 3", "除了3号，其他人都不服务"."""
+    rest = _rest(plain, end)
+    following = _rest(plain, end + len(rest) + 1)
+    return (
+        _NOBODY_ELSE.search(f"{before}@{rest}") is not None or _NOBODY_ELSE.search(f"@{rest},{following}") is not None
+    )

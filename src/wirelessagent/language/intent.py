@@ -55,7 +55,8 @@ class Intent:
         constraints: what the sentence states, in SI units, by name out of :data:`CONSTRAINTS`. Rates are per user: a
             figure for everybody, or figures by user, such as ``{"all": 5e5, "3": 2e6}``. A user is referred to by name
             or by the number that the operator said ("3" is "user 3"). A probability is below 1; all figures are
-            positive and finite, and a weight may be 0. Empty for every kind but allocate.
+            positive and finite, but a weight may be 0, and so may the least rate of a named user, to whom nothing is
+            promised: ``{"all": 5e5, "3": 0.0}``. Empty for every kind but allocate.
         dropped: constraints of the current request that no longer hold ("without the power limit").
         amends: whether the sentence changes the current request of a conversation ("now with 10 W") instead of
             replacing it.
@@ -123,7 +124,7 @@ def _checked(name: str, value: Constraint) -> Constraint:
     if name in LISTS_OF_USERS:
         return _users(name, value)
     if isinstance(value, Mapping) and name in FIGURES_OF_USERS:
-        return MappingProxyType({str(user): _figure(name, each) for user, each in value.items()})
+        return MappingProxyType({str(user): _figure(name, each, user=str(user)) for user, each in value.items()})
     return _figure(name, value)
 
 
@@ -133,12 +134,13 @@ def _users(name: str, value: Constraint) -> tuple[str, ...]:
     return tuple(str(user) for user in value)
 
 
-def _figure(name: str, value: object) -> float:
+def _figure(name: str, value: object, *, user: str = EVERYBODY) -> float:
     limits = "between 0 and 1" if name == "outage_probability" else "positive and finite"
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise InputError(f"{name} must be {limits}; got {value!r}")
     figure = float(cast(float, value))
     top = 1 if name == "outage_probability" else math.inf
-    if not (0 < figure < top or (name == "weights" and figure == 0)):
+    zero = name == "weights" or (name == "min_rate_bps" and user != EVERYBODY)
+    if not (0 < figure < top or (zero and figure == 0)):
         raise InputError(f"{name} must be {limits}; got {value!r}")
     return figure

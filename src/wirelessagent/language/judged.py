@@ -8,6 +8,7 @@ them in sight.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -22,6 +23,9 @@ from wirelessagent.language.quantities import Quantity
 
 _ONE_OF_A_LIST, _NEAR = 0.3, 24
 _MOST_WEIGHT = 10**6
+_WEIGHTS = re.compile(  # what follows are weights, whatever else they may look like
+    r"(?i)(?:\b(?:weights?|pesos?|poids|gewichten?)(?:\s+(?:of|are|is|being|de|von|sind))?|权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
+)
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
 _SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING = 0.7, 0.6, 0.6
 _SURE_OF_A_FIGURE = 0.6
@@ -122,13 +126,16 @@ class Judged:
         bounded = [(q.start, q.end) for q in quantities if q.kind in ("bare", "other") and q.comparator is not None]
         bounded += [(start - 1, end) for start, end in spans]  # "2 9 watts"
         superseded = _superseded(plain, first)
+        weighing = _weighing_lists(plain, first, roles)
         plausible = [
             number
             for number in first.loose
-            if not _is_a_limit(plain, number, bounded) and (number.start, number.end) not in superseded
+            if not _is_a_limit(plain, number, bounded)
+            and (number.start, number.end) not in superseded
+            and number not in weighing
         ]
         users = _users(plain, plausible, {number: roles[number]["user"] for number in plausible})
-        look = second_look(first, users, _borrowing(first, roles, users))
+        look = second_look(first, users, _borrowing(first, roles, [*users, *weighing]))
         self._look, self._view = look, look.view() if look is not first else view
         self.mentions = look.mentions
         self.figures = sorted([*look.figures, *look.unread], key=lambda figure: figure.start)
@@ -139,7 +146,7 @@ class Judged:
             if number.start not in {figure.start for figure in look.figures}
             and roles[number]["rate"] + roles[number]["power"] > _PERHAPS
         ]
-        self.weights = [number for number in look.loose if _weighs(plain, number, roles[number])]
+        self.weights = [n for n in look.loose if n in weighing or _weighs(plain, n, roles[n])]
         together = {len(mention.users) for mention in self.mentions if len(mention.users) > 1}
         others = [number for number in plausible if number in look.loose]
         self.recounted = [(number.start, number.end) for number in others if number.value in together]
@@ -271,6 +278,25 @@ def _weighs(plain: str, number: Number, chances: Mapping[str, float]) -> bool:
     """Whether a number says how much somebody counts."""
     able = number.value is not None and 0 <= number.value < _MOST_WEIGHT and SCALED.match(plain, number.end) is None
     return able and chances["weight"] > _SURE_OF_A_WEIGHT
+
+
+def _weighing_lists(plain: str, look: Look, roles: Mapping[Number, Mapping[str, float]]) -> list[Number]:
+    """The numbers of lists as long as a list of users, of which one surely says how much somebody counts."""
+    lengths = {len(mention.users) for mention in look.mentions}
+    lists: list[list[Number]] = []
+    for number in look.loose:
+        able = number.value is not None and 0 <= number.value < _MOST_WEIGHT and number.form != "times"
+        if lists and lists[-1] and able and LISTED.fullmatch(plain, lists[-1][-1].end, number.start):
+            lists[-1].append(number)
+        else:
+            lists.append([number] if able else [])
+    sure = [each for each in lists if len(each) > 1 and len(each) in lengths]
+    return [
+        number
+        for each in sure
+        if _WEIGHTS.search(plain, 0, each[0].start) or any(_weighs(plain, n, roles[n]) for n in each)
+        for number in each
+    ]
 
 
 def _users(plain: str, numbers: Sequence[Number], chances: Mapping[Number, float]) -> list[Number]:

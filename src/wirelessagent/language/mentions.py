@@ -59,7 +59,12 @@ _OF_ITS_OWN = r"(?!\s+(?:for|to|para|pour|für)\s)"  # "6 for user 2, 3 for user
 _NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"
 _DIGITS = r"[0-9]{1,4}(?![0-9.,]*[0-9%]|[A-Za-z])"
 _WORD_LIST = rf"{_WORD_NUMBER}\b(?:(?:{_AND}|{_TO}){_WORD_NUMBER}\b)*"
-_LIST = rf"(?:{_DIGITS}(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
+_SPACED = (  # "users 1 2 3", and nothing that is counted behind
+    r"(?<=s )[0-9]{1,2}(?:\s+[0-9]{1,2}){1,11}(?:\s+(?:and|y|et|und)\s+[0-9]{1,2})?(?![0-9.,]*[0-9%]|\s+[0-9])"
+    r"(?!\s*(?!(?:at|have|get|need|want|should|must|are|with|each|and|only|out|alone|excluded|to|left|not|may|shall|will|"
+    r"in|for|on|please)\b)[A-Za-zμ%×*^/])"
+)
+_LIST = rf"(?:{_SPACED}|{_DIGITS}(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
 _NAMED = re.compile(
     rf"(?i)(?<![A-Za-z0-9]){_NOUN}[\s_-]*(?:ids?\s*|{_NO}\s*|(?:del?|from|von)\s+(?=[0-9]{{1,3}}{_TO}))?\s*(?P<list>{_LIST})"
     rf"|(?<![A-Za-z0-9])(?:u|ue)(?P<short>[0-9]{{1,4}})(?![A-Za-z0-9])"
@@ -74,8 +79,8 @@ _ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|�
 
 
 def _zh_list(number: str) -> str:
-    joint = r"\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*"
-    return rf"{number}(?:{joint}{number}|\s*号\s*{number}(?=\s*号))*"
+    joint = r"\s*号?\s*(?:、|,|\uff0c|和|与|跟|及|以及|到|至|-|~)\s*|\s+(?=[0-9]{1,2}(?:\s+[0-9]{1,2})*\s*号)"
+    return rf"{number}(?:(?:{joint}){number}|\s*号\s*{number}(?=\s*号))*"
 
 
 _ZH_LIST = rf"(?:{_zh_list('[0-9]{1,4}')}|{_zh_list('[一二三四五六七八九十]{1,3}')})"

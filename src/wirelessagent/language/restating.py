@@ -24,6 +24,8 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
         "resource_block_group_size": "subcarriers in groups of {figure}",
         "everybody": "each user",
         "everybody_else": "everyone else",
+        "but": "{who} but {users}",
+        "no_promise": "no least rate for {who}",
         "user": "user {}",
         "and": " and ",
         "comma": ", ",
@@ -42,6 +44,8 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
         "resource_block_group_size": "子载波每 {figure} 个一组",
         "everybody": "每个用户",
         "everybody_else": "其余用户",
+        "but": "除{users}外{who}",
+        "no_promise": "不保证{who}的最低速率",
         "user": "用户{}",
         "and": "和",
         "comma": "、",
@@ -57,6 +61,8 @@ def limits_in_words(limits: Mapping[str, Constraint], language: str) -> str:
 
     >>> limits_in_words({"min_rate_bps": {"all": 1e6, "2": 3e6, "4": 3e6}, "leave_out": ("3",)}, "en")
     'at least 3 Mbit/s for user 2 and user 4, at least 1 Mbit/s for everyone else, without user 3'
+    >>> limits_in_words({"min_rate_bps": {"all": 1e6, "3": 0.0}}, "en")
+    'at least 1 Mbit/s for each user but user 3'
     """
     words = _WORDS.get(language, _WORDS["en"])
     return words["between"].join(part for name, value in limits.items() for part in _limit(words, name, value))
@@ -76,18 +82,27 @@ def _limit(words: Mapping[str, str], name: str, value: Constraint) -> list[str]:
     if isinstance(value, tuple):
         return [words[name].format(who=_listed(words, [_user(words, user) for user in value]))]
     by_user = value if isinstance(value, Mapping) else {EVERYBODY: value}
-    return [words[name].format(figure=_figure(name, figure), who=who) for figure, who in _by_figure(words, by_user)]
+    exempt = [_user(words, user) for user, figure in by_user.items() if figure == 0 and name == "min_rate_bps"]
+    promised = {user: figure for user, figure in by_user.items() if figure > 0 or not exempt}
+    said = [
+        words[name].format(figure=_figure(name, figure), who=who) for figure, who in _by_figure(words, promised, exempt)
+    ]
+    return (
+        said if EVERYBODY in promised or not exempt else [*said, words["no_promise"].format(who=_listed(words, exempt))]
+    )
 
 
-def _by_figure(words: Mapping[str, str], by_user: Mapping[str, float]) -> list[tuple[float, str]]:
-    """(figure, who gets it), the same figures together and those who are not named last."""
+def _by_figure(words: Mapping[str, str], by_user: Mapping[str, float], exempt: list[str]) -> list[tuple[float, str]]:
+    """(figure, who gets it), the same figures together and those who are not named last, but for the exempt."""
     named: dict[float, list[str]] = {}
     for user, figure in by_user.items():
         if user != EVERYBODY:
             named.setdefault(figure, []).append(_user(words, user))
     said = [(figure, _listed(words, users)) for figure, users in named.items()]
     if EVERYBODY in by_user:
-        said.append((by_user[EVERYBODY], words["everybody_else" if named else "everybody"]))
+        others = words["everybody_else" if named else "everybody"]
+        others = words["but"].format(who=others, users=_listed(words, exempt)) if exempt else others
+        said.append((by_user[EVERYBODY], others))
     return said
 
 
