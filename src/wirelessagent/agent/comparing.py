@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import cast
 
 from wirelessagent import plugins
 from wirelessagent.agent import answers
 from wirelessagent.agent.figures import side_by_side
-from wirelessagent.agent.refusing import refused
+from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.request import Request
 from wirelessagent.agent.restating import goal_words
 from wirelessagent.agent.site import Site
@@ -20,7 +21,6 @@ from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import outcome_in_words
 from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
-from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.units import human, reliability
 
 Column = tuple[str, Run]
@@ -60,15 +60,15 @@ def with_tools(site: Site, run: Run, request: Request, intent: Intent, names: Se
         if name in plugins.names("method"):
             tools, sight = site.with_tools(method=name), None
         elif name in plugins.names("repairer"):
-            tools = site.with_tools(repairer=name)
+            tools = dataclasses.replace(site.tools_of(request), repairer=name, repairer_options={})
             sight = site.sight_by(tools, language)
         else:
             known = {f"{kind}s": ", ".join(plugins.names(kind)) for kind in ("method", "repairer")}
             return Reply(text=say(language, "not_installed", name=name, **known), stage="asked")
         try:
             columns.append((name, site.foreseen(site.plan(intent, request, sight=sight, tools=tools))))
-        except UnsupportedProblemError as refusal:
-            refusals.append(refused(name, run.decision.problem, language) or str(refusal))
+        except RefusedError as refusal:
+            refusals.append(refusal.why)
     listed = say(language, "comma").join(called(language, name) for name in names)
     told_lines = lines(columns, language) if len(columns) > 1 else []
     text = "\n".join([joined(language, [say(language, "compared", names=listed), *told_lines]), *refusals])

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from wirelessagent import chain, plugins
 from wirelessagent.agent.restating import goal_words
 from wirelessagent.agent.turn_words import told
-from wirelessagent.agent.words import say
+from wirelessagent.agent.words import joined, say
 from wirelessagent.explain.labels import called
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.problem import Problem
+
+
+class RefusedError(UnsupportedProblemError):
+    """A method does not solve a problem; the message says why and what does, in the operator's language."""
+
+    def __init__(self, refusal: UnsupportedProblemError, problem: Problem, method: str | None, language: str) -> None:
+        self.why = refused(method or chain.default_method(problem), problem, language) or str(refusal)
+        super().__init__(joined(language, [self.why, able(problem, language)]).strip())
 
 
 def refused(name: str, problem: Problem, language: str) -> str:
@@ -17,8 +27,10 @@ def refused(name: str, problem: Problem, language: str) -> str:
     assert not isinstance(objective, str)
     if method.objectives is not None and objective.name not in method.objectives:
         return say(language, "refused_objective", name=name, goal=goal_words(objective.name, language))
-    known = {*method.constraints, "max_power_w", "outage_probability"}
-    surplus = [limit for limit in problem.constraints() if limit not in known]
+    stated: dict[str, Any] = {
+        name: value for name, value in problem.constraints().items() if name != "outage_probability"
+    }
+    surplus = [limit for limit, value in stated.items() if not _solves(name, Problem(objective, **{limit: value}))]
     limits = say(language, "comma").join(say(language, f"limit_{limit}") for limit in surplus)
     return say(language, "refused_limits", name=name, limits=limits) if limits else ""
 

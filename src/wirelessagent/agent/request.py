@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from wirelessagent.language.conversation.methods import OWN_CHOICE
 from wirelessagent.language.followups import joined
 from wirelessagent.language.intent import EVERYBODY, Constraint, Intent, checked_constraints
 
 
 @dataclass(frozen=True, kw_only=True)
 class Request:
-    """An objective by its registered name, and constraints as in :class:`~wirelessagent.language.intent.Intent`."""
+    """An objective by its registered name, and constraints as in :class:`~wirelessagent.language.intent.Intent`.
+
+    ``method`` is the one that the operator named, by its registered name; None leaves the choice to the tools.
+    """
 
     objective: str
     constraints: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    method: str | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "constraints", checked_constraints(self.constraints))
@@ -32,15 +38,21 @@ class Request:
             if name == "users":
                 merged.pop("leave_out", None)
             merged[name] = joined(name, merged.get(name), value)
-        return Request(objective=objective or self.objective, constraints=merged)
+        return Request(objective=objective or self.objective, constraints=merged, method=self.method)
 
 
 def requested(intent: Intent, before: Request | None) -> Request:
-    """The request after a sentence that allocates, in a conversation that asked for ``before`` so far."""
+    """The request after a sentence that allocates, in a conversation that asked for ``before`` so far.
+
+    A method that was named once is used until another one is.
+    """
     assert intent.objective is not None
     if not intent.amends or before is None:
-        return Request(objective=intent.objective, constraints=intent.constraints)
-    return before.amended(intent.constraints, objective=intent.objective, dropped=intent.dropped)
+        request = Request(objective=intent.objective, constraints=intent.constraints)
+    else:
+        request = before.amended(intent.constraints, objective=intent.objective, dropped=intent.dropped)
+    named = str(intent.details.get("method") or (before and before.method) or OWN_CHOICE)
+    return dataclasses.replace(request, method=None if named == OWN_CHOICE else named)
 
 
 def stated_by(after: Request, before: Request | None) -> dict[str, Constraint]:

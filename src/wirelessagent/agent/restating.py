@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from wirelessagent import plugins
 from wirelessagent.agent.request import Request
+from wirelessagent.agent.turn_words import told
+from wirelessagent.explain.labels import called
 from wirelessagent.language.replies import GOALS
 from wirelessagent.language.restating import limits_in_words
 
@@ -16,6 +18,9 @@ def restated(request: Request, language: str = "en") -> str:
     """
     goal, limits = goal_words(request.objective, language), limits_in_words(request.constraints, language)
     said = goal[:1].upper() + goal[1:]
+    if request.method is not None:
+        by = told(language, "by_method", method=called(language, request.method))
+        limits = f"{limits}{told(language, 'between')}{by}" if limits else by
     if language == "zh":
         return f"{said}：{limits}。" if limits else f"{said}。"
     return f"{said}: {limits}." if limits else f"{said}."

@@ -24,6 +24,7 @@ from wirelessagent.agent import asking, changing, referring
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.agent.posing import UnknownUserError, user_number
+from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.request import Request, stated_by
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Missing, Question, Reply, State
@@ -33,6 +34,7 @@ from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import joined, say
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
+from wirelessagent.language.conversation.methods import OWN_CHOICE
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -177,6 +179,10 @@ class Session:
         except WirelessAgentError as error:
             if self._raises:
                 raise
+            if isinstance(error, RefusedError):
+                return Reply(
+                    text=joined(intent.language, [str(error), say(intent.language, "nothing_changed")]), stage="nothing"
+                )
             key = "unsupported" if isinstance(error, UnsupportedProblemError) else "failed"
             return Reply(text=say(intent.language, key, why=error), stage="nothing")
 
@@ -275,7 +281,7 @@ class Session:
         reply = told(intent.language, "back_to_turn", number=turn)
         return dataclasses.replace(
             intent, kind="allocate", objective=request.objective, constraints=request.constraints, topic=None,
-            reply=reply,
+            reply=reply, details={**intent.details, "method": request.method or OWN_CHOICE},
         )  # fmt: skip
 
     def _answered(self, text: str) -> Intent | None:

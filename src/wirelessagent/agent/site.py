@@ -11,11 +11,13 @@ from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent import acting
 from wirelessagent.agent.events import Event, Progress
 from wirelessagent.agent.posing import pose
+from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.request import Request
 from wirelessagent.agent.run import Sight, look, plan, station_of, with_outcome
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run
 from wirelessagent.language.intent import Intent
+from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.sensing.loss import random
@@ -70,14 +72,21 @@ class Site:
 
         Raises:
             UnclearRequestError: the request does not fit the channel; the message is the question to the operator.
-            UnsupportedProblemError: the method does not solve it.
+            RefusedError: the method does not solve it; the message is for the operator.
         """
         posed = pose(request, self.scene.cell, self.user_names, intent.language)
         for note in posed.notes:
             self.progress(Event(stage="note", message=note))
-        tools = tools or self.tools
-        chain.check_solvable(posed.problem, tools.method)
+        tools = tools or self.tools_of(request)
+        try:
+            chain.check_solvable(posed.problem, tools.method)
+        except UnsupportedProblemError as refusal:
+            raise RefusedError(refusal, posed.problem, tools.method, intent.language) from refusal
         return plan(intent, posed, sight or self.sight(intent.language), tools, progress=self.progress)
+
+    def tools_of(self, request: Request) -> Tools:
+        """The tools, with the method that the operator named."""
+        return self.tools if request.method in (None, self.tools.method) else self.with_tools(method=request.method)
 
     def station(self, run: Run) -> BaseStation | None:
         """The base station that a run would be applied at; None where there is none."""
@@ -101,7 +110,7 @@ class Site:
             return run
         return with_outcome(run, SimulatedBaseStation(run.scene).apply(run.decision))
 
-    def with_tools(self, **changes: str) -> Tools:
+    def with_tools(self, **changes: str | None) -> Tools:
         """The tools with others of a kind, at their own defaults."""
         options = {f"{kind}_options": dict[str, object]() for kind in changes}
         return dataclasses.replace(self.tools, **changes, **options)  # pyright: ignore[reportArgumentType]

@@ -26,6 +26,8 @@ _ENGLISH: Mapping[str, str] = {
     "promised_and_left_out": "{user} can't be promised {rate} and be left out at once. Which of the two should hold? "
     "To give the promise up, say '{user} needs no minimum rate'.",
     "plan_or_what_if": "The plan still waits: 'yes' applies {request}; 'do that' takes the what-if instead.",
+    "between": ", ",
+    "by_method": "by the method {method}",
     "column": "{name}: {outcome}.",
     "because": " ({reason})",
     "able": "For this there are: {methods}.",
@@ -56,6 +58,8 @@ _CHINESE: Mapping[str, str] = {
     "promised_and_left_out": "不能既向{user}承诺 {rate} 又不服务它。以哪一个为准？"
     "要放弃承诺，请说“取消{user}的最低速率”。",
     "plan_or_what_if": "原计划仍在等待：说“是”即应用{request}；说“就这么办”则改用这个假设。",
+    "between": "，",
+    "by_method": "用{method}求解",
     "column": "{name}：{outcome}。",
     "because": "（{reason}）",
     "able": "可用的方法：{methods}。",

@@ -33,18 +33,32 @@ def tools_named(text: str, *kinds: plugins.Kind) -> tuple[str, ...]:
     >>> tools_named("compare with equal power and the paper's method", "method")
     ('equal_power', 'paper')
     """
-    spoken = _spoken(tuple(name for kind in kinds for name in plugins.names(kind)))
-    longest_first = sorted(spoken, key=len, reverse=True)
-    pattern = "|".join(rf"{'' if _is_chinese(said) else chr(92) + 'b'}{re.escape(said)}" for said in longest_first)
-    found = re.finditer(rf"({pattern})(?![a-z])", re.sub(r"[-_\s]+", " ", text.lower())) if spoken else ()
-    return tuple(dict.fromkeys(spoken[match[1]] for match in found))
+    spoken, pattern = _spoken(tuple(name for kind in kinds for name in plugins.names(kind)))
+    return tuple(dict.fromkeys(spoken[match[0]] for match in pattern.finditer(_plain(text))))
+
+
+def with_tool(text: str, kind: plugins.Kind) -> tuple[str, str]:
+    """The words with "%" for the only plug-in that they name, and its name; "" where they name none or several.
+
+    >>> with_tool("use the paper's method", "method")
+    ("use the %'s method", 'paper')
+    """
+    spoken, pattern = _spoken(tuple(plugins.names(kind)))
+    plain = _plain(text)
+    found = list(pattern.finditer(plain))
+    if len(found) != 1:
+        return text, ""
+    return f"{plain[: found[0].start()]}%{plain[found[0].end() :]}", spoken[found[0][0]]
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"[-_\s]+", " ", text.lower())
 
 
 @functools.cache
-def _spoken(names: tuple[str, ...]) -> Mapping[str, str]:
-    """The plug-in that each name or spoken name means."""
-    return {said: name for name in names for said in (name.lower().replace("_", " "), *_SPOKEN.get(name, ()))}
-
-
-def _is_chinese(said: str) -> bool:
-    return not said.isascii()
+def _spoken(names: tuple[str, ...]) -> tuple[Mapping[str, str], re.Pattern[str]]:
+    """The plug-in that each name or spoken name means, and a pattern for all of them."""
+    spoken = {said: name for name in names for said in (_plain(name), *_SPOKEN.get(name, ()))}
+    longest_first = sorted(spoken, key=len, reverse=True)
+    either = "|".join(rf"\b{re.escape(said)}(?![a-z])" if said.isascii() else said for said in longest_first)
+    return spoken, re.compile(either or r"(?!)")

@@ -33,6 +33,7 @@ class RequestAnswer(Record):
 
     objective: str
     constraints: dict[str, Any]
+    method: str | None = None
 
 
 class TurnRecord(Record):

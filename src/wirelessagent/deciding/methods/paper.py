@@ -12,6 +12,7 @@ from wirelessagent.deciding.methods.paper_scan import PaperScan
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.objective import Objective
 from wirelessagent.model.problem import Problem
 
 _METHODS: dict[str, Method] = {
@@ -28,6 +29,12 @@ class Paper(Method):
     name = "paper"
     objectives = tuple(_METHODS)
     constraints = frozenset[str]().union(*(method.constraints for method in _METHODS.values()))
+
+    @classmethod
+    def objective_of(cls, problem: Problem) -> Objective:
+        """The problem's objective, after a check that the paper's method for it solves such problems."""
+        objective = super().objective_of(problem)
+        return _METHODS[objective.name].objective_of(problem)
 
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
         method = _METHODS[self.objective_of(problem).name]

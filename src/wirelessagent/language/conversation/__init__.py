@@ -14,6 +14,7 @@ from wirelessagent.language.conversation.amendments import read_amendment
 from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.comparing import read_comparison
 from wirelessagent.language.conversation.line import NAME, Line
+from wirelessagent.language.conversation.methods import by_method, read_method
 from wirelessagent.language.conversation.promisable import read_promisable
 from wirelessagent.language.conversation.relative import read_relative
 from wirelessagent.language.conversation.reports import only_told
@@ -33,7 +34,15 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     if len(text) > _LONGEST:
         return recogniser.recognise(text, context)
     line, asked = Line.of(text, context), wondered(text) if context.objective is not None else None
-    for read in (read_command, read_comparison, read_relative, read_promisable, read_question, read_amendment):
+    for read in (
+        read_command,
+        read_method,
+        read_comparison,
+        read_relative,
+        read_promisable,
+        read_question,
+        read_amendment,
+    ):
         intent = read(line)
         if intent is not None:
             return intent
@@ -44,7 +53,7 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
         )  # fmt: skip
     intent = recogniser.recognise(text, context)
-    return only_told(line, intent) or asked_instead(line, intent) or intent
+    return only_told(line, intent) or asked_instead(line, intent) or by_method(line, intent)
 
 
 def _possible(line: Line, asked: str, recogniser: Recogniser) -> Intent:

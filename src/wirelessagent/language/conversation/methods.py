@@ -1,0 +1,75 @@
+"""Lines that name the method to solve with: "use the paper's method", "switch to exact", "改用论文的方法".
+
+The request stays as it is; the method is the detail "method" of an amendment, "auto" for the objective's own choice.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+
+from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.intent import Intent
+from wirelessagent.language.named_tools import with_tool
+
+OWN_CHOICE = "auto"
+"""The method for "the usual method"."""
+
+_NOUN = r"(?:methods?|algorithms?|solvers?|approach|scheme|way)"
+_VERB = (
+    r"(?:use|using|try|run|take|apply|(?:switch|change|go|move)(?:\s+(?:it|back|over))*\s+(?:to|with)|stick\s+(?:to|with)|"
+    r"(?:solve|do|redo|repeat|calculate|compute|decide|plan)(?:\s+(?:it|this|that|again|the\s+same))*\s+(?:with|by|using))"
+)
+_NAMED = rf"(?:the\s+)?(?:{_NOUN}\s+(?:of|from|in|called)\s+)?(?:the\s+)?%(?:'s)?"
+_LATER = r"(?:\s+(?:instead|from\s+now\s+on|now|then|for\s+(?:this|that|it|all)|again))*"
+_ZH_NOUN = "(?:的|里的|中的|里|中)?(?:那个|那种)?(?:方法|算法|求解器|办法|方案|做法|法)"
+_ZH_VERB = "(?:用|使用|采用|换成|换用|换到|改用|改成|改为|切换到|切换为|切换成|切到|用回|换回|试试|试一下)"
+_ZH_LATER = "(?:来?(?:做|算|解|求解|分配|计算))?(?:一下|试试|看看)?"
+_SWITCHED = re.compile(
+    rf"(?:(?:now|then|also|just)\s+)*(?:{_VERB}\s+{_NAMED}(?:\s+{_NOUN})?|{_NAMED}\s+{_NOUN}){_LATER}|"
+    rf"(?:现在|就|也|都|再|以后|改)*{_ZH_VERB}(?:一下)?%(?:{_ZH_NOUN})?{_ZH_LATER}"
+)
+_SUPPOSED = re.compile(
+    r"(?:what\s+(?:if|about)|how\s+about|suppose|if|can|could|may)\s+(?:(?:we|i|you|it)\s+)?|"
+    r"(?:如果|要是|假如|能不能|可以|可不可以|能否)(?:我们)?"
+)
+_SUPPOSED_END = re.compile(r"(?:[,，]?\s*(?:what\s+(?:then|happens)|会?(?:怎么样|怎样|如何)|的话|呢|吗))*$")
+_ADDED = re.compile(
+    rf"\b(?:with|by|using|via)\s+{_NAMED}\s+{_NOUN}\b|\busing\s+{_NAMED}(?!\w)|(?:用|采用|使用|按)%{_ZH_NOUN}"
+)
+_USUAL = re.compile(
+    rf"(?:{_VERB}\s+|back\s+to\s+)(?:the\s+|your\s+|its\s+)?(?:default|usual|normal|standard|own|original|best|automatic)(?:\s+{_NOUN})?|"
+    rf"(?:恢复|{_ZH_VERB})(?:默认|原来|通常|自动|平常)的?(?:方法|算法)"
+)
+
+
+def read_method(line: Line) -> Intent | None:
+    """The change of the method, or what another one would make of the request; None for any other line."""
+    said = line.wish.rstrip("?？.。!！ ")
+    if _USUAL.fullmatch(said):
+        return _changed(line, OWN_CHOICE)
+    shape, name = with_tool(said, "method")
+    if not name:
+        return None
+    if _SWITCHED.fullmatch(shape):
+        return _changed(line, name)
+    lead = _SUPPOSED.match(shape)
+    if lead is None or not _SWITCHED.fullmatch(_SUPPOSED_END.sub("", shape[lead.end() :])):
+        return None
+    return line.question("other") if line.context.objective is None else line.command("compare", **{"with": name})
+
+
+def by_method(line: Line, intent: Intent) -> Intent:
+    """A request with the method that its sentence names beside it; any other intent as it is."""
+    shape, name = with_tool(line.shape, "method")
+    if intent.kind != "allocate" or not name or not _ADDED.search(shape):
+        return intent
+    return dataclasses.replace(intent, details={**intent.details, "method": name})
+
+
+def _changed(line: Line, name: str) -> Intent:
+    """The request that holds by another method; where none holds, a question that finds nothing to work on."""
+    objective = line.context.objective
+    if objective is None:
+        return line.question("other")
+    return line.allocate(objective, {}, amends=True, details={"method": name})

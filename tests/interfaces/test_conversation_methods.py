@@ -1,0 +1,83 @@
+"""The operator names the method: it is used from then on, or refused in the operator's language."""
+
+from __future__ import annotations
+
+import pytest
+from conversations import LOSS, SCENE, SEED
+
+from wirelessagent.agent.session import Session
+from wirelessagent.agent.turn import Turn
+
+HELD = "highest total rate, at most 10 W"
+
+
+def talk(*lines: str) -> tuple[Session, list[Turn]]:
+    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
+    return session, [session.say(line) for line in lines]
+
+
+def method_of(turn: Turn) -> str:
+    assert turn.run is not None
+    return turn.run.decision.method
+
+
+@pytest.mark.parametrize(
+    ("said", "name"),
+    [
+        ("use the paper's method", "paper"),
+        ("switch to exact", "exact"),
+        ("solve it with greedy instead", "greedy"),
+        ("use the equal power method, please", "equal_power"),
+        ("用论文的方法", "paper"),
+        ("改用精确法", "exact"),
+        ("换成贪心算法试试", "greedy"),
+    ],
+)
+def test_a_method_that_is_named_is_used_from_then_on(said: str, name: str) -> None:
+    session, turns = talk(HELD, said, "now with 5 W", "highest total rate, at most 8 W", "what if 3 W?", "undo")
+    assert [method_of(turn) for turn in turns[1:5]] == [name] * 4
+    assert session.request is not None
+    assert session.request.method == name
+    assert dict(session.request.constraints) == {"max_power_w": 5.0}
+
+
+def test_a_method_goes_with_undo_back_to_a_turn_and_the_usual_one() -> None:
+    session, turns = talk(
+        HELD, "use greedy", "undo", "now with 5 W", "use exact", "back to turn 2", "use the usual method"
+    )
+    assert [method_of(turns[place]) for place in (3, 4, 5, 6)] == ["dual", "exact", "greedy", "dual"]
+    assert "method greedy" in turns[5].reply
+    assert session.request is not None
+    assert session.request.method is None
+
+
+def test_a_method_is_named_with_the_request() -> None:
+    _, turns = talk(
+        "highest total rate, at most 10 W, using greedy", "least power with 100 kbit/s each by the paper's method"
+    )
+    assert [method_of(turn) for turn in turns] == ["greedy", "paper"]
+
+
+@pytest.mark.parametrize(
+    ("said", "refusal", "able"),
+    [
+        ("use the paper's method", "paper knows nothing of weights.", "For this there are: dual, exact, greedy."),
+        ("用论文的方法", "论文方法不支持权重。", "可用的方法：对偶法、精确法、贪心法。"),
+    ],
+)
+def test_a_method_that_cannot_do_it_is_refused_in_the_operators_language(said: str, refusal: str, able: str) -> None:
+    session, turns = talk(HELD, "user 3 counts with weight 2", said, "now with 5 W")
+    assert turns[2].stage == "nothing"
+    assert turns[2].reply.startswith(refusal)
+    assert able in turns[2].reply
+    assert method_of(turns[3]) == "dual"
+    assert session.request is not None
+    assert session.request.method is None
+
+
+def test_what_a_method_would_make_of_it_is_compared_and_changes_nothing() -> None:
+    session, turns = talk(HELD, "what if we use greedy?", "能不能用论文的方法?", "use user 3 only")
+    assert [turn.tables[0].columns[2] for turn in turns[1:3]] == ["greedy", "论文方法"]
+    assert session.request is not None
+    assert session.request.method is None
+    assert talk("use the paper's method")[1][0].reply.startswith("There is nothing yet to work on.")
