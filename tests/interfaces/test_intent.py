@@ -293,7 +293,7 @@ WRONG_AND_WISH = [
     "energy efficiency must not be maximised", "max rate? no",
     "give 3 users more speed", "给3个用户提速", "more speed for 3 sensors",
     "5 G each, max rate",
-    "save power, 5G each",
+    "save power, 5G each", "max rate for 3 waiting users", "max rate, 43 dbx",
 ]  # fmt: skip
 
 HARMLESS_NUMBERS = [

@@ -67,6 +67,16 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("only users 1 and 2, user 2 counts double", {"users": ("1", "2"), "weights": {"2": 2.0}}),
     ("only users 1 to 4", {"users": ("1", "2", "3", "4")}),
     ("只带1号和4号,每个人保底1.5兆", {"users": ("1", "4"), "min_rate_bps": 1.5e6}),
+    # reliabilities without a percent sign
+    ("1 Mbit/s each, five nines", {"min_rate_bps": 1e6, "outage_probability": 1e-5}),
+    ("three nines reliability", {"outage_probability": 1e-3}),
+    ("1 Mbit/s each, 99.999", {"min_rate_bps": 1e6, "outage_probability": 1e-5}),
+    ("a reliability of 95", {"outage_probability": 0.05}),
+    ("99.99 availability", {"outage_probability": 1e-4}),
+    ("每人1兆,可靠性四个九", {"min_rate_bps": 1e6, "outage_probability": 1e-4}),
+    ("1 Mbit/s par utilisateur, fiabilité 99,9", {"min_rate_bps": 1e6, "outage_probability": 1e-3}),
+    ("cinco nueves", {"outage_probability": 1e-5}),
+    ("vier Neunen", {"outage_probability": 1e-4}),
     # subcarriers, shares, circuits
     ("at most 0.5 W per subcarrier, groups of 4 subcarriers",
      {"subcarrier_max_power_w": 0.5, "resource_block_group_size": 4.0}),

@@ -141,7 +141,43 @@ def test_a_range_is_a_floor_and_a_ceiling(text: str) -> None:
 def test_a_number_without_a_unit_is_bare() -> None:
     assert [(q.kind, q.value) for q in parse_quantities("max power 10")] == [("bare", 10.0)]
     assert [(q.kind, q.value) for q in parse_quantities("rate 5 each please")] == [("bare", 5.0)]
-    assert [(q.kind, q.value) for q in parse_quantities("at least 2M each")] == [("bare", 2e6)]
+    assert [(q.kind, q.value) for q in parse_quantities("at least 2M")] == [("bare", 2e6)]
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("at least 2M each", 2e6), ("500k each", 5e5), ("1M for everyone", 1e6), ("300k per user", 3e5),
+        ("1.5M/user", 1.5e6),
+        ("everyone gets at least 2M", 2e6), ("500k chacun", 5e5), ("300k por usuario", 3e5), ("1M für jeden", 1e6),
+    ],
+)  # fmt: skip
+def test_a_scaled_number_for_each_is_a_rate(text: str, value: float) -> None:
+    assert [(q.kind, q.value) for q in parse_quantities(text)] == [("rate", value)]
+
+
+@pytest.mark.parametrize("text", ["5 G each", "$2k each", "500k in total", "2 m each"])
+def test_what_else_is_said_of_each_is_no_rate(text: str) -> None:
+    assert "rate" not in {q.kind for q in parse_quantities(text)}
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "value"),
+    [
+        ("12 wats", "power", 12.0), ("12 wat", "power", 12.0), ("300 milliwats", "power", 0.3),
+        ("43 dbn", "power", 10**1.3),
+        ("2 megabts", "rate", 2e6), ("500 kbis/s", "rate", 5e5), ("1 mpbs", "rate", 1e6), ("10 vatois", "power", 10.0),
+    ],
+)  # fmt: skip
+def test_a_unit_may_have_one_slip(text: str, kind: str, value: float) -> None:
+    (found,) = parse_quantities(text)
+    assert (found.kind, found.text) == (kind, text)
+    assert found.value == pytest.approx(value)
+
+
+@pytest.mark.parametrize("text", ["8 want more", "3 wait", "2 megabites", "10 mbs", "5 mbpm", "12 cats", "43 dbx"])
+def test_another_word_is_no_unit_with_a_slip(text: str) -> None:
+    assert {q.kind for q in parse_quantities(text)} <= {"bare", "other"}
 
 
 @pytest.mark.parametrize(

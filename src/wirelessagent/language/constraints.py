@@ -16,6 +16,7 @@ from wirelessagent.language import figure_words
 from wirelessagent.language.allotments import Allotments, Target
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.judged import Judged
+from wirelessagent.language.nines import nines
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.surroundings import beside, describes_all, is_calculated, is_cells_power
@@ -232,6 +233,8 @@ class _Reader:
         before = self._plain[: match.start()] if match is not None else ""
         if match is None or figure_words.CHANGE_BEFORE.search(before) or figure_words.MOVE_BEFORE.search(before):
             return
+        if any(each.start < match.start() < each.end for each in self._quantities):  # "two and a half watts"
+            return
         group = match.lastgroup or ""
         tenths = figure_words.TENTHS.get(match[group]) if group.endswith("tenths") else None
         share = figure_words.SHARES.get(group) or tenths or float(match[group]) / 100
@@ -297,7 +300,7 @@ class _Reader:
         setting = figure_words.RATE_SET_TO.search(before)
         if setting is not None:
             self._masked.append((figure.start - len(before) + setting.start(), figure.end))
-        if not self._ends_a_range(index):
+        if not (self._ends_a_range(index) or self._corrects(index)):
             self._target = self._allotments.target_of(figure.start)
         target, chances = self._target, self._roles_of_rate(index)
         role = max(chances, key=lambda name: chances[name])
@@ -327,6 +330,8 @@ class _Reader:
         figure = self._figures[index]
         if self._ends_a_range(index) or self._ends_a_range(index + 1):
             return {"max_rate_bps" if figure.comparator == "at_most" else "min_rate_bps": 1.0, "none": 0.0}
+        if self._corrects(index):
+            return self._roles_of_rate(index - 1)
         chances = self._judged.figure(index)
         before, after = beside(self._plain, self._figures, index)
         exact = figure_words.EXACT.match(after) or figure_words.EXACT_BEFORE.search(before)
@@ -344,6 +349,15 @@ class _Reader:
         parted = any(lower.end <= mention.start < figure.start for mention in self._judged.mentions)
         return near and not parted and (lower.comparator, figure.comparator) == ("at_least", "at_most")
 
+    def _corrects(self, index: int) -> bool:
+        """Whether a figure has no bound and nobody of its own, and replaces the one before: "5 Mbit/s, sorry, 6"."""
+        if index == 0:
+            return False
+        earlier, figure = self._figures[index - 1], self._figures[index]
+        alike = earlier.kind == figure.kind and figure.comparator is None
+        corrected = alike and figure_words.CORRECTION.search(self._plain, earlier.end, figure.start) is not None
+        return corrected and not any(earlier.end <= mention.start < figure.start for mention in self._judged.mentions)
+
     def _allot(self, name: str, target: Target, figure: Quantity) -> None:
         earlier = self._allotments.give(name, target, figure, corrects=figure_words.CORRECTION)
         if earlier is not None:
@@ -355,6 +369,8 @@ class _Reader:
             self._missing = figure.value
             self._not_used.append(figure.text)
             return
+        if any(figure.start == each.start for each in nines(self._plain)):
+            chances = {"reliability": 1.0}
         role = max(chances, key=lambda name: chances[name])
         if role == "none" and chances[role] > _SURE and not _is_change(before, after):
             self._counted.append((figure.start, figure.end))

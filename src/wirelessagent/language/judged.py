@@ -17,12 +17,17 @@ from wirelessagent.language.figure_roles import LABELS, SCALED, View, likely, sh
 from wirelessagent.language.figure_words import CORRECTION, COUNTED_USERS
 from wirelessagent.language.leftovers import FOREIGN_UNIT, idioms, loose_numbers, may_be_a_limit
 from wirelessagent.language.mentions import JOINT, LISTED, Mention, mentions, merged
+from wirelessagent.language.nines import nines
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.odds import odds
 from wirelessagent.language.quantities import Quantity
 
 _ONE_OF_A_LIST, _NEAR = 0.3, 24
 _MOST_WEIGHT = 10**6
+_COUNTS = re.compile(  # "3 waiting users"
+    r"(?i)\s+(?!(?:for|to|of|from|with|at|and|or|is|are|other|as|than|our|the)\b)[a-z]+(?:\s+[a-z]+)?\s+(?:users|ues|people|"
+    r"subscribers|customers|clients|devices|phones|sensors|terminals)\b"
+)
 _WEIGHTS = re.compile(  # what follows are weights, whatever else they may look like
     r"(?i)(?:\b(?:weights?|pesos?|poids|gewichten?)(?:\s+(?:of|are|is|being|de|von|sind))?|权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
 )
@@ -64,8 +69,10 @@ def first_look(
     plain: str, quantities: Sequence[Quantity], names: Sequence[str] = (), taken: Sequence[tuple[int, int]] = ()
 ) -> Look:
     """A sentence before anybody asked what its numbers are; ``taken`` spans are read elsewhere."""
-    clear = [q for q in quantities if not any(start < q.end and q.start < end for start, end in taken)]
-    stated = [q for q in clear if q.kind not in ("bare", "other")]
+    sure = [q for q in nines(plain) if not any(start < q.end and q.start < end for start, end in taken)]
+    settled = [*taken, *((q.start, q.end) for q in sure)]
+    clear = [q for q in quantities if not any(start < q.end and q.start < end for start, end in settled)]
+    stated = [*sure, *(q for q in clear if q.kind not in ("bare", "other"))]
     stated += odds(plain, [*((q.start, q.end) for q in stated), *taken])
     stated.sort(key=lambda figure: figure.start)
     spans = [(q.start, q.end) for q in stated]
@@ -302,6 +309,7 @@ def _weighing_lists(plain: str, look: Look, roles: Mapping[Number, Mapping[str, 
 def _users(plain: str, numbers: Sequence[Number], chances: Mapping[Number, float]) -> list[Number]:
     """The numbers that are users: surely, or likelier than not beside one that surely is ("2, 5 and 7")."""
     able = [n for n in numbers if n.value is not None and 0 <= n.value == int(n.value) < _MOST_BARE_USERS]
+    able = [n for n in able if _COUNTS.match(plain, n.end) is None]
     able = [n for n in able if COUNTED_USERS.match(plain, n.start) is None and FOREIGN_UNIT.match(plain, n.end) is None]
     lists: list[list[Number]] = []
     for number in able:

@@ -75,6 +75,7 @@ _SETS_A_LIMIT = re.compile(
 _UNIT_OF_ANOTHER_KIND = re.compile(
     r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"
 )
+_ABBREVIATED = re.compile(r"\s?-?(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})(?![^\W\d_])")  # "43 dbx"
 _ALONE_AHEAD = re.compile(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
 _ALONE_BEHIND = re.compile(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
 _ALL_IDIOMS = (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR, _PRICES, _GLUED)
@@ -155,6 +156,9 @@ def _cut(plain: str, number: Number, taken: Sequence[Span]) -> Number:
 
 def may_be_a_limit(plain: str, number: Number) -> bool:
     """Whether a number stands where a limit would, or before a unit that no limit here has ("43 dB", "10 joules")."""
+    abbreviated = _ABBREVIATED.match(plain, number.end)
+    if abbreviated is not None and is_all_said(plain, number.start, abbreviated.end()):
+        return True
     after = _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None
     foreign = _RATING.match(plain, number.end)
     if foreign is not None and is_all_said(plain, number.start, foreign.end()):

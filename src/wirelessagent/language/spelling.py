@@ -64,3 +64,14 @@ def _edits(a: str, b: str, most: int) -> int:
         if min(row) > most:
             return most + 1
     return row[-1]
+
+
+def one_edit(a: str, b: str) -> bool:
+    """Whether one letter missing, added, changed, or a swap of neighbours makes a into b."""
+    if len(a) > len(b):
+        a, b = b, a
+    at = next((i for i, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), len(a))
+    if len(a) < len(b):
+        return len(b) == len(a) + 1 and a[at:] == b[at + 1 :]
+    swapped = a[at + 1 : at + 2] + a[at : at + 1] + a[at + 2 :]
+    return a[at + 1 :] == b[at + 1 :] or swapped == b[at:]

@@ -9,10 +9,11 @@ second", and bytes always do: "10 GB" is a file, "a bit faster" is no rate.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import Literal, TypeAlias
 
+from wirelessagent.language.unit_slips import slip_at
 from wirelessagent.model.units import dbm_to_w
 
 UnitKind: TypeAlias = Literal["power", "rate", "ratio"]
@@ -108,7 +109,17 @@ def unit_at(text: str, position: int) -> Unit | None:
             if found is not None:
                 strange = found.kind != "ratio" and _NOT_A_RATE_OR_POWER.match(text, found.end)
                 return None if strange or (found.kind == "rate" and _is_of_another_time(text, start, found)) else found
-    return None
+    return _misspelt(text, gap.end() if gap else position)
+
+
+def _misspelt(text: str, start: int) -> Unit | None:
+    """The unit that a word with one slip of the pen stands for."""
+    slip = slip_at(text, start)
+    if slip is None:
+        return None
+    word, end = slip
+    found = unit_at(f"{text[:start]}{word}{text[end:]}", start)
+    return None if found is None else replace(found, end=found.end + end - start - len(word))
 
 
 def unit_of_another_time(text: str, position: int) -> int | None:

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from wirelessagent.language import lexicon
-from wirelessagent.language.spelling import nearest
+from wirelessagent.language.spelling import nearest, one_edit
 from wirelessagent.language.text import CJK, CLAUSE_END, normalise
 
 MASK = "#"
@@ -159,7 +159,7 @@ class Vocabulary:
         if len(word) < _SHORTEST_CORRECTED or len(word) > 24 or word in self._words or word in _RIGHT_WORDS:
             return word
         near = {known for variant in _deletions(word) for known in self._slips.get(variant, ())}
-        close = [known for known in near if known[0] == word[0] and _one_edit(word, known)]
+        close = [known for known in near if known[0] == word[0] and one_edit(word, known)]
         if close or len(word) < _LONG:
             return close[0] if len(close) == 1 else word
         return nearest(word, self._long) or word
@@ -172,14 +172,3 @@ def _entry(item: str) -> tuple[str, ...]:
 def _deletions(word: str) -> list[str]:
     """The word itself and all that remain when one letter is taken out."""
     return [word, *(word[:i] + word[i + 1 :] for i in range(len(word)))]
-
-
-def _one_edit(a: str, b: str) -> bool:
-    """Whether one letter missing, added, changed, or a swap of neighbours makes a into b."""
-    if len(a) > len(b):
-        a, b = b, a
-    at = next((i for i, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), len(a))
-    if len(a) < len(b):
-        return len(b) == len(a) + 1 and a[at:] == b[at + 1 :]
-    swapped = a[at + 1 : at + 2] + a[at : at + 1] + a[at + 2 :]
-    return a[at + 1 :] == b[at + 1 :] or swapped == b[at:]

@@ -1,0 +1,66 @@
+"""Reliabilities without a percent sign: "five nines", "reliability 99.99", 四个九.
+
+A figure is one where nothing else can be meant: so many nines, a number of nines alone ("…, 99.999") or a number above
+fifty right beside a word for reliability.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from decimal import Decimal
+
+from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.units import unit_at
+
+_COUNTS = {
+    word: count
+    for count, words in enumerate(
+        (
+            "two dos deux zwei 二 两 2",
+            "three tres trois drei 三 3",
+            "four cuatro quatre vier 四 4",
+            "five cinco cinq fünf 五 5",
+            "six seis six sechs 六 6",
+            "seven siete sept sieben 七 7",
+        ),
+        start=2,
+    )
+    for word in words.split()
+}
+_LATIN = "|".join(sorted((word for word in _COUNTS if word[0].isalnum() and word[0] < "\u3400"), key=len, reverse=True))
+_RELIABLE = (
+    r"(?:reliab\w*|availab\w*|dependab\w*|fiab\w*|confiab\w*|disponib\w*|zuverlässig\w*|verfügbar\w*|sicherheit)"
+)
+_LINK = r"(?:\s+(?:of|at|is|be|to|de|del|von|bei|à|al|a|at\s+least|mindestens|au\s+moins))*\s*[:=]?\s*"
+_NUMBER = r"(?P<{}>[5-9][0-9](?:[.,][0-9]{{1,6}})?)(?![0-9.,]*[0-9])"
+_NINES = re.compile(
+    rf"(?i)(?<![\w.,])(?P<count>{_LATIN})[\s-]+(?:nines|9'?s|nueves|neufs|neunen|neuner)(?![\w%])|"
+    r"(?P<zh>[二两三四五六七2-7])\s?个\s?[九9](?![0-9一二三四五六七八九十百千万])|"
+    r"(?:(?<=^)|(?<=[,;:\uff0c；、(。]\s)|(?<=[,;:\uff0c；、(。]))(?P<alone>99[.,]9{1,5})(?=\s*(?:$|[,;!?)\uff0c；。]|\.(?![0-9])))|"
+    rf"\b{_RELIABLE}{_LINK}{_NUMBER.format('behind')}|(?<![\w.,]){_NUMBER.format('ahead')}\s+{_RELIABLE}|"
+    rf"可靠[性度率]?(?:要?达?到|要|为|是|不低于|至少|>=|≥|=|:)?\s*{_NUMBER.format('zhbehind')}"
+)
+
+
+def nines(plain: str) -> Iterator[Quantity]:
+    """The reliabilities of a normalised text that are no percentages, as ratios.
+
+    >>> [(q.text, q.value) for text in ("five nines", "reliability 99.9", "四个九") for q in nines(text)]
+    [('five nines', 0.99999), ('99.9', 0.999), ('四个九', 0.9999)]
+    """
+    for match in _NINES.finditer(plain):
+        group = match.lastgroup or ""
+        counted = group in ("count", "zh")
+        start, end = match.span() if counted else match.span(group)
+        if unit_at(plain, end) is None:
+            yield Quantity(
+                value=_value(match[group].lower(), counted=counted), kind="ratio", text=plain[start:end], start=start,
+                end=end, phrase_start=start, phrase_end=end,
+            )  # fmt: skip
+
+
+def _value(word: str, *, counted: bool) -> float:
+    if counted:
+        return float(1 - Decimal(10) ** -_COUNTS[word])
+    return float(Decimal(word.replace(",", ".")) / 100)
