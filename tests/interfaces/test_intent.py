@@ -417,6 +417,31 @@ def test_a_part_of_the_users_or_a_change_is_asked_about(text: str) -> None:
     assert recognise(text).kind == "clarify"
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "maximise the total rate but do not starve anyone", "max rate, nobody should starve",
+        "save power but don't starve anyone", "总速率最高，但别饿着任何人", "总速率最高，但要照顾慢的用户",
+        "débit total maximal sans affamer personne", "maximale Summenrate, aber niemand soll verhungern",
+    ],
+)  # fmt: skip
+def test_a_wish_that_nobody_starves_is_not_dropped(text: str) -> None:
+    intent = recognise(text)
+    assert intent.kind == "clarify"
+    assert "500 kbit/s" in intent.reply
+
+
+@pytest.mark.parametrize(
+    ("text", "objective"),
+    [
+        ("max rate, 1 Mbit/s each so nobody starves", RATE), ("proportional fairness, nobody starves", FAIR),
+        ("the highest total rate, 500 kbit/s each", RATE), ("总速率最高，每人至少500 kbit/s", RATE),
+    ],
+)  # fmt: skip
+def test_a_wish_that_nobody_starves_may_be_kept_already(text: str, objective: str) -> None:
+    assert recognise(text).objective == objective
+
+
 @pytest.mark.parametrize(("text", "objective"), HARMLESS_NUMBERS)
 def test_a_number_that_describes_is_no_obstacle(text: str, objective: str) -> None:
     assert recognise(text).objective == objective

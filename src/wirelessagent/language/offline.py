@@ -15,9 +15,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
-from wirelessagent.language.intent import COMMANDS, CONSTRAINTS, Constraint, Detail, Intent, IntentKind
+from wirelessagent.language.intent import COMMANDS, CONSTRAINTS, EVERYBODY, Constraint, Detail, Intent, IntentKind
 from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
+from wirelessagent.language.nobody_starves import nobody_starves
 from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Voice
@@ -30,6 +31,7 @@ NAME = "offline"
 _MAX_CHARACTERS = 2000
 _DEFAULT_CONFIDENCE = 0.75
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
+_UNFAIR_OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency")
 _CHANGING = ("apply", "confirm", "undo", "reset")
 _SURE_OF_A_COMMAND = 0.6
 _CUES = {  # a command that changes something has one of these in it
@@ -236,11 +238,21 @@ class _Understanding:
         if default is not None and (judged.objective == "max_rate" or not judged.acts):
             return default
         if judged.acts and judged.objective in self._voice.labels:
+            if self._lets_somebody_starve(judged.objective):
+                fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
+                names = {"goal": self._voice.label(judged.objective), "both": self._voice.both(fair, "or")}
+                return self._answer.ask("starving", 0.8, self._reading.values, **names)
             words = (
                 " … ".join(self._text[start:end] for start, end in _merged(goal.spans)) if goal.spans else self._text
             )
             return self._allocate(judged.objective, words, judged.certainty)
         return self._question_back()
+
+    def _lets_somebody_starve(self, objective: str) -> bool:
+        """Whether a wish that nobody goes without would be dropped: no least rate for all, no fair objective."""
+        floors = self._reading.values.get("min_rate_bps")
+        floor = floors.get(EVERYBODY, 0.0) if isinstance(floors, Mapping) else floors
+        return objective in _UNFAIR_OBJECTIVES and not floor and nobody_starves(self._sentence.plain)
 
     def _question_back(self) -> Intent:
         """What to ask where no wish is sure."""

@@ -67,6 +67,10 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "rivals": "You asked for {both} at once. Which one should it be: {choices}?",
         "opposite": "I can't aim for {goal} as such. What should the cell aim for: {choices}?",
         "fairness": "Fair in which way: {both}?",
+        "starving": (
+            "How much should each user get at least, so that nobody goes without: say for example “{goal}, 500 kbit/s "
+            "each”. Or should I share instead, as {both}?"
+        ),
         "unsupported_with_goal": "I can't steer {text}. Shall I go on without it, for {goal} alone?",
         "unread": (
             "I can use plain figures with a unit: a power (W, dBm), a rate (bit/s, Mbit/s) or an outage (%). "
@@ -159,6 +163,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "rivals": "您同时要求{both}。应以哪一个为目标：{choices}？",
         "opposite": "不能以{goal}本身为目标。应以什么为目标：{choices}？",
         "fairness": "怎样才算公平：{both}？",
+        "starving": "为了不让任何人落空，每个用户至少多少？例如“{goal}，每人至少500 kbit/s”。还是改为分享：{both}？",
         "unsupported_with_goal": "我不能控制{text}。是否不考虑它，只求{goal}？",
         "unread": "{text} 指什么？可用带单位的数值：功率（W、dBm）、速率（bit/s）或中断概率（%），是哪个？",
         "calculated": "我不会用 {text} 做运算。结果应是哪个数值？",
