@@ -430,7 +430,7 @@ def test_the_channel_and_the_result_are_told_of(said: str, topic: str) -> None:
 
 @pytest.mark.parametrize(
     ("said", "topic"),
-    [("哪个用户最慢", "users"), ("Is the link of user 2 any good?", "uncertainty"), ("方案怎么样呢", "other")],
+    [("用户的速率怎么样", "users"), ("Is the link of user 2 any good?", "uncertainty"), ("方案怎么样呢", "other")],
 )
 def test_a_question_does_not_ask_for_the_aim_again(said: str, topic: str) -> None:
     aim = means("clarify", reply="What should the cell aim for?")

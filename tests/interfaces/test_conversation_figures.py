@@ -122,3 +122,33 @@ def test_aims_and_several_methods_are_compared_side_by_side() -> None:
     assert answered("compare with equal power and greedy").tables[0].columns[1:] == ("dual", "equal_power", "greedy")
     assert answered("和论文的方法以及等功率比较").tables[0].columns[1:] == ("对偶法", "论文方法", "等功率法")
     assert "Greedy: total rate" in answered("compare with greedy").reply
+
+
+@pytest.mark.parametrize(
+    ("said", "details"),
+    [
+        ("who gets the least?", {"rank": "least", "of": "rate"}),
+        ("谁最少?", {"rank": "least", "of": "rate"}),
+        ("who's the slowest?", {"rank": "least", "of": "rate"}),
+        ("速率最低的是谁?", {"rank": "least", "of": "rate"}),
+        ("who gets the most?", {"rank": "most", "of": "rate"}),
+        ("谁的功率最大?", {"rank": "most", "of": "power"}),
+        ("which user has the most subcarriers?", {"rank": "most", "of": "subcarriers"}),
+        ("which subcarriers does user 3 have?", {"listed": "subcarriers", "user": "3"}),
+        ("3号用户用哪些子载波?", {"listed": "subcarriers", "user": "3"}),
+        ("user 3's subcarriers", {"listed": "subcarriers", "user": "3"}),
+        ("列出每个用户的子载波", {"listed": "subcarriers"}),
+        ("who has subcarrier 5?", {"subcarrier": 5.0}),
+        ("5号子载波给了谁?", {"subcarrier": 5.0}),
+    ],
+)
+def test_who_has_what_is_told_at_once(said: str, details: dict[str, Any]) -> None:
+    turn = answered(said)
+    assert (turn.intent.topic, dict(turn.intent.details)) == ("users", details)
+    assert not turn.reply.startswith(("20 of 20", "20 个子载波中使用"))
+    assert turn.tables
+
+
+@pytest.mark.parametrize("said", ["which subcarriers rest on repaired gains?", "who should get the most power?"])
+def test_other_questions_of_users_are_left_to_the_recogniser(said: str) -> None:
+    assert not {"rank", "listed", "subcarrier"} & set(answered(said).intent.details)

@@ -7,7 +7,9 @@ from wirelessagent.agent.turn import Run
 from wirelessagent.explain.answering import answered
 from wirelessagent.explain.case import Case
 from wirelessagent.explain.glossary import explained
+from wirelessagent.explain.roster import owner_answer, rank_answer, subcarriers_answer
 from wirelessagent.explain.table import Table
+from wirelessagent.explain.tables import user_table
 from wirelessagent.explain.words import explain
 from wirelessagent.language.intent import Intent
 
@@ -36,6 +38,10 @@ def answer(run: Run, intent: Intent, user_names: tuple[str, ...]) -> tuple[str, 
     case = case_of(run)
     topic, details = intent.topic or "", intent.details
     figures = {name: float(value) for name, value in details.items() if isinstance(value, int | float)}
+    if topic == "users" and run.decision.is_usable:
+        told = _of_users(case, intent, user_names)
+        if told:
+            return told, (user_table(run.report, run.estimate, intent.language),)
     found = answered(
         case, run.report, topic, intent.language, user=_user(intent, user_names), figures=figures
     )  # fmt: skip
@@ -43,6 +49,17 @@ def answer(run: Run, intent: Intent, user_names: tuple[str, ...]) -> tuple[str, 
         return explanation(run, intent.language), ()
     text, tables = found
     return text or explain(run.estimate, run.report, language=intent.language)[0], tables
+
+
+def _of_users(case: Case, intent: Intent, user_names: tuple[str, ...]) -> str:
+    """Who gets the least or the most, or who has which subcarriers, where that is asked; else empty."""
+    details, language = intent.details, intent.language
+    if "rank" in details:
+        return rank_answer(case, str(details["rank"]), str(details.get("of", "rate")), language)
+    if "listed" in details:
+        return subcarriers_answer(case, _user(intent, user_names), language)
+    place = details.get("subcarrier")
+    return owner_answer(case, int(place), language) if isinstance(place, float) else ""
 
 
 def _user(intent: Intent, user_names: tuple[str, ...]) -> int | None:

@@ -18,6 +18,7 @@ from wirelessagent.language.conversation.methods import by_method, read_method
 from wirelessagent.language.conversation.promisable import read_promisable
 from wirelessagent.language.conversation.relative import read_relative
 from wirelessagent.language.conversation.reports import only_told
+from wirelessagent.language.conversation.shares import read_share
 from wirelessagent.language.conversation.unanswered import Unanswered, leaves_the_question, unanswered
 from wirelessagent.language.conversation.wondering import is_worked_out, supposed, wondered
 from wirelessagent.language.intent import Intent
@@ -27,6 +28,11 @@ __all__ = ["NAME", "Unanswered", "unanswered", "understood"]
 
 _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""
+_READERS = (
+    read_command, read_method, read_comparison, read_relative, read_promisable, read_share, read_question,
+    read_amendment,
+)  # fmt: skip
+"""What a line may be because of its conversation, the closest first."""
 
 
 def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
@@ -34,15 +40,7 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     if len(text) > _LONGEST:
         return recogniser.recognise(text, context)
     line, asked = Line.of(text, context), wondered(text) if context.objective is not None else None
-    for read in (
-        read_command,
-        read_method,
-        read_comparison,
-        read_relative,
-        read_promisable,
-        read_question,
-        read_amendment,
-    ):
+    for read in _READERS:
         intent = read(line)
         if intent is not None:
             return intent

@@ -1,0 +1,86 @@
+"""Who has what, in words that agree with the allocation."""
+
+from __future__ import annotations
+
+import re
+import string
+from typing import Any
+
+import numpy as np
+import pytest
+
+import wirelessagent as wa
+from wirelessagent.explain import roster
+from wirelessagent.explain.case import Case
+from wirelessagent.explain.labels import called
+from wirelessagent.explain.roster import owner_answer, rank_answer, subcarriers_answer
+from wirelessagent.model.units import human
+
+CELL = wa.Cell(max_power_w=20)
+SCENE = wa.simulate("rayleigh", CELL, num_users=5, num_subcarriers=16, seed=6)
+SEEN = wa.repair(SCENE.observe(wa.loss.random(0.3), seed=4))
+LANGUAGES = ("en", "zh")
+
+
+def case_of(objective: Any, **constraints: Any) -> Case:
+    problem = wa.Problem(objective, **{"max_power_w": 10.0, **constraints})
+    return Case(decision=wa.decide(SEEN, problem, CELL), estimate=SEEN)
+
+
+def test_both_languages_say_the_same() -> None:
+    english, chinese = roster.WORDS.english, roster.WORDS.chinese
+    assert english.keys() == chinese.keys()
+    for key, sentence in english.items():
+        places = [
+            {name for _, name, _, _ in string.Formatter().parse(said)} - {None} for said in (sentence, chinese[key])
+        ]
+        assert places[0] == places[1], key
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("rank", ["least", "most"])
+def test_the_first_is_named_with_its_figure(rank: str, language: str) -> None:
+    case = case_of("proportional_fairness")
+    rates = case.decision.rate_bps
+    user = int(np.argmin(rates) if rank == "least" else np.argmax(rates))
+    said = rank_answer(case, rank, "rate", language)
+    assert said.startswith(called(language, SEEN.user_names[user]))
+    assert human(float(rates[user]), "bit/s") in said
+    power = np.array([case.decision.power_w[case.decision.owner == one].sum() for one in range(5)])
+    most = rank_answer(case, "most", "power", language)
+    assert most.startswith(called(language, SEEN.user_names[int(np.argmax(power))]))
+    assert human(float(power.max()), "W") in most
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_those_who_get_nothing_are_named_apart_from_the_least(language: str) -> None:
+    case = case_of("max_rate", users=(0, 1, 2, 3))
+    rates = case.decision.rate_bps
+    served = np.flatnonzero(rates > 0)
+    assert 0 < served.size < 4
+    said = rank_answer(case, "least", "rate", language)
+    nothing, others = re.split("[.。]", said)[:2]
+    named = {user for user in range(5) if called(language, SEEN.user_names[user]) in nothing}
+    assert named == set(range(4)) - set(served.tolist())
+    assert called(language, SEEN.user_names[int(served[np.argmin(rates[served])])]) in others
+    assert "720" not in rank_answer(case_of("min_power", min_rate_bps=1e5), "least", "rate", language)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_subcarriers_are_listed_from_one(language: str) -> None:
+    case = case_of("proportional_fairness")
+    owner = case.decision.owner
+    for user in range(5):
+        said = subcarriers_answer(case, user, language)
+        places = said.split(":" if language == "en" else "：")[1].split("(" if language == "en" else "（")[0]
+        listed = [place for part in re.findall(r"\d+(?:–\d+)?", places) for place in _spread(part)]
+        assert listed == (np.flatnonzero((owner == user) & (case.decision.power_w > 0)) + 1).tolist()
+    everybody = subcarriers_answer(case, None, language)
+    assert all(called(language, name) in everybody for name in SEEN.user_names)
+    assert called(language, SEEN.user_names[int(owner[4])]) in owner_answer(case, 5, language)
+    assert "16" in owner_answer(case, 17, language)
+
+
+def _spread(part: str) -> range:
+    first, _, last = part.partition("–")
+    return range(int(first), int(last or first) + 1)
