@@ -89,3 +89,31 @@ def test_a_user_who_is_not_there_is_named_at_once() -> None:
     held, _ = talk("user 9 gets 1 Mbit/s", "user 2", "highest total rate")
     assert held == {"min_rate_bps": {"user 2": 1e6}}
     assert talk(HELD, "user 9 gets 1 Mbit/s", "leave user 3 out")[0] == {"max_power_w": 10.0, "leave_out": ("3",)}
+
+
+def test_that_rates_are_promised_at_95_percent_is_told_once_until_it_changes() -> None:
+    lines = (
+        "least power with 100 kbit/s each", "now with 200 kbit/s each", HELD, "每个用户至少100k",
+        "what if 150 kbit/s each?", "promises kept with 99 %", "without the reliability",
+    )  # fmt: skip
+    _, turns = talk(*lines)
+    told = ["No probability was named" in turn.reply or "未指定概率" in turn.reply for turn in turns]
+    assert told == [True, *[False] * 5, True]
+    assert all(turn.run is not None and turn.run.notes for turn in (turns[1], turns[3]))
+
+
+def test_what_if_is_answered_for_the_figure_that_is_named() -> None:
+    turn = talk(HELD, "what if at least 300 kbit/s for everyone?")[1][-1]
+    assert dict(turn.intent.details) == {"constraints": {"min_rate_bps": 3e5}}
+    assert turn.run is not None
+    assert turn.run.decision.problem.min_rate_bps == 3e5
+    assert "300 kbit/s" in turn.reply
+
+
+@pytest.mark.parametrize(
+    ("said", "echoed"), [("33 dBm", "33 dBm (1.995 W)"), ("30 dBm", "1 W"), ("2.34567 W", "2.346 W")]
+)
+def test_figures_are_echoed_as_people_read_them(said: str, echoed: str) -> None:
+    held, turns = talk(f"highest total rate, at most {said}")
+    assert f"at most {echoed} of radiated power" in turns[-1].reply
+    assert held["max_power_w"] == pytest.approx({"33 dBm": 10**0.3, "30 dBm": 1.0}.get(said, 2.34567), rel=1e-12)

@@ -33,7 +33,7 @@ def compare(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> 
         return Reply(text=say(language, "nothing_yet"))
     others = comparing.alternatives(state.request, intent)
     if others:
-        return comparing.beside(site, state.run, intent, others)
+        return comparing.beside(site, state.run, intent, others, noted=state.noted)
     named = [str(intent.details[key]) for key in ("with", "methods", "repairers") if key in intent.details]
     names = [name for name in re.split(r"[,，、;\s]+", " ".join(named)) if name and name != "last"]
     if names:

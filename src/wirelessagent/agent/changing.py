@@ -12,6 +12,7 @@ from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import Effect, same_allocation
 from wirelessagent.agent.events import Event
 from wirelessagent.agent.figures import certificate_line
+from wirelessagent.agent.noting import notes
 from wirelessagent.agent.referring import no_such_turn
 from wirelessagent.agent.request import Request, requested
 from wirelessagent.agent.restating import restated
@@ -35,7 +36,8 @@ def allocate(site: Site, state: State, intent: Intent) -> Reply:
     turn = intent.details.get("turn")
     back = [] if turn is None else [told(intent.language, "back_to_turn", number=turn)]
     changed = _changed(state.request, request, intent)
-    said = joined(intent.language, [*back, restated(request, intent.language), *changed, *_notes(run), _sentence(run)])
+    assumed = notes(run, noted=state.noted)
+    said = joined(intent.language, [*back, restated(request, intent.language), *changed, *assumed, _sentence(run)])
     if not run.decision.is_usable:
         return _reply(site, intent, [said, say(intent.language, "not_applied")], "nothing", new, run)
     if state.on_air is not None and same_allocation(run.decision, state.on_air.decision):
@@ -223,10 +225,6 @@ def _question(good: Run, state: State) -> str:
     language = good.intent.language
     request = "–" if state.request is None else restated(state.request, language)
     return say(language, "put_it_back", power=human(good.decision.total_power_w, "W"), request=request)
-
-
-def _notes(run: Run) -> list[str]:
-    return [say(run.intent.language, "note", note=_capital(note)) for note in run.notes]
 
 
 def _sentence(run: Run) -> str:

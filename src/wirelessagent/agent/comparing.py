@@ -9,6 +9,7 @@ from typing import cast
 from wirelessagent import plugins
 from wirelessagent.agent import answers
 from wirelessagent.agent.figures import side_by_side
+from wirelessagent.agent.noting import notes
 from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.request import Request
 from wirelessagent.agent.restating import goal_words
@@ -38,15 +39,14 @@ def alternatives(request: Request, intent: Intent) -> list[tuple[str, Request]]:
     ]
 
 
-def beside(site: Site, run: Run, intent: Intent, others: Sequence[tuple[str, Request]]) -> Reply:
+def beside(site: Site, run: Run, intent: Intent, others: Sequence[tuple[str, Request]], *, noted: bool) -> Reply:
     """Requests solved beside each other; one alone stands beside the one that holds."""
     language = intent.language
     columns = [(name, site.foreseen(site.plan(intent, request))) for name, request in others]
     if len(columns) == 1:
         columns.insert(0, (say(language, "now_column"), site.foreseen(run)))
-    notes = dict.fromkeys(note for _, one in columns for note in one.notes if note not in run.notes)
-    told_notes = [say(language, "note", note=_capital(note)) for note in notes]
-    text = joined(language, [*told_notes, *lines(columns, language), say(language, "nothing_changed")])
+    assumed = dict.fromkeys(note for _, one in columns for note in notes(one, noted=noted, before=run.notes))
+    text = joined(language, [*assumed, *lines(columns, language), say(language, "nothing_changed")])
     return Reply(text=text, tables=(side_by_side(columns, language),))
 
 

@@ -23,6 +23,7 @@ from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent import asking, changing, referring
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.events import Event, Progress, silent
+from wirelessagent.agent.noting import noted_after
 from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.request import Request, stated_by
@@ -237,7 +238,8 @@ class Session:
         elif new.request != before.request:
             self._past.append(before.settled)
             new = dataclasses.replace(new, stated=_stated(new, before, intent))
-        self._state = new
+        noted = noted_after(reply.run, noted=before.noted, requested=intent.kind == "allocate")
+        self._state = dataclasses.replace(new, noted=noted)
         self._requests.append(new.request)
 
     def _kept(self, text: str, intent: Intent, reply: Reply) -> Turn:

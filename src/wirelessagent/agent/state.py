@@ -54,6 +54,7 @@ class State:
         question: what the last turn asked back; None where it asked nothing.
         stated: what the last change of the request stated, which "that" refers to.
         supposed: the request of the what-if that was the last turn; None where it was something else.
+        noted: whether it was told that rates are promised at a probability that nobody named.
     """
 
     request: Request | None = None
@@ -64,6 +65,7 @@ class State:
     question: Question | None = None
     stated: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     supposed: Request | None = None
+    noted: bool = False
 
     @property
     def awaits(self) -> Awaited:

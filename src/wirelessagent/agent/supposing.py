@@ -9,6 +9,7 @@ import numpy as np
 
 from wirelessagent.agent import answers
 from wirelessagent.agent.figures import side_by_side
+from wirelessagent.agent.noting import notes
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, user_number
 from wirelessagent.agent.request import Request
 from wirelessagent.agent.restating import restated
@@ -43,7 +44,7 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
     run = site.foreseen(site.plan(intent, request, sight=sight))
     answer = _verdict(state, run, language)
     if details.get("asked") == "most" and run.decision.is_usable:
-        text = _most(run, intent)
+        text = _most(state, run, intent)
     elif share is None:
         asked = restated(request, language)
         text = say(language, "what_if", request=asked[:1].lower() + asked[1:], answer=answer)
@@ -66,7 +67,7 @@ def supposed(state: State, intent: Intent) -> Request:
     return held.amended(constraints, objective=objective, dropped=tuple(str(details.get("dropped", "")).split()))
 
 
-def _most(run: Run, intent: Intent) -> str:
+def _most(state: State, run: Run, intent: Intent) -> str:
     """The most that can be promised to everybody or to a user, with its certificate."""
     decision, language, user = run.decision, intent.language, intent.details.get("user")
     served = decision.problem.serves(decision.rate_bps.size)
@@ -81,28 +82,27 @@ def _most(run: Run, intent: Intent) -> str:
     proven = told(language, "most_proven", bound=human(decision.bound, decision.unit), gap=percent(decision.gap))
     left_out = cannot_be_served(decision, language)
     warned = [say(language, "note", note=left_out)] if left_out else []
-    notes = [say(language, "note", note=note[:1].upper() + note[1:]) for note in run.notes]
+    assumed = notes(run, noted=state.noted)
     return joined(
         language,
-        [said, *([] if np.isnan(decision.gap) else [proven]), *notes, *warned, say(language, "nothing_changed")],
+        [said, *([] if np.isnan(decision.gap) else [proven]), *assumed, *warned, say(language, "nothing_changed")],
     )
 
 
 def _verdict(state: State, run: Run, language: str) -> str:
     """Whether a request can be met and with what, or what can be met instead; and what was assumed only here."""
     now, case = state.run, answers.case_of(run)
-    noted = () if now is None else now.notes
-    notes = [say(language, "note", note=note[:1].upper() + note[1:]) for note in run.notes if note not in noted]
+    assumed = notes(run, noted=state.noted, before=() if now is None else now.notes)
     nothing = say(language, "nothing_changed")
     if not run.decision.is_usable:
-        return joined(language, [*notes, f"{nearest_answer(case, nearest(case), language)}\n{nothing}"])
+        return joined(language, [*assumed, f"{nearest_answer(case, nearest(case), language)}\n{nothing}"])
     outcome = outcome_in_words(case, run.decision, language)
     met = say(language, "what_if_met", outcome=outcome)
     if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
         met = say(language, "what_if_now", outcome=outcome, **_beside(now.decision, run.decision, language))
     left_out = cannot_be_served(run.decision, language)
     warned = [say(language, "note", note=left_out)] if left_out else []
-    return joined(language, [*notes, met, *warned, nothing])
+    return joined(language, [*assumed, met, *warned, nothing])
 
 
 def _beside(now: Decision, then: Decision, language: str) -> dict[str, str]:

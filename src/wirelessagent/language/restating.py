@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language.intent import EVERYBODY, Constraint
 from wirelessagent.model.units import reliability
+
+_ROUNDING = 1e-9
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
@@ -118,11 +121,19 @@ def _listed(words: Mapping[str, str], names: list[str]) -> str:
 
 
 def _figure(name: str, value: float) -> str:
-    """A figure as the operator may check it: six digits, an SI prefix."""
+    """A figure as the operator may check it: four digits, an SI prefix, and dBm where those are rounder.
+
+    >>> _figure("max_power_w", 10**0.3), _figure("max_power_w", 1.0), _figure("min_rate_bps", 1.5e6)
+    ('33 dBm (1.995 W)', '1 W', '1.5 Mbit/s')
+    """
     if name == "outage_probability":
         return reliability(value)
     if name in ("weights", "resource_block_group_size"):
         return f"{value:g}"
     unit = "bit/s" if name.endswith("bps") else "W"
     scale, prefix = next(((scale, prefix) for scale, prefix in _PREFIXES if value >= scale), _PREFIXES[-1])
-    return f"{value / scale:.6g} {prefix}{unit}"
+    said = f"{value / scale:.4g} {prefix}{unit}"
+    if unit == "bit/s" or abs(float(f"{value:.4g}") - value) <= _ROUNDING * value:
+        return said
+    dbm = 10 * math.log10(value) + 30
+    return f"{round(dbm, 1):g} dBm ({said})" if abs(dbm - round(dbm, 1)) <= _ROUNDING else said
