@@ -62,6 +62,7 @@ class Allotments:
         self._unsure: list[Mention] = []
         self._excepted: dict[Mention, Standing] = {}
         self.exact: set[str] = set()
+        self._of_others = False
         self.spans: list[tuple[int, int]] = []
         self._roles: dict[Mention, UserRole] = {}
         for mention in self._found:
@@ -148,6 +149,13 @@ class Allotments:
             _INSERTED.fullmatch(self._plain, m.end, mention.start) for m in self._found if m.role in _COLLECTIVE
         )
         return bool(rates) and (inserted or _AT_ONCE.fullmatch(self._plain, cut.end(), begins) is not None)
+
+    def _exempt_from_that_of_the_others(self) -> None:
+        """Whoever has a cap alone where "the others" have a floor has none."""
+        floors, caps = self._rates["min_rate_bps"], self._rates["max_rate_bps"]
+        if self._of_others and EVERYBODY in floors and EVERYBODY not in caps:
+            for user in set(caps) - set(floors):
+                floors[user] = _Given(value=0.0, text=caps[user].text, end=caps[user].end)
 
     def _exempt(self) -> None:
         """Whoever is excepted has a floor of zero where all others have one, and nothing else may be meant."""
@@ -244,6 +252,7 @@ class Allotments:
             self._used.add(target.mention)
             if target.role == "named":
                 self.spans.append((target.mention.start, target.mention.end))
+        self._of_others = self._of_others or (name == "min_rate_bps" and target.role == "others")
         for key in target.keys:
             earlier = self._rates[name].get(key)
             if earlier is not None and earlier.value != figure.value and not self._corrected(corrects, earlier, figure):
@@ -257,6 +266,7 @@ class Allotments:
     def take_users(self) -> Iterator[tuple[int, int]]:
         """The named users of whom nothing was said, or nothing certain, as spans."""
         self._exempt()
+        self._exempt_from_that_of_the_others()
         spoken_of = {user for mention in self._used for user in mention.users} | set(self._weights)
         for mention in self._found:
             if mention.role != "named":

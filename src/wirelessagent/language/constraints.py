@@ -25,7 +25,10 @@ _SURE, _CERTAIN = 0.6, 0.8
 _SURE_OF_A_LIMIT = 0.75  # most figures are limits, so that the model takes a strange one for one too easily
 _MOST_POWERS = 4
 _ONCE = ("max_power_w", "circuit_power_w")
+_NOTHING_AHEAD = ("", "with", "at", "use", "using")  # of "10 W in total"
 _RANGE_GAP = 8
+_NEAR = 30
+_BOUNDS = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _CONTRARY = {"at_least": "max_rate_bps", "at_most": "min_rate_bps"}
 _CONTRARY_CHANCE = 0.1  # "at least" seldom caps
 
@@ -147,12 +150,22 @@ class _Reader:
             elif figure.kind == "power":
                 role, certain = roles.get(index, ("", False))
                 self._take_power(figure, before, after, role, certain=certain)
+            elif self._is_replaced(index):
+                self._counted.append((figure.start, figure.end))
             else:
                 self._take_rate(index, before, after)
 
     def _roles_of_powers(self) -> dict[int, tuple[str, bool]]:
         """The role of each power and whether it is certain, "" where it is unsure; there is one limit, not two."""
-        chances = {index: self._judged.figure(index) for index, q in enumerate(self._figures) if q.kind == "power"}
+        chances = {
+            index: self._judged.figure(index)
+            for index, q in enumerate(self._figures)
+            if q.kind == "power" and not self._is_of_a_subcarrier(index)
+        }
+        for index in chances:
+            before, after = beside(self._plain, self._figures, index)
+            if before.strip().lower() in _NOTHING_AHEAD and figure_words.TOTAL_AFTER.match(after):
+                chances[index] = {role: float(role == "max_power_w") for role in chances[index]}
         places = sorted(chances)[:_MOST_POWERS]
         for index in places:
             self._supersede(chances, index)
@@ -170,6 +183,19 @@ class _Reader:
         fits = sure > (_SURE_OF_A_LIMIT if set(likeliest) == {"max_power_w"} else _SURE)
         certain = {index: chances[index][role] > _CERTAIN for index, role in zip(places, likeliest, strict=True)}
         return {index: (role if fits else "", certain[index]) for index, role in zip(places, likeliest, strict=True)}
+
+    def _is_replaced(self, index: int) -> bool:
+        """Whether a rate is corrected by the next figure, nobody being named between: "1 Mbit/s, sorry, 2 each"."""
+        if index + 1 >= len(self._figures) or self._figures[index + 1].kind != "rate":
+            return False
+        figure, other = self._figures[index], self._figures[index + 1]
+        named = any(m.role == "named" and figure.end <= m.start < other.start for m in self._judged.mentions)
+        gap = self._plain[figure.end : other.start]
+        return not named and len(gap) < _NEAR and figure_words.CORRECTION.search(gap) is not None
+
+    def _is_of_a_subcarrier(self, index: int) -> bool:
+        before, after = beside(self._plain, self._figures, index)
+        return bool(figure_words.SUBCARRIER.match(after) or figure_words.SUBCARRIER_BEFORE.search(before))
 
     def _supersede(self, chances: dict[int, Mapping[str, float]], index: int) -> None:
         """A power that the next one corrects says nothing any more, but what that one is."""
@@ -203,6 +229,9 @@ class _Reader:
         settled = [*self._spoken_for, *self._allotments.spans, *self._counted]
         if halved is not None and not any(start < halved.end() and halved.start() < end for start, end in settled):
             self._doubts.append(Doubt(key="change", names={"text": self._text[halved.start() : halved.end()]}))
+        others = figure_words.OTHERS_HALVED.search(self._plain)
+        if others is not None:
+            self._doubts.append(Doubt(key="change", names={"text": self._text[others.start() : others.end()]}))
         nobody = figure_words.NOBODY.search(self._plain)
         if nobody is not None:
             self._doubts.append(Doubt(key="some_users", names={"text": self._text[nobody.start() : nobody.end()]}))
@@ -264,7 +293,11 @@ class _Reader:
         if _is_change(before, after):
             self._steps["power_w"] = figure.value
             self._doubt("change", figure)
-        elif figure.comparator == "at_least" and role != "none" and not figure_words.NEGATED.search(before + after):
+        elif (
+            figure.comparator == "at_least"
+            and (role != "none" or self._ends_a_range(self._figures.index(figure) + 1))
+            and not figure_words.NEGATED.search(before + after)
+        ):
             self._doubt("power_floor", figure)
         elif not (known or (certain and role == "max_power_w") or is_cells_power(before, after)):
             self._doubt("whose_power", figure)
@@ -300,8 +333,10 @@ class _Reader:
         setting = figure_words.RATE_SET_TO.search(before)
         if setting is not None:
             self._masked.append((figure.start - len(before) + setting.start(), figure.end))
-        if not (self._ends_a_range(index) or self._corrects(index)):
+        if not self._ends_a_range(index):
             self._target = self._allotments.target_of(figure.start)
+            if index and self._is_replaced(index - 1) and self._target.mention is None:
+                self._target = self._allotments.target_of(self._figures[index - 1].start)
         target, chances = self._target, self._roles_of_rate(index)
         role = max(chances, key=lambda name: chances[name])
         sure = chances[role] / sum(chances.values())
@@ -330,9 +365,12 @@ class _Reader:
         figure = self._figures[index]
         if self._ends_a_range(index) or self._ends_a_range(index + 1):
             return {"max_rate_bps" if figure.comparator == "at_most" else "min_rate_bps": 1.0, "none": 0.0}
-        if self._corrects(index):
-            return self._roles_of_rate(index - 1)
         chances = self._judged.figure(index)
+        if index and self._is_replaced(index - 1):
+            first, bound = self._judged.figure(index - 1), self._figures[index - 1].comparator or figure.comparator
+            if bound in _BOUNDS:
+                return {_BOUNDS[bound]: 1.0, "none": 0.0}
+            chances = {role: max(first[role], chances[role]) if role != "none" else 0.0 for role in chances}
         before, after = beside(self._plain, self._figures, index)
         exact = figure_words.EXACT.match(after) or figure_words.EXACT_BEFORE.search(before)
         if figure.comparator == "exactly" or exact:
@@ -348,15 +386,6 @@ class _Reader:
         near = figure.start - lower.end <= _RANGE_GAP and lower.kind == figure.kind
         parted = any(lower.end <= mention.start < figure.start for mention in self._judged.mentions)
         return near and not parted and (lower.comparator, figure.comparator) == ("at_least", "at_most")
-
-    def _corrects(self, index: int) -> bool:
-        """Whether a figure has no bound and nobody of its own, and replaces the one before: "5 Mbit/s, sorry, 6"."""
-        if index == 0:
-            return False
-        earlier, figure = self._figures[index - 1], self._figures[index]
-        alike = earlier.kind == figure.kind and figure.comparator is None
-        corrected = alike and figure_words.CORRECTION.search(self._plain, earlier.end, figure.start) is not None
-        return corrected and not any(earlier.end <= mention.start < figure.start for mention in self._judged.mentions)
 
     def _allot(self, name: str, target: Target, figure: Quantity) -> None:
         earlier = self._allotments.give(name, target, figure, corrects=figure_words.CORRECTION)

@@ -102,6 +102,9 @@ HALVED = re.compile(
     rf"\b(?:half (?:the|of the|as much)|halve|(?:double|twice) the)\s+{_OF_OURS}|"
     r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)"
 )
+OTHERS_HALVED = re.compile(
+    r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)(?!的?(?:功率|权重))"
+)
 _POWER = (
     r"(?:power|budget|watts|wattage|potencia|presupuesto|puissance|leistung|sendeleistung)\b(?:\s+(?:budget|limit))?"
 )

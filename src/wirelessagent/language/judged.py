@@ -24,6 +24,10 @@ from wirelessagent.language.quantities import Quantity
 
 _ONE_OF_A_LIST, _NEAR = 0.3, 24
 _MOST_WEIGHT = 10**6
+_ITEMS = re.compile(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
+_WEIGHED = re.compile(
+    r"(?i)weigh|count|priorit|import|prefer|peso|pesa|cuent|poids|pèse|compt|gewicht|zähl|wichtig|vale|权|优先|重要|比重|算|当"
+)
 _COUNTS = re.compile(  # "3 waiting users"
     r"(?i)\s+(?!(?:for|to|of|from|with|at|and|or|is|are|other|as|than|our|the)\b)[a-z]+(?:\s+[a-z]+)?\s+(?:users|ues|people|"
     r"subscribers|customers|clients|devices|phones|sensors|terminals)\b"
@@ -153,7 +157,9 @@ class Judged:
             if number.start not in {figure.start for figure in look.figures}
             and roles[number]["rate"] + roles[number]["power"] > _PERHAPS
         ]
-        self.weights = [n for n in look.loose if n in weighing or _weighs(plain, n, roles[n])]
+        self.weights = [
+            n for n in look.loose if n in weighing or (_weighs(plain, n, roles[n]) and not _may_be_a_multiple(look, n))
+        ]
         together = {len(mention.users) for mention in self.mentions if len(mention.users) > 1}
         others = [number for number in plausible if number in look.loose]
         self.recounted = [(number.start, number.end) for number in others if number.value in together]
@@ -232,7 +238,7 @@ def _lists(plain: str, items: Sequence[Quantity] | Sequence[Number]) -> list[lis
     found: list[list[int]] = []
     last: Quantity | Number | None = None
     for item in items:
-        joined = last is not None and LISTED.fullmatch(plain, last.end, item.start) is not None
+        joined = last is not None and _ITEMS.fullmatch(plain, last.end, item.start) is not None
         if joined and not (isinstance(item, Quantity) and isinstance(last, Quantity) and _is_range(last, item)):
             found[-1].append(item.start)
         else:
@@ -293,7 +299,7 @@ def _weighing_lists(plain: str, look: Look, roles: Mapping[Number, Mapping[str, 
     lists: list[list[Number]] = []
     for number in look.loose:
         able = number.value is not None and 0 <= number.value < _MOST_WEIGHT and number.form != "times"
-        if lists and lists[-1] and able and LISTED.fullmatch(plain, lists[-1][-1].end, number.start):
+        if lists and lists[-1] and able and _ITEMS.fullmatch(plain, lists[-1][-1].end, number.start):
             lists[-1].append(number)
         else:
             lists.append([number] if able else [])
@@ -304,6 +310,12 @@ def _weighing_lists(plain: str, look: Look, roles: Mapping[Number, Mapping[str, 
         if _WEIGHTS.search(plain, 0, each[0].start) or any(_weighs(plain, n, roles[n]) for n in each)
         for number in each
     ]
+
+
+def _may_be_a_multiple(look: Look, number: Number) -> bool:
+    """Whether a "double" may as well be of the rate before it: "1 Mbit/s each, double for user 3"."""
+    after_a_rate = any(figure.kind == "rate" and figure.end <= number.start for figure in look.figures)
+    return number.form == "times" and after_a_rate and _WEIGHED.search(look.plain) is None
 
 
 def _users(plain: str, numbers: Sequence[Number], chances: Mapping[Number, float]) -> list[Number]:

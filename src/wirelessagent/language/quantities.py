@@ -170,6 +170,8 @@ def _range(text: str, lower: Reading, upper: Reading) -> list[Quantity]:
     assert lower.number.value is not None
     assert upper.number.value is not None
     low, high = (lower.unit or upper.unit).value(lower.number.value), upper.unit.value(upper.number.value)
+    if lower.unit is None and lower.factor != 1:
+        low = float(lower.number.value * lower.factor)  # "between 500k and 2M each"
     spans: tuple[tuple[Reading, float, Comparator], ...] = ((lower, low, "at_least"), (upper, high, "at_most"))
     return [
         Quantity(
