@@ -11,7 +11,7 @@ import pytest
 import wirelessagent as wa
 from wirelessagent.explain.answering import answered
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.reaching import has_reach, reach
+from wirelessagent.explain.reaching import for_the_total, has_reach, reach
 from wirelessagent.explain.steps import rate_step
 from wirelessagent.model.units import human
 
@@ -70,4 +70,18 @@ def test_more_rate_costs_watts(language: str) -> None:
     assert human(kept.power_w, "W") in told(case, "step", language, 0, rate_bps=3e5)
     assert "300 kbit/s" in told(case, "step", language, rate_bps=3e5, each=1.0)
     least = case_of("min_power", min_rate_bps=3e5)
-    assert told(least, "step", language, rate_share=0.1) == told(least, "step", language, rate_bps=3e4)
+    more = rate_step(least, 3e4)
+    assert human(more.change, "W") in told(least, "step", language, rate_share=0.1)
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+@pytest.mark.parametrize(("objective", "limits"), [("max_energy_efficiency", {}), ("min_power", {"min_rate_bps": 3e5})])
+def test_a_total_is_told_in_watts_whatever_the_aim(objective: str, limits: dict[str, Any], language: str) -> None:
+    case = case_of(objective, **limits)
+    target = float(case.decision.rate_bps.sum()) + 5e5
+    found = reach(for_the_total(case), target)
+    decision = wa.decide(SEEN, wa.Problem("max_rate", max_power_w=found.power_w, **limits), CELL)
+    assert decision.value == pytest.approx(target, rel=5e-3)
+    said = told(case, "step", language, rate_bps=5e5)
+    assert human(found.power_w, "W") in said
+    assert human(case.decision.total_power_w, "W") in said

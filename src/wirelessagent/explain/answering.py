@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from wirelessagent.explain.case import Case
 from wirelessagent.explain.contested import contested
+from wirelessagent.explain.lexicon import paragraph
 from wirelessagent.explain.nearest import nearest
 from wirelessagent.explain.nearest_words import feasible_answer, nearest_answer
 from wirelessagent.explain.proof_words import (
@@ -18,7 +19,7 @@ from wirelessagent.explain.proof_words import (
 )
 from wirelessagent.explain.reaching import has_reach
 from wirelessagent.explain.report import Report
-from wirelessagent.explain.step_words import no_power_answer, reach_answer, step_answer
+from wirelessagent.explain.step_words import no_power_answer, reach_answer, step_answer, total_answer
 from wirelessagent.explain.steps import power_step, rate_step
 from wirelessagent.explain.table import Table
 from wirelessagent.explain.tables import user_table
@@ -69,19 +70,27 @@ def answered(
 
 
 def _step(case: Case, language: str, user: int | None, figures: Mapping[str, float]) -> str:
-    if "rate_share" in figures:
-        share, promised = figures["rate_share"], float(case.promised_bps.max())
-        if has_reach(case):
-            return reach_answer(case, share * case.decision.value, language)
-        if promised > 0:
-            return step_answer(case, rate_step(case, share * promised), language)
+    if "rate_share" in figures or ("rate_bps" in figures and user is None and "each" not in figures):
+        return _more_rate(case, language, figures)
     if "rate_bps" in figures:
-        if user is None and "each" not in figures and has_reach(case):
-            return reach_answer(case, figures["rate_bps"], language)
         return step_answer(case, rate_step(case, figures["rate_bps"], user), language)
     step_w = figures.get("power_w", 1.0)
     step = power_step(case, step_w)
     return no_power_answer(case, step_w, language) if step is None else step_answer(case, step, language)
+
+
+def _more_rate(case: Case, language: str, figures: Mapping[str, float]) -> str:
+    """What more rate takes where nobody says whose: of the value where that is one, else of the promises and in all."""
+    now, promised = case.decision.value, float(case.promised_bps.max())
+    usable, share = case.decision.is_usable, figures.get("rate_share")
+    if has_reach(case):
+        return reach_answer(case, figures["rate_bps"] if share is None else share * now, language)
+    total = float(case.decision.rate_bps.sum()) if usable else 0.0
+    each = figures["rate_bps"] if share is None else share * promised
+    said = [step_answer(case, rate_step(case, each), language)] if promised > 0 or not usable else []
+    if total > 0:
+        said.append(total_answer(case, figures["rate_bps"] if share is None else share * total, language))
+    return paragraph(said, language)
 
 
 def _contests(case: Case, language: str) -> Table | None:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from wirelessagent import chain
 from wirelessagent.explain.case import Case
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
@@ -41,6 +42,12 @@ class Reach:
 def has_reach(case: Case) -> bool:
     """Whether the value is a rate, which power buys."""
     return case.objective.direction == "max" and case.decision.unit == "bit/s" and case.decision.is_usable
+
+
+def for_the_total(case: Case) -> Case:
+    """The case of the highest total rate under the same limits: what a total takes at least, whatever the aim is."""
+    problem = chain.resolve(dataclasses.replace(case.problem, objective="max_rate", weights=None))
+    return dataclasses.replace(case, decision=case.otherwise(problem), method=None, options={})
 
 
 def reach(case: Case, target: float, problem: Problem | None = None) -> Reach:

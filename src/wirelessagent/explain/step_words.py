@@ -8,7 +8,7 @@ from wirelessagent.explain.case import Case
 from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import Lexicon, outcome_in_words, paragraph, value_name
 from wirelessagent.explain.prices import marginal_prices
-from wirelessagent.explain.reaching import Reach, has_reach, reach
+from wirelessagent.explain.reaching import Reach, for_the_total, has_reach, reach
 from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.steps import Step
 from wirelessagent.model.units import human, percent
@@ -107,24 +107,33 @@ def step_answer(case: Case, step: Step, language: str) -> str:
 
 def reach_answer(case: Case, step: float, language: str) -> str:
     """What power it takes that the value is larger by ``step``, or what a smaller one saves."""
-    now, figure = case.decision.value, value_name(case, language)
-    more = WORDS.say(language, "rate_more" if step > 0 else "rate_less", step=human(abs(step), case.decision.unit))
+    return _reach(case, case.decision.value, step, case.problem.budget_w(case.cell), language)
+
+
+def total_answer(case: Case, step_bps: float, language: str) -> str:
+    """What power a total rate takes that is larger by ``step_bps``, whatever the aim is."""
+    now, spent = float(case.decision.rate_bps.sum()), case.decision.total_power_w
+    return _reach(for_the_total(case), now, step_bps, spent, language)
+
+
+def _reach(case: Case, now: float, step: float, spent_w: float, language: str) -> str:
+    unit, figure = case.decision.unit, value_name(case, language)
+    more = WORDS.say(language, "rate_more" if step > 0 else "rate_less", step=human(abs(step), unit))
     if not now + step > 0:
-        return WORDS.say(language, "nothing_left", step=more, figure=figure, before=human(now, case.decision.unit))
-    return _reached(case, reach(case, now + step), "reached", language, step=more)
+        return WORDS.say(language, "nothing_left", step=more, figure=figure, before=human(now, unit))
+    return _reached(case, reach(case, now + step), "reached", language, before_w=spent_w, step=more)
 
 
-def _reached(case: Case, found: Reach, key: str, language: str, *, step: str = "") -> str:
+def _reached(case: Case, found: Reach, key: str, language: str, *, before_w: float, step: str = "") -> str:
     figure, target = value_name(case, language), human(found.target, case.decision.unit)
     if np.isnan(found.power_w):
         return WORDS.say(
             language, "out_of_reach", figure=figure, target=target, step=step, power=human(found.tried_w, "W")
         )
-    before = case.problem.budget_w(case.cell)
-    more = found.power_w - before
+    more = found.power_w - before_w
     said = WORDS.say(
         language, key, figure=figure, target=target, step=step, power=human(found.power_w, "W"),
-        before=human(before, "W"), size=human(abs(more), "W"), share=percent(abs(more) / before),
+        before=human(before_w, "W"), size=human(abs(more), "W"), share=percent(abs(more) / before_w),
         way=WORDS.say(language, "more" if more >= 0 else "less"),
     )  # fmt: skip
     beyond = [] if np.isnan(found.limit_w) else [WORDS.say(language, "limit", limit=human(found.limit_w, "W"))]
@@ -136,7 +145,11 @@ def _kept(case: Case, step: Step, language: str) -> list[str]:
     if step.of_power or not has_reach(case) or step.change >= -_NOTHING * abs(step.before.value):
         return []
     found = reach(case, step.before.value, step.problem)
-    return [] if np.isnan(found.power_w) else [_reached(case, found, "kept", language)]
+    return (
+        []
+        if np.isnan(found.power_w)
+        else [_reached(case, found, "kept", language, before_w=case.problem.budget_w(case.cell))]
+    )
 
 
 def no_power_answer(case: Case, step_w: float, language: str) -> str:

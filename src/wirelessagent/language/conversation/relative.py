@@ -123,10 +123,14 @@ _SUPPOSED_END = re.compile(
 )
 _OUTCOME = r"(?:rates?|throughput|speed|power|watts?)"
 _LOSES = r"(?:cost|lose|save|bring|buy|gain|mean|give|take|do|change|matter)"
+_FOR_WHOM = re.compile(
+    r"\s+(?:each|apiece|per\s+(?:user|head)|for\s+(?:@|each(?:\s+user)?|every\w*(?:\s+user)?|all(?:\s+users)?))$|"
+    r"^(?:每[个位名]?(?:用户|人)?|大家|所有人|所有用户|各用户|@)(?=[少多降减提增])"
+)
 _WORTH = re.compile(
     rf"(?:how\s+much|what)(?:\s+(?:total\s+)?{_OUTCOME})?\s+(?:would|does|do|will|could)\s+(?P<said>.+?)\s+{_LOSES}"
     rf"(?:\s+(?:us|me|them|the\s+\w+|(?:in|of)\s+(?:the\s+)?(?:total\s+)?{_OUTCOME}))*|"
-    rf"(?:how\s+much|what)(?:\s+(?:total\s+)?{_OUTCOME})?\s+(?:would|do|does|will)\s+(?:we|i|it|they|the\s+\w+)\s+"
+    rf"(?:how\s+much|what)(?:\s+(?:total\s+)?{_OUTCOME})?\s+(?:would|do|does|will|can|could)\s+(?:we|i|it|they|the\s+\w+)\s+"
     r"(?:lose|save|gain|get|have|give\s+up)\s+(?:(?:with|at|for|on|by|if)\s+)(?:we\s+|i\s+|you\s+)?(?:had\s+|used?\s+)?"
     r"(?P<with>.+)|"
     r"(?P<zh>.+?)(?:的话)?[,，]?(?:会|能|将|可以|大概|我们|总?速率|吞吐量)*"
@@ -191,12 +195,15 @@ def read_relative(line: Line) -> Intent | None:
 def _weighed(line: Line) -> Intent | None:
     """A change of which is asked what it is worth: a what-if of a share, a step of a figure; else None."""
     match = _WORTH.fullmatch(line.wish.rstrip("?？吗呢 "))
-    scaled = None if match is None else scaled_in(next(said for said in match.groupdict().values() if said))
+    said = "" if match is None else next(said for said in match.groupdict().values() if said)
+    plain = _FOR_WHOM.sub("", said)
+    scaled = scaled_in(plain)
     if scaled is None:
         return None
     if scaled.signed:
         figure = line.figures[0]
-        user: dict[str, Detail] = {"user": line.users[0]} if line.users and figure.kind == "rate" else {}
+        user: dict[str, Detail] = {"user": line.users[0]} if line.users else {"each": 1.0} if plain != said else {}
+        user = user if figure.kind == "rate" else {}
         step = scaled.signed * figure.value
         return line.question("step", **{"rate_bps" if figure.kind == "rate" else "power_w": step}, **user)
     name = scaled.name_in(line.context)
