@@ -140,6 +140,8 @@ def test_aims_and_several_methods_are_compared_side_by_side() -> None:
         ("3号用户用哪些子载波?", {"listed": "subcarriers", "user": "3"}),
         ("user 3's subcarriers", {"listed": "subcarriers", "user": "3"}),
         ("列出每个用户的子载波", {"listed": "subcarriers"}),
+        ("how many watts does user 3 use?", {"user": "3"}),
+        ("3号用了多少功率?", {"user": "3"}),
         ("who has subcarrier 5?", {"subcarrier": 5.0}),
         ("5号子载波给了谁?", {"subcarrier": 5.0}),
     ],

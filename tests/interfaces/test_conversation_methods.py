@@ -76,8 +76,15 @@ def test_a_method_that_cannot_do_it_is_refused_in_the_operators_language(said: s
 
 
 def test_what_a_method_would_make_of_it_is_compared_and_changes_nothing() -> None:
-    session, turns = talk(HELD, "what if we use greedy?", "能不能用论文的方法?", "use user 3 only")
-    assert [turn.tables[0].columns[2] for turn in turns[1:3]] == ["greedy", "论文方法"]
+    said = ("what if we use greedy?", "能不能用论文的方法?", "用论文方法会怎样?", "what does the exact method give?")
+    session, turns = talk(HELD, *said, "use user 3 only")
+    assert [turn.tables[0].columns[2] for turn in turns[1:5]] == ["greedy", "论文方法", "论文方法", "exact"]
     assert session.request is not None
     assert session.request.method is None
     assert talk("use the paper's method")[1][0].reply.startswith("There is nothing yet to work on.")
+
+
+def test_which_methods_there_are_is_told() -> None:
+    _, turns = talk(HELD, "do it the paper's way", "which methods are there?", "有哪些方法?")
+    assert turns[2].reply.startswith("In use: paper. For this there are: dual, ")
+    assert turns[3].reply.startswith("正在使用：论文方法。可用的方法：对偶法、")

@@ -10,13 +10,15 @@ from typing import cast
 
 from wirelessagent.agent import answers, comparing
 from wirelessagent.agent.figures import certificate_line, side_by_side
+from wirelessagent.agent.refusing import able
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.supposing import what_if
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.agent.words import say
-from wirelessagent.explain.labels import worded
+from wirelessagent.agent.turn_words import told
+from wirelessagent.agent.words import joined, say
+from wirelessagent.explain.labels import called, worded
 from wirelessagent.explain.table import Table
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Constraint, Intent
@@ -163,6 +165,10 @@ def question(site: Site, state: State, intent: Intent, text: str) -> Reply:
         return what_if(site, state, dataclasses.replace(intent, details={"constraints": stated}))
     if state.run is None:
         return Reply(text=say(language, "nothing_yet"))
+    if intent.details.get("listed") == "methods":
+        decision = state.run.decision
+        used = told(language, "method_in_use", method=called(language, decision.method))
+        return Reply(text=joined(language, [used, able(decision.problem, language)]))
     said, tables = answers.answer(state.run, intent, site.user_names)
     return Reply(text=said, tables=tables)
 

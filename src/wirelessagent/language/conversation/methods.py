@@ -26,7 +26,7 @@ _ZH_NOUN = "(?:的|里的|中的|里|中)?(?:那个|那种)?(?:方法|算法|求
 _ZH_VERB = "(?:用|使用|采用|换成|换用|换到|改用|改成|改为|切换到|切换为|切换成|切到|用回|换回|试试|试一下)"
 _ZH_LATER = "(?:来?(?:做|算|解|求解|分配|计算))?(?:一下|试试|看看)?"
 _SWITCHED = re.compile(
-    rf"(?:(?:now|then|also|just)\s+)*(?:{_VERB}\s+{_NAMED}(?:\s+{_NOUN})?|{_NAMED}\s+{_NOUN}){_LATER}|"
+    rf"(?:(?:now|then|also|just)\s+)*(?:{_VERB}\s+{_NAMED}(?:\s+{_NOUN})?|(?:do\s+(?:it|this|that)\s+)?{_NAMED}\s+{_NOUN}){_LATER}|"
     rf"(?:现在|就|也|都|再|以后|改)*{_ZH_VERB}(?:一下)?%(?:{_ZH_NOUN})?{_ZH_LATER}"
 )
 _SUPPOSED = re.compile(
@@ -34,6 +34,15 @@ _SUPPOSED = re.compile(
     r"(?:如果|要是|假如|能不能|可以|可不可以|能否)(?:我们)?"
 )
 _SUPPOSED_END = re.compile(r"(?:[,，]?\s*(?:what\s+(?:then|happens)|会?(?:怎么样|怎样|如何)|的话|呢|吗))*$")
+_GIVES = re.compile(
+    rf"(?:what|how)\s+(?:would|does|do|could|will)\s+{_NAMED}(?:\s+{_NOUN})?\s+(?:give|do|yield|make|bring|get|find|need|take|reach|say)s?"
+    rf"(?:\s+(?:us|me|of\s+(?:it|this)|here|instead|now))*|{_ZH_VERB}?%(?:{_ZH_NOUN})?(?:会|能|可以)?(?:得到|给出|做到|算出)(?:什么|多少|怎样)(?:结果)?"
+)
+_WHICH = re.compile(
+    rf"(?:which|what)\s+(?:other\s+)?{_NOUN}\s+(?:are\s+there|are\s+available|exist|(?:do|can)\s+(?:you|we|i)\s+(?:have|know|use|offer|choose)|"
+    r"(?:is|are|was|were)\s+(?:being\s+)?used|can\s+(?:do|solve)\s+(?:it|this|that))|"
+    "(?:现在|目前)?(?:有|能用|可以用|可用|支持|用的是|用了|在用)?的?(?:哪些|什么|哪种|哪个)(?:方法|算法)(?:可用|可以用|能用|可选)?"
+)
 _ADDED = re.compile(
     rf"\b(?:with|by|using|via)\s+{_NAMED}\s+{_NOUN}\b|\busing\s+{_NAMED}(?!\w)|(?:用|采用|使用|按)%{_ZH_NOUN}"
 )
@@ -48,13 +57,17 @@ def read_method(line: Line) -> Intent | None:
     said = line.wish.rstrip("?？.。!！ ")
     if _USUAL.fullmatch(said):
         return _changed(line, OWN_CHOICE)
+    if _WHICH.fullmatch(said):
+        return line.question("other", listed="methods")
     shape, name = with_tool(said, "method")
     if not name:
         return None
     if _SWITCHED.fullmatch(shape):
         return _changed(line, name)
-    lead = _SUPPOSED.match(shape)
-    if lead is None or not _SWITCHED.fullmatch(_SUPPOSED_END.sub("", shape[lead.end() :])):
+    lead, plain = _SUPPOSED.match(shape), _SUPPOSED_END.sub("", shape)
+    supposed = plain[lead.end() :] if lead is not None else plain
+    asked = (lead is not None or plain != shape) and _SWITCHED.fullmatch(supposed)
+    if not asked and not _GIVES.fullmatch(shape):
         return None
     return line.question("other") if line.context.objective is None else line.command("compare", **{"with": name})
 

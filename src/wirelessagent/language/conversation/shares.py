@@ -55,6 +55,14 @@ _OWNED = re.compile(
     r"(?:谁|哪个用户)(?:在)?(?:用|使用|占用?|有|分到)了?第?(?P<zh2>\d+|[一二三四五六七八九十百]+)(?:号|个)?子载波"
 )
 
+_SIZED = re.compile(
+    r"(?:how\s+(?:much|many|fast|high)|what)(?:\s+(?:power|watts?|rates?|speed|throughput|data|bandwidth|subcarriers?|mbit/s))?\s+"
+    r"(?:does|do|did|is|will)\s+@\s*(?:now\s+|currently\s+)?(?:use|get|have|take|receive|need|getting|using|served)s?"
+    r"(?:\s+(?:now|at\s+the\s+moment|with))?|"
+    "@(?:现在|目前)?(?:用了?|占用?了?|得到了?|分到了?|有|拿到了?|的)+(?:多少|多大|几个|多快)?的?(?:功率|速率|速度|瓦|子载波)(?:是)?(?:多少|多大)?"
+)
+"""What one user has: "how many watts does user 5 use?"."""
+
 
 def read_share(line: Line) -> Intent | None:
     """The question who has what that a line is as a whole; None for any other line."""
@@ -67,6 +75,8 @@ def read_share(line: Line) -> Intent | None:
     if len(line.users) <= 1 and (_LISTED.fullmatch(said) or _ZH_LISTED.fullmatch(said)):
         user = {"user": line.users[0]} if line.users else {}
         return line.question("users", listed="subcarriers", **user)
+    if len(line.users) == 1 and _SIZED.fullmatch(said):
+        return line.question("users", user=line.users[0])
     match = _RANKED.fullmatch(said) or _ZH_RANKED.fullmatch(said)
     if match is None:
         return None
