@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -21,6 +22,11 @@ _SAID = 0.4
 _NEAR = 30
 
 _CUT = re.compile(CLAUSE_END)
+_COMPARED = re.compile(
+    r"(?i)\s*(?:(?:is|be|must|should|may|gets?|goes|go|no|not|never|stays?)\s+)*(?:(?:faster|slower|more|less|better|higher|lower)\s+"
+    r"than|above|below|over|under|ahead\s+of|behind)\s+|\s*(?:也|都|要|得)?(?:不|别|不能|不得|不许)?(?:能|得|要)?(?:超过|高于|低于|"
+    r"快于|慢于|大于|小于|多于|少于|快过|比)\s*"
+)
 _LEADING = re.compile(r"(?i)\s*(?:以外|之外|除外|外|aside|excepted|ausgenommen)?\s*")
 _INSERTED = re.compile(r"\s*[,(\uff0c][^,;()\uff0c]{0,24}")
 _COLLECTIVE = ("everybody", "others")
@@ -74,6 +80,9 @@ class Allotments:
             self._weigh(number)
 
     def _assign(self, mention: Mention) -> None:
+        if self._is_compared(mention):
+            self._unsure.append(mention)
+            return
         standing = exception_of(self._plain, mention.start, mention.end) if mention.role == "named" else ""
         if self._is_settled(mention, standing):
             return
@@ -96,6 +105,12 @@ class Allotments:
             self._lists[role].pop(user, None)
         for user in users:
             self._lists[role][user] = self._text[start:end].strip()
+
+    def _is_compared(self, mention: Mention) -> bool:
+        """Whether nothing but a comparison stands between two who are named: "3号不超过2号"."""
+        named = [other for other in self._found if other.role == "named"]
+        gaps = [self._plain[a.end : b.start] for a, b in itertools.pairwise(named) if mention in (a, b)]
+        return any(_COMPARED.fullmatch(gap) for gap in gaps)
 
     def _corrected_users(self, mention: Mention, role: UserRole) -> tuple[str, ...]:
         """Those named just before whom somebody replaces: "leave user 5 out, no, user 6"."""

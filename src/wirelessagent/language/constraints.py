@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -28,6 +29,10 @@ _ONCE = ("max_power_w", "circuit_power_w")
 _NOTHING_AHEAD = ("", "with", "at", "use", "using")  # of "10 W in total"
 _RANGE_GAP = 8
 _NEAR = 30
+_TURNED = re.compile(
+    rf"(?i)\s*[,;.\uff0c；。]?\s*(?:oh\s+)?(?:{figure_words.CORRECTION.pattern.removeprefix('(?ia)')})[\s,\uff0c]*"
+)
+_PUSHED = 0.3  # a power that has no role only because another has it: "10 W or 12 W"
 _BOUNDS = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _CONTRARY = {"at_least": "max_rate_bps", "at_most": "min_rate_bps"}
 _CONTRARY_CHANCE = 0.1  # "at least" seldom caps
@@ -155,6 +160,26 @@ class _Reader:
             else:
                 self._take_rate(index, before, after)
 
+        for one, other in itertools.pairwise(self._figures):
+            self._doubt_a_choice(one, other)
+
+    def _doubt_a_choice(self, one: Quantity, other: Quantity) -> None:
+        """Two figures of which one has to be chosen: "10 W or 12 W", "1号至少1兆，不，2号至少1兆"."""
+        if one.kind != other.kind or one.kind not in ("power", "rate"):
+            return
+        gap = self._plain[one.end : other.start]
+        between = [m for m in self._judged.mentions if m.role == "named" and one.end <= m.start < other.start]
+        target = self._allotments.target_of(one.start) if between and one.kind == "rate" else None
+        others = target is not None and target.role == "named" and set(target.users).isdisjoint(between[0].users)
+        corrected = others and _TURNED.fullmatch(self._plain, one.end, between[0].start) is not None
+        if (figure_words.EITHER.fullmatch(gap) and one.value != other.value) or corrected:
+            start = between[0].start if corrected else other.start
+            first = (
+                target.mention.start if corrected and target is not None and target.mention is not None else one.start
+            )
+            names = {"one": self._text[min(first, one.start) : one.end], "other": self._text[start : other.end]}
+            self._doubts.append(Doubt(key="conflict", names=names))
+
     def _roles_of_powers(self) -> dict[int, tuple[str, bool]]:
         """The role of each power and whether it is certain, "" where it is unsure; there is one limit, not two."""
         chances = {
@@ -181,8 +206,14 @@ class _Reader:
         total = sum(together.values())
         sure = together[likeliest] / total if total > 0 else 0.0
         fits = sure > (_SURE_OF_A_LIMIT if set(likeliest) == {"max_power_w"} else _SURE)
+        forced = {
+            i for i, role in zip(places, likeliest, strict=True) if role == "none" and chances[i]["none"] < _PUSHED
+        }
         certain = {index: chances[index][role] > _CERTAIN for index, role in zip(places, likeliest, strict=True)}
-        return {index: (role if fits else "", certain[index]) for index, role in zip(places, likeliest, strict=True)}
+        return {
+            index: (role if fits and index not in forced else "", certain[index])
+            for index, role in zip(places, likeliest, strict=True)
+        }
 
     def _is_replaced(self, index: int) -> bool:
         """Whether a rate is corrected by the next figure, nobody being named between: "1 Mbit/s, sorry, 2 each"."""

@@ -30,7 +30,7 @@ CORRECTION = re.compile(
     r"better|pardon|er|"
     r"non|nein|perdón|pardon|mejor|plutôt|lieber|besser|doch|digo|ich meine|je veux dire|quiero decir|strike that|"
     r"let's say)\b|"
-    r"不对|不是|应该是|改成|改为|算了|错了|说错|还是|哦不|不不|口误|更正|纠正"
+    r"[,\uff0c。]\s*不\s*[,\uff0c]|不对|不是|应该是|改成|改为|算了|错了|说错|还是|哦不|不不|口误|更正|纠正"
 )
 NEGATED = re.compile(  # "more than 10 W are not to be had", 超过4瓦不行
     r"(?i)\b(?:not|no|never|nicht|ned|nie|kein\w*|nunca|sin|pas|jamais|garde-toi|évite|vermeide|avoid|gibt's aber)\b|"
@@ -88,7 +88,13 @@ COUNTED_USERS = re.compile(
 )
 SOME_USERS = re.compile(
     r"(?i)\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
-    r"(?:部分|一些|某些|某个)用户"
+    r"(?:部分|一些|某些|某个)用户|"
+    r"\b(?:odd|even)(?:[- ]numbered)?\s+users?\b|\bhalf\s+(?:of\s+)?(?:the|our)\s+users\b|"
+    r"\b(?:except|but|without)\s+(?:for\s+)?the\s+(?:last|first)(?:\s+(?:one|two|three|few|user|users))?(?=\s*(?:$|[,.;:!]))|"
+    r"\b(?:leav\w+|drop\w*|exclud\w+|kick\w*|cut)\s+(?:out\s+)?(?:the\s+)?users\s+(?:out\s+)?(?:who|that|which|with|whose)\b|"
+    r"\busers?\s+[0-9]+\s+(?:and|or)\s+(?:up|above|higher|beyond|onwards?|more)\b|\bfrom\s+user\s+[0-9]+\s+on(?:wards?)?\b|"
+    r"(?:单|双|奇数|偶数)号?(?:的)?用户|(?:一半|半数)的?用户|[0-9]号(?:及|和)?(?:以后|以上|往后)|"
+    r"(?:踢|去掉|不服务|排除)[^,\uff0c。0-9]{1,10}的用户|[^,\uff0c。0-9]{1,8}的用户都?(?:踢|去掉|不服务|排除|剔除)"
 )
 NOBODY = re.compile(
     r"(?i)\bserv(?:e|ing) (?:(?:nobody|no one)(?!\s+(?:else|but|except|apart|other))|"
@@ -101,6 +107,9 @@ HALVED = re.compile(
     r"(?i)\bby (?:a )?(?:half|third|quarter)\b|"
     rf"\b(?:half (?:the|of the|as much)|halve|(?:double|twice) the)\s+{_OF_OURS}|"
     r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)"
+)
+EITHER = re.compile(  # between two figures
+    r"(?i)\s*,?\s*(?:or|o|ou|oder|或者?|还是|(?:or\s+)?(?:if\s+possible|ideally|preferably),?\s+(?:else|otherwise|or)|else|otherwise)\s*"
 )
 OTHERS_HALVED = re.compile(
     r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)(?!的?(?:功率|权重))"

@@ -33,7 +33,7 @@ _COUNTS = re.compile(  # "3 waiting users"
     r"subscribers|customers|clients|devices|phones|sensors|terminals)\b"
 )
 _WEIGHTS = re.compile(  # what follows are weights, whatever else they may look like
-    r"(?i)(?:\b(?:weights?|pesos?|poids|gewichten?)(?:\s+(?:of|are|is|being|de|von|sind))?|权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
+    r"(?i)(?:\b(?:weights?|weigh(?:s|ing|ed)?|pesos?|poids|gewichten?)(?:\s+(?:of|are|is|being|de|von|sind))?|权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
 )
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
 _SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING = 0.7, 0.6, 0.6
@@ -329,6 +329,7 @@ def _users(plain: str, numbers: Sequence[Number], chances: Mapping[Number, float
             lists[-1].append(number)
         else:
             lists.append([number])
+    lists = [each for each in lists if _WEIGHTS.search(plain, 0, each[0].start) is None]
     sure = [each for each in lists if max(chances[number] for number in each) > _SURE_OF_A_USER]
     return [number for each in sure for number in each if chances[number] > _ONE_OF_A_LIST]
 

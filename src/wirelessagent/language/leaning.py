@@ -104,7 +104,17 @@ def _shares_next(plain: str, found: Sequence[Reading], place: int) -> bool:
         return False  # a range, which is read elsewhere
     gap = plain[one.end : other.start]
     listed = other.end == other.number.end and _COMMA.match(gap) is not None
-    return listed or _JOINS.match(gap) is not None
+    return listed or _JOINS.match(gap) is not None or _is_third(plain, found, place)
+
+
+def _is_third(plain: str, found: Sequence[Reading], place: int) -> bool:
+    """Whether commas alone join three numbers, of which the last has a unit: "1, 2, 3 Mbit/s"."""
+    if place == 0:
+        return False
+    first, one, other = found[place - 1 : place + 2]
+    bare = first.unit is None and first.number.value is not None and first.end == first.number.end
+    gaps = (plain[first.end : one.start], plain[one.end : other.start])
+    return bare and all(_COMMA.match(gap) is not None for gap in gaps)
 
 
 def _unit_for(

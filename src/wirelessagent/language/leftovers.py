@@ -67,10 +67,11 @@ _PAIRS = re.compile(
 )
 _VAGUE = re.compile(
     r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
-    r"(?<=a )number)\s+(?:of\s+)?"
+    r"(?<=a )number)\s+(?:of\s+)?|(?<=[0-9a-z])-odd\s+"
 )
 _SETS_A_LIMIT = re.compile(
-    r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max|min|maximum|minimum|exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥])\s*$"
+    r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max|min|maximum|minimum|exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥]|"
+    r"(?:功率|速率|网速|上限|下限|预算|封顶)(?:为|是|到|在|用)?)\s*$"
 )
 _UNIT_OF_ANOTHER_KIND = re.compile(
     r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"

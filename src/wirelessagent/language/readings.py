@@ -27,7 +27,9 @@ _APIECE_BEFORE = re.compile(
     r"(?i)\b(?:everyone|everybody|each(?:\s+(?:user|one|of\s+them))?|all\s+users|every\s+user|per\s+user|todos|cada\s+usuario|"
     r"tous|chacun|chaque\s+utilisateur|alle|jede[rnm]?(?:\s+nutzer)?)\s*(?:(?:should|must|to|has|have|had|get|gets|got|getting|"
     r"needs?|receives?|with|wants?|at|least|most|a|minimum|min|of|tenga|tienen?|recib\w+|al|menos|au|moins|reçoit|reçoivent|ait|"
-    r"avoir|bekommt|bekommen|mindestens|soll|sollen|:)\s*)*$"
+    r"avoir|bekommt|bekommen|mindestens|soll|sollen|:)\s*)*$|"
+    rf"\b(?:cap|limit|throttle|hold|keep|give|grant|guarantee|promise)\s+{USER_NOUN}\s*[0-9]{{1,3}}\s+(?:at|to|below|under|"
+    r"above|over|a|at\s+least|at\s+most)?\s*$|\br_?(?:min|max)\s*(?:[:=]|of|is|≥|≤|<=|>=)?\s*$"
 )
 _PRICE = re.compile(r"[€$£¥]\s?$")
 _SUFFIXES = {"k": Decimal(10**3), "K": Decimal(10**3), "M": Decimal(10**6), "G": Decimal(10**9)}

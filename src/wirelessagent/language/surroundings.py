@@ -15,7 +15,7 @@ _CALCULATED_BEFORE = re.compile(
     rf"quarters?|"
     r"tenths?|fraction|part|(?<!at )most|some|all but|portion|share|multiple|(?<!au )plus|minus|square|root|sqrt|sum)"
     r"(?:\s+(?:of|the|an?))*"
-    r"|[倍半加减乘除]之?[一二三]?[的以上去]?|分之[一二三]的?)\s*$"
+    r"|[倍半加减乘除]之?[一二三]?[的以上去]?|分之[一二三]的?|(?<![\w.,])[0-9][0-9.,]*\s+(?:out\s+)?of\s+(?:the|our)(?:\s+\w+)?)\s*$"
 )
 _CALCULATED_AFTER = re.compile(
     rf"(?i)\s*(?:[{_OPERATOR}]|/\s*[0-9]|x\s*[0-9]|[加减乘除]|(?:times|squared|cubed|divided|multiplied|plus|minus|"
