@@ -154,6 +154,8 @@ def test_whoever_is_the_only_exception_is_served_alone(text: str) -> None:
         ("kick user 2 out, sorry, user 3", ("3",)),
         ("踢出19号，哦不是，踢出18号", ("18",)),
         ("去掉7号，不，7号留着，去掉17号", ("17",)),
+        ("keep user 3 in, drop user 5", ("5",)),
+        ("留着3号，去掉5号", ("5",)),
     ],
 )
 def test_who_is_left_out_may_be_corrected(text: str, out: tuple[str, ...]) -> None:

@@ -73,6 +73,8 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("users 1, 2, 3 get 1, 2, 3 Mbit/s", {"min_rate_bps": {"1": 1e6, "2": 2e6, "3": 3e6}}),
     ("switch off user 2 and cap user 3 at 1M", {"max_rate_bps": {"3": 1e6}, "leave_out": ("2",)}),
     ("Pc=3W and Pmax=12W, Rmin 200k", {"max_power_w": 12.0, "min_rate_bps": 2e5, "circuit_power_w": 3.0}),
+    ("1: 1M, 2: 2M", {"min_rate_bps": {"1": 1e6, "2": 2e6}}),
+    ("serve everyone but 4 and 5, 500k each", {"min_rate_bps": 5e5, "leave_out": ("4", "5")}),
     # corrections, ranges, totals
     ("at least 1 Mbit/s, sorry, 2 Mbit/s each", {"min_rate_bps": 2e6}),
     ("at most 3 Mbit/s each, I mean 2 Mbit/s", {"max_rate_bps": 2e6}),
@@ -114,6 +116,8 @@ DOUBTED = [
     ("1号和2号各1兆,其余人一半", "change"),
     ("功率5到10瓦", "power_floor"),
     ("功率10", "unit_missing"),
+    ("功率降2瓦", "change"),
+    ("10 Mbit/s split among 5 users", "total_rate"),
     ("users weigh 1, 2, 3", "unit_missing"),
     ("use 5 of the 20 W", "calculated"),
     ("10 W or 12 W", "conflict"),

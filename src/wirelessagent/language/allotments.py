@@ -22,6 +22,7 @@ _SAID = 0.4
 _NEAR = 30
 
 _CUT = re.compile(CLAUSE_END)
+_SERVED = re.compile(r"(?i)\b(?:serv(?:e|es|ing)|sirv\w*|atiend\w*|bedien\w*)\b|服务")
 _COMPARED = re.compile(
     r"(?i)\s*(?:(?:is|be|must|should|may|gets?|goes|go|no|not|never|stays?)\s+)*(?:(?:faster|slower|more|less|better|higher|lower)\s+"
     r"than|above|below|over|under|ahead\s+of|behind)\s+|\s*(?:也|都|要|得)?(?:不|别|不能|不得|不许)?(?:能|得|要)?(?:超过|高于|低于|"
@@ -94,6 +95,8 @@ class Allotments:
             role = "leave_out" if standing == "leaves" else "users"
         elif role != "back":
             likeliest = self._likeliest(mention)
+            if standing == "excepted" and likeliest == "users" != role:
+                likeliest = "leave_out"  # "everyone but 4 and 5"
             role, start, end = (role, start, end) if likeliest == role else (likeliest, mention.start, mention.end)
         if role == "none" or not users:
             return
@@ -144,6 +147,8 @@ class Allotments:
         """
         rates = [figure for figure in self._judged.figures if figure.kind == "rate"]
         first = max((cut.end() for cut in _CUT.finditer(self._plain, 0, mention.start)), default=0)
+        if _SERVED.search(self._plain, first, mention.start):
+            return False  # "serve everyone but user 3": an exception from service
         of_all = any(m.role in _COLLECTIVE and first <= m.start < mention.start for m in self._found)
         before = [len(_CUT.findall(self._plain, f.end, mention.start)) for f in rates if f.end <= mention.start]
         after = [f for f in rates if f.start >= mention.end and not _CUT.search(self._plain, mention.end, f.start)]

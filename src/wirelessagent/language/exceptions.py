@@ -99,6 +99,8 @@ _STAYS = re.compile(
     r"bleibt\s+(?:drin|dabei)|sigue[n]?\s+dentro|drinlassen)\b(?!\s+(?:out|off|below|under|at|above|unserved|away|home)\b)|"
     rf"(?:别|不要|不许|不准|不能|不得|勿|不可以?|谁也别|不必)[^0-9,\uff0c]{{0,8}}(?:@[^0-9]{{0,6}}{_ZH_OUT}|{_ZH_OUT}(?:了|掉|出)?\s*@)|"
     rf"不{_ZH_OUT}(?:了|掉)?\s*@|@\s*[^0-9]{{0,4}}?(?:别|不许|不准|不能|不要|不可以?|勿|不)(?:再|给我|给)?{_ZH_OUT}|"
+    r"\bkeep(?:ing)?\s+@\s+(?:in|on|served|connected|included|online|aboard|on\s+board)\s*$|"
+    r"(?<![只仅光就])(?:留着|留下|带上)\s*@\s*$|"
     r"@\s*(?:也|还|都|必须|一定|要|得|先|继续)*(?:留(?!空)|保留|正常服务|照常服务|照旧服务)"
 )
 _NOBODY_ELSE = re.compile(

@@ -54,11 +54,15 @@ TOTAL_BEFORE = re.compile(
     r"capacity)|"
     r"总速率|总吞吐量?|和速率|总共|合计|一共)[\w\s:=]{0,8}$"
 )
-TOTAL_AFTER = re.compile(r"(?i)\s*(?:of\s+)?(?:in\s+total|total|altogether|overall|combined|in\s+sum)\b")
+TOTAL_AFTER = re.compile(
+    r"(?i)\s*(?:of\s+)?(?:in\s+total|total|altogether|overall|combined|in\s+sum|"
+    r"(?:to\s+be\s+)?(?:split|shared|divided|distributed)(?:\s+(?:between|among|by|equally|evenly|over))?)\b|"
+    r"\s*(?:大家|一起|共同)?(?:平分|均分|分摊)"
+)
 CHANGE_BEFORE = re.compile(
     r"(?i)(?:\b(?:by|save|saves|saving|cut|another|extra|additional|reduce|(?<!au )plus|increase)\s*(?:about|"
     r"around|roughly)?|"
-    r"(?:减少|降低|节省|省下?|增加|提高|再加|(?<![最至])多给|下降|提升|升高)了?)\s*$"
+    r"(?:减少|降低|节省|省下?|增加|提高|再加|(?<![最至])多给|下降|提升|升高|(?<=[功速]率)[降减升增加])了?)\s*$"
 )
 CHANGE_AFTER = re.compile(r"(?i)\s*(?:(?:of\s+)?(?:more|less|lower|higher|faster|extra)\b)")
 SET_TO = re.compile(

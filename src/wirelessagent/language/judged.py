@@ -28,6 +28,7 @@ _ITEMS = re.compile(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
 _WEIGHED = re.compile(
     r"(?i)weigh|count|priorit|import|prefer|peso|pesa|cuent|poids|pèse|compt|gewicht|zähl|wichtig|vale|权|优先|重要|比重|算|当"
 )
+_HEADS = re.compile(r"\s*(?::|=|->|→)\s*[0-9]")
 _COUNTS = re.compile(  # "3 waiting users"
     r"(?i)\s+(?!(?:for|to|of|from|with|at|and|or|is|are|other|as|than|our|the)\b)[a-z]+(?:\s+[a-z]+)?\s+(?:users|ues|people|"
     r"subscribers|customers|clients|devices|phones|sensors|terminals)\b"
@@ -331,7 +332,10 @@ def _users(plain: str, numbers: Sequence[Number], chances: Mapping[Number, float
             lists.append([number])
     lists = [each for each in lists if _WEIGHTS.search(plain, 0, each[0].start) is None]
     sure = [each for each in lists if max(chances[number] for number in each) > _SURE_OF_A_USER]
-    return [number for each in sure for number in each if chances[number] > _ONE_OF_A_LIST]
+    found = [number for each in sure for number in each if chances[number] > _ONE_OF_A_LIST]
+    if any(_HEADS.match(plain, number.end) for number in found):  # "1: 1 Mbit/s, 2: 2 Mbit/s"
+        found += [number for number in able if number not in found and _HEADS.match(plain, number.end)]
+    return found
 
 
 def _is_a_limit(plain: str, number: Number, bounded: Sequence[tuple[int, int]]) -> bool:
