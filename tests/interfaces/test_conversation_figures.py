@@ -61,6 +61,16 @@ def test_a_share_less_is_solved_and_the_loss_told(said: str) -> None:
     assert "bit/s less (" in turn.reply or "即少 " in turn.reply
 
 
+def test_a_budget_that_is_not_used_is_told() -> None:
+    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
+    turns = [
+        session.say(line) for line in ("least power with 100 kbit/s each", "what if 10 % less power?", "少10%功率呢?")
+    ]
+    assert "A budget of 18 W changes nothing: only" in turns[1].reply
+    assert "18 W 的预算不会改变什么" in turns[2].reply
+    assert "changes nothing" not in answered("what if 10 % less power?").reply
+
+
 def test_a_share_more_of_the_rate_is_told_in_watts() -> None:
     assert dict(answered("what would 10 % more rate cost?").intent.details) == {"rate_share": pytest.approx(0.1)}
     assert "W" in answered("速率提高10%要多少功率?").reply
@@ -72,6 +82,8 @@ def test_a_share_more_of_the_rate_is_told_in_watts() -> None:
         ("what's the most I could promise everyone at 10 W?", 10.0, 0.05, "each of the 4 users"),
         ("10瓦下最多能给每个人保证多少?", 10.0, 0.05, "这 4 个用户每人"),
         ("how much can we promise everyone at 99 %?", 10.0, 0.01, "99 %"),
+        ("what can we promise at most?", 10.0, 0.05, "each of the 4 users"),
+        ("最多能承诺多少?", 10.0, 0.05, "这 4 个用户每人"),
         ("最多能给每个人保证多少,不算3号", 10.0, 0.05, "这 3 个用户每人"),
         ("how much can I promise user 3 with 5 W?", 5.0, 0.05, "user 3 with 5 W"),
     ],
@@ -103,6 +115,7 @@ def test_other_lines_ask_for_no_such_promise(said: str) -> None:
     [
         ("compare 95 % and 99 %", ("95 %", "99 %"), "outage_probability", (0.05, 0.01)),
         ("可靠性95%和99%对比一下", ("95 %", "99 %"), "outage_probability", (0.05, 0.01)),
+        ("compare 95, 99 and 99.9 %", ("95 %", "99 %", "99.9 %"), "outage_probability", (0.05, 0.01, 0.001)),
         ("which is better, 5 W or 8 W?", ("5 W", "8 W"), "max_power_w", (5.0, 8.0)),
         ("compare with 5 W", ("now", "5 W"), "max_power_w", (5.0,)),
         ("compare 50 % and 80 % of the power", ("5 W", "8 W"), "max_power_w", (5.0, 8.0)),
@@ -123,6 +136,7 @@ def test_aims_and_several_methods_are_compared_side_by_side() -> None:
     assert len(answered("compare max rate and proportional fairness").tables[0].columns) == 3
     assert answered("compare with equal power and greedy").tables[0].columns[1:] == ("dual", "equal_power", "greedy")
     assert answered("和论文的方法以及等功率比较").tables[0].columns[1:] == ("对偶法", "论文方法", "等功率法")
+    assert answered("what's better, equal power or greedy?").tables[0].columns[2:] == ("equal_power", "greedy")
     assert "Greedy: total rate" in answered("compare with greedy").reply
 
 
@@ -131,6 +145,8 @@ def test_aims_and_several_methods_are_compared_side_by_side() -> None:
     [
         ("who gets the least?", {"rank": "least", "of": "rate"}),
         ("谁最少?", {"rank": "least", "of": "rate"}),
+        ("who suffers most?", {"rank": "least", "of": "rate"}),
+        ("谁最吃亏?", {"rank": "least", "of": "rate"}),
         ("who's the slowest?", {"rank": "least", "of": "rate"}),
         ("速率最低的是谁?", {"rank": "least", "of": "rate"}),
         ("who gets the most?", {"rank": "most", "of": "rate"}),

@@ -27,6 +27,9 @@ from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
 
+_SAME = 1e-6
+"""A share of the power that nobody sees."""
+
 
 def what_if(site: Site, state: State, intent: Intent) -> Reply:
     """A decision for other circumstances beside the one that holds."""
@@ -102,7 +105,19 @@ def _verdict(state: State, run: Run, language: str) -> str:
         met = say(language, "what_if_now", outcome=outcome, **_beside(now.decision, run.decision, language))
     left_out = cannot_be_served(run.decision, language)
     warned = [say(language, "note", note=left_out)] if left_out else []
-    return joined(language, [*assumed, met, *warned, nothing])
+    return joined(language, [*assumed, met, *_unused(now, run, language), *warned, nothing])
+
+
+def _unused(now: Run | None, run: Run, language: str) -> list[str]:
+    """That another budget changes nothing, where it is not what holds the value back."""
+    if now is None or not now.decision.is_usable:
+        return []
+    spent, before = run.decision.total_power_w, now.decision.total_power_w
+    budgets = [one.decision.problem.budget_w(one.decision.cell) for one in (run, now)]
+    same = abs(spent - before) <= _SAME * before and budgets[0] != budgets[1]
+    if not same or max(spent, before) >= min(budgets) * (1 - _SAME):
+        return []
+    return [told(language, "budget_unused", budget=human(budgets[0], "W"), spent=human(spent, "W"))]
 
 
 def _beside(now: Decision, then: Decision, language: str) -> dict[str, str]:

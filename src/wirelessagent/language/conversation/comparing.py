@@ -6,17 +6,20 @@ as names under "aims".
 
 from __future__ import annotations
 
+import dataclasses
 import re
 
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import Constraint, Detail, Intent
+from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.sentence import Sentence, own_words
 
 _COMPARES = re.compile(
-    r"\b(?:compar(?:e|ed|ing|ison)|versus|vs\.?|differences?\s+between|side\s+by\s+side|which\s+is\s+better)\b|"
+    r"\b(?:compar(?:e|ed|ing|ison)|versus|vs\.?|differences?\s+between|side\s+by\s+side|(?:which|what)(?:'s|\s+is)\s+better)\b|"
     r"比较|对比|相比|比一比|比一下|区别|差别|差异|差多少|哪个[更比较]?好"
 )
+_BETTER = re.compile(r"\bbetter\b|好")
 _OF_OTHERS = re.compile(r"\b(?:missing|lost|loss|gone|unknown|turns?)\b|缺|丢|轮")
 _POWER = re.compile(r"\b(?:power|budget)\b|功率")
 _CAP = re.compile(r"\b(?:at\s+most|max(?:imum)?|cap(?:ped)?)\b|上限|不超过|最高")
@@ -27,12 +30,26 @@ def read_comparison(line: Line) -> Intent | None:
     """The comparison of figures or aims that a line asks for; None for any other line."""
     if line.context.objective is None or not _COMPARES.search(line.shape) or _OF_OTHERS.search(line.shape):
         return None
-    figures = [figure for figure in parse_quantities(line.text) if figure.kind in ("power", "rate", "ratio")]
+    figures = _figures(line.text)
     if figures:
         return _of_figures(line, figures)
     found = Sentence(line.text, own_words()).found
     aims = dict.fromkeys(each.term.objective for each in found if each.term.objective)
-    return line.command("compare", aims=" ".join(aims)) if aims and len(aims) <= _MOST else None
+    if aims:
+        return line.command("compare", aims=" ".join(aims)) if len(aims) <= _MOST else None
+    tools = tools_named(line.text, "method", "repairer") if _BETTER.search(line.shape) else ()
+    return line.command("compare", **{"with": " ".join(tools)}) if tools else None
+
+
+def _figures(text: str) -> list[Quantity]:
+    """Powers, rates and shares; a bare number beside a share is one in percent too: "95, 99 and 99.9 %"."""
+    said = parse_quantities(text)
+    shared = any(figure.kind == "ratio" for figure in said)
+    return [
+        dataclasses.replace(figure, kind="ratio", value=figure.value / 100) if figure.kind == "bare" else figure
+        for figure in said
+        if figure.kind in ("power", "rate", "ratio") or (shared and figure.kind == "bare")
+    ]
 
 
 def _of_figures(line: Line, figures: list[Quantity]) -> Intent | None:

@@ -16,6 +16,7 @@ _MOST = re.compile(r"\b(?:most|max(?:imum|imal)?|highest|largest|biggest|best|to
 _CAN = re.compile(r"\b(?:can|could|possible|possibly|able|may|might|at\s+(?:least|most))\b|能|可以|可|够")
 _PROMISE = re.compile(r"\b(?:promis\w+|guarantee\w*|assur\w+|ensur\w+|commit\w*|offer\w*)\b|保证|承诺|保底|保障|许诺")
 _GIVE = re.compile(r"\b(?:give|get|have|serve|provide|deliver|achieve|receive)s?\b|给|得到|分到|拿到|达到|有|提供")
+_RATE = re.compile(r"\b(?:rates?|speeds?|throughput|mbit|kbit)\b|速率|速度|兆")
 _OF_ALL = re.compile(
     r"\b(?:every(?:one|body)|each|all\s+(?:the\s+)?users|every\s+user|all\s+of\s+them|per\s+(?:user|head)|slowest|worst)\b|"
     r"每[个位名]?|大家|所有人|所有用户|各用户|人人|最慢的?|最差的?"
@@ -27,10 +28,14 @@ _LIMITS = ("max_power_w", "outage_probability", "users", "leave_out")
 def read_promisable(line: Line) -> Intent | None:
     """The what-if of a question what could be promised at most; None for any other line."""
     said = line.shape
-    if not _HOW_MUCH.search(said) or (not _OF_ALL.search(said) and len(line.users) != 1) or _NOT_THIS.search(said):
+    if not _HOW_MUCH.search(said) or len(line.users) > 1 or _NOT_THIS.search(said):
         return None
-    promises = _PROMISE.search(said) and (_MOST.search(said) or _CAN.search(said))
-    if not promises and not (_GIVE.search(said) and _MOST.search(said) and _CAN.search(said)):
+    promises, most, can = (words.search(said) for words in (_PROMISE, _MOST, _CAN))
+    if _OF_ALL.search(said) or line.users:
+        asked = (promises and (most or can)) or (_GIVE.search(said) and most and can)
+    else:
+        asked = promises and can and (most or _RATE.search(said))
+    if not asked:
         return None
     if any(figure.kind == "rate" for figure in line.figures):
         return None

@@ -121,6 +121,7 @@ _SUPPOSED_END = re.compile(
     r"[,，]?\s*(?:(?:then\s+)?what(?:\s+(?:would\s+happen|then|happens))?|又?会?(?:怎么样|怎样|如何|怎么办)|的话|呢|结果如何)*"
     r"[?？。.\s]*$"
 )
+_AND_WHAT = re.compile(r"呢[?？]*$")
 _OUTCOME = r"(?:rates?|throughput|speed|power|watts?)"
 _LOSES = r"(?:cost|lose|save|bring|buy|gain|mean|give|take|do|change|matter)"
 _FOR_WHOM = re.compile(
@@ -178,7 +179,8 @@ def read_relative(line: Line) -> Intent | None:
         return weighed
     lead = _SUPPOSING.match(line.wish)
     said = line.wish if lead is None else line.wish[lead.end() :]
-    if lead is not None:
+    supposed = lead is not None or _AND_WHAT.search(said) is not None
+    if supposed:
         said = _SUPPOSED_END.sub("", said)
     elif _WILL_YOU.match(line.shape):
         said = _WILL_YOU.sub("", said).rstrip("?？吗 ")
@@ -189,7 +191,7 @@ def read_relative(line: Line) -> Intent | None:
     basis = _of_users(_held(scaled, name, context), line.users)
     if basis is None:
         return line.ask("no_rate_to_change")
-    return _changed(line, name, basis, scaled, supposed=lead is not None)
+    return _changed(line, name, basis, scaled, supposed=supposed)
 
 
 def _weighed(line: Line) -> Intent | None:

@@ -22,6 +22,8 @@ _OF = (
 )
 _RANKED = re.compile(
     rf"(?:and\s+|so\s+|but\s+)?(?:who|which\s+(?:users?|ones?|of\s+them))(?:{_HAS})*\s+(?:the\s+)?(?:{_LEAST}|{_MOST}){_OF}|"
+    r"who\s+(?:(?P<least3>suffers?|loses?\s+out|is\s+worst\s+off|comes\s+off\s+worst)|(?P<most3>benefits?|profits?|is\s+best\s+off))"
+    r"(?:\s+(?:the\s+)?most)?|"
     rf"(?:what|how\s+much)\s+(?:rate\s+|power\s+)?(?:does|do)\s+the\s+(?:{_LEAST.replace('least>', 'least2>')}|"
     rf"{_MOST.replace('most>', 'most2>')})\s+(?:users?|ones?)\s+(?:get|have|receive)s?"
 )
@@ -29,7 +31,8 @@ _ZH_OF = "(?:的|速率|速度|功率|子载波|得到|分到|拿到?|用|占|�
 _ZH_LEAST, _ZH_MOST = "最少|最低|最慢|最差|最小", "最多|最高|最快|最好|最大"
 _ZH_RANKED = re.compile(
     rf"(?:那|现在)?(?:谁|哪[个位]?(?:用户|人)?)(?:是)?{_ZH_OF}(?:(?P<least>{_ZH_LEAST})|(?P<most>{_ZH_MOST})){_ZH_OF}(?:呢|啊)?|"
-    rf"{_ZH_OF}(?:(?P<least2>{_ZH_LEAST})|(?P<most2>{_ZH_MOST})){_ZH_OF}(?:用户)?(?:是)?(?:谁|哪[个位](?:用户)?)(?:呢|啊)?"
+    rf"{_ZH_OF}(?:(?P<least2>{_ZH_LEAST})|(?P<most2>{_ZH_MOST})){_ZH_OF}(?:用户)?(?:是)?(?:谁|哪[个位](?:用户)?)(?:呢|啊)?|"
+    "(?:谁|哪个用户)(?:最)?(?:(?P<least3>吃亏|受损)|(?P<most3>受益|占便宜|得利))(?:最多|最大)?"
 )
 _BLOCK = r"(?:sub\s?carriers?|tones?|resource\s+blocks?|prbs?)"
 _WORD = (
@@ -80,7 +83,7 @@ def read_share(line: Line) -> Intent | None:
     match = _RANKED.fullmatch(said) or _ZH_RANKED.fullmatch(said)
     if match is None:
         return None
-    rank = next(name for name, word in match.groupdict().items() if word).rstrip("2")
+    rank = next(name for name, word in match.groupdict().items() if word).rstrip("23")
     return line.question("users", rank=rank, of=_of(said))
 
 
