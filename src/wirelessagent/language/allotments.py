@@ -70,6 +70,9 @@ class Allotments:
         self._excepted: dict[Mention, Standing] = {}
         self.exact: set[str] = set()
         self._of_others = False
+        named = [mention for mention in self._found if mention.role == "named"]
+        pairs = [pair for pair in itertools.pairwise(named) if _COMPARED.fullmatch(plain, pair[0].end, pair[1].start)]
+        self._compared = {mention for pair in pairs for mention in pair}
         self.spans: list[tuple[int, int]] = []
         self._roles: dict[Mention, UserRole] = {}
         for mention in self._found:
@@ -81,7 +84,7 @@ class Allotments:
             self._weigh(number)
 
     def _assign(self, mention: Mention) -> None:
-        if self._is_compared(mention):
+        if mention in self._compared:  # "3号不超过2号"
             self._unsure.append(mention)
             return
         standing = exception_of(self._plain, mention.start, mention.end) if mention.role == "named" else ""
@@ -108,12 +111,6 @@ class Allotments:
             self._lists[role].pop(user, None)
         for user in users:
             self._lists[role][user] = self._text[start:end].strip()
-
-    def _is_compared(self, mention: Mention) -> bool:
-        """Whether nothing but a comparison stands between two who are named: "3号不超过2号"."""
-        named = [other for other in self._found if other.role == "named"]
-        gaps = [self._plain[a.end : b.start] for a, b in itertools.pairwise(named) if mention in (a, b)]
-        return any(_COMPARED.fullmatch(gap) for gap in gaps)
 
     def _corrected_users(self, mention: Mention, role: UserRole) -> tuple[str, ...]:
         """Those named just before whom somebody replaces: "leave user 5 out, no, user 6"."""

@@ -112,6 +112,7 @@ _NOBODY_ELSE = re.compile(
 _LEAVES_BEFORE = re.compile(r"(?:让|叫|请)\s*$")
 _LEAVES_AFTER = re.compile(r"\s*(?:离开|走吧|走开|走人|退场|下去|先走|出去)")
 _CUT = re.compile(CLAUSE_END)
+_REACH = 100
 
 
 def exception_of(plain: str, start: int, end: int) -> Standing:
@@ -122,8 +123,7 @@ def exception_of(plain: str, start: int, end: int) -> Standing:
     >>> exception_of("user 3 needs no minimum", 0, 6)
     'exempt'
     """
-    cuts = [cut.end() for cut in _CUT.finditer(plain, 0, start)]
-    before = plain[cuts[-1] if cuts else 0 : start]
+    before = _lead(plain, start)
     if _BARE_NOT.search(before):
         return "kept" if _ZH_OUT_AFTER.match(plain, end) else ""
     if _KEPT_BEFORE.search(before) or _KEPT_AFTER.match(plain, end):
@@ -148,8 +148,7 @@ def promised_nothing(plain: str, start: int, end: int) -> tuple[int, int] | None
     >>> promised_nothing("user 3 needs no minimum", 0, 6)
     (13, 23)
     """
-    cuts = [cut.end() for cut in _CUT.finditer(plain, 0, start)]
-    before, after = plain[cuts[-1] if cuts else 0 : start], _rest(plain, end)
+    before, after = _lead(plain, start), _rest(plain, end)
     before = re.split("[0-9]", before)[-1]  # what stands before a figure is that figure's
     match = _NO_PROMISE.search(f"{before} @ {after}")
     if match is None or any(letter.isdigit() for letter in after) or _OF_A_CAP.search(before + after):
@@ -161,10 +160,18 @@ def promised_nothing(plain: str, start: int, end: int) -> tuple[int, int] | None
     )
 
 
+def _lead(plain: str, start: int) -> str:
+    """What a clause says before ``start``, no farther than its words may reach."""
+    from_ = max(0, start - _REACH)
+    cuts = [cut.end() for cut in _CUT.finditer(plain, from_, start)]
+    return plain[cuts[-1] if cuts else from_ : start]
+
+
 def _rest(plain: str, end: int) -> str:
-    """The rest of the clause after ``end``."""
-    cut = _CUT.search(plain, end)
-    return plain[end : cut.start() if cut else len(plain)]
+    """The rest of the clause after ``end``, no farther than its words may reach."""
+    to = min(len(plain), end + _REACH)
+    cut = _CUT.search(plain, end, to)
+    return plain[end : cut.start() if cut else to]
 
 
 def _serves_nobody_else(before: str, plain: str, end: int) -> bool:
