@@ -88,3 +88,27 @@ def test_which_methods_there_are_is_told() -> None:
     _, turns = talk(HELD, "do it the paper's way", "which methods are there?", "有哪些方法?")
     assert turns[2].reply.startswith("In use: paper. For this there are: dual, ")
     assert turns[3].reply.startswith("正在使用：论文方法。可用的方法：对偶法、")
+
+
+def test_a_step_that_the_method_cannot_solve_is_solved_by_another() -> None:
+    _, turns = talk(
+        HELD, "use the paper's method", "what would 100 kbit/s more for user 3 cost?", "3号再多1兆要多少功率?"
+    )
+    assert [turn.stage for turn in turns[2:]] == ["answered"] * 2
+    assert "would lower the total rate" in turns[2].reply
+    assert "则需要 " in turns[3].reply
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("what if at least 100 kbit/s for everyone?", "paper knows nothing of minimum rates. Solved by dual instead."),
+        ("10瓦下最多能给每个人保证多少?", "改由对偶法求解。"),
+    ],
+)
+def test_a_what_if_that_the_method_cannot_solve_is_solved_by_another(said: str, told: str) -> None:
+    session, turns = talk(HELD, "use the paper's method", said)
+    assert (turns[2].stage, method_of(turns[2])) == ("answered", "dual")
+    assert told in turns[2].reply
+    assert session.request is not None
+    assert session.request.method == "paper"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from typing import cast
 
@@ -11,8 +12,10 @@ from wirelessagent.agent import answers
 from wirelessagent.agent.figures import side_by_side
 from wirelessagent.agent.noting import notes
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, user_number
+from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.request import Request
 from wirelessagent.agent.restating import restated
+from wirelessagent.agent.run import Sight
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run
@@ -44,10 +47,10 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
         return Reply(text=say(language, "what_if_missing_share", share=percent(cast(float, share))), stage="asked")
     request = supposed(state, intent)
     sight = None if share is None else site.sight_missing(cast(float, share), language)
-    run = site.foreseen(site.plan(intent, request, sight=sight))
-    answer = _verdict(state, run, language)
+    run, otherwise = _planned(site, intent, request, sight)
+    answer = joined(language, [*otherwise, _verdict(state, run, language)])
     if details.get("asked") == "most" and run.decision.is_usable:
-        text = _most(state, run, intent)
+        text = joined(language, [*otherwise, _most(state, run, intent)])
     elif share is None:
         asked = restated(request, language)
         text = say(language, "what_if", request=asked[:1].lower() + asked[1:], answer=answer)
@@ -57,6 +60,18 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
     if state.run is not None:
         runs.insert(0, (say(language, "now_column"), site.foreseen(state.run)))
     return Reply(text=text, run=run, tables=(side_by_side(runs, language),))
+
+
+def _planned(site: Site, intent: Intent, request: Request, sight: Sight | None) -> tuple[Run, list[str]]:
+    """The run of a what-if, by the objective's own method where the one that was named does not solve it."""
+    try:
+        return site.foreseen(site.plan(intent, request, sight=sight)), []
+    except RefusedError as refusal:
+        if request.method is None:
+            raise
+        run = site.foreseen(site.plan(intent, dataclasses.replace(request, method=None), sight=sight))
+        method = called(intent.language, run.decision.method)
+        return run, [refusal.why, told(intent.language, "solved_by", method=method)]
 
 
 def supposed(state: State, intent: Intent) -> Request:

@@ -17,6 +17,7 @@ from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
+from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.problem import Problem
@@ -93,8 +94,14 @@ class Case:
         return NormalForm.of(Dual(), self.counted, self.plain, self.cell)
 
     def solved(self, problem: Problem, cell: Cell | None = None) -> Decision:
-        """The same method's decision on the same channel for another problem, or another cell."""
-        return chain.decide(self.estimate, problem, cell or self.cell, self.method, **self.options)
+        """The same method's decision on the same channel for another problem, or another cell.
+
+        It is the default method's where that one does not solve the other problem.
+        """
+        try:
+            return chain.decide(self.estimate, problem, cell or self.cell, self.method, **self.options)
+        except UnsupportedProblemError:
+            return self.otherwise(problem, cell)
 
     def otherwise(self, problem: Problem, cell: Cell | None = None, **options: Any) -> Decision:
         """The default method's decision on the same channel for another problem: it proves and prices the most."""
