@@ -26,7 +26,17 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("Con los circuitos en 4 W y 12 W de emisión, lo más eficiente", {"circuit_power_w": 4.0, "max_power_w": 12.0}),
     ("Elektronikverbrauch 7,5 W, Senden maximal 28 W", {"circuit_power_w": 7.5, "max_power_w": 28.0}),
     ("Au lieu de 25 W, prends 14 W, équité proportionnelle", {"max_power_w": 14.0}),
+    # what a correction leaves
+    ("max rate, user 4 never above 5 Mbit/s, sorry, 6 Mbit/s", {"max_rate_bps": {"4": 6e6}}),
+    ("max rate, at least 1 Mbit/s each, no, at most 2 Mbit/s", {"max_rate_bps": 2e6}),
+    ("max rate, 5 W, no, 2 Mbit/s each", {"max_power_w": 5.0, "min_rate_bps": 2e6}),
+    ("总速率最高，4号最多5兆，不对，6兆", {"max_rate_bps": {"4": 6e6}}),
     # what a rate is
+    ("Max throughput, but user 4 never above 5 Mbit/s", {"max_rate_bps": {"4": 5e6}}),
+    ("max rate with 2.5 Mbit/s each", {"min_rate_bps": 2.5e6}),
+    ("with a max rate of 2 Mbit/s each, save power", {"max_rate_bps": 2e6}),
+    ("best sum rate, nobdy below 750 kbit/s", {"min_rate_bps": 7.5e5}),
+    ("max rate, no more than two and a half watts", {"max_power_w": 2.5}),
     ("8 Mbit/s de plafond par personne, la plus grande vitesse totale", {"max_rate_bps": 8e6}),
     ("Gesamtdurchsatz maximieren, Nutzer 8 wird auf 3 Mbit/s gedeckelt", {"max_rate_bps": {"8": 3e6}}),
     ("9号给他封到4兆,其余的总量往上顶", {"max_rate_bps": {"9": 4e6}}),

@@ -9,6 +9,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from wirelessagent.language.spelling import one_edit
 from wirelessagent.language.text import CLAUSE_END, USER_NOUN
 
 Comparator: TypeAlias = Literal["at_least", "at_most", "exactly"]
@@ -141,6 +142,7 @@ _NEGATION = re.compile(
     r"personne|aucune?|ne|n(?=')|jamais|sans|pas|rien|interdi\w+|évite\w*|"
     r"nicht|nichts|kein\w*|niemand\w*|nie|niemals|ohne|verboten)\b|[不别勿没无莫禁]"
 )
+_NOBODY = ("nobody", "without", "cannot", "nadie", "personne", "niemand")
 _DENIED_AFTER = re.compile(  # "mehr als 24 Watt gibt's nicht", "below 1 Mbit/s nobody may fall"
     r"(?i)^(?:(?!\b(?:and|und|y|et|aber|but|sonst)\b)[\w\s'’-])*?\b(?:nicht(?! (?:mehr|weniger|über|unter)\b)|kein\w*|"
     r"niemand\w*|nie|niemals|nobody|no\s+one|never|nadie|ninguno?|nunca|personne|aucune?|jamais|forbidden|prohibido|"
@@ -161,6 +163,7 @@ _LAST_WORD = re.compile(  # "10 W, no more", "10 kbit/s, no less and no more"
 _LOOSE = re.compile(r"(?i)(?:max|min)(?:imum)?\b")  # "maximum rate at 1 Mbit/s minimum" wishes first and bounds after
 _POWER_RE = re.compile("(?i)" + _any_of(_POWER_NOUNS))
 _RATE_RE = re.compile("(?i)" + _any_of(_RATE_NOUNS))
+_WISH_WITH = re.compile("(?i)" + _any_of(_RATE_NOUNS) + r"\s+(?:with|con|avec|mit|bei)\b")
 _CLAUSE = re.compile(CLAUSE_END)
 
 
@@ -219,14 +222,18 @@ def _is_filler(gap: str) -> bool:
 
 def _is_denied(text: str, from_: int, start: int, end: int) -> bool:
     """Whether a comparative is turned round, by what stands before it or, as verbs do in German, behind the figure."""
-    if _NEGATION.search(text, from_, start) is not None:
+    if _NEGATION.search(text, from_, start) is not None or _is_misspelt_nobody(text[from_:start]):
         return True
     clause = _CLAUSE.search(text, end)
     return _DENIED_AFTER.match(text[end : clause.start() if clause else len(text)]) is not None
 
 
+def _is_misspelt_nobody(words: str) -> bool:
+    return any(one_edit(word, nobody) for word in _WORD.findall(words.lower()) for nobody in _NOBODY)
+
+
 def _foreign_noun(gap: str, kind: str) -> bool:
-    """ "min power 1 Mbit/s": the word bounds the power, not the rate that follows."""
+    """ "min power 1 Mbit/s", "max rate with 1 Mbit/s each": the word is of a wish, not of the rate that follows."""
     if kind == "rate":
-        return _POWER_RE.search(gap) is not None
+        return _POWER_RE.search(gap) is not None or _WISH_WITH.search(gap) is not None
     return kind == "power" and _RATE_RE.search(gap) is not None

@@ -217,7 +217,7 @@ class _Reader:
 
     def _is_replaced(self, index: int) -> bool:
         """Whether a rate is corrected by the next figure, nobody being named between: "1 Mbit/s, sorry, 2 each"."""
-        if index + 1 >= len(self._figures) or self._figures[index + 1].kind != "rate":
+        if {each.kind for each in self._figures[index : index + 2]} != {"rate"} or index + 1 == len(self._figures):
             return False
         figure, other = self._figures[index], self._figures[index + 1]
         named = any(m.role == "named" and figure.end <= m.start < other.start for m in self._judged.mentions)
@@ -398,7 +398,7 @@ class _Reader:
             return {"max_rate_bps" if figure.comparator == "at_most" else "min_rate_bps": 1.0, "none": 0.0}
         chances = self._judged.figure(index)
         if index and self._is_replaced(index - 1):
-            first, bound = self._judged.figure(index - 1), self._figures[index - 1].comparator or figure.comparator
+            first, bound = self._judged.figure(index - 1), figure.comparator or self._figures[index - 1].comparator
             if bound in _BOUNDS:
                 return {_BOUNDS[bound]: 1.0, "none": 0.0}
             chances = {role: max(first[role], chances[role]) if role != "none" else 0.0 for role in chances}

@@ -113,6 +113,8 @@ _LEAVES_BEFORE = re.compile(r"(?:让|叫|请)\s*$")
 _LEAVES_AFTER = re.compile(r"\s*(?:离开|走吧|走开|走人|退场|下去|先走|出去)")
 _CUT = re.compile(CLAUSE_END)
 _REACH = 100
+_MERE_BUT = re.compile(r"(?i)but\b(?!\s+not)")
+_ALL = re.compile(r"(?i)\b(?:all|every\w*|each|any\w*|no\w*|per|the\s+(?:lot|rest|others))\b")
 
 
 def exception_of(plain: str, start: int, end: int) -> Standing:
@@ -137,7 +139,10 @@ def exception_of(plain: str, start: int, end: int) -> Standing:
         return "uncapped"
     if promised_nothing(plain, start, end):
         return "exempt"
-    if _EXCEPT_BEFORE.search(before) or _EXCEPT_AFTER.match(plain, end):
+    excepting = _EXCEPT_BEFORE.search(before)
+    if excepting is not None and _MERE_BUT.match(before, excepting.start()) and not _ALL.search(before):
+        return ""  # "max throughput, but user 4 never above 5 Mbit/s"
+    if excepting is not None or _EXCEPT_AFTER.match(plain, end):
         return "alone" if _serves_nobody_else(before, plain, end) else "excepted"
     return ""
 

@@ -16,7 +16,7 @@ from wirelessagent.language.intent import IntentKind
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.sentence import BUILT_IN, Sentence
 
-_ENOUGH, _ENOUGH_AGAINST_THE_LEXICON, _ENOUGH_FOR_THE_OPPOSITE = 0.45, 0.65, 0.95
+_ENOUGH, _ENOUGH_AGAINST_THE_LEXICON, _ENOUGH_FOR_THE_OPPOSITE = 0.45, 0.65, 0.98
 _ENOUGH_FOR_THE_SLOWEST = 0.8
 _OWN_PHRASE_ASKED = 0.8
 _FAMILIAR = 0.25

@@ -129,7 +129,10 @@ class _Wanted:
         for figures in self._values.values():
             self._all_users |= figures.keys() - {EVERYBODY}
         self._rates = [
-            value for name in ("min_rate_bps", "max_rate_bps") for value in self._values.get(name, {}).values()
+            value
+            for name in ("min_rate_bps", "max_rate_bps")
+            for value in self._values.get(name, {}).values()
+            if value > 0  # nobody says a floor of zero in figures
         ]
         self._worth = {number: self._worth_of(number) for number in (*look.loose, *look.ones)}
         self._known = [(figure.kind, figure.value) for figure in look.figures]
