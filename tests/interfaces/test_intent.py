@@ -222,7 +222,7 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
 
 ASK_BACK = [
     "", "   ", "???", "make it better", "asdkj qweoi zxcv", "optimise", "do something", "优化一下",
-    "speed", "3瓦5k", "10 W 1 Mbit/s",
+    "speed", "3瓦5k", "瓦3兆7瓦/瓦", "4k 兆%s908 2瓦", "10 W 1 Mbit/s",
     "don't save power today", "I don't care about speed", "不要省电", "不在乎速度",
     "maximum speed and minimum power", "save power and go faster", "速度最快,功率最低",
     "Use at most 10 W", "10 W", "每人1兆", "everyone gets 1 Mbit/s", "Reduce power to 5 W",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Mapping, Sequence
 from typing import cast
 
@@ -14,10 +15,12 @@ from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.spelling import respelt
 from wirelessagent.language.text import language_of, normalise
+from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
 from wirelessagent.model.objective import Objective
 
 BUILT_IN = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
+_WORD = re.compile(r"(?i)[^\W\d_]{2,}|p[1-3](?!\d)|[\u3400-\u9fff]")
 _PLACEHOLDERS = {"power": " @power ", "rate": " @rate ", "ratio": " @ratio ", "bare": " @number ", "other": " @number "}
 
 
@@ -40,10 +43,10 @@ class Sentence:
 
     @property
     def worded(self) -> bool:
-        """Whether any word stands beside the figures."""
+        """Whether any word stands beside the figures, stray units and single letters being none."""
         spans = [(figure.start, figure.end) for figure in self.quantities]
-        letters = (place for place, letter in enumerate(self.plain) if letter.isalpha())
-        return any(not any(start <= place < end for start, end in spans) for place in letters)
+        words = (word for word in _WORD.finditer(self.plain) if not any(a <= word.start() < b for a, b in spans))
+        return any(not (unit := unit_at(self.plain, word.start())) or unit.end < word.end() for word in words)
 
     def for_model(self) -> tuple[str, list[str], str]:
         """The words with placeholders for figures and users, the concepts in their order, and the language."""
