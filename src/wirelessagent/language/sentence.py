@@ -20,7 +20,7 @@ from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary,
 from wirelessagent.model.objective import Objective
 
 BUILT_IN = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
-_WORD = re.compile(r"(?i)[^\W\d_]{2,}|p[1-3](?!\d)|[\u3400-\u9fff]")
+_WORD = re.compile(r"(?i)[\u3400-\u9fff]|[^\W\d_\u3400-\u9fff]{2,}|p[1-3](?!\d)")
 _PLACEHOLDERS = {"power": " @power ", "rate": " @rate ", "ratio": " @ratio ", "bare": " @number ", "other": " @number "}
 
 
