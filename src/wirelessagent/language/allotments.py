@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from wirelessagent.language.clauses import clause_end, clause_start, cuts_between
 from wirelessagent.language.exceptions import Standing, exception_of, promised_nothing
 from wirelessagent.language.figure_words import CORRECTION
 from wirelessagent.language.intent import EVERYBODY, Constraint
@@ -15,13 +16,11 @@ from wirelessagent.language.mentions import Mention, Role
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.roles import UserRole, is_something_of, role_of
-from wirelessagent.language.text import CLAUSE_END
 
 _SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.5, 0.45
 _SAID = 0.4
 _NEAR = 30
 
-_CUT = re.compile(CLAUSE_END)
 _SERVED = re.compile(r"(?i)\b(?:serv(?:e|es|ing)|sirv\w*|atiend\w*|bedien\w*)\b|服务")
 _COMPARED = re.compile(
     r"(?i)\s*(?:(?:is|be|must|should|may|gets?|goes|go|no|not|never|stays?)\s+)*(?:(?:faster|slower|more|less|better|higher|lower)\s+"
@@ -143,29 +142,28 @@ class Allotments:
         With a rate on either side it has one of its own: "1 Mbit/s each but users 2 and 3 should have 3".
         """
         rates = [figure for figure in self._judged.figures if figure.kind == "rate"]
-        first = max((cut.end() for cut in _CUT.finditer(self._plain, 0, mention.start)), default=0)
+        first = clause_start(self._plain, mention.start)
         if _SERVED.search(self._plain, first, mention.start):
             return False  # "serve everyone but user 3": an exception from service
         of_all = any(m.role in _COLLECTIVE and first <= m.start < mention.start for m in self._found)
-        before = [len(_CUT.findall(self._plain, f.end, mention.start)) for f in rates if f.end <= mention.start]
-        after = [f for f in rates if f.start >= mention.end and not _CUT.search(self._plain, mention.end, f.start)]
+        before = [cuts_between(self._plain, f.end, mention.start) for f in rates if f.end <= mention.start]
+        after = [f for f in rates if f.start >= mention.end and not cuts_between(self._plain, mention.end, f.start)]
         stated = 0 in before or (1 in before and not of_all)
         return stated != (bool(after) or self._leads_to_a_rate(mention))
 
     def _leads_to_a_rate(self, mention: Mention) -> bool:
         """Whether the clause after an exception says at once what all get: "except for user 3, each gets 1 Mbit/s"."""
-        cut = _CUT.search(self._plain, mention.end)
-        if cut is None or not _LEADING.fullmatch(self._plain, mention.end, cut.start()):
+        cut = clause_end(self._plain, mention.end)
+        if cut == len(self._plain) or not _LEADING.fullmatch(self._plain, mention.end, cut):
             return False
-        stop = _CUT.search(self._plain, cut.end())
-        end = stop.start() if stop is not None else len(self._plain)
-        rates = [f for f in self._judged.figures if f.kind == "rate" and cut.end() <= f.start < end]
-        of_all = [m.start for m in self._found if m.role in _COLLECTIVE and cut.end() <= m.start < end]
+        first, end = cut + 1, clause_end(self._plain, cut + 1)
+        rates = [f for f in self._judged.figures if f.kind == "rate" and first <= f.start < end]
+        of_all = [m.start for m in self._found if m.role in _COLLECTIVE and first <= m.start < end]
         begins = min([f.phrase_start for f in rates] + of_all, default=end)
         inserted = any(  # "everyone, except user 3, gets"
             _INSERTED.fullmatch(self._plain, m.end, mention.start) for m in self._found if m.role in _COLLECTIVE
         )
-        return bool(rates) and (inserted or _AT_ONCE.fullmatch(self._plain, cut.end(), begins) is not None)
+        return bool(rates) and (inserted or _AT_ONCE.fullmatch(self._plain, first, begins) is not None)
 
     def _exempt_from_that_of_the_others(self) -> None:
         """Whoever has a cap alone where "the others" have a floor has none."""

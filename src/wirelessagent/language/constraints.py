@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 
 from wirelessagent.language import figure_words
 from wirelessagent.language.allotments import Allotments, Target
+from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.nines import nines
@@ -314,9 +315,9 @@ class _Reader:
         to = min(
             [len(self._plain), *(figure.phrase_start for figure in self._quantities if figure.phrase_start >= end)]
         )
-        cuts = [cut.end() for cut in figure_words.CUT.finditer(self._plain, from_, start)]
-        cut = figure_words.CUT.search(self._plain, end, to)
-        return self._plain[max([from_, *cuts]) : start], self._plain[end : cut.start() if cut else to]
+        return self._plain[clause_start(self._plain, start, from_) : start], self._plain[
+            end : clause_end(self._plain, end, to)
+        ]
 
     def _take_power(self, figure: Quantity, before: str, after: str, role: str, *, certain: bool) -> None:
         circuit = role == "circuit_power_w"

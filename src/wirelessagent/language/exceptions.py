@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from typing import Literal, TypeAlias
 
-from wirelessagent.language.text import CLAUSE_END
+from wirelessagent.language.clauses import clause_end, clause_start
 
 Standing: TypeAlias = Literal["kept", "excepted", "exempt", "uncapped", "alone", "leaves", ""]
 
@@ -111,7 +111,6 @@ _NOBODY_ELSE = re.compile(
 )
 _LEAVES_BEFORE = re.compile(r"(?:让|叫|请)\s*$")
 _LEAVES_AFTER = re.compile(r"\s*(?:离开|走吧|走开|走人|退场|下去|先走|出去)")
-_CUT = re.compile(CLAUSE_END)
 _REACH = 100
 _MERE_BUT = re.compile(r"(?i)but\b(?!\s+not)")
 _ALL = re.compile(r"(?i)\b(?:all|every\w*|each|any\w*|no\w*|per|the\s+(?:lot|rest|others))\b")
@@ -167,16 +166,12 @@ def promised_nothing(plain: str, start: int, end: int) -> tuple[int, int] | None
 
 def _lead(plain: str, start: int) -> str:
     """What a clause says before ``start``, no farther than its words may reach."""
-    from_ = max(0, start - _REACH)
-    cuts = [cut.end() for cut in _CUT.finditer(plain, from_, start)]
-    return plain[cuts[-1] if cuts else from_ : start]
+    return plain[clause_start(plain, start, max(0, start - _REACH)) : start]
 
 
 def _rest(plain: str, end: int) -> str:
     """The rest of the clause after ``end``, no farther than its words may reach."""
-    to = min(len(plain), end + _REACH)
-    cut = _CUT.search(plain, end, to)
-    return plain[end : cut.start() if cut else to]
+    return plain[end : clause_end(plain, end, min(len(plain), end + _REACH))]
 
 
 def _serves_nobody_else(before: str, plain: str, end: int) -> bool:

@@ -18,7 +18,8 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.figure_words import CORRECTION, CUT
+from wirelessagent.language.clauses import clause_end, clause_start
+from wirelessagent.language.figure_words import CORRECTION
 from wirelessagent.language.hints import HINTS, hints
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
@@ -148,9 +149,7 @@ class View:
         names = HINTS.get(kind, ())
         low = max((span.end for span in self._spans if span.end <= start), default=0)
         high = min((span.start for span in self._spans if span.start >= end), default=len(self._plain))
-        cuts = [cut.end() for cut in CUT.finditer(self._plain, low, start)]
-        cut = CUT.search(self._plain, end, high)
-        first, last = cuts[-1] if cuts else low, cut.start() if cut else high
+        first, last = clause_start(self._plain, start, low), clause_end(self._plain, end, high)
         near = hints(names, self._plain[first:start], self._plain[end:last])
         far = {*near, *hints(names, self._plain[low:first], self._plain[last:high])}
         found = {f"hint {each}" for each in near} | {f"hint far {each}" for each in far}

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import re
 
-from wirelessagent.language.text import CLAUSE_END
-
 HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
 
 CIRCUIT = re.compile(
@@ -169,4 +167,3 @@ STEP = re.compile(
     r"\bun vatio más\b|\bun watt de plus\b|\bein(?: weiteres)? watt mehr\b|\bein weiteres watt\b"
 )
 MOVE_BEFORE = re.compile(r"(?i)\b(?:reduce|lower|cut|save|drop|decrease|less)\b[\w\s]*$")
-CUT = re.compile(CLAUSE_END)

@@ -152,6 +152,8 @@ class Judged:
         self.mentions = look.mentions
         self.figures = sorted([*look.figures, *look.unread], key=lambda figure: figure.start)
         self._said: dict[Mention, Mapping[str, float]] = {}
+        self._means: dict[int, Mapping[str, float]] = {}
+        self._places = {figure.start: place for place, figure in enumerate(look.figures)}
         self.doubtful = [
             (number.start, number.end)
             for number in first.ones
@@ -193,15 +195,14 @@ class Judged:
     def figure(self, index: int) -> Mapping[str, float]:
         """How likely a power, a rate or a ratio has each role; all figures of one list have the same."""
         figure = self.figures[index]
-        together = next((each for each in self.lists if figure.start in each), [figure.start])
-        each = [self._figure(start, figure.kind) for start in together]
-        joint = {role: math.prod(chances[role] for chances in each) ** (1 / len(each)) for role in each[0]}
-        total = sum(joint.values())
-        return {role: chance / total for role, chance in joint.items()}
-
-    def _figure(self, start: int, kind: str) -> Mapping[str, float]:
-        starts = [figure.start for figure in self._look.figures]
-        return _answers(kind, self._view.figure(starts.index(start)))
+        if figure.start not in self._means:
+            together = next((each for each in self.lists if figure.start in each), [figure.start])
+            each = [_answers(figure.kind, self._view.figure(self._places[start])) for start in together]
+            joint = {role: math.prod(chances[role] for chances in each) ** (1 / len(each)) for role in each[0]}
+            total = sum(joint.values())
+            chances = {role: chance / total for role, chance in joint.items()}
+            self._means |= dict.fromkeys(together, chances)
+        return self._means[figure.start]
 
     def said_of(self, mention: Mention) -> Mapping[str, float]:
         """The same by the words alone."""

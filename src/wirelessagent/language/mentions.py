@@ -6,6 +6,7 @@ users count as they are. Whether a user is to be served, left out or promised so
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -152,7 +153,7 @@ def mentions(plain: str, names: Sequence[str] = (), taken: Sequence[tuple[int, i
     [('named', ('3', '5')), ('others', ())]
     """
     found: list[Mention] = []
-    for mention in [*_own_names(plain, names), *_named(plain), *_collective(plain)]:
+    for mention in [*_own_names(plain, names), *_spoken_of(plain)]:
         clear = not any(mention.start < end and start < mention.end for start, end in taken)
         if clear and not any(mention.start < other.end and other.start < mention.end for other in found):
             found.append(mention)
@@ -165,6 +166,12 @@ def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
             continue  # "user 3" is read as any other number
         for match in re.finditer(rf"(?i)(?<![^\W_]){re.escape(name)}(?![^\W_])", plain):
             yield Mention(role="named", users=(name,), start=match.start(), end=match.end())
+
+
+@functools.lru_cache(maxsize=64)
+def _spoken_of(plain: str) -> tuple[Mention, ...]:
+    """Everybody spoken of but by the channel's own names, as the patterns find them; they may overlap."""
+    return (*_named(plain), *_collective(plain))
 
 
 def _named(plain: str) -> Iterator[Mention]:

@@ -5,10 +5,11 @@ The words stand right before or right after the name; anything in between but sm
 
 from __future__ import annotations
 
+import functools
 import re
 from typing import Literal, TypeAlias
 
-from wirelessagent.language.text import CLAUSE_END
+from wirelessagent.language.clauses import clause_start
 
 UserRole: TypeAlias = Literal["leave_out", "users", "back", "none"]
 
@@ -110,17 +111,16 @@ _SOMETHING_OF = re.compile(  # "drop user 2's minimum", "don't serve user 1 more
     r"(?i)\s*(?:['’]s\s+\w|s['’]\s+\w|(?:with\s+|at\s+|any\s+)?(?:more|faster|above|beyond|over)\b|"
     r"的?(?:最低|最高|最小|最大)?(?:速率|速度|上限|下限|限制|限速|保底|功率|权重|要求|承诺)|(?:超过|多于|高于))"
 )
-_CUT = re.compile(CLAUSE_END)
 
 
+@functools.lru_cache(maxsize=256)
 def role_of(plain: str, start: int, end: int) -> tuple[UserRole, int, int]:
     """The role of the users named at [start, end) and the span of the words that say so.
 
     >>> role_of("leave user 3 out, max rate", 6, 12)
     ('leave_out', 0, 16)
     """
-    cuts = [cut.end() for cut in _CUT.finditer(plain, 0, start)]
-    from_ = cuts[-1] if cuts else 0
+    from_ = clause_start(plain, start)
     before = plain[from_:start]
     back = _BACK.match(plain, end) or None
     if back is not None or _BACK_BEFORE.search(before):

@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 
 from wirelessagent.language import figure_words, lexicon
+from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.quantities import Quantity
 
 _OPERATOR = r"\^*×·⋅∙÷+±√∛"
@@ -68,9 +69,9 @@ def beside(plain: str, quantities: Sequence[Quantity], index: int) -> tuple[str,
     figure = quantities[index]
     start = quantities[index - 1].end if index else 0
     end = quantities[index + 1].phrase_start if index + 1 < len(quantities) else len(plain)
-    cuts = [cut.end() for cut in figure_words.CUT.finditer(plain, start, figure.start)]
-    cut = figure_words.CUT.search(plain, figure.end, end)
-    return plain[max([start, *cuts]) : figure.start], plain[figure.end : cut.start() if cut else end]
+    return plain[clause_start(plain, figure.start, start) : figure.start], plain[
+        figure.end : clause_end(plain, figure.end, end)
+    ]
 
 
 def signs(figure: Quantity, before: str, after: str) -> list[str]:
