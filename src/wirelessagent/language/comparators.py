@@ -9,6 +9,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from wirelessagent.language.phrases import Phrases
 from wirelessagent.language.spelling import one_edit
 from wirelessagent.language.text import CLAUSE_END, USER_NOUN
 
@@ -131,8 +132,8 @@ _CAP = (  # "cap users at", "limite l'utilisateur 5 à", "limitado a", "auf … 
     rf"|\b(?:limit|plafonn|brid|restrei|cap)\w*\s+{_WORDS}à(?!\w)"
     rf"|\b(?:begrenz|beschränk|deckel|kapp|drossel|drossl|limitier)\w*\s+{_WORDS}(?:auf|bei)\b"
 )
-_BEFORE = re.compile(
-    rf"(?i)(?P<at_least>{_any_of(_AT_LEAST)})|(?P<at_most>{_CAP}|{_any_of(_AT_MOST)})|(?P<exactly>{_any_of(_EXACTLY)})"
+_BEFORE = Phrases(
+    rf"(?P<at_least>{_any_of(_AT_LEAST)})|(?P<at_most>{_CAP}|{_any_of(_AT_MOST)})|(?P<exactly>{_any_of(_EXACTLY)})"
     rf"|(?P<above>{_any_of(_ABOVE)})|(?P<below>{_any_of(_BELOW)})"
 )
 _NEGATION = re.compile(

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from decimal import Decimal
 
 from wirelessagent.language.numerals import Number, chinese_value
+from wirelessagent.language.phrases import Phrases
 
 _COUNTS = {
     **dict.fromkeys(("two", "zwei", "dos", "deux"), 2),
@@ -30,8 +31,8 @@ _NAMED = {
     "fivefold": 5, "tenfold": 10,
     **dict.fromkeys(("half", "halb", "moitié", "mitad", "hälfte"), Decimal("0.5")),
 }  # fmt: skip
-_TIMES = re.compile(
-    rf"(?i)\b(?P<named>{'|'.join(_NAMED)})\b|\b(?P<german>doppelt|dreifach|vierfach|fünffach|zehnfach)\w*|"
+_TIMES = Phrases(
+    rf"\b(?P<named>{'|'.join(_NAMED)})\b|\b(?P<german>doppelt|dreifach|vierfach|fünffach|zehnfach)\w*|"
     rf"\b(?P<compound>{_WORD})(?:fach|mal)\w*|(?P<phrase>(?:une\s+fois\s+et\s+demie|deux\s+fois\s+et\s+demie|"
     rf"una\s+vez\s+y\s+media))|"
     rf"\b(?P<word>{_WORD})[\s-]?(?:times|veces|fois|mal|fold)\b|"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from wirelessagent.language.phrases import Phrases
+
 HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
 
 CIRCUIT = re.compile(
@@ -88,8 +90,8 @@ COUNTED_USERS = re.compile(
     r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
     r"设备|传感器|子载波)"
 )
-SOME_USERS = re.compile(
-    r"(?i)\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
+SOME_USERS = Phrases(
+    r"\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
     r"(?:部分|一些|某些|某个)用户|"
     r"\b(?:odd|even)(?:[- ]numbered)?\s+users?\b|\bhalf\s+(?:of\s+)?(?:the|our)\s+users\b|"
     r"\b(?:except|but|without)\s+(?:for\s+)?the\s+(?:last|first)(?:\s+(?:one|two|three|few|user|users))?(?=\s*(?:$|[,.;:!]))|"
@@ -98,23 +100,26 @@ SOME_USERS = re.compile(
     r"(?:单|双|奇数|偶数)号?(?:的)?用户|(?:一半|半数)的?用户|[0-9]号(?:及|和)?(?:以后|以上|往后)|"
     r"(?:踢|去掉|不服务|排除)[^,\uff0c。0-9]{1,10}的用户|[^,\uff0c。0-9]{1,8}的用户都?(?:踢|去掉|不服务|排除|剔除)"
 )
-NOBODY = re.compile(
-    r"(?i)\bserv(?:e|ing) (?:(?:nobody|no one)(?!\s+(?:else|but|except|apart|other))|"
+NOBODY = Phrases(
+    r"\bserv(?:e|ing) (?:(?:nobody|no one)(?!\s+(?:else|but|except|apart|other))|"
     r"none of (?:them|the users)|no users?(?! (?:below|under|above|with)))\b|"
     r"\bleav(?:e|ing) (?:everyone|everybody|all users|all of them) out\b|"
-    r"(?:所有|全部|全体)(?:用户|人|终端)(?:一个)?(?:都|全)?不(?:服务|带|管)|(?:一个|谁)(?:用户)?都不(?:服务|带|管)"
+    r"(?:所有|全部|全体)(?:用户|人|终端)(?:一个)?(?:都|全)?不(?:服务|带|管)|(?:一个|谁)(?:用户)?都不(?:服务|带|管)",
+    marks="serv leav 所有 全部 全体 一个 谁",
 )
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
-HALVED = re.compile(
-    r"(?i)\bby (?:a )?(?:half|third|quarter)\b|"
+HALVED = Phrases(
+    r"\bby (?:a )?(?:half|third|quarter)\b|"
     rf"\b(?:half (?:the|of the|as much)|halve|(?:double|twice) the)\s+{_OF_OURS}|"
-    r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)"
+    r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)",
+    marks="half halve third quarter double twice 减半 一半 翻倍",
 )
 EITHER = re.compile(  # between two figures
     r"(?i)\s*,?\s*(?:or|o|ou|oder|或者?|还是|(?:or\s+)?(?:if\s+possible|ideally|preferably),?\s+(?:else|otherwise|or)|else|otherwise)\s*"
 )
-OTHERS_HALVED = re.compile(
-    r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)(?!的?(?:功率|权重))"
+OTHERS_HALVED = Phrases(
+    r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)(?!的?(?:功率|权重))",
+    marks="一半 减半 翻倍 双倍 加倍",
 )
 _POWER = (
     r"(?:power|budget|watts|wattage|potencia|presupuesto|puissance|leistung|sendeleistung)\b(?:\s+(?:budget|limit))?"
@@ -123,8 +128,8 @@ _FULL = (
     r"(?:\s+|of|de|d'|the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|el|del|notre|nuestra|der|die|"
     r"unserer|vollen|maximalen)*"
 )
-SHARE = re.compile(
-    r"(?i)(?<!save )(?<!by )(?<!saving )(?<!cut )(?:(?P<half>\bhalf\b|\b(?:la )?mitad\b|\b(?:la )?moitié\b|"
+SHARE = Phrases(
+    r"(?<!save )(?<!by )(?<!saving )(?<!cut )(?:(?P<half>\bhalf\b|\b(?:la )?mitad\b|\b(?:la )?moitié\b|"
     r"\bhalbe[rn]?\b|\bhälfte\b)|(?P<thirds>\b(?:two thirds|dos tercios|deux tiers|zwei dritteln?)\b)|"
     r"(?P<third>\b(?:(?:a|one|un|ein(?:em)?) )?(?:third|tercio|tiers|drittel)\b)|"
     r"(?P<quarters>\b(?:three quarters|tres cuartos|trois quarts|drei vierteln?|dreiviertel)\b)|"
@@ -134,7 +139,9 @@ SHARE = re.compile(
     r"|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_half>一半)|(?<![0-9.])(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|"
     r"百分之(?P<zh_word>[0-9]{1,3})|(?P<zh_third>三分之一)|(?P<zh_thirds>三分之二)|(?P<zh_quarter>四分之一)|"
     r"(?P<zh_tenths>[一二三四五六七八九])成)的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
-    r"|(?:功率)(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?:(?P<of_half>一半)|(?P<of_tenths>[一二三四五六七八九])成)(?!五)"
+    r"|(?:功率)(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?:(?P<of_half>一半)|(?P<of_tenths>[一二三四五六七八九])成)(?!五)",
+    marks="half mitad moitié halbe hälfte third tercio tiers drittel quart cuarto viertel % percent per_cent prozent "
+    "por_ciento pour_cent 一半 百分之 分之 成",
 )
 TENTHS = {letter: place / 10 for place, letter in enumerate("一二三四五六七八九", start=1)}
 SHARES = {
@@ -149,8 +156,8 @@ SUBCARRIER_BEFORE = re.compile(
     r"(?i)(?:\b(?:each|every|any|per|no|single)\s+(?:single\s+)?(?:sub-?carrier|tone|carrier)\b|(?:每个|每|单个|"
     r"任一|各)子载波)[^,;.，。]{0,40}$"
 )
-BLOCKS = re.compile(
-    r"(?i)(?:\b(?:groups?|blocks?|bundles?|chunks?|clusters?|packs?|rbgs?)\s+of\s+(?P<of>[0-9]{1,3}|two|three|four|"
+BLOCKS = Phrases(
+    r"(?:\b(?:groups?|blocks?|bundles?|chunks?|clusters?|packs?|rbgs?)\s+of\s+(?P<of>[0-9]{1,3}|two|three|four|"
     r"six|eight|twelve|sixteen)(?:\s+(?:adjacent\s+|neighbouring\s+)?(?:sub-?carriers?|tones?|carriers?|rbs?|"
     r"resource blocks?))?"
     r"|\b(?P<per>[0-9]{1,3}|two|three|four|six|eight|twelve|sixteen)\s+(?:adjacent\s+|"
@@ -158,12 +165,14 @@ BLOCKS = re.compile(
     r"bundle|rbg)"
     r"|\b(?:rbg|resource[- ]block[- ]group|block|group)\s+size\s*(?:of|=|:|is)?\s*(?P<size>[0-9]{1,3})"
     r"|(?:每|按)?(?P<zh>[0-9]{1,3}|[二两三四六八十]{1,2})个?子载波(?:一组|为一组|一块|为一块|捆绑|绑定|分组|一个组|"
-    r"成组))"
+    r"成组))",
+    marks="group block bundle chunk cluster pack rbg 子载波",
 )
 BLOCK_WORDS = {"two": 2, "three": 3, "four": 4, "six": 6, "eight": 8, "twelve": 12, "sixteen": 16}
-STEP = re.compile(
-    r"(?i)\b(?:one|an?|another|an? (?:extra|additional|further))\s+(?:more\s+|extra\s+|"
+STEP = Phrases(
+    r"\b(?:one|an?|another|an? (?:extra|additional|further))\s+(?:more\s+|extra\s+|"
     r"additional\s+)?watt(?:\s+more)?\b|(?:再?多|再加|加)一瓦|"
-    r"\bun vatio más\b|\bun watt de plus\b|\bein(?: weiteres)? watt mehr\b|\bein weiteres watt\b"
+    r"\bun vatio más\b|\bun watt de plus\b|\bein(?: weiteres)? watt mehr\b|\bein weiteres watt\b",
+    marks="watt vatio 一瓦",
 )
 MOVE_BEFORE = re.compile(r"(?i)\b(?:reduce|lower|cut|save|drop|decrease|less)\b[\w\s]*$")

@@ -15,6 +15,7 @@ from decimal import Decimal
 
 from wirelessagent.language.factors import factors
 from wirelessagent.language.numerals import Number, numbers
+from wirelessagent.language.phrases import Phrases
 from wirelessagent.language.units import unit_at
 
 Span = tuple[int, int]
@@ -31,12 +32,12 @@ _SPELL = (
 )
 _MONTH = (
     r"(?:jan(?:uary|vier|uar)|enero|février|feb(?:ruary|ruar|rero)|märz|mar(?:ch|s|zo)|april|avril|"
-    r"abril|(?-i:May)|mai|mayo|june?|juin|juni|junio|july|juillet|juli|julio|august|août|agosto|sept?(?:ember|embre|"
+    r"abril|may|mai|mayo|june?|juin|juni|junio|july|juillet|juli|julio|august|août|agosto|sept?(?:ember|embre|"
     r"iembre)|oct(?:ober|obre|ubre)|oktober|nov(?:ember|embre|iembre)|de[cz]ember|"
     r"diciembre|décembre)(?![A-Za-zÀ-ÿ])"
 )
-_TIMES = re.compile(
-    rf"(?i)(?<![\w.,])[0-9]{{1,3}}(?::[0-9]{{2}}|[.,]5)?\s?{_SPELL}|(?<![\w.,])[0-9]{{1,2}}[:：][0-9]{{2}}(?![0-9])|"
+_TIMES = Phrases(
+    rf"(?<![\w.,])[0-9]{{1,3}}(?::[0-9]{{2}}|[.,]5)?\s?{_SPELL}|(?<![\w.,])[0-9]{{1,2}}[:：][0-9]{{2}}(?![0-9])|"
     rf"(?<![\w.,])[0-9]{{1,2}}(?:\.|st|nd|rd|th|er)?\s+(?:de\s+|of\s+)?{_MONTH}|\b{_MONTH}\s+[0-9]{{1,2}}(?![\w.,]?[0-9])|"
     r"(?<![\w.,])(?:19|20)[0-9]{2}(?=\s*(?:$|[,.;:!?)]|年))|"
     rf"(?<=\bde )[0-9]{{1,2}}(?= à [0-9]{{1,2}} h\b)|"
@@ -45,7 +46,7 @@ _TIMES = re.compile(
     r"\b(?:for|in|within|after|until|during|next|last|past|every)\s+(?:the\s+)?(?:next\s+|last\s+)?"
     r"(?:two|three|four|five|six|ten|twelve|thirty)\s+"
     r"(?:hours?|minutes?|mins?|days?|weeks?|months?|years?)\b|[0-9一二两三四五六七八九十半]{1,3}(?:点钟?|小时|分钟|"
-    r"个小时|天|周|个月|年)(?!\s*[W瓦])|"
+    r"个小时|天|周|个月|年)(?!\s*[w瓦])|"
     r"(?:周|星期|礼拜)[一二三四五六日天]|[一二三四五六七八九十0-9]{1,2}月|[一二三四五六七八九十0-9]{1,2}[日]"
 )
 _PRICES = re.compile(  # and other amounts of what no limit here is
@@ -58,12 +59,13 @@ _GLUED = re.compile(  # CO2, TV5, A9, 9th, 3GPP
     r"(?<![A-Za-z0-9_])(?:(?!(?:[UuRrPpWwXx]|UE|ue|Ue)[0-9])[A-Za-z]{1,4}[0-9₀-₉]{1,3}|[0-9]{1,3}(?:st|nd|rd|th|er|ère|ème|º|ª))"
     r"(?![A-Za-z0-9]*[=<>≤≥])(?![A-Za-z0-9.,]*[0-9])|3GPP|CO₂"
 )
-_OF_THE_YEAR = re.compile(r"(?i)\b(?:this|last|next|each|every|per|the) (?:first |last )?quarter\b(?! of)")
-_PAIRS = re.compile(
-    r"(?i)\b(?:between|of|the|these|those|either|in|both|or|my|our|by)\s+(?:the\s+)?(?:two|three)(?=\s*(?:$|"
+_OF_THE_YEAR = Phrases(r"\b(?:this|last|next|each|every|per|the) (?:first |last )?quarter\b(?! of)", "quarter")
+_PAIRS = Phrases(
+    r"\b(?:between|of|the|these|those|either|in|both|or|my|our|by)\s+(?:the\s+)?(?:two|three)(?=\s*(?:$|"
     r"[.,;:!?)]|of\s+(?:them|us)|sides?|extremes?|ends?|goals?|things?|worlds?|"
     r"aims?|plans?|results?|wishes|objectives))|[两]者|两个都|两头|两全|两边|一举两得|三心二意|四面八方|十足|"
-    r"第[一二三]|万一|一二"
+    r"第[一二三]|万一|一二",
+    marks="two three 两 一举 三心 四面 十足 第 万一 一二",
 )
 _VAGUE = re.compile(
     r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
@@ -122,7 +124,8 @@ def idioms(plain: str) -> tuple[Span, ...]:
         match.span()
         for pattern in _ALL_IDIOMS
         for match in pattern.finditer(plain)
-        if pattern is not _PRICES or not is_all_said(plain, *match.span())
+        if not (pattern is _PRICES and is_all_said(plain, *match.span()))
+        if not (pattern is _TIMES and "may" in plain[slice(*match.span())])  # no month
     )
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.numerals import chinese_value
+from wirelessagent.language.phrases import Phrases
 from wirelessagent.language.units import unit_at
 
 Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
@@ -66,11 +67,11 @@ _SPACED = (  # "users 1 2 3", and nothing that is counted behind
     r"in|for|on|please)\b)[A-Za-zμ%×*^/])"
 )
 _LIST = rf"(?:{_SPACED}|{_DIGITS}(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
-_NAMED = re.compile(
-    rf"(?i)(?<![A-Za-z0-9]){_NOUN}[\s_-]*(?:ids?\s*|{_NO}\s*|(?:del?|from|von)\s+(?=[0-9]{{1,3}}{_TO}))?\s*(?P<list>{_LIST})"
+_NAMED = Phrases(
+    rf"(?<![A-Za-z0-9]){_NOUN}[\s_-]*(?:ids?\s*|{_NO}\s*|(?:del?|from|von)\s+(?=[0-9]{{1,3}}{_TO}))?\s*(?P<list>{_LIST})"
     rf"|(?<![A-Za-z0-9])(?:u|ue)(?P<short>[0-9]{{1,4}})(?![A-Za-z0-9])"
     rf"|(?<![A-Za-z])[RrWw]_?\{{?(?P<symbol>[0-9]{{1,2}})\}}?(?=\s*(?:[=≥≤<>]))"
-    rf"|(?<![A-Za-z0-9])(?-i:R)(?P<rate_of>[0-9]{{1,2}})(?![A-Za-z0-9.])|"
+    rf"|(?<![A-Za-z0-9])r(?P<rate_of>[0-9]{{1,2}})(?![A-Za-z0-9.])|"
     rf"#\s?(?P<hash>[0-9]{{1,4}}(?:{_AND}#?\s?[0-9]{{1,4}})*)"
     rf"|(?<![A-Za-z])(?:numbers?|n[úu]mero|numéro|nummer|no\.)\s+(?P<number>{_LIST})"
     rf"|(?<![A-Za-z])(?P<ordinal>{'|'.join(sorted(_ORDINALS, key=len, reverse=True))})\s+{_NOUN}(?![A-Za-z])"
@@ -90,18 +91,19 @@ _ZH = re.compile(
     rf"|(?<![权重乘取为=.0-9月])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{_ZH_NOUN}?"
     rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{_ZH_NOUN}"
 )
-_OTHERS = re.compile(
-    r"(?i)\b(?:everyone else|everybody else|every other (?:one|user|person|subscriber)|"
+_OTHERS = Phrases(
+    r"\b(?:everyone else|everybody else|every other (?:one|user|person|subscriber)|"
     r"all (?:the )?others?(?: users?)?|(?:the )?others?(?: users?| ones)?|each of the "
     r"(?:rest|others)|(?:the )?(?:rest|remaining(?: users?| ones)?|remainder)(?: of (?:them|the users|us))?|"
     r"those (?:remaining|left|that remain|who remain|who are left)|anyone else|"
     r"(?:a )?(?:los|las) (?:demás|otr[oa]s|restantes)|(?:al|el) resto|(?:a )?(?:los|las) que qued[ae]n|"
     r"(?:(?:à )?tous |chacun )?(?:les|aux|des) autres|(?:le|au) reste|ceux qui restent|"
     r"(?:(?:die|den|der|alle[nr]?|wir) )?(?:anderen|andern|übrigen|restlichen|verbleibenden)|(?:der|den|dem) rest)\b|"
-    r"(?:其他|其它|其余|剩下|剩余|余下|另外|别的|旁的)的?(?:所有)?(?:的)?(?:人|用户|终端)?(?:都)?|别人|旁人"
+    r"(?:其他|其它|其余|剩下|剩余|余下|另外|别的|旁的)的?(?:所有)?(?:的)?(?:人|用户|终端)?(?:都)?|别人|旁人",
+    marks="else other rest remain those otr demás qued autre ander übrig verbleib 其 剩 余 另 别 旁",
 )
-_EVERYBODY = re.compile(
-    r"(?i)\b(?:everyone|everybody|every (?:single )?(?:one|user|ue|person|subscriber|customer|terminal|device|"
+_EVERYBODY = Phrases(
+    r"\b(?:everyone|everybody|every (?:single )?(?:one|user|ue|person|subscriber|customer|terminal|device|"
     r"client|head)|"
     r"each (?:and every )?(?:one|user|ue|person|subscriber|customer|terminal|device|client|of them|of the users)|"
     r"each|apiece|all(?: the| our)? (?:users|ues|"
@@ -116,11 +118,11 @@ _EVERYBODY = re.compile(
     r"capteur|caméra|appareil)|personne|qui que ce soit|quiconque|alle(?: nutzer)?|jeder?[nm]?(?: nutzer| "
     r"einzelne[nr]?)?|(?:pro|je) (?:nutzer(?:in)?|kopf|teilnehmer(?:in)?|kunde|person|nase|(?:end)?gerät|sensor|"
     r"kamera)|jedermann|niemand|keine[rmn]?|für alle)\b|"
-    r"(?:每个|每位|每一个|每名|每|各|所有|全部|全体)(?:的)?(?:用户|人|终端|UE|户|客户|设备|位)?|人人|"
+    r"(?:每个|每位|每一个|每名|每|各|所有|全部|全体)(?:的)?(?:用户|人|终端|ue|户|客户|设备|位)?|人人|"
     r"大家|人均|没人|谁也|人手|(?:一人|一户)(?=[一两二三四五六七八九十百半0-9])"
 )
-_PRONOUN = re.compile(
-    r"(?i)\b(?:him|her|he|she|them|(?:those|these)(?: two| three| four| five| users)?|that one|both|it|"
+_PRONOUN = Phrases(
+    r"\b(?:him|her|he|she|them|(?:those|these)(?: two| three| four| five| users)?|that one|both|it|"
     r"él|ella|ellos|ambos|los dos|"
     r"lui|elle|eux|les deux|ihm|ihr|ihn|ihnen|den|die beiden|beide[nr]?)\b|[他她它]们?(?!人)"
 )
@@ -177,6 +179,8 @@ def _spoken_of(plain: str) -> tuple[Mention, ...]:
 def _named(plain: str) -> Iterator[Mention]:
     for match in _NAMED.finditer(plain):
         group = match.lastgroup or ""
+        if group == "rate_of" and plain[match.start()] != "R":
+            continue
         end = _without_quantity(plain, match, group)
         users = _listed(plain[match.start(group) : min(end, match.end(group))])
         if users and end > match.start(group):
@@ -234,7 +238,7 @@ def _number(word: str) -> str:
 
 
 def _collective(plain: str) -> Iterator[Mention]:
-    roles: tuple[tuple[Role, re.Pattern[str]], ...] = (
+    roles: tuple[tuple[Role, Phrases], ...] = (
         ("others", _OTHERS), ("everybody", _EVERYBODY), ("pronoun", _PRONOUN),
     )  # fmt: skip
     for role, pattern in roles:

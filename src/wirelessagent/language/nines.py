@@ -6,10 +6,10 @@ fifty right beside a word for reliability.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from decimal import Decimal
 
+from wirelessagent.language.phrases import Phrases
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.units import unit_at
 
@@ -34,12 +34,13 @@ _RELIABLE = (
 )
 _LINK = r"(?:\s+(?:of|at|is|be|to|de|del|von|bei|à|al|a|at\s+least|mindestens|au\s+moins))*\s*[:=]?\s*"
 _NUMBER = r"(?P<{}>[5-9][0-9](?:[.,][0-9]{{1,6}})?)(?![0-9.,]*[0-9])"
-_NINES = re.compile(
-    rf"(?i)(?<![\w.,])(?P<count>{_LATIN})[\s-]+(?:nines|9'?s|nueves|neufs|neunen|neuner)(?![\w%])|"
+_NINES = Phrases(
+    rf"(?<![\w.,])(?P<count>{_LATIN})[\s-]+(?:nines|9'?s|nueves|neufs|neunen|neuner)(?![\w%])|"
     r"(?P<zh>[二两三四五六七2-7])\s?个\s?[九9](?![0-9一二三四五六七八九十百千万])|"
     r"(?:(?<=^)|(?<=[,;:\uff0c；、(。]\s)|(?<=[,;:\uff0c；、(。]))(?P<alone>99[.,]9{1,5})(?=\s*(?:$|[,;!?)\uff0c；。]|\.(?![0-9])))|"
     rf"\b{_RELIABLE}{_LINK}{_NUMBER.format('behind')}|(?<![\w.,]){_NUMBER.format('ahead')}\s+{_RELIABLE}|"
-    rf"可靠[性度率]?(?:要?达?到|要|为|是|不低于|至少|>=|≥|=|:)?\s*{_NUMBER.format('zhbehind')}"
+    rf"可靠[性度率]?(?:要?达?到|要|为|是|不低于|至少|>=|≥|=|:)?\s*{_NUMBER.format('zhbehind')}",
+    marks="nine 9 nueve neuf neun 九 reliab availab dependab fiab disponib zuverlässig verfügbar sicherheit 可靠",
 )
 
 

@@ -68,6 +68,15 @@ def normalise(text: str) -> str:
     return text.translate(_TABLE)
 
 
+@functools.lru_cache(maxsize=64)
+def lowered(text: str) -> str:
+    """The text in small letters; same length, so that letters stay whose small form is longer."""
+    small = text.lower()
+    if len(small) == len(text):
+        return small
+    return "".join(low if len(low := letter.lower()) == 1 else letter for letter in text)
+
+
 def has_chinese(text: str) -> bool:
     """Whether a Chinese character stands in a text; a pattern with so wide a range takes milliseconds to compile.
 
