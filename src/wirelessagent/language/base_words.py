@@ -7,15 +7,13 @@ in "slow". Latin words that are not listed stand for themselves; Chinese is cut 
 from __future__ import annotations
 
 import functools
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from wirelessagent.language.text import CJK
+from wirelessagent.language.text import is_chinese
 
 FOLDER = Path(__file__).with_name("base_words")
 _SMALL = frozenset(("the", "a", "and", "of", "in", "to", "it", "be"))
-_IS_CJK = re.compile(f"[{CJK}]")
 
 
 def based(tokens: Sequence[str], language: str) -> list[str]:
@@ -31,7 +29,7 @@ def based(tokens: Sequence[str], language: str) -> list[str]:
     found: list[str] = []
     run = ""
     for token in (*tokens, ""):
-        if _IS_CJK.match(token):
+        if is_chinese(token):
             run += token
             continue
         found.extend(_cut(run, own))

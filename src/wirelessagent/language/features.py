@@ -6,6 +6,7 @@ on every machine and in every process.
 
 from __future__ import annotations
 
+import functools
 import re
 import unicodedata
 import zlib
@@ -16,18 +17,19 @@ import numpy.typing as npt
 
 from wirelessagent.language.base_words import based
 from wirelessagent.language.spelling import SOUND_OF
-from wirelessagent.language.text import CJK
+from wirelessagent.language.text import CJK, is_chinese
 
 BUCKETS = 1 << 16
 _MAX_TOKENS = 120
 _TOKEN = re.compile(rf"@[a-z]+|[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|[?\uff1f]")
-_IS_CJK = re.compile(f"[{CJK}]")
 
 
 def buckets(text: str, concepts: Sequence[str] = (), language: str = "en") -> npt.NDArray[np.int64]:
     """The distinct buckets that a sentence falls into, ascending."""
     found = {zlib.crc32(gram.encode("utf-8", "replace")) % BUCKETS for gram in _grams(text, concepts, language)}
-    return np.fromiter(sorted(found), dtype=np.int64, count=len(found))
+    ascending = np.fromiter(found, dtype=np.int64, count=len(found))
+    ascending.sort()
+    return ascending
 
 
 def word_hashes(text: str) -> list[int]:
@@ -36,8 +38,9 @@ def word_hashes(text: str) -> list[int]:
     return [zlib.crc32(word.encode("utf-8", "replace")) for word in words]
 
 
-def _tokens(text: str) -> list[str]:
-    return [match.group() for match in _TOKEN.finditer(_plain(text))][:_MAX_TOKENS]
+@functools.lru_cache(maxsize=16)
+def _tokens(text: str) -> tuple[str, ...]:
+    return tuple(match.group() for match in _TOKEN.finditer(_plain(text)))[:_MAX_TOKENS]
 
 
 def _plain(text: str) -> str:
@@ -57,15 +60,15 @@ def _grams(text: str, concepts: Sequence[str], language: str) -> Iterator[str]:
         if place + 2 < len(padded):
             yield f"t{token} {padded[place + 1]} {padded[place + 2]}"
             yield f"s{token} _ {padded[place + 2]}"
-        if place + 3 < len(padded) and _IS_CJK.match(token):
+        if place + 3 < len(padded) and is_chinese(token):
             yield f"q{''.join(padded[place : place + 4])}"
-    heard = [SOUND_OF.get(token, token) for token in tokens if _IS_CJK.match(token)]
+    heard = [SOUND_OF.get(token, token) for token in tokens if is_chinese(token)]
     for place in range(len(heard) - 1):
         yield f"h{heard[place]}{heard[place + 1]}"
         if place + 2 < len(heard):
             yield f"i{heard[place]}{heard[place + 1]}{heard[place + 2]}"
     for token in set(tokens):
-        if len(token) > 3 and token.isalpha() and not _IS_CJK.match(token):
+        if len(token) > 3 and token.isalpha() and not is_chinese(token):
             word = f"^{token[:20]}$"
             for size in (3, 4, 5):
                 for start in range(len(word) - size + 1):

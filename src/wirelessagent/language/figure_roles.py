@@ -57,7 +57,7 @@ class RoleModel:
     def scores(self, question: str, features: set[str]) -> npt.NDArray[np.float64]:
         """How strongly the features speak for each label of the question."""
         found = hashed(question, features)
-        total = self.weights[question][found].sum(axis=0, dtype=np.int32)
+        total = np.add.reduce(self.weights[question].take(found, axis=0), axis=0, dtype=np.int32)
         return self.scales[question] * total / math.sqrt(len(found))
 
 

@@ -24,7 +24,6 @@ BUCKETS = 1 << 14
 _REACH = 12
 _BASE_REACH, _BASE_NEAR = 8, 3
 _TOKEN = re.compile(rf"[{CJK}]|(?:(?![{CJK}])[^\W\d_])+(?:'(?=[^\W\d_]))?|[0-9]+|\S")
-_IS_CJK = re.compile(f"[{CJK}]")
 _CLAUSE_ENDS = frozenset(",;!?.。，；！？…—\n")
 
 
@@ -87,18 +86,14 @@ def in_base_words(tokens: Sequence[Token], language: str) -> list[Token]:
 def around_base(tokens: Sequence[Token], place: int) -> set[str]:
     """The features of the base words about the token at ``place``."""
     found: set[str] = set()
-    for side, step in (("L", -1), ("R", 1)):
-        clauses, previous = 0, ""
-        for distance in range(1, _BASE_REACH + 1):
-            index = place + step * distance
-            if not 0 <= index < len(tokens):
-                break
-            word = tokens[index].word
-            where = f"base {side}{min(clauses, 1)}"
+    for side, words in _sides(tokens, place, _BASE_REACH):
+        where, previous = f"base {side}0", ""
+        for distance, word in enumerate(words, start=1):
             found |= {f"{where}{word}", f"{where}{previous} {word}"}
             if distance <= _BASE_NEAR:
                 found |= {f"{where}~{word}", f"base {word}"}
-            clauses += word in _CLAUSE_ENDS
+            if word in _CLAUSE_ENDS:
+                where = f"base {side}1"
             previous = word
     return found
 
@@ -106,50 +101,68 @@ def around_base(tokens: Sequence[Token], place: int) -> set[str]:
 def around(tokens: Sequence[Token], place: int, known: Sequence[str] = ()) -> set[str]:
     """The features of the token at ``place``; ``known`` are things that the rules say of it."""
     found = {"bias", *known}
-    found.update(f"{one}&{other}" for index, one in enumerate(known) for other in known[index + 1 :])
-    for side, step in (("L", -1), ("R", 1)):
-        found.update(_beside(tokens, place, side, step))
+    found.update([f"{one}&{other}" for index, one in enumerate(known) for other in known[index + 1 :]])
+    for side, words in _sides(tokens, place, _REACH):
+        _add_words(found, side, words)
+        _add_near(found, side, words)
     left = tokens[place - 1].word if place else "<"
     right = tokens[place + 1].word if place + 1 < len(tokens) else ">"
     found.add(f"M{left} {right}")
     return found
 
 
-def _beside(tokens: Sequence[Token], place: int, side: str, step: int) -> Iterator[str]:
-    clauses, near, previous, before_previous = 0, True, "", ""
-    for distance in range(1, _REACH + 1):
-        index = place + step * distance
-        if not 0 <= index < len(tokens):
-            yield f"{side}{min(clauses, 1)}end{min(distance, 3)}"
-            return
-        word = tokens[index].word
-        where = f"{side}{min(clauses, 2)}"
-        yield f"{where}{word}"
+def _sides(tokens: Sequence[Token], place: int, reach: int) -> tuple[tuple[str, list[str]], tuple[str, list[str]]]:
+    """The words on the left and on the right of a token, the nearest first, as far as they may count."""
+    left = [token.word for token in tokens[max(0, place - reach) : place]]
+    return ("L", left[::-1]), ("R", [token.word for token in tokens[place + 1 : place + 1 + reach]])
+
+
+def _add_words(found: set[str], side: str, words: Sequence[str]) -> None:
+    """Single words, pairs and triples of one side, by how many clauses lie between."""
+    clauses, where, previous, before_previous = 0, f"{side}0", "", ""
+    for distance, word in enumerate(words, start=1):
+        found.add(f"{where}{word}")
         if distance <= 4:
-            yield f"{where}{'=' if distance < 2 else '~'}{word}"
+            found.add(f"{where}{'=' if distance < 2 else '~'}{word}")
         if previous:
-            yield f"{where}{previous} {word}"
+            found.add(f"{where}{previous} {word}")
             if before_previous and distance <= 6:
-                yield f"{where}{before_previous} {previous} {word}"
-        if word[0] == "@" and near:
-            near = False
-            yield f"{side}next{clauses > 0}{word}"
-        elif clauses == 0:
-            yield f"near {word}"
-            yield from (f"letters {gram}" for gram in (_letters(word) if len(word) > 4 else ()))
+                found.add(f"{where}{before_previous} {previous} {word}")
         if word in _CLAUSE_ENDS:
             clauses += 1
+            where = f"{side}{min(clauses, 2)}"
         before_previous, previous = previous, word
+    if len(words) < _REACH:
+        found.add(f"{side}{min(clauses, 1)}end{min(len(words) + 1, 3)}")
+
+
+def _add_near(found: set[str], side: str, words: Sequence[str]) -> None:
+    """The words of the same clause on one side whatever their order, with their letters, and the next placeholder."""
+    same_clause, next_known = True, False
+    for word in words:
+        if word[0] == "@" and not next_known:
+            next_known = True
+            found.add(f"{side}next{not same_clause}{word}")
+        elif same_clause:
+            found.add(f"near {word}")
+            if len(word) > 4:
+                found.update(_letters(word))
+        if word in _CLAUSE_ENDS:
+            same_clause = False
+            if next_known:
+                return
 
 
 @functools.lru_cache(maxsize=4096)
 def _letters(word: str) -> tuple[str, ...]:
     padded = f"^{word[:20]}$"
-    return tuple(padded[start : start + 4] for start in range(len(padded) - 3))
+    return tuple(f"letters {padded[start : start + 4]}" for start in range(len(padded) - 3))
 
 
 def hashed(question: str, features: Iterable[str]) -> npt.NDArray[np.int64]:
     """The distinct buckets of features, ascending; each question has its own hash."""
     seed = zlib.crc32(question.encode())
     found = {zlib.crc32(each.encode("utf-8", "replace"), seed) % BUCKETS for each in features}
-    return np.fromiter(sorted(found), dtype=np.int64, count=len(found))
+    buckets = np.fromiter(found, dtype=np.int64, count=len(found))
+    buckets.sort()
+    return buckets

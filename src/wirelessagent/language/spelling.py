@@ -50,7 +50,8 @@ def respelt(plain: str) -> str:
 def nearest(word: str, known: Iterable[str], most: int = 2) -> str:
     """The one known word with the same first letter that is at most so many edits away; "" for none or several."""
     close = [other for other in known if other[0] == word[0] and abs(len(other) - len(word)) <= most]
-    near = [other for other in close if _edits(word, other, most) <= most]
+    letters = set(word)
+    near = [other for other in close if len(letters.difference(other)) <= most and _edits(word, other, most) <= most]
     return near[0] if len(near) == 1 else ""
 
 

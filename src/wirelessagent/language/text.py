@@ -77,15 +77,18 @@ def lowered(text: str) -> str:
     return "".join(low if len(low := letter.lower()) == 1 else letter for letter in text)
 
 
+def is_chinese(word: str) -> bool:
+    """Whether a text is a Chinese character, or begins with one."""
+    return "\u3400" <= word < "\ua000" or "\uf900" <= word < "\ufb00"
+
+
 def has_chinese(text: str) -> bool:
     """Whether a Chinese character stands in a text; a pattern with so wide a range takes milliseconds to compile.
 
     >>> has_chinese("boost 速度"), has_chinese("más de 2 μW")
     (True, False)
     """
-    return not text.isascii() and any(
-        "\u3400" <= letter <= "\u9fff" or "\uf900" <= letter <= "\ufaff" for letter in text
-    )
+    return not text.isascii() and any(map(is_chinese, text))
 
 
 @functools.lru_cache(maxsize=64)

@@ -8,6 +8,7 @@ second", and bytes always do: "10 GB" is a file, "a bit faster" is no rate.
 
 from __future__ import annotations
 
+import functools
 import re
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -100,6 +101,7 @@ _OF_ANOTHER_TIME = re.compile(r"每个?(?:分钟?|小时|天|周|月)[^,\uff0c�
 _GAP = re.compile(r"\s?个\s?|-|\s{0,2}")
 
 
+@functools.lru_cache(maxsize=512)
 def unit_at(text: str, position: int) -> Unit | None:
     """The unit that begins at this place of a normalised text, after at most a space or a hyphen."""
     gap = _GAP.match(text, position)

@@ -74,7 +74,7 @@ def units_of(plain: str, masked: Sequence[tuple[int, int]] = ()) -> list[Unit]:
     units: list[Unit] = []
     clause = 0
     for match in _UNIT.finditer(plain):
-        hidden = any(start <= match.start() < end for start, end in masked)
+        hidden = bool(masked) and any(start <= match.start() < end for start, end in masked)
         if match["cut"] is not None:
             clause += 0 if hidden else 1
         elif not hidden:
