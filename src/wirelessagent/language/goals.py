@@ -265,17 +265,18 @@ def _signal(one: Found, other: Found, objective: str, weight: float) -> Signal:
 def _pair(found: Sequence[Found]) -> dict[int, Found]:
     """The direction of each object, by the object's first unit: the nearest in its clause, before rather than after."""
     candidates: list[tuple[float, Found, Found]] = []
-    for item in found:
+    for place, item in enumerate(found):
         if item.term.concept not in _OBJECTS:
             continue
-        for direction in found:
+        near = found[max(0, place - _REACH_BEFORE - 1) : place + _REACH_AFTER + 2]
+        for direction in near:
             if direction.term.concept not in _DIRECTIONS or direction.clause != item.clause:
                 continue
             before = direction.last <= item.first
             gap = item.first - direction.last if before else direction.first - item.last
             reach = 1 if item.term.concept == "stream" else _REACH_BEFORE if before else _REACH_AFTER
             means = (direction.term.concept, item.term.concept) in _PAIRS
-            if means and gap <= reach and not _blocked(found, direction, item):
+            if means and gap <= reach and not _blocked(near, direction, item):
                 cost = gap + (0.0 if before else 0.5) + _VAGUE.get((direction.term.concept, item.term.concept), 0.0)
                 candidates.append((cost, item, direction))
     chosen: dict[int, Found] = {}

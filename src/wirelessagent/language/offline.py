@@ -14,6 +14,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from wirelessagent.language.excess import MOST_FIGURES, too_many_figures
 from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, CONSTRAINTS, EVERYBODY, Constraint, Detail, Intent, IntentKind
 from wirelessagent.language.judgement import Judgement, judge
@@ -23,7 +24,7 @@ from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words
-from wirelessagent.language.text import language_of
+from wirelessagent.language.text import language_of, normalise
 from wirelessagent.language.topics import details_of
 from wirelessagent.language.vocabulary import OwnWords
 
@@ -76,6 +77,8 @@ class OfflineRecogniser(Recogniser):
         voice = Voice(language, labels_of(own, language))
         if len(text) > _MAX_CHARACTERS:
             return _Answer(voice, language).ask("too_long")
+        if too_many_figures(normalise(text)):
+            return _Answer(voice, language).ask("too_many_figures", most=str(MOST_FIGURES))
         return _Understanding(text, own, voice, context, language).intent()
 
 

@@ -87,6 +87,8 @@ _SENTENCES: dict[str, dict[str, str]] = {
             "another aim ({choices})?"
         ),
         "too_long": "That is too long for one request. In a sentence or two: what should the cell aim for, {choices}?",
+        "too_many_figures": "Those are more figures than I can use in one request. Please give at most {most}, "
+            "and say what the cell should aim for: {choices}.",
         "impossible": "{text} is not possible here. Which positive and finite figure did you mean?",
         "huge": "{text} is millions of watts, more than any cell radiates. Did you mean milliwatts (mW), and how many?",
         "power_per_user": "I can limit the total power, not {text} per user. What should the total be, in W or dBm?",
@@ -173,6 +175,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "strange": "我不能控制{text}。小区应以什么为目标：{choices}？",
         "limits_only": "在{constraints}的条件下，应以什么为目标：{choices}？",
         "rate_only": "在{constraints}的条件下，是用最低功率满足它，还是在此之上总速率最高，或其他目标（{choices}）？",
+        "too_many_figures": "数字太多，一次请求用不了。请最多给出 {most} 个，并说明目标：{choices}。",
         "too_long": "内容太长。请用一两句话说明应以什么为目标：{choices}？",
         "impossible": "{text} 在这里不可能。您指的是哪个正的有限数值？",
         "huge": "{text} 是百万瓦级，没有小区能发射这么大功率。您是指毫瓦（mW）吗，多少？",
