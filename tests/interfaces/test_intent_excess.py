@@ -6,7 +6,9 @@ import time
 
 import pytest
 
+from wirelessagent.language.conversation import unanswered
 from wirelessagent.language.offline import recognise
+from wirelessagent.language.recogniser import Context
 
 
 @pytest.mark.parametrize(
@@ -45,3 +47,11 @@ def test_a_long_line_of_words_is_read_at_once(text: str):
     start = time.thread_time()
     recognise(text)
     assert time.thread_time() - start < 0.6  # a tenth of a second on a machine that is not busy
+
+
+def test_a_question_back_to_too_many_figures_holds_nothing():
+    text = "1 " * 900
+    start = time.thread_time()
+    held = unanswered(text, recognise(text), Context())
+    assert (held.objective, held.users, dict(held.pending)) == (None, (), {})
+    assert time.thread_time() - start < 1.5

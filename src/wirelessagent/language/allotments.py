@@ -287,10 +287,15 @@ class Allotments:
             if mention.role != "named":
                 continue
             self.spans.append((mention.start, mention.end))
-            others = {user for other in self._used if other != mention for user in other.users} | set(self._weights)
-            unsure = mention in self._unsure and not others.issuperset(mention.users)
-            if unsure or not spoken_of.issuperset(mention.users):
+            if not spoken_of.issuperset(mention.users) or (
+                mention in self._unsure and not self._said_elsewhere(mention)
+            ):
                 yield mention.start, mention.end
+
+    def _said_elsewhere(self, mention: Mention) -> bool:
+        """Whether everybody of a mention is settled by another, or by a weight."""
+        others = {user for other in self._used if other != mention for user in other.users}
+        return others.union(self._weights).issuperset(mention.users)
 
     def values(self) -> dict[str, Constraint]:
         values: dict[str, Constraint] = {}

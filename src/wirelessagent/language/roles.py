@@ -111,6 +111,7 @@ _SOMETHING_OF = re.compile(  # "drop user 2's minimum", "don't serve user 1 more
     r"(?i)\s*(?:['’]s\s+\w|s['’]\s+\w|(?:with\s+|at\s+|any\s+)?(?:more|faster|above|beyond|over)\b|"
     r"的?(?:最低|最高|最小|最大)?(?:速率|速度|上限|下限|限制|限速|保底|功率|权重|要求|承诺)|(?:超过|多于|高于))"
 )
+_REACH = 120
 
 
 @functools.lru_cache(maxsize=256)
@@ -120,7 +121,7 @@ def role_of(plain: str, start: int, end: int) -> tuple[UserRole, int, int]:
     >>> role_of("leave user 3 out, max rate", 6, 12)
     ('leave_out', 0, 16)
     """
-    from_ = clause_start(plain, start)
+    from_ = clause_start(plain, start, max(0, start - _REACH))
     before = plain[from_:start]
     back = _BACK.match(plain, end) or None
     if back is not None or _BACK_BEFORE.search(before):
@@ -147,7 +148,7 @@ def is_something_of(plain: str, end: int) -> bool:
 
 
 def _only(plain: str, start: int, end: int, from_: int) -> tuple[UserRole, int, int]:
-    lead = _ONLY_BEFORE.search(plain[from_:start] if from_ else plain[:start])
+    lead = _ONLY_BEFORE.search(plain[from_:start])
     if lead is not None and not _GETS.match(plain, end):
         return "users", from_ + lead.start(), end
     after = _ONLY_AFTER.match(plain, end)

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.reports import is_report
+from wirelessagent.language.excess import too_many_figures
 from wirelessagent.language.followups import merged
 from wirelessagent.language.intent import COMMANDS, Constraint, Intent
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.sentence import Sentence, own_words
+from wirelessagent.language.text import normalise
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,6 +35,8 @@ class Unanswered:
 def unanswered(text: str, intent: Intent, context: Context) -> Unanswered:
     """What the answer to a question back may leave out, as the sentence that led to the question said it."""
     line = Line.of(text, context)
+    if too_many_figures(normalise(text)):
+        return Unanswered(pending=intent.pending, objective=None, users=(), offered=None)
     goal = Sentence(text, own_words()).goal
     settled = {user for value in intent.pending.values() for user in _users_of(value)}
     users = tuple(user for user in line.users if user not in settled)
