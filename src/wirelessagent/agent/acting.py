@@ -95,6 +95,12 @@ def same_allocation(one: Decision, other: Decision) -> bool:
     )
 
 
+def respects(allocation: Decision, wanted: Decision) -> bool:
+    """Whether an allocation of the same cell breaks no limit of what another decision was for."""
+    same = (allocation.owner.shape, allocation.rate_bps.shape) == (wanted.owner.shape, wanted.rate_bps.shape)
+    return same and _within_limits(allocation, wanted)
+
+
 def _applied(station: BaseStation, decision: Decision, language: str) -> tuple[Outcome | None, str]:
     try:
         return station.apply(decision), ""
@@ -176,15 +182,23 @@ def _keeps(run: Run, good: Run) -> bool:
     if run.outcome is None or run.outcome.achieved is None or earlier is None or not np.array_equal(truth, earlier):
         return False
     users = len(truth)
-    used = np.flatnonzero(outcome.power_w > 0)
-    owner = outcome.owner[used]
-    cap = np.inf if problem.subcarrier_max_power_w is None else problem.subcarrier_max_power_w
     least = np.where(problem.serves(users), problem.min_rates_bps(users), 0.0)
     return bool(
-        outcome.power_w.sum() <= problem.budget_w(run.decision.cell) * (1 + RATE_TOLERANCE)
-        and np.all(outcome.power_w <= np.asarray(cap) * (1 + RATE_TOLERANCE))
-        and np.all(problem.serves(users)[owner])
-        and np.all(problem.allows(truth.shape)[owner, used])
+        _within_limits(outcome, run.decision)
         and np.all(outcome.achieved.user_rate_bps >= least * (1 - RATE_TOLERANCE))
         and problem.resource_block_group_size in (1, good.decision.problem.resource_block_group_size)
+    )
+
+
+def _within_limits(allocation: Decision | Outcome, wanted: Decision) -> bool:
+    """Whether an allocation keeps the limits on power and on who is served where that another decision had to keep."""
+    problem, users = wanted.problem, wanted.rate_bps.size
+    used = np.flatnonzero(allocation.power_w > 0)
+    owner = allocation.owner[used]
+    cap = np.inf if problem.subcarrier_max_power_w is None else problem.subcarrier_max_power_w
+    return bool(
+        allocation.power_w.sum() <= problem.budget_w(wanted.cell) * (1 + RATE_TOLERANCE)
+        and np.all(allocation.power_w <= np.asarray(cap) * (1 + RATE_TOLERANCE))
+        and np.all(problem.serves(users)[owner])
+        and np.all(problem.allows((users, allocation.owner.size))[owner, used])
     )

@@ -84,9 +84,10 @@ def _on_air(run: Run | None, language: str, turns: Sequence[Turn]) -> str:
         return say(language, "status_off_air")
     number = next((turn.number for turn in reversed(turns) if turn.run is run), len(turns))
     promised = run.decision.rate_bps if run.outcome is None else run.outcome.promised_bps
+    served = int((promised > 0).sum())
     return say(
-        language, "status_on_air", power=human(run.decision.total_power_w, "W"), turn=number,
-        rate=human(float(promised.sum()), "bit/s"), served=int((promised > 0).sum()),
+        language, "status_on_air_one" if served == 1 else "status_on_air", turn=number, served=served,
+        power=human(run.decision.total_power_w, "W"), rate=human(float(promised.sum()), "bit/s"),
     )  # fmt: skip
 
 

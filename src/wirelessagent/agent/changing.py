@@ -9,7 +9,7 @@ import dataclasses
 from collections.abc import Sequence
 
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent.acting import Effect, same_allocation
+from wirelessagent.agent.acting import Effect, respects, same_allocation
 from wirelessagent.agent.events import Event
 from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.noting import notes
@@ -95,8 +95,7 @@ def reject(state: State, intent: Intent, past: Sequence[State]) -> Reply:
         return Reply(text=say(language, "nothing_to_confirm"))
     if not cancels:
         return Reply(text=say(language, "not_applied"), stage="nothing", state=state.settled)
-    puts_back = state.planned.outcome is not None  # an undo's plan: the request is an earlier one already
-    before = state.settled if puts_back or not past else past[-1]
+    before = state.settled if state.undoes or not past else past[-1]
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
     text = joined(language, [say(language, "not_applied"), _asked_for_again(held, language)])
     return Reply(text=text, stage="nothing", state=held, undone=0 if held.request == state.request else 1)
@@ -137,19 +136,36 @@ def _no_way_back(intent: Intent, turns: int) -> str:
 
 
 def _undone(site: Site, state: State, intent: Intent, before: State, text: str) -> Reply:
-    good = before.on_air
+    """Put back what was in effect for the request that holds again, or plan for it anew where it never was."""
+    good, wanted = before.on_air, before.run
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
+    if wanted is not None and _never_applied(before) and site.station(wanted) is not None:
+        if state.on_air is not None and same_allocation(wanted.decision, state.on_air.decision):
+            return _reply(site, intent, [text], "undone", held, wanted)
+        reply = _carry_or_ask(site, dataclasses.replace(held, undoes=True), intent, wanted, text)
+        return dataclasses.replace(reply, stage="undone") if reply.stage == "applied" else reply
     if good is None:
         said = [text] if state.on_air is None else [text, say(intent.language, "stays")]
         return _reply(site, intent, said, "undone", held, before.run)
     station = site.station(good)
     if station is None or (state.on_air is not None and same_allocation(good.decision, state.on_air.decision)):
         return _reply(site, intent, [text], "undone", held, before.run)
+    if wanted is not None and not respects(good.decision, wanted.decision):
+        power = human(good.decision.total_power_w, "W")
+        said = [text, told(intent.language, "breaks_what_holds", power=power)]
+        return _reply(site, intent, said, "undone", held, wanted)
     if site.asks(station):
-        return _reply(
-            site, intent, [text, _question(good, before)], "planned", dataclasses.replace(held, planned=good), good
-        )
+        waiting = dataclasses.replace(held, planned=good, undoes=True)
+        return _reply(site, intent, [text, _question(good, before)], "planned", waiting, good)
     return _put_back(site, before, intent, good, station, [text])
+
+
+def _never_applied(state: State) -> bool:
+    """Whether what was decided for the request of a state was still to be applied when another one came."""
+    run = state.run
+    if state.request is None or run is None or run.outcome is not None or not run.decision.is_usable:
+        return False
+    return state.on_air is None or state.on_air.decision is not run.decision
 
 
 def reset(site: Site, state: State, intent: Intent) -> Reply:

@@ -49,6 +49,7 @@ class State:
         request: what is asked for; None at the start.
         run: the decision for it; None where there is none yet.
         planned: what a yes would apply; None where nothing waits.
+        undoes: whether that is for a request that an undo went back to.
         on_air: what is in effect at the base station, as it was read back; None where that is nothing or not known.
         last_good: what to go back to; None where nothing was good yet.
         question: what the last turn asked back; None where it asked nothing.
@@ -60,6 +61,7 @@ class State:
     request: Request | None = None
     run: Run | None = None
     planned: Run | None = None
+    undoes: bool = False
     on_air: Run | None = None
     last_good: Run | None = None
     question: Question | None = None
@@ -77,7 +79,7 @@ class State:
     @property
     def settled(self) -> State:
         """The same with nothing open: no plan that waits, no question, no what-if."""
-        return dataclasses.replace(self, planned=None, question=None, supposed=None)
+        return dataclasses.replace(self, planned=None, undoes=False, question=None, supposed=None)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,51 @@
+"""What "undo" goes back to: the request that held, and an allocation that keeps it."""
+
+from __future__ import annotations
+
+import pytest
+from conversations import LOSS, SCENE, SEED
+
+from wirelessagent.agent.session import Session
+from wirelessagent.agent.turn import Turn
+
+TEN = "highest total rate, at most 10 W"
+
+
+def talk(*lines: str, confirm: bool = False) -> tuple[Session, list[Turn]]:
+    session = Session(SCENE, LOSS, seed=SEED, confirm=confirm)
+    return session, [session.say(line) for line in lines]
+
+
+def power_of(session: Session) -> float:
+    assert session.state.on_air is not None
+    return session.state.on_air.decision.total_power_w
+
+
+def test_undo_never_puts_back_what_breaks_the_request_that_holds_again() -> None:
+    session, turns = talk(TEN, "yes", "now with 5 W", "now with 3 W", "yes", "undo", confirm=True)
+    assert turns[-1].stage == "planned"
+    assert power_of(session) == pytest.approx(3, rel=1e-3)
+    assert turns[-1].run is not None
+    assert turns[-1].run.decision.total_power_w == pytest.approx(5, rel=1e-3)
+    assert session.say("yes").stage == "applied"
+    assert power_of(session) == pytest.approx(5, rel=1e-3)
+
+
+def test_a_no_to_what_an_undo_went_back_to_takes_no_further_request_back() -> None:
+    session, _ = talk(TEN, "yes", "now with 5 W", "now with 3 W", "yes", "undo", "cancel", confirm=True)
+    assert session.request is not None
+    assert session.request.constraints == {"max_power_w": 5.0}
+    assert power_of(session) == pytest.approx(3, rel=1e-3)
+
+
+def test_undo_to_what_could_not_be_met_keeps_what_is_in_effect_where_the_rest_breaks_it() -> None:
+    unmet = "3 Gbit/s each, at most 5 W, highest total rate"
+    session, turns = talk(TEN, unmet, "highest total rate, at most 4 W", "undo")
+    assert turns[-1].stage == "undone"
+    assert "10 W, breaks its limits" in turns[-1].reply
+    assert power_of(session) == pytest.approx(4, rel=1e-3)
+
+
+def test_one_user_is_no_users() -> None:
+    _, turns = talk("highest total rate, only serve user 1", "status")
+    assert "to 1 user (turn 1)" in turns[-1].reply
