@@ -244,3 +244,8 @@ def likely(scores: Sequence[float] | npt.NDArray[np.float64], answers: Sequence[
     parts = [math.exp(score - most) for score in scores]
     total = sum(parts)
     return {answer: part / total for answer, part in zip(answers, parts, strict=True)}
+
+
+def answers(question: str, features: set[str]) -> Mapping[str, float]:
+    """How likely each answer to a question is, by the model of this release."""
+    return likely(shipped_roles().scores(question, features), LABELS[question])

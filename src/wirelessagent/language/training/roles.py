@@ -25,7 +25,7 @@ from scipy import optimize, sparse
 from wirelessagent.language.borrowed import BORROWING, figures_of
 from wirelessagent.language.figure_roles import LABELS, ROLES_FILE, View
 from wirelessagent.language.intent import EVERYBODY
-from wirelessagent.language.judged import Look, first_look, second_look
+from wirelessagent.language.looks import Look, first_look, second_look
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity, parse_quantities
