@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 
-from wirelessagent.agent import asking, supposing
+from wirelessagent.agent import asking, needing, supposing
 from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.figures import certificate_line, side_by_side
 from wirelessagent.agent.restating import restated
@@ -20,7 +20,8 @@ from wirelessagent.language.intent import Detail, Intent
 def what_if(site: Site, state: State, intent: Intent) -> Reply:
     """A what-if, which a "do that" may turn into the request, and which plan a yes is still for."""
     language, details = intent.language, intent.details
-    reply = supposing.what_if(site, state, intent)
+    ask = needing.needed if details.get("asked") == "power" else supposing.what_if
+    reply = ask(site, state, intent)
     if reply.run is None:
         return reply
     text, request = reply.text, None if "missing_share" in details else supposing.supposed(state, intent)

@@ -118,9 +118,27 @@ def _verdict(state: State, run: Run, language: str) -> str:
     met = say(language, "what_if_met", outcome=outcome)
     if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
         met = say(language, "what_if_now", outcome=outcome, **_beside(now.decision, run.decision, language))
+    elif now is not None and now.decision.is_usable:
+        met = joined(language, [met, outcome_beside(state, run, language)])
     left_out = cannot_be_served(run.decision, language)
     warned = [say(language, "note", note=left_out)] if left_out else []
     return joined(language, [*assumed, met, *_unused(now, run, language), *warned, nothing])
+
+
+def outcome_beside(state: State, run: Run, language: str) -> str:
+    """What users get and what it takes, beside what holds now: for values that are not of one kind."""
+    then, now = _figures(run.decision, language), None if state.run is None else state.run.decision
+    if now is None or not now.is_usable or not run.decision.is_usable:
+        return ""
+    return told(language, "beside_now", then=then, now=_figures(now, language))
+
+
+def _figures(decision: Decision, language: str) -> str:
+    rate = decision.rate_bps[decision.problem.serves(decision.rate_bps.size)]
+    return told(
+        language, "beside_figures", total=human(float(decision.rate_bps.sum()), "bit/s"),
+        lowest=human(float(rate.min()), "bit/s"), power=human(decision.total_power_w, "W"),
+    )  # fmt: skip
 
 
 def _unused(now: Run | None, run: Run, language: str) -> list[str]:

@@ -15,6 +15,7 @@ from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.comparing import read_comparison
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.methods import by_method, read_method
+from wirelessagent.language.conversation.needing import read_needed
 from wirelessagent.language.conversation.promisable import read_promisable
 from wirelessagent.language.conversation.relative import read_relative
 from wirelessagent.language.conversation.reports import only_told
@@ -29,8 +30,8 @@ __all__ = ["NAME", "Unanswered", "unanswered", "understood"]
 _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""
 _READERS = (
-    read_command, read_method, read_comparison, read_relative, read_promisable, read_share, read_question,
-    read_amendment,
+    read_command, read_method, read_comparison, read_needed, read_relative, read_promisable, read_share,
+    read_question, read_amendment,
 )  # fmt: skip
 """What a line may be because of its conversation, the closest first."""
 
