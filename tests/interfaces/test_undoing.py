@@ -49,3 +49,21 @@ def test_undo_to_what_could_not_be_met_keeps_what_is_in_effect_where_the_rest_br
 def test_one_user_is_no_users() -> None:
     _, turns = talk("highest total rate, only serve user 1", "status")
     assert "to 1 user (turn 1)" in turns[-1].reply
+
+
+def exported(session: Session, standard: str = "TS 28.312") -> str:
+    return session.say(f"export as {standard}").reply
+
+
+def test_what_is_exported_after_an_undo_is_what_holds_again() -> None:
+    session, _ = talk(TEN, "now with 5 W", "now with 4 W", "undo")
+    document = exported(session)
+    assert "now with 5 W" in document
+    assert "now with 4 W" not in document
+    session.say("undo")
+    assert TEN in exported(session, "TMF921")
+
+
+def test_what_was_in_effect_before_is_what_an_undo_put_back() -> None:
+    session, _ = talk("highest total rate, at most 5 W", "now with 4 W", "undo", "least power, 500 kbit/s each")
+    assert '"targetValueRange": 0.01,' in exported(session)  # kWh in an hour: 5 W radiated, 5 W of circuits

@@ -22,6 +22,7 @@ from wirelessagent.explain.labels import called, worded
 from wirelessagent.explain.table import Table
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Constraint, Intent
+from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
 
 _SHOWN = 60
@@ -130,31 +131,42 @@ def explain(state: State, intent: Intent) -> Reply:
     return Reply(text=text, tables=tuple(decision_tables(run.report, run.estimate, intent.language)))
 
 
-def export(intent: Intent, turns: Sequence[Turn]) -> Reply:
-    """The last request and what came of it as a document of a standard; the standards are loaded only here."""
+def export(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
+    """The request that holds and what came of it as a document of a standard; the standards are loaded only here."""
     from wirelessagent.standards import tmf921, ts28312
     from wirelessagent.standards.subject import Subject
 
-    language, name = intent.language, str(intent.details.get("format", "ts28312"))
+    language, name, run = intent.language, str(intent.details.get("format", "ts28312")), state.run
     if name not in ("ts28312", "tmf921"):
         return Reply(text=say(language, "export_unknown", format=name), stage="asked")
-    made = [turn for turn in turns if turn.run is not None and turn.intent.kind == "allocate"]
-    if not made or made[-1].run is None:
+    done = [turn for turn in turns if turn.stage not in ("answered", "asked")]
+    made = [turn for turn in done if run is not None and _same(turn.run, run)]
+    if run is None or not made:
         return Reply(text=say(language, "nothing_yet"))
-    last, run = made[-1], made[-1].run
-    before = [turn.run.outcome for turn in made[:-1] if turn.run is not None and turn.stage == "applied"]
+    last, on_air = made[-1], state.on_air
     subject = Subject(
         name=f"{last.session}-{last.number}",
-        text=last.text,
+        text=made[0].text,
         decision=run.decision,
         at=datetime.fromisoformat(last.at_utc),
-        outcome=run.outcome if last.stage == "applied" else None,
-        language=last.intent.language,
-        current=before[-1] if before else None,
+        outcome=on_air.outcome if on_air is not None and _same(on_air, run) else None,
+        language=run.intent.language,
+        current=_in_effect_before(last, turns),
     )
     if name == "ts28312":
         return Reply(text=ts28312.to_json(ts28312.document(subject)))
     return Reply(text=tmf921.to_json(tmf921.document(subject)))
+
+
+def _in_effect_before(turn: Turn, turns: Sequence[Turn]) -> Outcome | None:
+    """What was last read back before a turn; None where there was nothing."""
+    found: Outcome | None = None
+    for earlier in turns[: turn.number - 1]:
+        if earlier.restored is not None:
+            found = earlier.restored
+        elif earlier.stage == "applied" and earlier.run is not None:
+            found = earlier.run.outcome
+    return found
 
 
 def question(site: Site, state: State, intent: Intent, text: str) -> Reply:

@@ -142,8 +142,7 @@ def _undone(site: Site, state: State, intent: Intent, before: State, text: str) 
     if wanted is not None and _never_applied(before) and site.station(wanted) is not None:
         if state.on_air is not None and same_allocation(wanted.decision, state.on_air.decision):
             return _reply(site, intent, [text], "undone", held, wanted)
-        reply = _carry_or_ask(site, dataclasses.replace(held, undoes=True), intent, wanted, text)
-        return dataclasses.replace(reply, stage="undone") if reply.stage == "applied" else reply
+        return _carry_or_ask(site, dataclasses.replace(held, undoes=True), intent, wanted, text)
     if good is None:
         said = [text] if state.on_air is None else [text, say(intent.language, "stays")]
         return _reply(site, intent, said, "undone", held, before.run)

@@ -212,7 +212,7 @@ class Session:
             "history": lambda: asking.history(intent, self._turns),
             "status": lambda: asking.status(state, intent, self._turns),
             "what_if": lambda: referring.what_if(site, state, intent),
-            "export": lambda: asking.export(intent, self._turns),
+            "export": lambda: asking.export(state, intent, self._turns),
             "help": lambda: Reply(text=say(intent.language, "help")),
             "capabilities": lambda: Reply(text=say(intent.language, "help")),
         }
