@@ -11,7 +11,7 @@ from typing import Any, cast
 import numpy as np
 
 from wirelessagent import plugins
-from wirelessagent.agent.request import Request
+from wirelessagent.agent.request import ASSUMED_MIN_RATE_BPS, Request
 from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import say
 from wirelessagent.explain.labels import called
@@ -21,9 +21,6 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError, UnclearRequestError
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.units import human, reliability
-
-ASSUMED_MIN_RATE_BPS = 200e3
-"""Rate promised to each user where the least power is asked for and no rate was named."""
 
 ASSUMED_OUTAGE_PROBABILITY = 0.05
 """Accepted where rates are promised and nobody named a probability: promised as estimated, half of them would fail."""

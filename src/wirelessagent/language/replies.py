@@ -110,6 +110,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "welcome": "You're welcome.",
         "nothing_left_of_it": "That would leave nothing of it. What should the limit be?",
         "no_limit_of_its_own": "Nothing of that kind is promised to {users} or asked of them. What should change?",
+        "not_promised": "{text} is not what holds for {users}. It stays: {constraints}. What should change?",
         "served_already": "All that is asked for serves {users} already. What should change?",
         "all_served": "Everyone is served already. What should change?",
         "what_changes": "I am not sure what should change. Say for example 'now with 5 W', 'leave user 3 out' or "
@@ -197,6 +198,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "welcome": "不客气。",
         "nothing_left_of_it": "这样就什么都不剩了。限制应是多少？",
         "no_limit_of_its_own": "{users}没有这样的要求。应更改什么？",
+        "not_promised": "{users}的要求不是 {text}。保持不变：{constraints}。应更改什么？",
         "served_already": "{users}已在服务之中。应更改什么？",
         "all_served": "所有用户都已在服务之中。应更改什么？",
         "what_changes": "我不确定要更改什么。例如说“改为 5 W”“不要用户3”，或另一个目标。",

@@ -296,13 +296,29 @@ def _freed(line: Line) -> Intent | None:
     for name in names:
         held = context.constraints.get(name)
         own = None if held is None or isinstance(held, tuple) else _by_user(held, context.user_names)
-        if own is None or not freed & numbers_of(tuple(own), context.user_names):
+        if own is None or held is None or not freed & numbers_of(tuple(own), context.user_names):
             continue
-        rest = {user: figure for user, figure in own.items() if not freed & numbers_of((user,), context.user_names)}
+        theirs = {user: figure for user, figure in own.items() if freed & numbers_of((user,), context.user_names)}
+        if line.figures and {figure.value for figure in line.figures} != set(theirs.values()):
+            asked, stays = line.figures[0].text, line.voice.constraints({name: theirs})
+            return line.ask("not_promised", text=asked, users=line.voice.users(line.users), constraints=stays)
+        rest = {user: figure for user, figure in own.items() if user not in theirs}
+        if line.figures and isinstance(held, Mapping) and EVERYBODY in held:
+            common = _of_everybody(held, theirs, freed, context.user_names)
+            if common is not None:
+                return line.allocate(str(context.objective), {name: common}, amends=True, dropped=(name,))
         values: dict[str, Constraint] = {name: rest} if rest else {}
         gone: dict[str, Constraint] = {name: {user: figure for user, figure in own.items() if user not in rest}}
         return line.allocate(str(context.objective), values, amends=True, dropped=(name,), taken_off=gone)
     return line.ask("no_limit_of_its_own", users=line.voice.users(line.users))
+
+
+def _of_everybody(
+    held: Mapping[str, float], theirs: Mapping[str, float], freed: set[int | str], user_names: Sequence[str]
+) -> Mapping[str, float] | None:
+    """What is left where the own figures of some go and everybody's holds for them too; None where they have none."""
+    left = {user: figure for user, figure in held.items() if not freed & numbers_of((user,), user_names)}
+    return left if len(left) < len(held) and held[EVERYBODY] not in theirs.values() else None
 
 
 def _by_user(held: float | Mapping[str, float], user_names: Sequence[str]) -> dict[str, float]:
