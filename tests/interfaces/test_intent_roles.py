@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from wirelessagent.experiments.evaluate_intents import same_constraints
-from wirelessagent.language.constraints import Reading, read_constraints
+from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.figure_roles import LABELS, likely, shipped_roles
 from wirelessagent.language.leftovers import loose_numbers, unread
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.role_features import BUCKETS, Span, around, hashed, tokens_of
+from wirelessagent.language.stated import Reading
 from wirelessagent.language.text import normalise
 from wirelessagent.language.training import roles as training
 

@@ -7,9 +7,10 @@ from typing import Any
 import pytest
 
 from wirelessagent.experiments.evaluate_intents import same_constraints
-from wirelessagent.language.constraints import Reading, read_constraints
+from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.offline import recognise
 from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.stated import Reading
 from wirelessagent.language.text import normalise
 
 STATED: list[tuple[str, dict[str, Any]]] = [

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
-from wirelessagent.language.constraints import Reading
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS, Constraint
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.stated import Reading
 
 _GO = (
     r"(?:without|drop|remove|lift|forget(?:\s+about)?|no\s+more|no|cancel|get\s+rid\s+of|take\s+away|delete|ignore|"

@@ -9,11 +9,12 @@ from typing import cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
-from wirelessagent.language.constraints import Reading, read_constraints
+from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.spelling import respelt
+from wirelessagent.language.stated import Reading
 from wirelessagent.language.text import language_of, normalise
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
