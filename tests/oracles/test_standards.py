@@ -122,7 +122,7 @@ def test_achieved_figures_are_the_runs_in_the_standards_units(name: str):
 @pytest.mark.parametrize("name", OBJECTIVES)
 def test_the_objective_is_to_be_better_than_the_current_value(name: str):
     run = run_of(name)
-    again = Subject(**{**vars(run), "current": run.outcome})
+    again = replace(run, current=run.outcome)
     wanted = target(again, "objective")
     assert wanted["targetValueRange"] == pytest.approx(worth(run, name)[1], rel=1e-12)
     assert wanted["targetCondition"] == ("IS_LESS_THAN" if name == "min_power" else "IS_GREATER_THAN")
@@ -162,7 +162,7 @@ def test_the_budget_is_kept_by_who_uses_it_in_full():
 
 def test_the_observation_period_scales_the_energy():
     run = subject(max_power_w=10.0)
-    day = Subject(**{**vars(run), "observation_period_s": 86400})
+    day = replace(run, observation_period_s=86400)
     assert target(day, "energy-ceiling")["targetValueRange"] == pytest.approx(drawn_kwh(10.0, 86400), rel=1e-12)
     assert intent_of(day)["intentReportControl"][0]["observationPeriod"] == 86400
 
@@ -172,7 +172,7 @@ def test_who_falls_short_on_the_true_channel_is_named():
     decision = wa.decide(wa.repair(made.observe()), wa.Problem("min_power", min_rate_bps=4e5), CELL)
     faded = made.sensed.gain * np.array([[1.0], [0.5], [1.0], [0.9]])
     outcome = wa.SimulatedBaseStation(wa.Scene(cell=CELL, sensed=made.sensed, truth=faded)).apply(decision)
-    run = Subject(**{**vars(subject(apply=False)), "decision": decision, "outcome": outcome})
+    run = replace(subject(apply=False), decision=decision, outcome=outcome)
     info = result(run, "throughput-floor-1")["targetFulfilmentInfo"]
     assert info["fulfilmentStatus"] == "NOT_FULFILLED"
     assert info["notFullfilledState"] == "DEGRADED"
@@ -216,6 +216,31 @@ def test_recommended_floors_can_be_kept():
     (floor,) = [one for one in made if one["expectationId"] == "throughput-floor-1"]
     rate = floor["inFeasibleTargets"][0]["recommendedValue"] * 1e3 * (1 - 1e-6)
     assert subject("max_rate", min_rate_bps=rate, max_power_w=0.5).decision.is_usable
+
+
+def test_what_could_be_done_instead_is_solved_for_where_the_decision_does_not_know_it():
+    made, cell = wa.simulate("rayleigh", num_users=4, num_subcarriers=12, seed=1), CELL
+    problem = wa.Problem("max_rate", min_rate_bps=5e6, max_power_w=2.0, outage_probability=0.05)
+    decision = wa.decide(wa.repair(made.observe(wa.loss.random(0.2), seed=1)), problem, cell)
+    need, scaling = decision.needed_power_w, decision.rate_scaling
+    assert decision.status == "infeasible"
+    assert need is not None
+    assert scaling is not None
+    assert math.isnan(need.at_most)
+    assert scaling.at_least == 0
+    run = replace(subject(apply=False), decision=decision)
+    check = report_of(run)["intentFeasibilityCheckReport"]
+    ceiling, floor = (one["inFeasibleTargets"][0]["recommendedValue"] for one in check["inFeasibleExpectationInfos"])
+    assert drawn_kwh(need.at_least) <= ceiling < drawn_kwh(2 * need.at_least)
+    lower = wa.Problem("max_rate", min_rate_bps=floor * 1e3, max_power_w=2.0, outage_probability=0.05)
+    assert floor > 0
+    assert wa.decide(decision.estimate, lower, cell).is_usable
+    assert "?" not in check["additionalPreEvaluationInfo"]
+    assert "no bound" not in json.dumps(report_of(run))
+    unknown = replace(run, decision=replace(decision, estimate=None))
+    told = report_of(unknown)["intentFeasibilityCheckReport"]
+    assert all("recommendedValue" not in one["inFeasibleTargets"][0] for one in told["inFeasibleExpectationInfos"])
+    assert "at least" in told["additionalPreEvaluationInfo"]
 
 
 def test_nothing_is_fulfilled_before_it_is_applied():
@@ -354,13 +379,13 @@ def test_a_figure_that_no_document_can_hold_is_left_out():
     decision = replace(decision, problem=decision.problem.resolved(Logarithms()))
     dark = wa.Scene(cell=CELL, sensed=made.sensed, truth=np.zeros_like(made.sensed.gain))
     outcome = wa.SimulatedBaseStation(dark).apply(decision)
-    run = Subject(**{**vars(subject()), "decision": decision, "outcome": outcome})
+    run = replace(subject(), decision=decision, outcome=outcome)
     for standard in (ts28312, tmf921):
         json.loads(standard.to_json(standard.document(run)), parse_constant=lambda constant: pytest.fail(constant))
     found = result(run, "objective")
     assert found["targetFulfilmentInfo"]["fulfilmentStatus"] == "NOT_FULFILLED"
     assert "targetAchievedValue" not in found
-    again = Subject(**{**vars(run), "current": outcome})
+    again = replace(run, current=outcome)
     assert target(again, "objective")["targetValueRange"] == 0
 
 

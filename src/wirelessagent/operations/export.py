@@ -119,12 +119,13 @@ def _decided(store: Store, number: int | None) -> StoredTurn:
 
 def _subject(store: Store, turn: StoredTurn, observation_period_s: int) -> Subject:
     assert turn.estimate is not None
-    names = estimate_of(store.content(turn.estimate)).user_names
+    estimate = estimate_of(store.content(turn.estimate))
+    names = estimate.user_names
     return Subject(
         name=re.sub(r"[^A-Za-z0-9_.-]", "-", f"{turn.session}-{turn.turn}"),
         text=turn.text,
         language=turn.intent["language"],
-        decision=decision_of(turn, names),
+        decision=decision_of(turn, names).knowing(estimate),
         outcome=outcome_of(turn),
         at=datetime.fromisoformat(turn.at_utc),
         current=_in_effect(store.turns(turn.session), turn, len(names)),

@@ -95,7 +95,7 @@ def _objective(subject: Subject) -> Expectation:
 
 def _ceiling(subject: Subject) -> list[Expectation]:
     """The power budget, where the request has one, as the energy that it allows to draw."""
-    budget_w, needed = subject.decision.problem.max_power_w, subject.decision.needed_power_w
+    budget_w, needed = subject.decision.problem.max_power_w, subject.needed_power_w
     if budget_w is None:
         return []
     enough = None if needed is None or not np.isfinite(needed.at_most) else subject.energy_kwh(needed.at_most)
@@ -109,9 +109,9 @@ def _ceiling(subject: Subject) -> list[Expectation]:
 
 def _floors(subject: Subject) -> list[Expectation]:
     """The rates that users were promised, one expectation for all who are promised the same."""
-    problem, scaling = subject.decision.problem, subject.decision.rate_scaling
+    problem, scaling = subject.decision.problem, subject.rate_scaling
     least = np.where(subject.served, problem.min_rates_bps(subject.served.size), 0.0)
-    factor = None if scaling is None or not np.isfinite(scaling.at_least) else scaling.at_least
+    factor = scaling.at_least if scaling is not None and scaling.at_least > 0 else None  # no rate at all helps nobody
     found: list[Expectation] = []
     for number, rate in enumerate(np.unique(least[least > 0]), start=1):
         users, wanted = least == rate, float(rate) / 1e3

@@ -64,14 +64,13 @@ def remarks(subject: Subject) -> list[Remark]:
 
 def needs(subject: Subject) -> list[tuple[Remark, str]]:
     """What a request that cannot be kept would take, each from both sides, with a sentence on it."""
-    decision = subject.decision
     found: list[tuple[Remark, str]] = []
-    if decision.needed_power_w is not None:
-        need = decision.needed_power_w
+    if subject.needed_power_w is not None:
+        need = subject.needed_power_w
         told = f"the promised rates need {_between(need, 'W')} of radiated power"
         found += [(remark, told) for remark in _bracket("NeededRadiatedPowerInW", need)]
-    if decision.rate_scaling is not None:
-        scaling = decision.rate_scaling
+    if subject.rate_scaling is not None:
+        scaling = subject.rate_scaling
         told = f"the budget carries {_between(scaling, '')} times the promised rates"
         found += [(remark, told) for remark in _bracket("PromisedRateScaling", scaling)]
     return found
@@ -86,5 +85,9 @@ def _bracket(name: str, bracket: Bracket) -> list[Remark]:
 
 
 def _between(bracket: Bracket, unit: str) -> str:
-    least, most = (human(side, unit) if np.isfinite(side) else "?" for side in (bracket.at_least, bracket.at_most))
+    least, most = human(bracket.at_least, unit), human(bracket.at_most, unit)
+    if not np.isfinite(bracket.at_most):
+        return f"at least {least}"
+    if not bracket.at_least > 0:
+        return f"at most {most}"
     return f"{least} to {most}" if least != most else least

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 
 import numpy as np
 
+from wirelessagent.explain.case import Case
+from wirelessagent.explain.nearest import lower_rates, more_power
 from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.model.cell import Cell
-from wirelessagent.model.decision import Decision
+from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.metrics import energy_efficiency_bit_per_j
 from wirelessagent.model.objective import Objective
@@ -73,6 +76,35 @@ class Subject:
         """What the cell draws while it radiates ``power_w`` for the observation period: (P/ξ + P_c)·T."""
         drawn_w = power_w / self.cell.amplifier_efficiency + self.cell.circuit_power_w
         return drawn_w * self.observation_period_s / JOULES_PER_KWH
+
+    @functools.cached_property
+    def needed_power_w(self) -> Bracket | None:
+        """The power that the promised rates need; solved for where the decision found none that does.
+
+        What is not known of it is NaN: without the estimate that it was made on nothing can be solved for.
+        """
+        need, case = self.decision.needed_power_w, self._case
+        if need is None or case is None or np.isfinite(need.at_most):
+            return need
+        more = more_power(case)
+        return need if more is None else Bracket(at_least=need.at_least, at_most=more.power_w)
+
+    @functools.cached_property
+    def rate_scaling(self) -> Bracket | None:
+        """The largest common factor on the promised rates that the budget carries, likewise."""
+        scaling, case = self.decision.rate_scaling, self._case
+        if scaling is None or case is None or scaling.at_least > 0:
+            return scaling
+        lower = lower_rates(case)
+        return scaling if lower is None else Bracket(at_least=lower.factor, at_most=lower.at_most)
+
+    @property
+    def _case(self) -> Case | None:
+        """What an infeasible request was decided from, to solve for what can be met instead."""
+        decision = self.decision
+        if decision.estimate is None or decision.status != "infeasible":
+            return None
+        return Case(decision=decision, estimate=decision.estimate)
 
     def promised(self) -> State | None:
         """What the decision promises; None where it decides nothing."""

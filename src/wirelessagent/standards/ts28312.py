@@ -175,6 +175,8 @@ def _confidence(subject: Subject) -> int | None:
 def _certificate(subject: Subject) -> str:
     """What is known of how good the decision is, which the standard has no attribute for."""
     decision = subject.decision
+    if decision.status == "infeasible":
+        return f"infeasible by method {decision.method}, which is proven"
     proof = "no bound is known" if math.isnan(decision.bound) else f"bound {decision.bound:.9g} {decision.unit}"
     worth = "" if math.isnan(decision.value) else f"value {decision.value:.9g} {decision.unit}, "
     return f"{decision.status} by method {decision.method}: {worth}{proof}"
@@ -238,7 +240,7 @@ def _feasibility(subject: Subject, found: list[Expectation]) -> IntentFeasibilit
 
 def _conflicts(subject: Subject, found: list[Expectation]) -> list[IntentConflictReport]:
     """The ceiling that promised rates do not fit under, where more power would do."""
-    needed = subject.decision.needed_power_w
+    needed = subject.needed_power_w
     if subject.decision.status != "infeasible" or needed is None or not math.isfinite(needed.at_most):
         return []
     return [
