@@ -118,7 +118,7 @@ def test_one_more_user_is_the_best_of_those_left_out_or_not_known() -> None:
     asked, more, _, nobody, _, unmet = talk(
         asks("max_rate", leave_out=("1", "2"), max_power_w=10.0),
         question("step", users=1.0),
-        asks("max_rate", max_power_w=10.0),
+        means("allocate", "max_rate", amends=True, dropped=("leave_out",)),
         question("step", users=1.0),
         asks("max_rate", min_rate_bps=1e8),
         question("step", users=1.0),
@@ -165,7 +165,7 @@ def test_the_same_figures_of_several_users_are_told_together() -> None:
 def test_a_value_that_is_not_what_its_unit_says_is_named(language: str, figure: str) -> None:
     weighted, plain, lowest = talk(
         asks("max_rate", language=language, weights={"2": 3.0}),
-        asks("max_rate", language=language),
+        means("allocate", "max_rate", language=language, amends=True, dropped=("weights",)),
         asks("max_min_rate", language=language),
     )
     assert weighted.run is not None

@@ -10,6 +10,7 @@ from conversations import LOSS, SCENE, SEED
 
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
+from wirelessagent.language.conversation.wondering import supposes
 
 HELD = "highest total rate, 300 kbit/s each, at most 10 W"
 
@@ -39,3 +40,59 @@ def test_a_rate_that_nobody_promised_takes_no_other_one_away(said: str) -> None:
     assert "300 kbit/s" in turns[-1].reply
     held, _ = talk("least power, 300 kbit/s each", "user 2 at least 1 Mbit/s", said)
     assert held == {"min_rate_bps": {"all": 3e5}}
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["what if instead we maximise energy efficiency", "what if we used the least power instead, 200 kbit/s each",
+     "suppose we went for least power", "imagine 2 Mbit/s for user 3", "let's say 5 W", "should we save power?",
+     "would it be better to save power?", "how about 5 W", "if we used 5 W instead", "要不要省点电？",
+     "每人1兆最少要多少瓦", "假如改成最低功率", "如果只用5瓦会怎样", "换成最低功率呢"],
+)  # fmt: skip
+def test_what_is_supposed_is_never_applied(said: str) -> None:
+    held, turns = talk(HELD, said)
+    assert held == {"max_power_w": 10.0, "min_rate_bps": 3e5}
+    assert (turns[-1].intent.kind, turns[-1].stage) == ("question", "answered")
+
+
+@pytest.mark.parametrize("said", ["要不要省点电？", "should we save power?", "should we use the least power?"])
+def test_what_is_weighed_is_compared_and_can_be_taken(said: str) -> None:
+    _, turns = talk(HELD, said, "do that")
+    assert "10 W" in turns[1].reply
+    assert "mW" in turns[1].reply
+    assert (turns[2].stage, turns[2].intent.objective) == ("applied", "min_power")
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["if possible, 1 Mbit/s each", "现在5瓦，如果可以的话", "no matter how much power it takes, at least 1 Mbit/s each",
+     "如果可能，改成5瓦", "能给多少给多少，功率不超过5瓦", "use whatever it takes", "could you use 5 W?",
+     "每人给多少都行，省电为主",
+     "I would like the highest total rate", "it would be great if everyone got 1 Mbit/s", "share it evenly"],
+)  # fmt: skip
+def test_a_polite_or_careless_request_is_no_what_if(said: str) -> None:
+    assert not supposes(said)
+
+
+@pytest.mark.parametrize(
+    ("said", "held"),
+    [
+        ("fair share with weight 2 for user 1", {"max_power_w": 10.0, "min_rate_bps": 3e5, "weights": {"1": 2.0}}),
+        ("faster 5 W", {"max_power_w": 5.0, "min_rate_bps": 3e5}),
+        ("proportional fairness, 5 W", {"max_power_w": 5.0, "min_rate_bps": 3e5}),
+        ("least power with 200 kbit/s each", {"max_power_w": 10.0, "min_rate_bps": 2e5}),
+        ("highest total rate, user 2 at least 1 Mbit/s", {"max_power_w": 10.0, "min_rate_bps": {"all": 3e5, "2": 1e6}}),
+        ("最大化能效，每人200k", {"max_power_w": 10.0, "min_rate_bps": 2e5}),
+        ("new request: least power with 200 kbit/s each", {"min_rate_bps": 2e5}),
+        ("instead of all that, highest total rate with 5 W", {"max_power_w": 5.0}),
+        ("新的要求：功率最低，每人200k", {"min_rate_bps": 2e5}),
+    ],
+)
+def test_another_aim_with_a_figure_keeps_the_limits_that_it_does_not_name(said: str, held: dict[str, Any]) -> None:
+    assert talk(HELD, said)[0] == held
+
+
+def test_what_stays_is_told() -> None:
+    turn = talk(HELD, "proportional fairness, 5 W")[1][-1]
+    assert "As before: at least 300 kbit/s for each user." in turn.reply
+    assert "仍然有效：发射功率不超过 10 W" in talk(HELD, "最大化能效，每人200k")[1][-1].reply

@@ -105,7 +105,7 @@ def test_the_same_allocation_is_not_applied_again() -> None:
     assert session.state.on_air is session.state.run
 
 
-def test_a_new_request_replaces_and_an_amendment_joins() -> None:
+def test_an_amendment_joins_and_so_does_a_request_that_does_not_start_over() -> None:
     session, _ = talk(
         asks("max_rate", max_power_w=10.0, min_rate_bps=1e5),
         asks("max_rate", amends=True, min_rate_bps={"2": 2e5}),
@@ -115,7 +115,7 @@ def test_a_new_request_replaces_and_an_amendment_joins() -> None:
     assert session.request is not None
     assert plain(session.request.constraints) == {"min_rate_bps": {"all": 1e5, "2": 2e5}, "leave_out": ("1", "3")}
     session, _ = talk(asks("max_rate", max_power_w=10.0), asks("max_rate", min_rate_bps=1e5))
-    assert session.request == Request(objective="max_rate", constraints={"min_rate_bps": 1e5})
+    assert session.request == Request(objective="max_rate", constraints={"max_power_w": 10.0, "min_rate_bps": 1e5})
 
 
 def test_figures_of_an_amendment_win_as_they_are_meant() -> None:

@@ -42,7 +42,7 @@ def test_a_no_to_what_an_undo_went_back_to_takes_no_further_request_back() -> No
 
 def test_undo_to_what_could_not_be_met_keeps_what_is_in_effect_where_the_rest_breaks_it() -> None:
     unmet = "3 Gbit/s each, at most 5 W, highest total rate"
-    session, turns = talk(TEN, unmet, "highest total rate, at most 4 W", "undo")
+    session, turns = talk(TEN, unmet, "new request: highest total rate, at most 4 W", "undo")
     assert turns[-1].stage == "undone"
     assert "10 W, breaks its limits" in turns[-1].reply
     assert power_of(session) == pytest.approx(4, rel=1e-3)

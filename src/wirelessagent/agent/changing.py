@@ -48,14 +48,19 @@ def allocate(site: Site, state: State, intent: Intent) -> Reply:
 
 
 def _changed(before: Request | None, request: Request, intent: Intent) -> list[str]:
-    """What another aim keeps of the limits that held, or what a new request drops of them."""
+    """What a line that names an aim keeps of the limits that held, or what a new request drops of them."""
     if before is None or not before.constraints:
         return []
-    gone = {name: value for name, value in before.constraints.items() if name not in request.constraints}
+    held, language = before.constraints, intent.language
+    gone = {name: value for name, value in held.items() if name not in request.constraints}
     if gone and not intent.amends:
-        return [told(intent.language, "no_longer", limits=limits_in_words(gone, intent.language))]
-    kept = request.objective != before.objective and dict(request.constraints) == dict(before.constraints)
-    return [told(intent.language, "limits_stay")] if kept else []
+        return [told(language, "no_longer", limits=limits_in_words(gone, language))]
+    if request.objective == before.objective and not intent.evidence.get("objective"):
+        return []
+    kept = {name: value for name, value in held.items() if request.constraints.get(name) == value}
+    if dict(request.constraints) == dict(held):
+        return [told(language, "limits_stay")]
+    return [told(language, "as_before", limits=limits_in_words(kept, language))] if kept else []
 
 
 def apply(site: Site, state: State, intent: Intent) -> Reply:

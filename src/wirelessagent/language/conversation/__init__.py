@@ -13,6 +13,7 @@ from wirelessagent.language.conversation.about import asked_instead, read_questi
 from wirelessagent.language.conversation.amendments import read_amendment
 from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.comparing import read_comparison
+from wirelessagent.language.conversation.holding import keeping_what_holds
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.methods import by_method, read_method
 from wirelessagent.language.conversation.needing import read_needed
@@ -21,7 +22,7 @@ from wirelessagent.language.conversation.relative import read_relative
 from wirelessagent.language.conversation.reports import only_told
 from wirelessagent.language.conversation.shares import read_share
 from wirelessagent.language.conversation.unanswered import Unanswered, leaves_the_question, unanswered
-from wirelessagent.language.conversation.wondering import is_worked_out, supposed, wondered
+from wirelessagent.language.conversation.wondering import is_worked_out, only_supposed, supposed, wondered
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
 
@@ -37,10 +38,18 @@ _READERS = (
 
 
 def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
-    """What a line means in its conversation; never raises, whatever the text."""
+    """What a line means in its conversation; never raises, whatever the text.
+
+    Nothing that is only supposed is asked for, and what holds stays where another aim is named.
+    """
+    line = Line.of(text[:_LONGEST], context)
+    return keeping_what_holds(line, only_supposed(line, _read(text, line, context, recogniser)))
+
+
+def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> Intent:
     if len(text) > _LONGEST:
         return recogniser.recognise(text, context)
-    line, asked = Line.of(text, context), wondered(text) if context.objective is not None else None
+    asked = wondered(text) if context.objective is not None else None
     for read in _READERS:
         intent = read(line)
         if intent is not None:

@@ -121,8 +121,7 @@ def _agreed(line: Line) -> Intent | None:
         return None
     if context.offered in COMMANDS:
         return line.command(context.offered)
-    amends = context.objective is not None and bool(context.pending)
-    return line.allocate(context.offered, context.pending, amends=amends)
+    return line.allocate(context.offered, context.pending, amends=context.objective is not None)
 
 
 def _answered(line: Line) -> Intent | None:
@@ -146,8 +145,7 @@ def _answered(line: Line) -> Intent | None:
     if objective is None:
         key = "rate_only" if "min_rate_bps" in values else "limits_only"
         return line.ask(key, values, constraints=line.voice.constraints(values))
-    amends = context.objective is not None and context.pending_objective in (None, context.objective)
-    return line.allocate(objective, values, amends=amends)
+    return line.allocate(objective, values, amends=context.objective is not None)
 
 
 def _users_with_rates(pending: Mapping[str, Constraint]) -> tuple[str, ...]:

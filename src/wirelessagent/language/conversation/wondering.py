@@ -1,6 +1,7 @@
 """Questions whether something can be done, which are what-ifs: "能不能只用一半功率?", "can we leave user 8 out?"
 
-"Could you …?" is politeness, and left as it is.
+So is all that is only supposed or weighed: "what if …", "should we …?", "要不要…". "Could you …?" is politeness, and
+left as it is.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import re
 
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import Detail, Intent
+from wirelessagent.language.text import normalise
 
 _POLITE = re.compile(r"(?i)\bplease\b|\byou\b|请|麻烦|帮")
 _BEGINS = re.compile(
@@ -24,6 +26,24 @@ _ENDS = re.compile(
     r"(?i)\s*(?:(?:is|are|would)\s+(?P<rest>.+?)\s+(?:be\s+)?(?:possible|feasible|doable|achievable|realistic)\s*\?*|"
     r"(?:可以|能)(?P<polar>.+?)吗[?？]*|"
     r"(?P<said>.+?)[,，]?(?:可行吗|可以吗|行吗|行不行|可能吗|能行吗|做得到吗|可不可以|能不能做到|好不好)[?？]*)\s*"
+)
+_LEAD = r"(?:(?:and|but|so|ok(?:ay)?|well|hm+|now|then|just|hey)[,\s]+)*"
+_SUPPOSES = re.compile(
+    rf"{_LEAD}(?:what\s+(?:if|happens|would|could|might)\b|(?:what|how)\s+about\b|(?:let's\s+|let\s+us\s+)?(?:suppose|supposing|imagine|assume|"
+    r"assuming|pretend)\b|(?:let's\s+|let\s+us\s+)say\b|say\s+(?:we|i|they)\b|hypothetically|(?:i\s+|i'm\s+|just\s+)+wonder|"
+    r"(?:should|shall|ought|must|do|are|would|could|might|may)\s+(?:we|i|it|they)\b(?=.*\?\s*$)|"
+    r"(?:is|would|will|wouldn't|isn't|might)\s+(?!you\b).*\b(?:better|wiser|smarter|worth\w*|sensible|make\s+sense|help|good\s+idea)\b|"
+    r"how\s+(?:much|many|few|little|fast|high|low)\b|how\s+would\b|"
+    r"(?:if|when)\s+(?:we|i|they|it|the\s+cell|every\w+|all|@)\s+(?:\w+\s+)?(?:had|used|were|went|gave|got|did|let|took|ran|chose|"
+    r"could|\w+ed)\b|if\s+(?:we|i|they|it|the\s+cell|every\w+|all|@)\b.*\b(?:instead|what|how)\b)|"
+    r".*(?<!matter )(?<!of )(?<!care )\bhow\s+(?:much|many)\b.*\?\s*$|.*[,;:\s](?:what\s+if|what\s+would)\b"
+)
+_ZH_SUPPOSES = re.compile(
+    "[那么但是可嗯，, ]*(?:(?:如果|要是|若是?|倘若)(?!可以|可能|行|能|方便|没问题|允许|有)|"
+    "假如|假设|假若|假定|万一|设想|试想|想象)|"
+    ".*(?:要不要|该不该|应不应该|应该不应该|需不需要|有没有必要|有必要.*吗|是不是(?:应该|该|要|最好)|是否(?:应该?|该|需要|要|值得)|值不值得|"
+    "划不划算|(?:应该|该)[^，,]*吗|会怎么?样|会如何|会发生什么|会不会|的话(?:呢|会|[?？])|(?:呢|又?怎么样)[?？]?$)|"
+    "(?!.*多少.*多少).*(?:需要|要|得|用|花|耗|费|够|有|是|能|给|省|到)多少(?!都|也|就|算)"
 )
 _FIGURES = ("constraints", "rate_bps", "missing_share")
 
@@ -60,3 +80,22 @@ def supposed(line: Line, intent: Intent) -> Intent:
 def is_worked_out(intent: Intent) -> bool:
     """Whether a question names the figures that it is about, so that it is solved for them."""
     return intent.kind == "question" and any(intent.details.get(name) for name in _FIGURES)
+
+
+def only_supposed(line: Line, intent: Intent) -> Intent:
+    """A what-if of what a line supposes, weighs or asks about, where it was read as a request; else the intent."""
+    if intent.kind != "allocate" or not supposes(line.text):
+        return intent
+    said = supposed(line, intent)
+    weighed = said.details or {"objective": str(intent.objective)}
+    return dataclasses.replace(said, details=weighed)
+
+
+def supposes(text: str) -> bool:
+    """Whether a line only supposes or weighs something, and asks for nothing.
+
+    >>> supposes("what if we used 5 W"), supposes("if possible, 1 Mbit/s each"), supposes("要不要省点电？")
+    (True, False, True)
+    """
+    plain = normalise(text).strip().lower()
+    return _SUPPOSES.match(plain) is not None or _ZH_SUPPOSES.match(plain) is not None
