@@ -68,6 +68,27 @@ def test_prices_are_slopes_of_the_bound(name: str) -> None:
         assert between(float(prices.rate[user]), ends[0], at, ends[1], step), case.estimate.user_names[user]
 
 
+@pytest.mark.parametrize("circuit_w", [None, 1.0])
+@pytest.mark.parametrize("seed", [3, 6, 9])
+def test_rates_promised_efficiently_have_the_slope_of_the_bound_where_the_budget_is_not_used_up(
+    seed: int, circuit_w: float | None
+) -> None:
+    cell = CELL if circuit_w is None else replace(CELL, circuit_power_w=circuit_w)
+    estimate = wa.perfect(wa.simulate("rayleigh", cell, num_users=4, num_subcarriers=10, seed=seed))
+    promised, step = np.full(4, 4e5), 500.0
+    decision = wa.decide(estimate, wa.Problem("max_energy_efficiency", max_power_w=20, min_rate_bps=promised), cell)
+    assert decision.total_power_w < 19.0
+    assert decision.price_of_rate is not None
+    slopes: list[float] = []
+    for user in range(4):
+        ends = (promised + sign * step * (np.arange(4) == user) for sign in (-1, 1))
+        problems = (replace(decision.problem, min_rate_bps=rates) for rates in ends)
+        low, high = (wa.decide(estimate, problem, cell, "dual", restarts=0).bound for problem in problems)
+        slopes.append((high - low) / (2 * step))
+    assert min(slopes) < -1e-3
+    assert decision.price_of_rate == pytest.approx(np.array(slopes), rel=2e-3, abs=1e-6)
+
+
 def test_the_first_bits_of_somebody_who_gets_nothing_have_a_price() -> None:
     case = case_of("max_rate")
     idle = np.flatnonzero(case.decision.rate_bps <= 0)

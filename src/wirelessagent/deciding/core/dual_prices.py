@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from wirelessagent.deciding.core.certificate import Figures
-from wirelessagent.deciding.core.dual_search import Effort, Search
+from wirelessagent.deciding.core.dual_search import Effort, Search, search
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY
 from wirelessagent.deciding.core.scaling import scaling_at_hand, searched_scaling
@@ -15,6 +17,8 @@ from wirelessagent.model.rates import user_rate_bps
 
 _ROUNDING = 1e-9
 _NEWTON_STEPS = 30
+_STEP = 1e-3
+"""Of the circuit power, next to all that is drawn, from which the power at the bound is worked out."""
 
 
 def figures_of(form: NormalForm, found: Search, least: Search | None, scaled_by: Effort | None = None) -> Figures:
@@ -84,8 +88,25 @@ def _price_of_rate(form: NormalForm, found: Search) -> FloatArray:
         worth = np.where(promised, np.minimum(marginal - price * np.exp(found.prices.log_power), 0.0), 0.0)
     worth = np.nan_to_num(worth, nan=0.0, posinf=0.0) * program.scale / form.bps_per_nat
     if program.goal == MOST_EFFICIENCY:
-        return worth / (found.spent_w + form.circuit_w) * form.cell.amplifier_efficiency
+        return worth / _drawn_w(form, found)
     return worth * _figure_slope(form, found)
+
+
+def _drawn_w(form: NormalForm, found: Search) -> float:
+    """What the cell draws where the bound is reached, P/ξ + P_c; the allocation that was found draws something else.
+
+    1/q is the least (P/ξ + P_c)/U, so its slope over P_c is 1/U, and P/ξ + P_c is U/q there.
+    """
+    cell, spent_w = form.cell, (found.spent_w + form.circuit_w) / form.cell.amplifier_efficiency
+    circuit_w = np.maximum(cell.circuit_power_w + spent_w * _STEP * np.array([-1.0, 1.0]), 0.0)
+    cells = (replace(cell, circuit_power_w=float(circuit)) for circuit in circuit_w)
+    forms = (replace(form, cell=other) for other in cells)
+    effort = Effort(restarts=0, seed=0)
+    bounds = np.array([search(other, found.program, effort, found.prices, found.owner).bound for other in forms])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        inverse = 1.0 / bounds
+        drawn_w = float(inverse.mean() * np.diff(circuit_w)[0] / np.diff(inverse)[0])
+    return drawn_w if 0.0 < drawn_w < np.inf else spent_w
 
 
 def _figure_slope(form: NormalForm, found: Search) -> float:
