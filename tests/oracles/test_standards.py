@@ -17,6 +17,7 @@ from pydantic import ValidationError
 
 import wirelessagent as wa
 from wirelessagent.standards import tmf921, ts28312, ts28312_models
+from wirelessagent.standards.expectations import expectations
 from wirelessagent.standards.subject import Subject
 
 AT = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)
@@ -181,6 +182,20 @@ def test_who_falls_short_on_the_true_channel_is_named():
     assert whole == info
     expression = tmf(run)["intentReport"]["expression"]["expressionValue"]
     assert expression["imo:handlingState"] == {"@id": "imo:StateDegraded"}
+
+
+@pytest.mark.parametrize(("left", "progress"), [(1 - 3e-5, "kept"), (1 - 3e-4, "missed")])
+def test_a_shortfall_that_nobody_sees_is_none(left: float, progress: str):
+    made = scene()
+    decision = wa.decide(wa.repair(made.observe()), wa.Problem("min_power", min_rate_bps=4e5), CELL)
+    applied = wa.SimulatedBaseStation(wa.Scene(cell=CELL, sensed=made.sensed, truth=made.sensed.gain)).apply(decision)
+    assert applied.achieved is not None
+    rate = applied.achieved.user_rate_bps * np.array([1.0, left, 1.0, 1.0])
+    outcome = replace(applied, achieved=replace(applied.achieved, user_rate_bps=rate))
+    assert int(outcome.missed.sum()) == (progress == "missed")
+    found = expectations(replace(subject(apply=False), decision=decision, outcome=outcome))
+    (floor,) = [one for one in found if one.name == "throughput-floor-1"]
+    assert floor.progress == progress
 
 
 def test_what_cannot_be_done_says_what_could():

@@ -11,7 +11,11 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.rates import user_rate_bps
 
 RATE_TOLERANCE = 1e-9
-"""Relative shortfall up to which a rate counts as kept."""
+"""Relative shortfall up to which a constraint on a rate is met: rounding."""
+
+READ_BACK_TOLERANCE = 1e-4
+"""Relative shortfall up to which a rate that was read back counts as kept, in reports, goodput and documents alike:
+less than the three digits that people are shown."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,9 +42,11 @@ class LinkMetrics:
     jain_index: float
 
 
-def kept(rate_bps: FloatArray, promised_bps: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def kept(
+    rate_bps: FloatArray, promised_bps: FloatArray, tolerance: float = RATE_TOLERANCE
+) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
     """True where a rate reaches what was promised, within the tolerance."""
-    return rate_bps >= promised_bps * (1.0 - RATE_TOLERANCE)
+    return rate_bps >= promised_bps * (1.0 - tolerance)
 
 
 def jain_index(rate_bps: FloatArray) -> float:
@@ -78,7 +84,7 @@ def link_metrics(
     committed = rate if committed_bps is None else committed_bps
     return metrics_of_rates(
         rate,
-        goodput_bps=float(np.where(kept(rate, committed), committed, 0.0).sum()),
+        goodput_bps=float(np.where(kept(rate, committed, READ_BACK_TOLERANCE), committed, 0.0).sum()),
         power_w=float(power_w.sum()),
         num_subcarriers=gain.shape[-1],
         cell=cell,

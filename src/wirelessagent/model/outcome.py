@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
-from wirelessagent.model.metrics import LinkMetrics, kept
+from wirelessagent.model.metrics import READ_BACK_TOLERANCE, LinkMetrics, kept
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,10 +33,11 @@ class Outcome:
     true_gain: FloatArray | None = None
     written_to: Path | None = None
     missed: BoolArray = field(init=False)
-    """True for users whose true rate fell short of the commitment, shape (user,); all False where it is not known."""
+    """True for users whose true rate fell short of the commitment by more than 0.01 %, shape (user,); all False where
+    it is not known."""
 
     def __post_init__(self) -> None:
         short = np.zeros(self.promised_bps.shape, dtype=bool)
         if self.achieved is not None:
-            short = ~kept(self.achieved.user_rate_bps, self.promised_bps)
+            short = ~kept(self.achieved.user_rate_bps, self.promised_bps, READ_BACK_TOLERANCE)
         object.__setattr__(self, "missed", short)

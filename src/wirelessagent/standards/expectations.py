@@ -14,7 +14,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from wirelessagent.model.arrays import BoolArray
-from wirelessagent.model.metrics import RATE_TOLERANCE
+from wirelessagent.model.metrics import READ_BACK_TOLERANCE
 from wirelessagent.model.units import percent
 from wirelessagent.standards.subject import (
     ENERGY_CONSUMPTION,
@@ -170,7 +170,7 @@ def _progress(
         return "pending", (f"the allocation is {applied}",)
     sign = 1.0 if more else -1.0
     margin = sign * (achieved - wanted)
-    if margin > 0 or (not strict and margin >= -RATE_TOLERANCE * abs(wanted)):
+    if margin > 0 or (not strict and margin >= -READ_BACK_TOLERANCE * abs(wanted)):
         return "kept", ()
     kept = "not better than" if strict else ("below" if more else "above")
     return "missed", (f"{achieved:.6g} is {kept} {wanted:.6g}",)
@@ -179,7 +179,7 @@ def _progress(
 def _missed(subject: Subject, achieved: State, meant: BoolArray, wanted: float) -> tuple[str, ...]:
     """Who fell short of a promised rate, in kbit/s, and by how much."""
     rate = achieved.rate_bps / 1e3
-    short = np.flatnonzero(meant & (rate < wanted * (1 - RATE_TOLERANCE)))
+    short = np.flatnonzero(meant & (rate < wanted * (1 - READ_BACK_TOLERANCE)))
     names = subject.decision.user_names
     return tuple(
         f"{names[user]} gets {rate[user]:.6g} kbit/s, {percent(1 - rate[user] / wanted)} less than {wanted:.6g} kbit/s"
