@@ -26,7 +26,9 @@ _TOKEN = re.compile(rf"@[a-z]+|[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[
 
 def buckets(text: str, concepts: Sequence[str] = (), language: str = "en") -> npt.NDArray[np.int64]:
     """The distinct buckets that a sentence falls into, ascending."""
-    found = {zlib.crc32(gram.encode("utf-8", "replace")) % BUCKETS for gram in _grams(text, concepts, language)}
+    tokens = _tokens(text)
+    found = {zlib.crc32(gram.encode("utf-8", "replace")) % BUCKETS for gram in _grams(tokens, concepts, language)}
+    found = found.union(*map(_letter_buckets, set(tokens)))
     ascending = np.fromiter(found, dtype=np.int64, count=len(found))
     ascending.sort()
     return ascending
@@ -49,8 +51,7 @@ def _plain(text: str) -> str:
     return "".join(letter for letter in lowered if unicodedata.category(letter) != "Mn") if lowered != text else lowered
 
 
-def _grams(text: str, concepts: Sequence[str], language: str) -> Iterator[str]:
-    tokens = _tokens(text)
+def _grams(tokens: Sequence[str], concepts: Sequence[str], language: str) -> Iterator[str]:
     yield from _of_base_words(["<", *based(tokens, language), ">"])
     padded = ["<", *tokens, ">"]
     for place, token in enumerate(padded):
@@ -67,16 +68,20 @@ def _grams(text: str, concepts: Sequence[str], language: str) -> Iterator[str]:
         yield f"h{heard[place]}{heard[place + 1]}"
         if place + 2 < len(heard):
             yield f"i{heard[place]}{heard[place + 1]}{heard[place + 2]}"
-    for token in set(tokens):
-        if len(token) > 3 and token.isalpha() and not is_chinese(token):
-            word = f"^{token[:20]}$"
-            for size in (3, 4, 5):
-                for start in range(len(word) - size + 1):
-                    yield "c" + word[start : start + size]
     for place, concept in enumerate(concepts):
         yield "C" + concept
         for other in concepts[place + 1 : place + 3]:
             yield f"D{concept} {other}"
+
+
+@functools.lru_cache(maxsize=4096)
+def _letter_buckets(token: str) -> frozenset[int]:
+    """The buckets of three to five letters within a word; none of a short word, of a placeholder or of Chinese."""
+    if len(token) <= 3 or not token.isalpha() or is_chinese(token):
+        return frozenset()
+    word = f"^{token[:20]}$"
+    grams = ["c" + word[start : start + size] for size in (3, 4, 5) for start in range(len(word) - size + 1)]
+    return frozenset(zlib.crc32(gram.encode("utf-8", "replace")) % BUCKETS for gram in grams)
 
 
 def _of_base_words(words: Sequence[str]) -> Iterator[str]:

@@ -10,13 +10,15 @@ aliases and its own phrases.
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
 
+from wirelessagent.language.answer import Answer
+from wirelessagent.language.command_cues import CHANGING, is_unsure
 from wirelessagent.language.excess import MOST_FIGURES, too_many_figures
 from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
-from wirelessagent.language.intent import COMMANDS, CONSTRAINTS, EVERYBODY, Constraint, Detail, Intent, IntentKind
+from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
 from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
 from wirelessagent.language.nobody_starves import nobody_starves
@@ -33,31 +35,6 @@ _MAX_CHARACTERS = 2000
 _DEFAULT_CONFIDENCE = 0.75
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
 _UNFAIR_OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency")
-_CHANGING = ("apply", "confirm", "undo", "reset")
-_SURE_OF_A_COMMAND = 0.6
-_CUES = {  # a command that changes something has one of these in it
-    "reset": re.compile(
-        r"(?i)reset|clear|wip|eras|forget|delet|start over|again|scratch|afresh|anew|zero|new|fresh|slate|"
-        r"square one|back|drop|scrap|"
-        r"flush|beginning|defaults?|restart|top|重|清|忘|新|初始|零|默认|出厂|归|reinici|borr|cero|empe|olvid|"
-        r"recommen|effac|zéro|réinit|"
-        r"oubli|zurück|vorn|neu|lösch|vergiss|anfang"
-    ),
-    "undo": re.compile(
-        r"(?i)undo|rever|roll|back|restor|previous|before|cancel|retract|mistake|wrong|old|withdraw|oops|撤|回|退|"
-        r"还原|恢复|取消|后悔|错|"
-        r"deshac|deshaz|vuelve|revier|restaura|annul|retour|revien|défai|rückgängig|zurück|alten"
-    ),
-    "apply": re.compile(
-        r"(?i)appl|deploy|activ|implement|execut|roll|push|commit|install|enact|\buse\b|send|live|effect|operation|"
-        r"happen|on air|"
-        r"production|\bgo\b|proceed|do it|let's|carry|make it|engage|run with|ship|put it|write|load|take it|应用|"
-        r"执行|下发|部署|生效|启用|实施|"
-        r"落地|采用|提交|办|定|上线|开|推|动手|搞|走|就|用|按|照|做|发|adelante|hazlo|ponlo|aplíca|aplica|ejec|"
-        r"despl|activa|vas-y|mets|exéc|"
-        r"déplo|envoie|anwend|wende|übern|ausf|ausroll|spiel|mach|leg|setz|aktiv|damit"
-    ),
-}
 _FAIR_WORDS = {"fair", "same", "fairly"}
 _REFUSED = re.compile(
     r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$"
@@ -76,9 +53,9 @@ class OfflineRecogniser(Recogniser):
         language = _language(text[:_MAX_CHARACTERS], context)
         voice = Voice(language, labels_of(own, language))
         if len(text) > _MAX_CHARACTERS:
-            return _Answer(voice, language).ask("too_long")
+            return Answer(voice, language, NAME).ask("too_long")
         if too_many_figures(normalise(text)):
-            return _Answer(voice, language).ask("too_many_figures", most=str(MOST_FIGURES))
+            return Answer(voice, language, NAME).ask("too_many_figures", most=str(MOST_FIGURES))
         return _Understanding(text, own, voice, context, language).intent()
 
 
@@ -100,55 +77,13 @@ def _language(text: str, context: Context | None) -> str:
     return language_of(text)
 
 
-class _Answer:
-    """Intents in one operator's language."""
-
-    def __init__(self, voice: Voice, language: str) -> None:
-        self.voice, self.language = voice, language
-
-    def ask(
-        self, key: str, confidence: float = 0.5, pending: Mapping[str, Constraint] | None = None, **names: str
-    ) -> Intent:
-        return self.tell("clarify", key, confidence, names, pending=pending)
-
-    def tell(
-        self,
-        kind: IntentKind,
-        key: str,
-        confidence: float,
-        names: Mapping[str, str] | None = None,
-        *,
-        topic: str | None = None,
-        details: Mapping[str, Detail] | None = None,
-        pending: Mapping[str, Constraint] | None = None,
-    ) -> Intent:
-        return self._intent(
-            kind=kind, objective=None, constraints={}, confidence=confidence, evidence={}, topic=topic,
-            reply=self.voice.say(key, **(names or {})), details=details or {}, pending=pending or {},
-        )  # fmt: skip
-
-    def allocate(
-        self, objective: str, values: Mapping[str, Constraint], evidence: Mapping[str, str], reply: str,
-        confidence: float, *, amends: bool = False, dropped: tuple[str, ...] = (),
-    ) -> Intent:  # fmt: skip
-        ordered = {name: values[name] for name in CONSTRAINTS if name in values}
-        return self._intent(
-            kind="allocate", objective=objective, constraints=ordered, confidence=confidence, reply=reply,
-            evidence={name: words for name, words in evidence.items() if name not in CONSTRAINTS or name in ordered},
-            amends=amends, dropped=dropped,
-        )  # fmt: skip
-
-    def _intent(self, **fields: Any) -> Intent:
-        return Intent(language=self.language, recogniser=NAME, **fields)
-
-
 class _Understanding:
     """One sentence within a conversation, and what it amounts to."""
 
     def __init__(
         self, text: str, own: tuple[OwnWords, ...], voice: Voice, context: Context | None, language: str
     ) -> None:
-        self._text, self._voice, self._answer, self._context = text, voice, _Answer(voice, language), context
+        self._text, self._voice, self._answer, self._context = text, voice, Answer(voice, language, NAME), context
         names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
         self._sentence = Sentence(text, own, names=names, max_power_w=limit)
         self._reading, self._goal = self._sentence.reading, self._sentence.goal
@@ -179,7 +114,7 @@ class _Understanding:
             self._judged.acts and (self._goal.verdict != "none" or self._judged.certainty > 0.85)
         ) or self._judged.objective_clear:
             return None
-        if (self._judged.kind == "command" and self._judged.topic not in (*_CHANGING, "reject")) or _ASKED.search(
+        if (self._judged.kind == "command" and self._judged.topic not in (*CHANGING, "reject")) or _ASKED.search(
             self._text
         ):
             return None
@@ -192,10 +127,9 @@ class _Understanding:
             values = merged(context.pending, values)
         if not values and not dropped:
             return None
-        return self._answer.allocate(
-            context.objective, values, reading.evidence, self._voice.amended(values, dropped), 0.85, amends=True,
-            dropped=dropped,
-        )  # fmt: skip
+        reply = self._voice.amended(values, dropped)
+        request = self._answer.allocate(context.objective, values, reading.evidence, reply, 0.85)
+        return dataclasses.replace(request, amends=True, dropped=dropped)
 
     def _not_a_request(self) -> Intent | None:
         """Commands, questions, and what has nothing to do with a cell."""
@@ -203,21 +137,19 @@ class _Understanding:
         if judged.kind == "question":
             details = details_of(topic, self._sentence)
             user = self._voice.user(str(details.get("user", "")))
-            return self._answer.tell(
-                "question", f"question.{topic}", judged.certainty, {"user": user}, topic=topic, details=details
-            )
+            told = self._answer.tell("question", f"question.{topic}", judged.certainty, user=user)
+            return dataclasses.replace(told, topic=topic, details=details)
         if judged.kind == "command":
-            cue = _CUES.get(topic)
-            sure = judged.certainty >= _SURE_OF_A_COMMAND and (cue is None or cue.search(self._sentence.plain))
-            if topic in _CHANGING and not sure:
+            if is_unsure(topic, self._sentence.plain, judged.certainty):
                 return self._answer.ask("unsure_command", judged.certainty, text=self._voice.say(f"command.{topic}"))
             assert topic in COMMANDS
             details = details_of(topic, self._sentence)
-            return self._answer.tell("command", f"command.{topic}", judged.certainty, topic=topic, details=details)
+            told = self._answer.tell("command", f"command.{topic}", judged.certainty)
+            return dataclasses.replace(told, topic=topic, details=details)
         if judged.kind == "out_of_scope":
             if "unsupported" in self._sentence.concepts:
-                names = {"text": self._words_for("unsupported")}
-                return self._answer.tell("out_of_scope", "unsupported", judged.certainty, names)
+                text = self._words_for("unsupported")
+                return self._answer.tell("out_of_scope", "unsupported", judged.certainty, text=text)
             key = "hello" if "greeting" in self._sentence.concepts else "out_of_scope"
             return self._answer.tell("out_of_scope", key, judged.certainty)
         return None
@@ -294,9 +226,8 @@ class _Understanding:
                 values, gone = with_users_back(reading, context)
                 dropped = tuple(dict.fromkeys((*dropped, *gone)))
         reply = self._voice.restated(objective, values, reading.not_used)
-        return self._answer.allocate(
-            objective, values, evidence, reply, confidence, amends=amends, dropped=dropped if amends else ()
-        )
+        request = self._answer.allocate(objective, values, evidence, reply, confidence)
+        return dataclasses.replace(request, amends=amends, dropped=dropped if amends else ())
 
     def _default(self) -> Intent | None:
         """A promised rate under a power limit has one sensible reading."""
