@@ -142,8 +142,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "command.help": "{help}",
         "command.export": "Export the result.",
         "nothing_yet": "There is no request yet that {text} would change. {offers}",
-        "unsure_command": "Did you mean: {text} Please say yes, or say it in other words; or what should the cell "
-            "aim for, {choices}?",
+        "unsure_command": "Did you mean: {text} Yes or no?",
         "unsure_question": "I am not sure whether that is a question or a request. What should the cell aim for: "
             "{choices}?",
         "help": "I allocate the subcarriers and the power of a cell. {offers}",
@@ -229,7 +228,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "command.help": "{help}",
         "command.export": "导出结果。",
         "nothing_yet": "还没有可以用{text}来修改的请求。{offers}",
-        "unsure_command": "您是指“{text}”吗？请回答是，或换个说法；或者小区应以什么为目标：{choices}？",
+        "unsure_command": "您是指“{text}”吗？请回答是或否。",
         "unsure_question": "我不确定这是问题还是请求。小区应以什么为目标：{choices}？",
         "help": "我为小区分配子载波和功率。{offers}",
         "hello": "你好。{offers}",

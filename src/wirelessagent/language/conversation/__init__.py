@@ -11,6 +11,7 @@ import dataclasses
 
 from wirelessagent.language.conversation.about import asked_instead, read_question
 from wirelessagent.language.conversation.amendments import read_amendment
+from wirelessagent.language.conversation.certain import made_certain
 from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.comparing import read_comparison
 from wirelessagent.language.conversation.holding import keeping_what_holds
@@ -40,10 +41,12 @@ _READERS = (
 def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     """What a line means in its conversation; never raises, whatever the text.
 
-    Nothing that is only supposed is asked for, and what holds stays where another aim is named.
+    Nothing that is only supposed is asked for, what holds stays where another aim is named, and a command that changes
+    something is all that its line says.
     """
     line = Line.of(text[:_LONGEST], context)
-    return keeping_what_holds(line, only_supposed(line, _read(text, line, context, recogniser)))
+    intent = made_certain(line, _read(text, line, context, recogniser), text)
+    return keeping_what_holds(line, only_supposed(line, intent))
 
 
 def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> Intent:

@@ -18,8 +18,8 @@ _COUNTS = {
     )
     for word in words.split()
 }  # fmt: skip
-_N = r"(?:the\s+)?(?:last\s+|previous\s+|latest\s+)?(?P<n>\d{1,3}|(?:a\s+)?[a-z]+)"
-_ZH_N = r"(?P<zh_n>\d{1,3}|[一二两三四五六七八九十]{1,3})"
+_N = r"(?:the\s+)?(?:last\s+|previous\s+|latest\s+)?(?P<n>\d{1,9}|(?:a\s+)?[a-z]+)"
+_ZH_N = r"(?P<zh_n>\d{1,9}|[一二两三四五六七八九十]{1,3})"
 _TURN = r"(?:the\s+(?:state|result|decision|plan|request|allocation)\s+(?:of|in|from|after|at)\s+)?turn"
 _REF = r"(?:no\.?\s*|number\s+|#)?(?P<turn>[-+]?[\w.]*\w)"
 _ZH_REF = r"第?\s*(?P<zh>[-+]?[\w.]+?)\s*(?:轮|回合)"
@@ -38,6 +38,19 @@ _ALL_STEPS = re.compile(
     rf"(?:of\s+)?(?:the\s+|my\s+)?{_CHANGES}|that))?)|"
     rf"(?:全部|所有|一切|统统)的?{_ZH_CHANGES}?(?:都|全)?(?:撤销|撤回|还原|回退)(?:掉|了)?|"
     rf"(?:撤销|撤回|回退|还原)(?:掉)?(?:全部|所有|一切)的?{_ZH_CHANGES}?"
+)
+_AS_AT_THE_START = re.compile(
+    r"(?:put|set|take|bring|get|change|turn|restore|return|revert|undo)\s+(?:everything|it(?:\s+all)?|all(?:\s+of\s+it)?|"
+    r"(?:all\s+)?things|the\s+(?:cell|lot))\s+(?:back\s+)?(?:to\s+)?(?:how|the\s+way|what|where|as)\s+(?:it|they|things|"
+    r"everything|we)\s+(?:was|were|all\s+(?:was|were)|started|began)(?:\s+(?:at|in|from)\s+the\s+(?:very\s+)?(?:start|"
+    r"beginning|outset)|\s+(?:originally|initially|before\s+(?:i|we)\s+(?:started|began)))|"
+    r"(?:把)?(?:一切|全部|所有(?:设置|东西)?)(?:都|全)?(?:恢复|还原|退回|回)(?:到|成|为)?(?:最初|最开始|一开始|刚开始|开始|开头)"
+    r"(?:的)?(?:样子|状态|时候)?"
+)
+_FORGET = re.compile(
+    r"(?:forget|wipe|erase|clear|reset)\s+(?:about\s+)?(?:the\s+(?:whole|entire)\s+(?:thing|lot|request)|the\s+lot|"
+    r"everything|(?:it|that)\s+all|all\s+(?:of\s+)?(?:it|that)|everything\s+(?:i|we)\s+(?:said|asked(?:\s+for)?))|"
+    r"(?:整个|全部)(?:都)?(?:忘掉|忘了|作废|不要了)"
 )
 _BACK_TO = re.compile(
     rf"(?:(?:go|turn|switch|come|get|change|revert|return|roll|undo|take\s+(?:it|me|us)|bring\s+(?:it|me|us))?\s*back\s+"
@@ -84,7 +97,7 @@ _FIRST = re.compile(
 )
 _THIS_OR = re.compile(rf"(?:this(?:\s+one)?|now|the\s+current\s+one)\s*,?\s*(?:or|vs\.?|versus)\s+{_TURN}\s+{_REF}")
 _APPLY = re.compile(
-    r"(?:(?:go\s+(?:on|ahead)|yes|fine|good|great|right|alright|sure)[,，.!\s]+(?:and\s+|then\s+)?)*+(?:(?:apply|activate|deploy|use|take)\s+(?:it|that|this)|do\s+(?:it|that|this|so)(?:\s+then)?|"
+    r"(?:(?:go\s+(?:on|ahead)|yes|fine|good|great|right|alright|sure)[,，.!\s]+(?:and\s+|then\s+)?)*+(?:(?:apply|activate|deploy|use|take)\s+(?:it|that|this)|do\s+(?:it|that|this|so)(?:\s+then)?(?:\s+(?:anyway|anyhow|regardless|all\s+the\s+same|nevertheless))?|"
     r"(?:go|proceed)\s+with\s+(?:it|that|this)|make\s+it\s+so|(?:go|do)\s+(?:for\s+it|it\s+that\s+way|like\s+that))|"
     r"(?:就|照|按)*(?:这么|这样|这个)(?:方案)?(?:去)?(?:办|做|定|来|干|执行|吧)|(?:就)?(?:用|采用)(?:这个|它)(?:方案)?|应用(?:它|这个)?"
 )
@@ -113,7 +126,10 @@ def _taken_up(line: Line, said: str) -> Intent | None:
 
 
 def _undone(line: Line, said: str) -> Intent | None:
-    if _ALL_STEPS.fullmatch(said):
+    if _FORGET.fullmatch(said):
+        open_ = line.context.awaits != "nothing"
+        return line.command("reject", cancel="pending") if open_ else line.command("reset")
+    if _ALL_STEPS.fullmatch(said) or _AS_AT_THE_START.fullmatch(said):
         return line.command("undo", steps="all")
     if _STOP.fullmatch(said):
         return line.command("reject", cancel="pending", stop="all")
