@@ -74,3 +74,10 @@ def test_forget_the_whole_thing_starts_over_or_drops_the_question() -> None:
 def test_do_it_anyway_behind_what_cannot_be_met_asks_which_way() -> None:
     _, turns = talk("highest total rate, 1 Tbit/s each", "do it anyway")
     assert "Which of the ways that can" in turns[-1].reply
+
+
+@pytest.mark.parametrize("said", ["the people in the back can't hear us", "后排的人信号很差"])
+def test_a_line_that_speaks_of_no_command_is_not_asked_about_one(said: str) -> None:
+    reply = talk(*HELD, said)[1][-1].reply
+    assert "Undo" not in reply
+    assert "撤销" not in reply

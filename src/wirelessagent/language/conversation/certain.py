@@ -23,6 +23,14 @@ _ZH_WORD = re.compile("|".join(CHINESE))
 _ZH_DENIED = re.compile("如果|要是|假如|吗|要不要|该不该|能不能|可不可以|没|别|不(?:是|要|用|想|该|能|会|准|许|再)|未")
 _LATIN = re.compile(r"[a-zß-ÿœ](?:[a-zß-ÿœ'’-]*[a-zß-ÿœ])?")
 _LETTER = re.compile(r"[^\W_]")
+_NAMED = re.compile(
+    r"(?i)\b(?:undo\w*|revert\w*|roll\w*\s?back|retract|withdraw|reverse|restore|previous|mistake|oops|reset|restart|"
+    r"forget|erase|wipe|clear|start(?:ing)?\s+(?:over|afresh|again|anew)|scratch|apply|activate|deploy|implement|execute|"
+    r"enact|roll\w*\s+\w*\s*out|go\s+(?:ahead|live)|proceed|"
+    r"(?:take|put|go|get|bring|step|switch|change|turn|set)\s+(?:\w+\s+){0,2}back)\b|"
+    r"撤|退|回滚|还原|恢复|收回|取消|重置|重来|重新|从头|清空|清除|清零|归零|复位|忘|应用|执行|下发|部署|生效|启用|上线|激活"
+)
+"""Words that speak of such a command, whatever else a line says."""
 _POLITE = re.compile(
     r"^(?:(?:oh|ah|well|ok(?:ay)?)[,\s]+)?(?:no|nein|non)\s*[,，.;!]\s*|\b(?:could|can|would|will)\s+you(?:\s+mind)?\b|\bnever\s*mind\b|"
     r"^(?:could|can)\s+(?:we|i)\b|\bgo\s+ahead\b|能不能帮我|可不可以帮我|能帮我"
@@ -34,11 +42,25 @@ def made_certain(line: Line, intent: Intent, text: str) -> Intent:
 
     ``text`` is all that was said; a line may be the beginning of it.
     """
-    if intent.kind != "command" or intent.topic not in _CHANGING or not intent.recogniser.startswith(NAME):
+    if not intent.recogniser.startswith(NAME):
         return intent
-    if is_only_a_command(text):
-        return intent
-    return line.ask("unsure_command", text=line.voice.say(f"command.{intent.topic}"))
+    questions = {
+        topic: line.voice.say("unsure_command", text=line.voice.say(f"command.{topic}")) for topic in _CHANGING
+    }
+    if intent.kind == "command" and intent.topic in _CHANGING and not is_only_a_command(text):
+        return (
+            line.ask("what_changes")
+            if _names_none(line, text)
+            else line.ask("unsure_command", text=line.voice.say(f"command.{intent.topic}"))
+        )
+    asks = intent.kind == "clarify" and intent.reply in questions.values()
+    return line.ask("what_changes") if asks and _names_none(line, text) else intent
+
+
+def _names_none(line: Line, text: str) -> bool:
+    """Whether a line about a request that holds has no word that stands for a command alone."""
+    known = line.voice.language in ("en", "zh") and line.context.objective is not None
+    return known and _NAMED.search(normalise(text)) is None
 
 
 def is_only_a_command(text: str) -> bool:
