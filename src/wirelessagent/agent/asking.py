@@ -10,6 +10,7 @@ from typing import cast
 
 from wirelessagent.agent import answers, comparing
 from wirelessagent.agent.figures import certificate_line, side_by_side
+from wirelessagent.agent.premises import corrected
 from wirelessagent.agent.refusing import able
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.site import Site
@@ -178,12 +179,24 @@ def question(site: Site, state: State, intent: Intent, text: str) -> Reply:
         return what_if(site, state, dataclasses.replace(intent, details={"constraints": stated}))
     if state.run is None:
         return Reply(text=say(language, "nothing_yet"))
+    run, spoken_of = _spoken_of(state.run, state.on_air, intent)
     if intent.details.get("listed") == "methods":
         decision = state.run.decision
         used = told(language, "method_in_use", method=called(language, decision.method))
         return Reply(text=joined(language, [used, able(decision.problem, language)]))
-    said, tables = answers.answer(state.run, intent, site.user_names)
-    return Reply(text=said, tables=tables)
+    said, tables = answers.answer(run, intent, site.user_names)
+    said = joined(language, [one for one in (corrected(run, intent, text), said) if one])
+    return Reply(text=told(language, spoken_of, answer=said) if spoken_of else said, tables=tables)
+
+
+def _spoken_of(run: Run, on_air: Run | None, intent: Intent) -> tuple[Run, str]:
+    """The run that a question is about, and the words for it: what is in effect, where the last request can't be met.
+
+    Why it can't, and what it would take, is asked about the request.
+    """
+    if run.decision.is_usable or on_air is None or not on_air.decision.is_usable:
+        return run, ""
+    return (run, "") if intent.topic in ("why_infeasible", "step", "what_if") else (on_air, "in_effect")
 
 
 def _wondered(intent: Intent) -> dict[str, Constraint]:

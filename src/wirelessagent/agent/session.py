@@ -224,7 +224,8 @@ class Session:
         handle = (of_turns if "turn" in intent.details else {}).get(topic) or handlers.get(topic)
         if handle is not None:
             return handle()
-        unmet = self._unmet() if topic in _WHY else None
+        of_it = topic == "why_infeasible" or (topic == "why_user" and state.on_air is None)
+        unmet = self._unmet() if of_it else None
         seen = state if unmet is None else dataclasses.replace(state, run=unmet)
         return asking.question(site, seen, intent, text) if intent.kind == "question" else Reply(text=intent.reply)
 

@@ -21,6 +21,10 @@ _ENGLISH: Mapping[str, str] = {
     "compared_turn": "Beside {turn}: {line}.",
     "compared_with_itself": "The decision that holds is that of {turn}; name another turn to compare it with.",
     "limits_stay": "The limits stay as they were.",
+    "in_effect": "Of what is in effect, as the last request cannot be met: {answer}",
+    "not_nothing": "{user} is not without anything.",
+    "not_least": "{user} does not get the least. {who}",
+    "not_most": "{user} does not get the most. {who}",
     "as_before": "As before: {limits}.",
     "no_longer": "No longer: {limits}.",
     "kept_as_it_is": "All stays as it is.",
@@ -51,6 +55,9 @@ _ENGLISH: Mapping[str, str] = {
     "beside_now": "With it: {then}. Now: {now}.",
     "beside_figures": "total rate {total}, lowest rate {lowest}, {power} radiated",
     "plan_still_waits": "The plan still waits: 'yes' applies {request}.",
+    "shall_i_apply": "Nothing is applied yet. What waits is {request}. Shall I apply it, yes or no?",
+    "left_waiting": "Nothing is applied. What goes on waiting is {request}. 'yes' applies it, 'no' drops it.",
+    "plan_dropped": "The plan is dropped.",
 }
 
 _CHINESE: Mapping[str, str] = {
@@ -69,6 +76,10 @@ _CHINESE: Mapping[str, str] = {
     "compared_turn": "与{turn}比较：{line}。",
     "compared_with_itself": "现行的决定就是{turn}的决定；请说明与哪一轮比较。",
     "limits_stay": "原有限制保持不变。",
+    "in_effect": "上一个要求无法满足，以下是正在生效的分配：{answer}",
+    "not_nothing": "{user}并非什么都没有。",
+    "not_least": "{user}得到的并不是最少的。{who}",
+    "not_most": "{user}得到的并不是最多的。{who}",
     "as_before": "仍然有效：{limits}。",
     "no_longer": "不再要求：{limits}。",
     "kept_as_it_is": "一切保持不变。",
@@ -99,6 +110,9 @@ _CHINESE: Mapping[str, str] = {
     "beside_now": "这样：{then}。现在：{now}。",
     "beside_figures": "总速率 {total}，最低速率 {lowest}，发射 {power}",
     "plan_still_waits": "原计划仍在等待：说“是”即应用{request}。",
+    "shall_i_apply": "尚未应用。等待确认的是{request}。是否应用？（是／否）",
+    "left_waiting": "尚未应用。继续等待确认的是{request}。说“是”即应用，说“否”即放弃。",
+    "plan_dropped": "该计划已放弃。",
 }
 
 
