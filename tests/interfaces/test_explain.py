@@ -88,7 +88,7 @@ def test_weights_are_told() -> None:
     weights = (1.0, 3.0, 0.5, 1.0)
     assert "by their weights, from 0.5 to 3" in told(decided("max_rate", weights=weights))
     assert "in proportion to their weights, from 0.5 to 3" in told(decided("max_min_rate", weights=weights))
-    assert "weight" not in told(decided("max_rate", weights=2.0))
+    assert "by their weights" not in told(decided("max_rate", weights=2.0))
 
 
 def test_whoever_cannot_be_served_is_named() -> None:

@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
+from wirelessagent.explain.case import Case
 from wirelessagent.explain.report import Report
 from wirelessagent.explain.tables import user_table
 from wirelessagent.explain.words import explain
 from wirelessagent.interfaces.cli import run
-from wirelessagent.model.units import percent
+from wirelessagent.model.units import human, percent
 
 SCENE = wa.simulate("rayleigh", num_users=6, num_subcarriers=20, rms_delay_spread_s=300e-9, snr_db=30, seed=4)
 ESTIMATE = wa.repair(SCENE.observe(wa.loss.random(0.3), seed=1))
@@ -96,3 +97,29 @@ def test_the_record_has_it_all(capsys: pytest.CaptureFixture[str]) -> None:
     best = report["perfect"]["sum_rate_bps"]
     assert report["regret"] == pytest.approx(1 - report["achieved"]["sum_rate_bps"] / best, rel=1e-9)
     assert report["goodput_regret"] >= report["regret"]
+
+
+def test_the_value_that_was_decided_on_is_in_the_table_where_another_is_expected() -> None:
+    scene = wa.simulate("cqi", wa.Cell.nr(), num_users=4, seed=1)
+    estimate = wa.repair(scene.observe(wa.loss.random(0.2), seed=1))
+    for objective in ("max_rate", "proportional_fairness", "max_energy_efficiency"):
+        decision = wa.decide(estimate, wa.Problem(objective), scene.cell)
+        told = [row[1] for row in wa.report(decision).figures()]
+        assert human(decision.value, decision.unit) in told
+        case = Case(decision=decision, estimate=estimate)
+        assert case.rate_bps == pytest.approx(wa.report(decision).predicted.user_rate_bps)
+
+
+@pytest.mark.parametrize(
+    ("objective", "language", "name"),
+    [
+        ("max_energy_efficiency", "en", "weighted energy efficiency"),
+        ("max_energy_efficiency", "zh", "加权能效"),
+        ("max_rate", "en", "weighted total rate"),
+    ],
+)
+def test_a_weighted_value_is_called_so_and_has_its_row(objective: str, language: str, name: str) -> None:
+    scene = wa.simulate("rayleigh", num_users=3, seed=1)
+    decision = wa.decide(wa.repair(scene.observe()), wa.Problem(objective, weights=(2.0, 1.0, 1.0)), scene.cell)
+    (first, value, *_), *_ = wa.report(decision).figures(language)
+    assert (first.lower(), value) == (name, human(decision.value, decision.unit))

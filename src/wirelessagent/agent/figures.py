@@ -10,9 +10,8 @@ import numpy as np
 from wirelessagent.agent.restating import goal_words
 from wirelessagent.agent.words import say
 from wirelessagent.explain.labels import called, worded
-from wirelessagent.explain.lexicon import peculiar_name
 from wirelessagent.explain.reasons import power_in_words, reason_in_words
-from wirelessagent.explain.report import cannot_be_served
+from wirelessagent.explain.report import cannot_be_served, name_of_figure
 from wirelessagent.explain.table import Table
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
@@ -28,7 +27,7 @@ def certificate_line(decision: Decision, language: str = "en") -> str:
         reason = reason_in_words(decision, language)
         return say(language, "certificate_unusable", status=status, reason=reason, method=method)
     value = say(
-        language, "figure", figure=peculiar_name(decision, language), value=human(decision.value, decision.unit)
+        language, "figure", figure=name_of_figure(decision, language), value=human(decision.value, decision.unit)
     ).strip()
     if np.isnan(decision.gap):
         return say(language, "certificate_no_bound", status=status, value=value, method=method)
@@ -55,7 +54,7 @@ def _cells(run: Run, language: str) -> dict[str, str]:
     decision, objective = run.decision, run.decision.problem.objective
     assert not isinstance(objective, str)
     usable, need = decision.is_usable, decision.needed_power_w
-    figure = peculiar_name(decision, language)
+    figure = name_of_figure(decision, language)
     served = decision.problem.serves(decision.rate_bps.size)
     value = f"{human(decision.value, decision.unit)}{f' ({figure})' if figure else ''}"
     missed = "–" if run.outcome is None or run.outcome.achieved is None else str(int(run.outcome.missed.sum()))

@@ -67,6 +67,16 @@ class Case:
         """The rate that each served user must get, shape (user,)."""
         return np.where(self.served, self.problem.min_rates_bps(self.num_users), 0.0)
 
+    @property
+    def rate_bps(self) -> FloatArray:
+        """What each user gets as tables tell it, shape (user,): what is promised with an outage probability, else what
+        the true channel is expected to carry.
+        """
+        decision = self.decision
+        if decision.expected_rate_bps.size or decision.forecast is None:
+            return decision.rate_bps
+        return decision.forecast.mean_bps
+
     @functools.cached_property
     def counted(self) -> ChannelEstimate:
         """The channel that counts, as if it were certain.

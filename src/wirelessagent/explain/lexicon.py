@@ -9,7 +9,6 @@ from wirelessagent.explain.case import Case
 from wirelessagent.explain.labels import called
 from wirelessagent.explain.report import name_of_figure
 from wirelessagent.model.decision import Decision
-from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human
 
 
@@ -30,7 +29,6 @@ WORDS = Lexicon(
         "power": "radiated power",
         "efficiency": "energy efficiency",
         "rate": "total rate",
-        "weighted": "weighted total rate",
         "value": "value",
         "comma": ", ",
         "one": "subcarrier {first}",
@@ -42,7 +40,6 @@ WORDS = Lexicon(
         "power": "发射功率",
         "efficiency": "能效",
         "rate": "总速率",
-        "weighted": "加权总速率",
         "value": "目标值",
         "comma": "、",
         "one": "第 {first} 个子载波",
@@ -55,18 +52,10 @@ WORDS = Lexicon(
 
 def value_name(case: Case, language: str) -> str:
     """What the value is called in a sentence, as in "total rate"."""
-    named = peculiar_name(case.decision, language)
+    named = name_of_figure(case.decision, language)
     if named or case.objective.measure != "utility":
         return named or WORDS.say(language, case.objective.measure)
     return WORDS.say(language, "rate" if case.objective.unit == "bit/s" else "value")
-
-
-def peculiar_name(decision: Decision, language: str) -> str:
-    """What the value is called where its unit does not say it, as in "weighted total rate"; empty where it does."""
-    objective = decision.problem.objective
-    assert isinstance(objective, Objective)
-    weighted = objective.measure == "utility" and objective.unit == "bit/s" and decision.problem.weights is not None
-    return name_of_figure(decision, language) or (WORDS.say(language, "weighted") if weighted else "")
 
 
 def listed(names: Sequence[str], language: str) -> str:

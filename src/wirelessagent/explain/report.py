@@ -77,13 +77,30 @@ class Report:
             (worded(language, label), *("–" if one is None else human(getattr(one, name), unit) for one in known))
             for label, name, unit in _FIGURES
         ]
-        rows = [*self._promises(language), *rows]
-        name = name_of_figure(self.decision, language)
-        if not name:
+        rows = [*self._decided(language), *self._promises(language), *rows]
+        if not name_of_figure(self.decision, language):
             return rows
         unit = self.decision.unit
-        label = name[:1].upper() + name[1:] if name.isascii() else name  # a capital α reads as an A
-        return [(label, *("–" if one is None else human(self._value(one), unit) for one in known)), *rows]
+        values = ("–" if one is None else human(self._value(one), unit) for one in known)
+        return [(self._own_label(language), *values), *rows]
+
+    def _own_label(self, language: str) -> str:
+        """What the objective's own figure is called in a table."""
+        measure = _objective(self.decision).measure
+        plain = {"power": "Radiated power", "efficiency": "Energy efficiency"}.get(measure, "Sum rate")
+        name = name_of_figure(self.decision, language) or worded(language, plain)
+        return name[:1].upper() + name[1:] if name.isascii() else name  # a capital α reads as an A
+
+    def _decided(self, language: str) -> list[tuple[str, ...]]:
+        """The value that the decision was made for, where what is expected of the true channel shows another one."""
+        decision, promised = self.decision, self.decision.expected_rate_bps.size > 0
+        value = human(decision.value, decision.unit)
+        told_by_promises = promised and not name_of_figure(decision, language) and decision.unit == "bit/s"
+        if not decision.is_usable or told_by_promises or value == human(self._value(self.predicted), decision.unit):
+            return []
+        key = "{}, at the promised rates" if promised else "{}, as decided on"
+        perfect = () if self.perfect is None else (human(self.perfect.value, self.perfect.unit),)
+        return [(worded(language, key, self._own_label(language)), value, "–", *perfect)]
 
     def _promises(self, language: str) -> list[tuple[str, ...]]:
         """What is promised with which probability, beside how many promises were kept; nothing without an outage."""
@@ -168,9 +185,14 @@ def cannot_be_served(decision: Decision, language: str = "en") -> str:
 
 def name_of_figure(decision: Decision, language: str = "en") -> str:
     """What the decision's value is called, as in "lowest rate"; empty where its unit says it all."""
-    objective = decision.problem.objective
+    objective, weighted = decision.problem.objective, decision.problem.weights is not None
     names = objective.figure_name if isinstance(objective, Objective) else phrases()
-    return (names.get(language) or names.get("en") or next(iter(names.values()), ("",)))[0]
+    named = (names.get(language) or names.get("en") or next(iter(names.values()), ("",)))[0]
+    if named or not weighted or not isinstance(objective, Objective):
+        return named
+    if objective.measure == "efficiency":
+        return worded(language, "weighted energy efficiency")
+    return worded(language, "weighted total rate") if (objective.measure, decision.unit) == ("utility", "bit/s") else ""
 
 
 def predicted_metrics(decision: Decision) -> LinkMetrics:

@@ -127,7 +127,7 @@ def _further(case: Case, users: IntArray, of: str, language: str) -> str:
         return WORDS.say(language, "further_of_each")
     user, decision = int(users[0]), case.decision
     return WORDS.say(
-        language, f"further_{of}", total=decision.owner.size, rate=human(float(decision.rate_bps[user]), "bit/s"),
+        language, f"further_{of}", total=decision.owner.size, rate=human(float(case.rate_bps[user]), "bit/s"),
         power=human(float(_sizes(case, "power")[user]), "W"), count=int(_sizes(case, "subcarriers")[user]),
     )  # fmt: skip
 
@@ -170,7 +170,7 @@ def _sizes(case: Case, of: str) -> FloatArray:
     """What each user has, in bit/s, W or subcarriers, shape (user,)."""
     decision = case.decision
     if of == "rate":
-        return decision.rate_bps
+        return case.rate_bps
     used = decision.power_w > 0
     weights = decision.power_w[used] if of == "power" else np.ones(int(used.sum()))
     return np.asarray(np.bincount(decision.owner[used], weights=weights, minlength=case.num_users), dtype=np.float64)

@@ -120,7 +120,7 @@ def share(case: Case, user: int) -> Account:
     return Account(
         user=user,
         standing=_standing(case, user, bool(own.any())),
-        rate_bps=float(decision.rate_bps[user]),
+        rate_bps=float(case.rate_bps[user]),
         power_w=float(decision.power_w[own].sum()),
         subcarriers=int(own.sum()),
         resting=int((own & estimate.repaired[user]).sum()),
