@@ -81,3 +81,25 @@ def test_a_line_that_speaks_of_no_command_is_not_asked_about_one(said: str) -> N
     reply = talk(*HELD, said)[1][-1].reply
     assert "Undo" not in reply
     assert "撤销" not in reply
+
+
+@pytest.mark.parametrize(
+    "said", ["he's back", "they are back again", "the user has come back", "user 3 is here again", "user 3 returned",
+             "他又来了", "3号又来了", "3号恢复", "恢复3号的服务"],
+)  # fmt: skip
+def test_who_is_back_is_served_again_and_nothing_else_changes(said: str) -> None:
+    session, turns = talk("least power, 200 kbit/s each", "user 3 left", "now with 9 W", said)
+    assert turns[1].intent.constraints == {"leave_out": ("3",)}
+    assert session.request is not None
+    assert session.request.constraints == {"min_rate_bps": 2e5, "max_power_w": 9.0}
+
+
+def test_who_is_back_stays_where_nobody_was_away_and_is_asked_where_two_were() -> None:
+    held, _ = talk("least power, 200 kbit/s each", "3号不管", "3号恢复", "3号又来了")
+    assert held.request is not None
+    assert "leave_out" not in held.request.constraints
+    _, turns = talk("least power, 200 kbit/s each", "3号恢复")
+    assert "已" in turns[-1].reply
+    assert "还没有" not in turns[-1].reply
+    _, turns = talk("least power, 200 kbit/s each", "leave users 2 and 3 out", "he's back")
+    assert turns[-1].reply == "Who is back: user 2 and user 3?"

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.returning import read_return
 from wirelessagent.language.followups import joined, merged, numbers_of, taken_in
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Intent
 
@@ -104,7 +105,7 @@ def read_amendment(line: Line) -> Intent | None:
             return answer
     if line.context.objective is None:
         return None
-    readers = (_freed, _taken_in, _same_for, _other_user)
+    readers = (_freed, read_return, _taken_in, _same_for, _other_user)
     if line.context.awaits != "clarification":  # what was stated last is of a line before the one that was asked about
         readers = (*readers, _other_figure, _other_number)
     for read in readers:
