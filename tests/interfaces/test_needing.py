@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
 import pytest
 from tests.support.conversations import LOSS, SCENE, SEED
 
+import wirelessagent as wa
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
+from wirelessagent.model.units import human
 
 HELD = "highest total rate, 300 kbit/s each"
 
@@ -58,3 +61,41 @@ def test_whether_a_power_is_needed_is_answered(asked: str, told: str) -> None:
 def test_another_aim_is_told_beside_what_holds() -> None:
     said = reply(HELD, "would max-min be better?")
     assert re.search(r"With it: total rate .* lowest rate .* Now: total rate .* lowest rate 300 kbit/s", said)
+
+
+def test_the_gain_and_the_snr_of_a_user_are_told() -> None:
+    *_, overall, there, nowhere = talk(
+        HELD, "what is the SNR of user 3?", "用户3在第5个子载波上的增益多大", "gain on subcarrier 999?"
+    )
+    run = talk(HELD)[0].run
+    assert run is not None
+    gain_db = 10 * np.log10(run.estimate.gain[2])
+    own = (run.decision.owner == 2) & (run.decision.power_w > 0)
+    snr_db = 10 * np.log10(run.decision.power_w[own] * run.estimate.gain[2][own] / run.decision.cell.noise_power_w)
+    for figure in (gain_db.min(), gain_db.max(), snr_db.min(), snr_db.max()):
+        assert f"{figure:.1f}" in overall.reply
+    assert f"{gain_db[4]:.1f} dB" in there.reply
+    assert f"1 to {gain_db.size}" in nowhere.reply
+
+
+@pytest.mark.parametrize("asked", ["how long did it take?", "算了多久？"])
+def test_how_long_it_took_cannot_be_told(asked: str) -> None:
+    assert "not recorded" in reply(HELD, asked) or "没有记录" in reply(HELD, asked)
+
+
+@pytest.mark.parametrize("asked", ["who limits us?", "which user is the bottleneck?", "瓶颈是什么？"])
+def test_what_holds_the_result_back_is_told(asked: str) -> None:
+    run = talk(HELD)[0].run
+    assert run is not None
+    said = reply(HELD, asked)
+    assert human(run.decision.price_of_power, "bit/s") in said
+    assert "20 W" in said
+    spent = np.bincount(run.decision.owner, weights=run.decision.power_w)
+    assert human(float(spent.max()), "W") in said
+
+
+def test_a_cap_that_holds_everybody_back_is_named() -> None:
+    scene = wa.simulate("cqi", wa.Cell.nr(), num_users=4, seed=1)
+    session = Session(scene, LOSS, seed=SEED, confirm=False)
+    said = [session.say(line).reply for line in ("max-min", "user 2 at most 1 Mbit/s", "who limits us?")][-1]
+    assert re.search(r"user 2 may get holds the lowest rate at 1 Mbit/s: without it, it would be .* Mbit/s", said)

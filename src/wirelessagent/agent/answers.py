@@ -6,9 +6,13 @@ from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.turn import Run
 from wirelessagent.explain.answering import answered
 from wirelessagent.explain.case import Case
+from wirelessagent.agent.turn_words import told
 from wirelessagent.explain.glossary import explained
 from wirelessagent.explain.roster import owner_answer, rank_answer, subcarriers_answer
+from wirelessagent.explain.channel_words import gain_answer
 from wirelessagent.explain.table import Table
+from wirelessagent.explain.labels import called
+from wirelessagent.explain.limits import limits_answer
 from wirelessagent.explain.tables import user_table
 from wirelessagent.explain.words import explain
 from wirelessagent.language.intent import Intent
@@ -38,10 +42,12 @@ def answer(run: Run, intent: Intent, user_names: tuple[str, ...]) -> tuple[str, 
     case = case_of(run)
     topic, details = intent.topic or "", intent.details
     figures = {name: float(value) for name, value in details.items() if isinstance(value, int | float)}
-    if topic == "users" and run.decision.is_usable:
-        told = _of_users(case, intent, user_names)
-        if told:
-            return told, (user_table(run.report, run.estimate, intent.language),)
+    if topic == "users" and "asked" not in details and run.decision.is_usable:
+        listed = _of_users(case, intent, user_names)
+        if listed:
+            return listed, (user_table(run.report, run.estimate, intent.language),)
+    if "asked" in details and (run.decision.is_usable or details["asked"] != "limits"):
+        return _looked_up(case, intent, user_names), ()
     found = answered(
         case, run.report, topic, intent.language, user=_user(intent, user_names), figures=figures
     )  # fmt: skip
@@ -54,6 +60,16 @@ def answer(run: Run, intent: Intent, user_names: tuple[str, ...]) -> tuple[str, 
 def _of_users(case: Case, intent: Intent, user_names: tuple[str, ...]) -> str:
     """Who gets the least or the most, or who has which subcarriers, where that is asked; else empty."""
     details, language = intent.details, intent.language
+def _looked_up(case: Case, intent: Intent, user_names: tuple[str, ...]) -> str:
+    """What was measured, how long it took, or what holds the result back."""
+    language, place = intent.language, intent.details.get("subcarrier")
+    if intent.details["asked"] == "limits":
+        return limits_answer(case, language)
+    if intent.details["asked"] == "duration":
+        return told(language, "no_duration", method=called(language, case.decision.method))
+    return gain_answer(case, _user(intent, user_names), int(place) if isinstance(place, float) else None, language)
+
+
     if "rank" in details:
         return rank_answer(case, str(details["rank"]), str(details.get("of", "rate")), language)
     if "listed" in details:

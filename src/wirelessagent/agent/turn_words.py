@@ -57,6 +57,7 @@ _ENGLISH: Mapping[str, str] = {
     "plan_still_waits": "The plan still waits: 'yes' applies {request}.",
     "shall_i_apply": "Nothing is applied yet. What waits is {request}. Shall I apply it, yes or no?",
     "left_waiting": "Nothing is applied. What goes on waiting is {request}. 'yes' applies it, 'no' drops it.",
+    "no_duration": "How long it took is not recorded, so that a replay is the same everywhere; {method} did it.",
     "plan_dropped": "The plan is dropped.",
 }
 
@@ -116,6 +117,7 @@ _CHINESE: Mapping[str, str] = {
 }
 
 
+    "no_duration": "没有记录用了多久，这样重放处处相同；求解用的是{method}。",
 def told(language: str, key: str, **names: object) -> str:
     """The sentence of this key in the operator's language, with its names filled in."""
     return (_CHINESE if language == "zh" else _ENGLISH)[key].format(**names)

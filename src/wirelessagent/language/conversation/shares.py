@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.looking import read_looked
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.text import normalise
@@ -71,6 +72,9 @@ def read_share(line: Line) -> Intent | None:
     """The question who has what that a line is as a whole; None for any other line."""
     if line.context.objective is None or line.figures:
         return None
+    looked = read_looked(line)
+    if looked is not None:
+        return looked
     said = line.wish.rstrip("?？.。!！ ")
     owned = _OWNED.fullmatch(normalise(line.text).lower().strip().rstrip("?？.。!！ "))
     if owned is not None:
