@@ -18,6 +18,7 @@ from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.roles import UserRole, is_something_of, role_of
 
 _SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.5, 0.45
+_AT_ODDS = 0.25
 _SAID = 0.4
 _NEAR = 30
 
@@ -287,10 +288,16 @@ class Allotments:
             if mention.role != "named":
                 continue
             self.spans.append((mention.start, mention.end))
-            if not spoken_of.issuperset(mention.users) or (
-                mention in self._unsure and not self._said_elsewhere(mention)
-            ):
+            unsure = mention in self._unsure and not self._said_elsewhere(mention)
+            if unsure or not spoken_of.issuperset(mention.users) or self._is_at_odds(mention):
                 yield mention.start, mention.end
+
+    def _is_at_odds(self, mention: Mention) -> bool:
+        """Whether somebody has a rate elsewhere and gets nothing here: "user 3 needs 1 Mbit/s but drop user 3"."""
+        rated = {user for given in self._rates.values() for user, each in given.items() if each.value > 0}
+        dropped = self._judged.said_of(mention)["leave_out"] > _AT_ODDS
+        corrected = CORRECTION.search(self._plain, mention.end) is not None
+        return dropped and not corrected and mention not in self._used and rated.issuperset(mention.users)
 
     def _said_elsewhere(self, mention: Mention) -> bool:
         """Whether everybody of a mention is settled by another, or by a weight."""

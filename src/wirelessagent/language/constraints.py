@@ -21,7 +21,7 @@ from wirelessagent.language.powers import Powers
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.rates import Rates
 from wirelessagent.language.stated import Notes, Reading
-from wirelessagent.language.surroundings import is_calculated
+from wirelessagent.language.surroundings import is_calculated, is_refused
 from wirelessagent.language.whole_cell import doubt_parts, take_blocks, take_counts, take_share
 
 _SURE = 0.6
@@ -91,6 +91,8 @@ class _Reader:
             doubt = self._doubt_about(figure, *self._neighbours.beside(index))
             if doubt:
                 self._notes.doubt(doubt, text=figure.text)
+            elif is_refused(*self._neighbours.beside(index)):
+                self._refuse(figure)
             elif figure.kind == "ratio":
                 self._take_ratio(index)
             elif figure.kind == "power":
@@ -111,6 +113,13 @@ class _Reader:
         if is_calculated(before, after):
             return "calculated"
         return "" if figure.kind == "ratio" or 0 < figure.value < math.inf else "impossible"
+
+    def _refuse(self, figure: Quantity) -> None:
+        """A figure that is not wanted describes what another one mends; without one it is asked for."""
+        if any(other.kind == figure.kind and other is not figure for other in self._judged.figures):
+            self._notes.counted.append((figure.start, figure.end))
+        else:
+            self._notes.doubt("refused", text=figure.text)
 
     def _take_ratio(self, index: int) -> None:
         """A share of the channel that is missing, an outage or a reliability."""

@@ -97,6 +97,7 @@ SOME_USERS = Phrases(
     r"\b(?:except|but|without)\s+(?:for\s+)?the\s+(?:last|first)(?:\s+(?:one|two|three|few|user|users))?(?=\s*(?:$|[,.;:!]))|"
     r"\b(?:leav\w+|drop\w*|exclud\w+|kick\w*|cut)\s+(?:out\s+)?(?:the\s+)?users\s+(?:out\s+)?(?:who|that|which|with|whose)\b|"
     r"\busers?\s+[0-9]+\s+(?:and|or)\s+(?:up|above|higher|beyond|onwards?|more)\b|\bfrom\s+user\s+[0-9]+\s+on(?:wards?)?\b|"
+    r"\b(?:users?|ues?)\s+[-−][0-9]+|用户\s*[-−][0-9]+|"
     r"(?:单|双|奇数|偶数)号?(?:的)?用户|(?:一半|半数)的?用户|[0-9]号(?:及|和)?(?:以后|以上|往后)|"
     r"(?:踢|去掉|不服务|排除)[^,\uff0c。0-9]{1,10}的用户|[^,\uff0c。0-9]{1,8}的用户都?(?:踢|去掉|不服务|排除|剔除)"
 )

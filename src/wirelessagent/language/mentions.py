@@ -68,7 +68,7 @@ _SPACED = (  # "users 1 2 3", and nothing that is counted behind
 )
 _LIST = rf"(?:{_SPACED}|{_DIGITS}(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
 _NAMED = Phrases(
-    rf"(?<![A-Za-z0-9]){_NOUN}[\s_-]*(?:ids?\s*|{_NO}\s*|(?:del?|from|von)\s+(?=[0-9]{{1,3}}{_TO}))?\s*(?P<list>{_LIST})"
+    rf"(?<![A-Za-z0-9]){_NOUN}(?:[\s_]*|-|\s-\s)(?:ids?\s*|{_NO}\s*|(?:del?|from|von)\s+(?=[0-9]{{1,3}}{_TO}))?\s*(?P<list>{_LIST})"
     rf"|(?<![A-Za-z0-9])(?:u|ue)(?P<short>[0-9]{{1,4}})(?![A-Za-z0-9])"
     rf"|(?<![A-Za-z])[RrWw]_?\{{?(?P<symbol>[0-9]{{1,2}})\}}?(?=\s*(?:[=≥≤<>]))"
     rf"|(?<![A-Za-z0-9])r(?P<rate_of>[0-9]{{1,2}})(?![A-Za-z0-9.])|"

@@ -194,7 +194,8 @@ class _Understanding:
         goal, pending, concepts = self._goal, self._reading.values, self._sentence.concepts
         offered = [name for name in goal.options if name in self._voice.labels or goal.verdict == "opposite"]
         fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
-        if concepts & _FAIR_WORDS and len(fair) > 1 and goal.verdict != "contradiction":
+        fairly = goal.objective == "proportional_fairness" and goal.verdict == "clear"  # "make it fair"
+        if (concepts & _FAIR_WORDS or fairly) and len(fair) > 1 and goal.verdict != "contradiction":
             return self._answer.ask("fairness", 0.8, pending, both=self._voice.both(fair, "or"))
         if goal.verdict == "contradiction" and len(offered) > 1:
             key = "contradiction" if set(offered) == {"max_rate", "min_power"} else "rivals"
