@@ -101,6 +101,7 @@ _APPLY = re.compile(
     r"(?:go|proceed)\s+with\s+(?:it|that|this)|make\s+it\s+so|(?:go|do)\s+(?:for\s+it|it\s+that\s+way|like\s+that))|"
     r"(?:就|照|按)*(?:这么|这样|这个)(?:方案)?(?:去)?(?:办|做|定|来|干|执行|吧)|(?:就)?(?:用|采用)(?:这个|它)(?:方案)?|应用(?:它|这个)?"
 )
+_POLITE = re.compile(r"\b(?:you|please)\b|请|麻烦|帮")
 _THAT = re.compile(r"(?:apply|activate|deploy|use|take)\s+it|应用(?:它)?")
 """Words that mean the plan that waits, where one does."""
 
@@ -108,6 +109,8 @@ _THAT = re.compile(r"(?:apply|activate|deploy|use|take)\s+it|应用(?:它)?")
 def read_command(line: Line) -> Intent | None:
     """The command about the conversation that a line is as a whole, or None."""
     said = line.wish.rstrip("?？").strip()
+    if said != line.wish.strip() and not _POLITE.search(line.shape):  # what is only asked about is not done
+        return _about_a_turn(line, said)
     return _taken_up(line, said) or _undone(line, said) or _about_a_turn(line, said)
 
 
