@@ -52,3 +52,56 @@ def test_what_is_so_is_only_explained(said: str) -> None:
     assert "does not get" not in talk("highest total rate", said)[-1].reply
     assert "并非" not in talk("highest total rate", said)[-1].reply
     assert "并不是" not in talk("highest total rate", said)[-1].reply
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["what limits hold now?", "which limits apply", "what are the current limits?", "what did I ask for?",
+     "what have I asked for so far?", "我刚才要求了什么", "现在有哪些限制？"],
+)  # fmt: skip
+def test_what_was_asked_for_is_restated(said: str) -> None:
+    turn = talk(HELD, said)[-1]
+    assert (turn.intent.topic, turn.stage) == ("status", "answered")
+    assert "10 W" in turn.reply.split("\n")[0]
+
+
+@pytest.mark.parametrize("said", ["how sure is this?", "how reliable are the rates?", "结果有多可靠？"])
+def test_how_sure_it_is_is_of_the_channel_and_the_promises(said: str) -> None:
+    turn = talk(HELD, said)[-1]
+    assert turn.intent.topic == "uncertainty"
+    assert "20 %" in turn.reply
+    assert "95 %" in turn.reply
+    assert talk(HELD, "how do you know it is the best?")[-1].intent.topic == "certificate"
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("is that ok for the others?", "get nothing"),
+        ("did anyone lose out?", "get nothing"),
+        ("谁用的电最多", "9.01 W"),
+        ("who should I leave out?", "user 2 takes the most power for its rate"),
+        ("应该放弃谁？", "用户2用的功率最多"),
+        ("what did turn 1 say?", "highest total rate, at most 10 W"),
+        ("4瓦的话是什么样", "不超过 4 W"),
+        ("what if the delay spread were 1 us?", "as it was sensed"),
+        ("how much do we lose to missing CSI?", "0 % of the gains"),
+        ("compare with foo", "foo is neither"),
+        ("和foo比较", "foo 既不是"),
+        ("export as foo", "got foo"),
+        ("导出为pdf", "收到 pdf"),
+        ("export as TMF921", "Intent"),
+        ("export as json", "SubNetwork"),
+        ("compare with before", "no earlier decision"),
+    ],
+)
+def test_a_question_has_its_own_answer(said: str, told: str) -> None:
+    assert told in talk("highest total rate, at most 10 W", said)[-1].reply
+
+
+def test_better_is_compared_and_wasted_is_worked_out() -> None:
+    turns = talk(HELD, "now with 5 W", "was that better?", "are we wasting energy?", UNMET, "who should I leave out?")
+    assert turns[2].tables
+    assert "turn 1" in turns[2].reply
+    assert "319 mW" in turns[3].reply
+    assert "What can be met" in turns[5].reply

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.turn import Run
+from wirelessagent.agent.turn_words import told
 from wirelessagent.explain.answering import answered
 from wirelessagent.explain.case import Case
-from wirelessagent.agent.turn_words import told
-from wirelessagent.explain.glossary import explained
-from wirelessagent.explain.roster import owner_answer, rank_answer, subcarriers_answer
 from wirelessagent.explain.channel_words import gain_answer
-from wirelessagent.explain.table import Table
+from wirelessagent.explain.glossary import explained
 from wirelessagent.explain.labels import called
 from wirelessagent.explain.limits import limits_answer
+from wirelessagent.explain.roster import owner_answer, rank_answer, subcarriers_answer
+from wirelessagent.explain.table import Table
 from wirelessagent.explain.tables import user_table
 from wirelessagent.explain.words import explain
 from wirelessagent.language.intent import Intent
+from wirelessagent.model.units import human
 
 
 def explanation(run: Run, language: str) -> str:
@@ -57,9 +60,6 @@ def answer(run: Run, intent: Intent, user_names: tuple[str, ...]) -> tuple[str, 
     return text or explain(run.estimate, run.report, language=intent.language)[0], tables
 
 
-def _of_users(case: Case, intent: Intent, user_names: tuple[str, ...]) -> str:
-    """Who gets the least or the most, or who has which subcarriers, where that is asked; else empty."""
-    details, language = intent.details, intent.language
 def _looked_up(case: Case, intent: Intent, user_names: tuple[str, ...]) -> str:
     """What was measured, how long it took, or what holds the result back."""
     language, place = intent.language, intent.details.get("subcarrier")
@@ -70,12 +70,30 @@ def _looked_up(case: Case, intent: Intent, user_names: tuple[str, ...]) -> str:
     return gain_answer(case, _user(intent, user_names), int(place) if isinstance(place, float) else None, language)
 
 
+def _of_users(case: Case, intent: Intent, user_names: tuple[str, ...]) -> str:
+    """Who gets the least or the most, or who has which subcarriers, where that is asked; else empty."""
+    details, language = intent.details, intent.language
     if "rank" in details:
         return rank_answer(case, str(details["rank"]), str(details.get("of", "rate")), language)
+    if details.get("listed") == "dearest":
+        return _dearest(case, language)
     if "listed" in details:
         return subcarriers_answer(case, _user(intent, user_names), language)
     place = details.get("subcarrier")
     return owner_answer(case, int(place), language) if isinstance(place, float) else ""
+
+
+def _dearest(case: Case, language: str) -> str:
+    """Who takes the most power for a rate, which says whom to leave out if anybody; empty where nobody gets any."""
+    decision = case.decision
+    used = decision.power_w > 0
+    power_w = np.bincount(decision.owner[used], weights=decision.power_w[used], minlength=case.num_users)
+    rated = np.flatnonzero(decision.rate_bps > 0)
+    if not rated.size:
+        return ""
+    user = int(rated[np.argmax(power_w[rated] / decision.rate_bps[rated])])
+    rate, power = human(float(decision.rate_bps[user]), "bit/s"), human(float(power_w[user]), "W")
+    return told(language, "dearest", user=called(language, decision.user_names[user]), rate=rate, power=power)
 
 
 def _user(intent: Intent, user_names: tuple[str, ...]) -> int | None:

@@ -196,7 +196,8 @@ def _spoken_of(run: Run, on_air: Run | None, intent: Intent) -> tuple[Run, str]:
     """
     if run.decision.is_usable or on_air is None or not on_air.decision.is_usable:
         return run, ""
-    return (run, "") if intent.topic in ("why_infeasible", "step", "what_if") else (on_air, "in_effect")
+    of_it = intent.topic in ("why_infeasible", "step", "what_if") or intent.details.get("listed") == "dearest"
+    return (run, "") if of_it else (on_air, "in_effect")
 
 
 def _wondered(intent: Intent) -> dict[str, Constraint]:

@@ -39,6 +39,8 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
     language, details = intent.language, intent.details
     share = details.get("missing_share")
     objective = details.get("objective")
+    if details.get("of") == "channel":
+        return Reply(text=told(language, "channel_given"), stage="asked")
     if share is None and not any(details.get(name) for name in ("constraints", "objective", "dropped")):
         return Reply(text=say(language, "what_if_nothing"), stage="asked")
     if state.request is None and objective is None:

@@ -11,6 +11,7 @@ _ENGLISH: Mapping[str, str] = {
     "asked_for": "Asked for: {request}",
     "nothing_asked": "Nothing is asked for now.",
     "undone_fewer": "All {count} changes are taken back; there were no more.",
+    "asked_but_taken_back": "So what is asked for is not in effect; figures shown are of what was taken back.",
     "breaks_what_holds": "What was in effect then, {power}, breaks its limits, so what is in effect now stays.",
     "back_to_turn": "As in turn {number:g}.",
     "no_turn": "There is no turn {number}; there are turns 1 to {last}.",
@@ -25,6 +26,10 @@ _ENGLISH: Mapping[str, str] = {
     "not_nothing": "{user} is not without anything.",
     "not_least": "{user} does not get the least. {who}",
     "not_most": "{user} does not get the most. {who}",
+    "dearest": "Nobody has to be left out: what is asked for is met. {user} takes the most power for its rate: {power} "
+    "for {rate}.",
+    "channel_given": "The channel is as it was sensed, and its noise and bandwidth as they were set up. What else "
+    "should be different: a power, a rate, the users, the aim, or what is missing?",
     "as_before": "As before: {limits}.",
     "no_longer": "No longer: {limits}.",
     "kept_as_it_is": "All stays as it is.",
@@ -52,12 +57,12 @@ _ENGLISH: Mapping[str, str] = {
     "enough_enough": "So {enough} is enough.",
     "not_enough": "So {enough} is not enough.",
     "perhaps_enough": "Whether {enough} is enough is not known.",
+    "no_duration": "How long it took is not recorded, so that a replay is the same everywhere; {method} did it.",
     "beside_now": "With it: {then}. Now: {now}.",
     "beside_figures": "total rate {total}, lowest rate {lowest}, {power} radiated",
     "plan_still_waits": "The plan still waits: 'yes' applies {request}.",
     "shall_i_apply": "Nothing is applied yet. What waits is {request}. Shall I apply it, yes or no?",
     "left_waiting": "Nothing is applied. What goes on waiting is {request}. 'yes' applies it, 'no' drops it.",
-    "no_duration": "How long it took is not recorded, so that a replay is the same everywhere; {method} did it.",
     "plan_dropped": "The plan is dropped.",
 }
 
@@ -67,6 +72,7 @@ _CHINESE: Mapping[str, str] = {
     "asked_for": "要求：{request}",
     "nothing_asked": "现在没有任何要求。",
     "undone_fewer": "全部 {count} 次改动均已撤销，没有更多。",
+    "asked_but_taken_back": "因此所要求的尚未生效；所示数据属于被撤回的分配。",
     "breaks_what_holds": "当时生效的分配（{power}）超出其限制，因此现行分配保持不变。",
     "back_to_turn": "同第 {number:g} 轮。",
     "no_turn": "没有第 {number} 轮；现有第 1 至 {last} 轮。",
@@ -81,6 +87,9 @@ _CHINESE: Mapping[str, str] = {
     "not_nothing": "{user}并非什么都没有。",
     "not_least": "{user}得到的并不是最少的。{who}",
     "not_most": "{user}得到的并不是最多的。{who}",
+    "dearest": "不必放弃任何用户：要求已经满足。按速率计，{user}用的功率最多：{power} 换来 {rate}。",
+    "channel_given": "信道以测得的为准，噪声和带宽以设定的为准。"
+    "还要假设什么不同：功率、速率、用户、目标，还是缺失的比例？",
     "as_before": "仍然有效：{limits}。",
     "no_longer": "不再要求：{limits}。",
     "kept_as_it_is": "一切保持不变。",
@@ -108,6 +117,7 @@ _CHINESE: Mapping[str, str] = {
     "enough_enough": "所以 {enough} 够了。",
     "not_enough": "所以 {enough} 不够。",
     "perhaps_enough": "{enough} 是否够，尚不清楚。",
+    "no_duration": "没有记录用了多久，这样重放处处相同；求解用的是{method}。",
     "beside_now": "这样：{then}。现在：{now}。",
     "beside_figures": "总速率 {total}，最低速率 {lowest}，发射 {power}",
     "plan_still_waits": "原计划仍在等待：说“是”即应用{request}。",
@@ -117,7 +127,6 @@ _CHINESE: Mapping[str, str] = {
 }
 
 
-    "no_duration": "没有记录用了多久，这样重放处处相同；求解用的是{method}。",
 def told(language: str, key: str, **names: object) -> str:
     """The sentence of this key in the operator's language, with its names filled in."""
     return (_CHINESE if language == "zh" else _ENGLISH)[key].format(**names)

@@ -16,6 +16,19 @@ _NUMBER = re.compile(
     r"\bhistory\s+(?:show\s+)?(?P<m>[0-9]+)"
 )
 _FORMATS = (("tmf921", re.compile(r"(?i)tmf\s*-?921")), ("ts28312", re.compile(r"(?i)28\.?312|3gpp")))
+_WITH = re.compile(
+    r"(?i)\bcompare\s+(?:(?:it|this|that)\s+)?(?:with|to|against)\s+([a-z][\w.-]*)[\s.!?]*$|"
+    r"[和与跟同]\s*([A-Za-z][\w.-]*)\s*(?:作|做|进行)?(?:个|一)?(?:比较|对比|相比|比)"
+)
+_AS = re.compile(
+    r"(?i)\bexport\s+(?:(?:it|this|that|everything|the\s+\w+)\s+)?(?:as|to|in|into)\s+([a-z][\w.-]*)[\s.!?]*$|"
+    r"导出(?:为|成|到)\s*([A-Za-z][\w.-]*)\s*$"
+)
+_NO_TOOL = re.compile(
+    r"(?i)last|previous|earlier|before|first|others?|one|it|this|that|now|then|yesterday|everything|all|turn|mine|ours|"
+    r"reality|theory|optimum|optimal|best"
+)
+_NO_FORMAT = re.compile(r"(?i)json|files?|disk|standard|document|text|it|this|that|me|us")
 _MORE = re.compile(r"(?i)\b(?:more|extra|additional|further|another)\s+")
 _FEWER = re.compile(r"(?i)\b(?:less|fewer|lower|reduc\w+|cut\w*|sav\w+|drop\w*)\b|(?<!多)少|降|减|省")
 _EACH = re.compile(
@@ -44,15 +57,24 @@ def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
         steps = _step(sentence)
         return {**steps, **(user if "rate_bps" in steps else {})}
     if topic == "compare":
-        return {"with": " ".join(tools_named(sentence.plain, "method", "repairer")) or "last"}
+        unknown = _named_in(_WITH, _NO_TOOL, sentence.plain)
+        return {"with": " ".join(tools_named(sentence.plain, "method", "repairer")) or unknown or "last"}
     if topic == "history":
         match = _NUMBER.search(sentence.plain)
         word = (match["n"] or match["m"]) if match is not None else ""
         number = int(word) if word.isdigit() else int(chinese_value(word) or 0) if word else 0
         return {"number": float(number)} if number else {}
     if topic == "export":
-        return {"format": next((name for name, pattern in _FORMATS if pattern.search(sentence.plain)), "ts28312")}
+        known = next((name for name, pattern in _FORMATS if pattern.search(sentence.plain)), "")
+        return {"format": known or _named_in(_AS, _NO_FORMAT, sentence.plain) or "ts28312"}
     return {}
+
+
+def _named_in(pattern: re.Pattern[str], common: re.Pattern[str], plain: str) -> str:
+    """The name that a sentence ends with, where it is no common word; else empty."""
+    match = pattern.search(plain)
+    name = "" if match is None else next(group for group in match.groups() if group).strip()
+    return "" if common.fullmatch(name) else name
 
 
 def _what_if(sentence: Sentence) -> dict[str, Detail]:

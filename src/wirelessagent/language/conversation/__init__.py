@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 
-from wirelessagent.language.conversation.about import asked_instead, read_question
+from wirelessagent.language.conversation.about import asked_instead, given_instead, read_question
 from wirelessagent.language.conversation.amendments import read_amendment
 from wirelessagent.language.conversation.certain import made_certain
 from wirelessagent.language.conversation.commands import read_command
@@ -32,8 +32,8 @@ __all__ = ["NAME", "Unanswered", "unanswered", "understood"]
 _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""
 _READERS = (
-    read_command, read_method, read_comparison, read_needed, read_relative, read_promisable, read_share,
-    read_question, read_amendment,
+    read_command, read_method, read_comparison, read_needed, read_relative, read_promisable,
+    read_question, read_share, read_amendment,
 )  # fmt: skip
 """What a line may be because of its conversation, the closest first."""
 
@@ -64,7 +64,8 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
         )  # fmt: skip
     intent = recogniser.recognise(text, context)
-    return only_told(line, intent) or asked_instead(line, intent) or by_method(line, intent)
+    read = only_told(line, intent) or asked_instead(line, intent) or by_method(line, intent)
+    return given_instead(line, read)
 
 
 def _possible(line: Line, asked: str, recogniser: Recogniser) -> Intent:

@@ -28,7 +28,57 @@ _IN_FORCE = re.compile(
     r"(?:the\s+)?(?:current\s+)?request)(?:\s+(?:right\s+)?now|\s+at\s+the\s+moment)?|"
     r"what\s+(?:did|do|have)\s+you\s+(?:understand|understood|get|got)(?:\s+(?:so\s+far|from\s+that))?|"
     r"(?:现在|目前|当前)的?(?:要求|请求|限制)(?:是|有)?(?:什么|哪些)(?:呢|啊)?|(?:现在|目前)(?:生效|有效)的(?:是)?(?:什么|要求)(?:要求)?|"
-    r"你(?:是怎么)?理解(?:了|成)什么"
+    r"你(?:是怎么)?理解(?:了|成)什么|"
+    r"(?:what|which)\s+(?:limits?|constraints?|requirements?|restrictions?|rules)\s+(?:currently\s+|now\s+)?"
+    r"(?:hold|apply|stand|are\s+(?:there|set|on|active|in\s+(?:effect|force|place)))(?:\s+(?:right\s+)?now)?|"
+    r"what\s+are\s+(?:the|my|our)\s+(?:current\s+|present\s+)?(?:limits?|constraints?|requirements?|restrictions?)(?:\s+(?:right\s+)?now)?|"
+    r"what\s+(?:did|have)\s+(?:i|we)\s+(?:(?:just|last|actually)\s+)?(?:ask(?:ed)?(?:\s+(?:you\s+)?for)?|request(?:ed)?|said|say|order(?:ed)?)"
+    r"(?:\s+(?:so\s+far|last|before|again|until\s+now))?|what\s+(?:was|is)\s+my\s+(?:last\s+|current\s+)?request|"
+    r"我(?:刚才|刚刚|之前|前面|现在|都|到底|一共)*(?:要求|请求|说|提|设)(?:了|过|的)*(?:是)?(?:什么|哪些)(?:要求|限制)?(?:来着|呢|啊)?|"
+    r"(?:现在|目前|当前)?(?:都)?有(?:什么|哪些)(?:限制|要求|约束)(?:呢|啊)?"
+)
+_HOW_SURE = re.compile(
+    r"how\s+(?:sure|certain|reliable|confident|trustworthy)\s+(?:is|are|was|were)\s+(?:this|that|it|they|these|you|we|"
+    r"(?:the\s+)?(?:results?|figures?|numbers?|rates?|promises?|plan|decision|allocation|estimate))(?:\s+(?:of|about)\s+(?:it|this|that|them))?|"
+    r"(?:这个|这|该|结果|方案|分配|速率|承诺)*(?:有)?多(?:大的?)?(?:可靠|确定|把握|准确?)(?:性)?|(?:这个|结果|方案|分配|承诺)+(?:可靠|靠谱|准确?)吗"
+)
+_FOR_THE_OTHERS = re.compile(
+    r"(?:and\s+|but\s+)?(?:is|are|was|would|will)\s+(?:it|that|this|they)(?:\s+be)?\s+(?:really\s+|still\s+)?(?:ok(?:ay)?|fine|fair|good|bad|"
+    r"all\s+right|alright|enough|acceptable|a\s+problem)\s+(?:for|to|with)\s+(?:the\s+(?:others?|rest|other\s+users|users)|everyone(?:\s+else)?|"
+    r"everybody(?:\s+else)?|all(?:\s+(?:of\s+)?them)?)|(?:and\s+|but\s+)?(?:how\s+(?:are|is)|what\s+about|what\s+(?:do|does))\s+the\s+"
+    r"(?:others|rest|other\s+users)(?:\s+(?:doing|get|now))?|(?:does|did)\s+(?:any(?:one|body)|someone)\s+(?:suffer|lose\s+out|get\s+(?:nothing|"
+    r"left\s+out|cut\s+off|hurt))|(?:这样|这|那)?对?(?:其他|其余|别的|剩下的?)(?:人|用户|的)*(?:来说)?(?:可以|行|好|公平|没问题|受得了|够|怎么样|"
+    r"如何|呢|有影响)+(?:吗|么|呢)?"
+)
+_WAS_BETTER = re.compile(
+    r"(?:and\s+|so\s+)?(?:was|is|has)\s+(?:it|that|this)(?:\s+now)?\s+(?:(?:any|really|actually|got(?:ten)?|become)\s+)*(?:better|worse|an?\s+"
+    r"improvement)(?:\s+(?:now|than\s+(?:before|it\s+was)))?|did\s+(?:it|that|this)\s+(?:help|improve(?:\s+anything)?|get\s+(?:better|worse)|"
+    r"make\s+(?:it|things|anything)\s+(?:better|worse))|(?:这样|现在|刚才那个?|这)?(?:比(?:之前|刚才|原来|以前|上次)的?)?(?:更好|好一?些|好一?点|变好|变差|"
+    r"更差|有改善|有提高)了?(?:吗|么)"
+)
+_WASTING = re.compile(
+    r"(?:and\s+)?(?:are\s+we|is\s+(?:it|the\s+cell|this)|do\s+we|does\s+(?:it|the\s+cell))\s+(?:just\s+)?wast(?:e|ing)\s+(?:any\s+|much\s+|too\s+"
+    r"much\s+)?(?:energy|power|watts|electricity)|(?:is|are)\s+(?:any\s+)?(?:energy|power)\s+(?:being\s+)?wasted|could\s+we\s+do\s+with\s+less\s+"
+    r"power|(?:我们|现在)?(?:是不是|有没有|是否)?(?:在)?浪费(?:了)?(?:电|功率|能量|能源|电力)(?:了)?(?:吗|么)?"
+)
+_WHOM_TO_LEAVE_OUT = re.compile(
+    r"(?:who|whom|which\s+(?:users?|one)|what\s+user)\s+(?:should|could|would|can|must|shall)\s+(?:i|we|you)\s+(?:best\s+|better\s+)?(?:leave\s+out|drop|"
+    r"give\s+up|sacrifice|cut(?:\s+off)?|remove|exclude)|who\s+(?:should|could|is\s+best)\s+(?:be\s+)?(?:left\s+out|dropped|cut\s+off|sacrificed)|"
+    r"(?:我们?)?(?:应该|该|最好|可以|要)?(?:放弃|舍弃|不服务|去掉|不管|牺牲)(?:谁|哪个(?:用户)?|哪些(?:用户)?)(?:比较|最)?好?"
+)
+_TURN_SAID = re.compile(
+    r"what\s+(?:did|does)\s+turn\s+(?P<did>\d{1,6})\s+(?:say|do|ask(?:\s+for)?|change|decide|mean)|"
+    r"what\s+(?:was|is|happened\s+in|about)\s+turn\s+(?P<was>\d{1,6})(?:\s+about)?|第(?P<zh>\d{1,6})轮(?:说|做|要求|问|改)(?:的是|了)?(?:什么|啥)"
+)
+_TO_WHAT_IS_MISSING = re.compile(
+    r"\b(?:lose|losing|lost|cost(?:ing)?\s+(?:us|me)|price|worth|suffer|gain|penalty)\b.*\b(?:missing|incomplete|unmeasured|unknown|imperfect|lost)\s+"
+    r"(?:csi|measurements?|gains?|channels?|data|entries|information|knowledge)\b|"
+    r"(?:缺失|不完整|没测到|没有测得|不完美)的?(?:信道|数据|增益|测量|CSI|csi|信息)*.*(?:损失|代价|影响|亏|少)(?:了|掉)?(?:多少|多大)|"
+    r"(?:因为|由于).*(?:缺失|缺少|不完整).*(?:损失|少)(?:了|掉)?(?:多少|多大)"
+)
+_GIVEN = re.compile(
+    r"\b(?:delay\s+spread|doppler|noise|bandwidth|carrier|frequency|path\s?loss|fading|antennas?|snr|interference|distance|"
+    r"subcarrier\s+spacing|number\s+of\s+subcarriers)\b|时延扩展|多普勒|噪声|带宽|载波频率|路径损耗|路损|衰落|天线|信噪比|干扰|距离"
 )
 _THANKS = re.compile(
     r"(?:(?:ok(?:ay)?|great|good|perfect|fine|many|all\s+right)[,!.\s]+)*(?:thanks|thank\s+you|thx|cheers|ta)"
@@ -54,10 +104,28 @@ def read_question(line: Line) -> Intent | None:
         return line.courtesy("welcome")
     if _IN_FORCE.fullmatch(said):
         return line.command("status")
+    match = _TURN_SAID.fullmatch(said)
+    if match is not None:
+        return line.command("history", turn=float(next(group for group in match.groups() if group)))
     if line.context.objective is None:
         return None
-    if _CHANNEL.fullmatch(said):
+    if _CHANNEL.fullmatch(said) or _HOW_SURE.fullmatch(said):
         return line.question("uncertainty")
+    return _judged(line, said)
+
+
+def _judged(line: Line, said: str) -> Intent | None:
+    """Questions what is good or bad about the result, each answered by the figures that tell it."""
+    if _FOR_THE_OTHERS.fullmatch(said):
+        return line.question("users", rank="least", of="rate")
+    if _WAS_BETTER.fullmatch(said):
+        return line.command("compare", **{"with": "last"})
+    if _WASTING.fullmatch(said):
+        return line.question("what_if", asked="power")
+    if _WHOM_TO_LEAVE_OUT.fullmatch(said):
+        return line.question("users", listed="dearest")
+    if not line.figures and _TO_WHAT_IS_MISSING.search(said):
+        return line.question("what_if", missing_share=0.0)
     return line.command("explain") if _RESULT.fullmatch(said) else None
 
 
@@ -74,6 +142,14 @@ def asked_instead(line: Line, understood: Intent) -> Intent | None:
     if _OF_THE_USERS.search(plain):
         return line.question("users", **({"user": line.users[0]} if line.users else {}))
     return line.question("other") if _OF_THE_RESULT.search(plain) else _without_the_aim(line, understood)
+
+
+def given_instead(line: Line, intent: Intent) -> Intent:
+    """A what-if of the channel, which is as it was sensed; any other intent as it is."""
+    wonders = intent.kind == "question" and intent.topic == "what_if"
+    if not wonders or intent.details or not _GIVEN.search(line.shape):
+        return intent
+    return line.question("what_if", of="channel")
 
 
 def _without_the_aim(line: Line, understood: Intent) -> Intent | None:

@@ -28,7 +28,7 @@ _RANKED = re.compile(
     rf"(?:what|how\s+much)\s+(?:rate\s+|power\s+)?(?:does|do)\s+the\s+(?:{_LEAST.replace('least>', 'least2>')}|"
     rf"{_MOST.replace('most>', 'most2>')})\s+(?:users?|ones?)\s+(?:get|have|receive)s?"
 )
-_ZH_OF = "(?:的|速率|速度|功率|子载波|得到|分到|拿到?|用|占|现在|目前|所得|带宽)*"
+_ZH_OF = "(?:的|速率|耗|电量?|速度|功率|子载波|得到|分到|拿到?|用|占|现在|目前|所得|带宽)*"
 _ZH_LEAST, _ZH_MOST = "最少|最低|最慢|最差|最小", "最多|最高|最快|最好|最大"
 _ZH_RANKED = re.compile(
     rf"(?:那|现在)?(?:谁|哪[个位]?(?:用户|人)?)(?:是)?{_ZH_OF}(?:(?P<least>{_ZH_LEAST})|(?P<most>{_ZH_MOST})){_ZH_OF}(?:呢|啊)?|"
@@ -95,7 +95,7 @@ def _of(said: str) -> str:
     """What is ranked: the rate where nothing else is named."""
     if re.search("子载波|subcarrier", said):
         return "subcarriers"
-    return "power" if re.search("power|watts|功率", said) else "rate"
+    return "power" if re.search("power|watts|energy|功率|电", said) else "rate"
 
 
 def _number(word: str) -> float:

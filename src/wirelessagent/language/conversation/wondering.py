@@ -25,6 +25,7 @@ _BEGINS = re.compile(
 _ENDS = re.compile(
     r"(?i)\s*(?:(?:is|are|would)\s+(?P<rest>.+?)\s+(?:be\s+)?(?:possible|feasible|doable|achievable|realistic)\s*\?*|"
     r"(?:可以|能)(?P<polar>.+?)吗[?？]*|"
+    r"(?P<then>.+?)的话[,，]?(?:又|会|将|结果|情况)*(?:是|变成?)?(?:什么样子?|怎么?样|如何|什么情况|啥样)?[?？]*|"
     r"(?P<said>.+?)[,，]?(?:可行吗|可以吗|行吗|行不行|可能吗|能行吗|做得到吗|可不可以|能不能做到|好不好)[?？]*)\s*"
 )
 _LEAD = r"(?:(?:and|but|so|ok(?:ay)?|well|hm+|now|then|just|hey)[,\s]+)*"
