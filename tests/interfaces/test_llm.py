@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
+import gzip
 import json
 import logging
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +21,7 @@ from pydantic import ValidationError
 
 from wirelessagent.language.intent import COMMANDS, QUESTIONS, Intent
 from wirelessagent.language.llm import LlmRecogniser
+from wirelessagent.language.llm_door import NoAnswer, counted
 from wirelessagent.language.llm_settings import LlmSettings
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
@@ -76,9 +79,10 @@ def offline(text: str = SENTENCE, context: Context | None = None) -> Intent:
 
 def assert_offline_answered(intent: Intent, why: str, text: str = SENTENCE) -> None:
     alone = offline(text)
+    assert "the LLM" in intent.reply
     told = (intent.kind, intent.objective, dict(intent.constraints))
     assert told == (alone.kind, alone.objective, dict(alone.constraints))
-    assert intent.recogniser.startswith("offline (the LLM")
+    assert intent.recogniser.startswith(("offline (the LLM", "offline (nothing was sent"))
     assert why in intent.recogniser
     assert alone.reply in intent.reply
     assert why in intent.reply
@@ -106,7 +110,7 @@ def test_answer_in_json(asked: Asked, output: str) -> None:
 @pytest.mark.parametrize("language", ["en", "zh", "fr"])
 @pytest.mark.parametrize("kind", ["question", "command"])
 def test_every_topic_has_something_to_say(kind: str, language: str) -> None:
-    topics = [None, *({*QUESTIONS} if kind == "question" else {*COMMANDS} - {"apply", "confirm"})]
+    topics = [None, *({*QUESTIONS} if kind == "question" else {*COMMANDS} - {"apply", "confirm", "undo", "reset"})]
     replies = [meaning(kind=kind, topic=topic, language=language) for topic in topics]
     with StubLlm(replies) as stub:
         recogniser = LlmRecogniser(LlmSettings(base_url=stub.url, model="m"))
@@ -188,6 +192,73 @@ def test_whatever_goes_wrong_the_operator_gets_an_answer(
     assert KEY not in caplog.text + printed.out + printed.err
 
 
+def test_nobody_is_served_or_left_out_for_a_figure() -> None:
+    asked, text = Asked(stream=False), "highest total rate with 7 W"
+    power = {
+        "objective": "max_rate",
+        "objective_words": text,
+        "constraints": [{"constraint": "max_power_w", "figure": 7}],
+    }
+    intent = asked([right(**power, leave_out=["7"])] * 2, text)
+    assert (intent.kind, dict(intent.constraints)) == ("allocate", {"max_power_w": 7.0})
+    assert "a user who was not named" in intent.recogniser
+
+
+def test_limits_stay_until_they_are_taken_back() -> None:
+    asked = Asked(stream=False)
+    context = Context(objective="max_rate", constraints={"min_rate_bps": 1e6, "max_power_w": 9.0})
+    five = [{"constraint": "max_power_w", "figure": 5}]
+    drops = meaning(kind="allocate", amends=True, drops=["min_rate_bps"], constraints=five)
+    intent = asked([drops, drops], "now with 5 W", context)
+    assert (intent.dropped, intent.amends, dict(intent.constraints)) == ((), True, {"max_power_w": 5.0})
+    assert "not taken back" in intent.reply
+
+
+@pytest.mark.parametrize("text", ["hello there", "what if we had 20 W?", "don't save power", "is save power good?"])
+@pytest.mark.parametrize("topic", [None, "undo", "reset"])
+def test_what_asks_for_nothing_changes_nothing(text: str, topic: str | None) -> None:
+    acts = {"kind": "allocate", "objective": "min_power", "objective_words": text, "set_aside": ["F1"]}
+    reply = meaning(**({"kind": "command", "topic": topic} if topic else acts))
+    intent = Asked(stream=False)([reply, reply], text, Context(objective="max_rate"))
+    assert intent.recogniser.startswith("offline (the LLM's answer did not hold")
+    assert intent.kind in ("question", "clarify", "out_of_scope")
+
+
+@pytest.mark.parametrize("packed", [False, True])
+def test_endless_answers_are_not_read(asked: Asked, packed: bool) -> None:
+    words = chat(choices=[{"index": 0, "message": {"content": "x" * 5_000_000}}])
+    body = gzip.compress(words) if packed else words
+    headers = {"Content-Encoding": "gzip"} if packed else {}
+    intent = asked([Reply(raw=body, headers=headers)])
+    assert_offline_answered(intent, "could not be read" if packed else "what it sent was too long")
+    assert asked.stub.headers[0]["accept-encoding"] == "identity"
+
+
+def test_answers_without_a_length_are_counted() -> None:
+    async def parts() -> AsyncIterator[bytes]:
+        while True:
+            yield b"x" * 60_000
+
+    async def taken() -> int:
+        return sum([len(part) async for part in counted(parts())])
+
+    with pytest.raises(NoAnswer, match="too long"):
+        asyncio.run(taken())
+
+
+def test_half_a_character_is_not_sent() -> None:
+    asked = Asked(stream=False)
+    text = f"{SENTENCE} \ud83d"
+    assert_offline_answered(asked([right()], text), "nothing was sent to the LLM", text)
+    assert asked.stub.requests == []
+
+
+def test_proxies_of_the_environment_are_not_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("HTTP_PROXY", "http_proxy", "ALL_PROXY"):
+        monkeypatch.setenv(name, "http://127.0.0.1:1")
+    assert Asked(stream=False)([right()]).recogniser == "llm"
+
+
 @pytest.mark.parametrize(
     "fault", [Reply(message=right().message, delay_s=30.0), Reply(message=right().message, pause_s=0.2)],
     ids=["silence", "drip"],
@@ -234,8 +305,6 @@ def test_chinese_operator_is_told_in_chinese(asked: Asked) -> None:
 
 
 def test_works_inside_a_running_loop() -> None:
-    import asyncio
-
     asked = Asked(stream=False)
 
     async def inside() -> Intent:
@@ -330,6 +399,11 @@ class TestSettings:
             ({"API_KEY": KEY, "BASE_URL": "http://h/v1"}, "WIRELESSAGENT_LLM_MODEL"),
             ({"API_KEY": KEY, "BASE_URL": "ftp://h", "MODEL": "m"}, "http://"),
             ({"BASE_URL": f"http://me:{KEY}@h/v1", "MODEL": "m"}, "no user"),
+            ({"API_KEY": KEY, "BASE_URL": "http://h:99999/v1", "MODEL": "m"}, "BASE_URL"),
+            ({"API_KEY": KEY, "BASE_URL": "http://h:port/v1", "MODEL": "m"}, "BASE_URL"),
+            ({"API_KEY": KEY, "BASE_URL": "http://a b/v1", "MODEL": "m"}, "without spaces"),
+            ({"API_KEY": f"{KEY}\u2603", "BASE_URL": "http://h", "MODEL": "m"}, "API_KEY.*ASCII"),
+            ({"API_KEY": f"{KEY}\nx: y", "BASE_URL": "http://h", "MODEL": "m"}, "API_KEY.*ASCII"),
             ({"API_KEY": KEY, "BASE_URL": "http://h", "MODEL": "m", "TIMEOUT_S": KEY}, "TIMEOUT_S"),
         ],
     )

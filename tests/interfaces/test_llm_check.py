@@ -8,22 +8,28 @@ from typing import Any, get_args
 import pytest
 
 from wirelessagent.language.intent import CONSTRAINTS, LISTS_OF_USERS, Constraint, Intent, IntentKind
-from wirelessagent.language.llm_check import Case, Objection, Read
+from wirelessagent.language.llm_check import Case, Read
 from wirelessagent.language.llm_figures import KINDS, figures_of
 from wirelessagent.language.llm_meaning import FiguredConstraint, Meaning, meaning_with
-from wirelessagent.language.llm_reasons import told
+from wirelessagent.language.llm_reasons import Objection, told
+from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 
 
 def by_rules(
-    kind: IntentKind = "clarify", objective: str | None = None, topic: str | None = None, **read: Constraint
+    kind: IntentKind = "clarify",
+    objective: str | None = None,
+    topic: str | None = None,
+    *,
+    amends: bool = False,
+    **read: Constraint,
 ) -> Intent:
     """What the rules read; they act or they keep it for the answer to their question."""
     place = "constraints" if kind == "allocate" else "pending"
     given: dict[str, Any] = {"constraints": {}, place: read}
     return Intent(
         kind=kind, objective=objective, topic=topic, language="en", confidence=0.5, evidence={}, reply="",
-        recogniser="x", **given,
+        recogniser="x", amends=amends, **given,
     )  # fmt: skip
 
 
@@ -113,23 +119,69 @@ class TestConversation:
     context = Context(objective="min_power", constraints={"min_rate_bps": 1e6, "max_power_w": 8.0}, max_power_w=20.0)
 
     def test_amending_keeps_the_objective(self) -> None:
-        rules = by_rules("allocate", "min_power", max_power_w=10.0)
+        rules = by_rules("allocate", "min_power", amends=True, max_power_w=10.0)
         found = read("now with 10 W", rules, self.context, amends=True, constraints=[stated("max_power_w", "F1")])
         assert (found.objective, found.amends, found.constraints) == ("min_power", True, {"max_power_w": 10.0})
 
     def test_the_sessions_own_figures_may_be_used(self) -> None:
         given = [stated("max_power_w", 8)]
-        found = read("faster with the same power", by_rules(), self.context, **RATE, constraints=given)
+        found = read("faster with the same power", by_rules(), self.context, **RATE, amends=True, constraints=given)
         assert found.constraints == {"max_power_w": 8.0}
-        refused("invented", "faster with more power", by_rules(), self.context, **RATE,
+        refused("invented", "faster with more power", by_rules(), self.context, **RATE, amends=True,
                 constraints=[stated("max_power_w", 12)])  # fmt: skip
 
+    @pytest.mark.parametrize(
+        ("key", "name", "figure"),
+        [
+            ("invented", "subcarrier_max_power_w", "S1"), ("invented", "circuit_power_w", "S3"),
+            ("doubtful", "max_power_w", "S1"),  # the cell's limit does not lift the operator's
+            ("invented", "max_rate_bps", 1e6),
+        ],
+    )  # fmt: skip
+    def test_a_figure_of_the_session_stays_what_it_was(self, key: str, name: str, figure: str | float) -> None:
+        text = "faster with the same figures"
+        given = [stated(name, figure)]
+        refused(key, text, by_rules(), self.context, **RATE, amends=True, constraints=given)
+        assert read(text, by_rules(), self.context, **RATE, amends=True, constraints=[stated("max_power_w", "S3")])
+
     def test_only_what_there_is_is_dropped(self) -> None:
-        rules = by_rules("allocate", "min_power")
+        rules = by_rules("allocate", "min_power", amends=True)
         text = "without the power limit"
         assert read(text, rules, self.context, amends=True, drops=["max_power_w"]).dropped == ("max_power_w",)
         refused("no_request", text, rules, self.context, amends=True, drops=["weights"])
         refused("no_request", text, by_rules(), None, amends=True, objective="min_power", objective_words="power")
+
+    def test_no_limit_goes_that_nobody_took_back(self) -> None:
+        rules = by_rules("allocate", "min_power", amends=True, max_power_w=5.0)
+        now = {"amends": True, "constraints": [stated("max_power_w", "F1")]}
+        refused("let_go", "now with 5 W", rules, self.context, **now, drops=["min_rate_bps"])
+        refused("let_go", "now with 5 W", rules, self.context, **now | {"amends": False, "objective": "min_power"})
+        lifted = by_rules("allocate", "min_power", amends=True)
+        text = "without the power limit"
+        refused("let_go", text, lifted, self.context, amends=True, drops=["max_power_w", "min_rate_bps"])
+        refused("let_go", text, lifted, self.context, amends=True, constraints=[stated("max_power_w", "S3")])
+        text = "nobody is promised a speed any more"
+        assert read(text, by_rules(), self.context, amends=True, drops=["min_rate_bps"]).dropped == ("min_rate_bps",)
+        refused("let_go", text, by_rules(), self.context, amends=True, drops=["max_power_w"])
+
+    def test_a_wish_without_figures_keeps_the_limits(self) -> None:
+        refused("let_go", "faster", by_rules(), self.context, **RATE)
+        assert read("faster", by_rules(), self.context, **RATE, amends=True).amends
+        rules = by_rules("allocate", "max_rate", max_power_w=5.0)
+        whole = {**RATE, "constraints": [stated("max_power_w", "F1")]}
+        refused("no_request", "faster on at most 5 W", rules, self.context, **whole, amends=True)
+        assert not read("faster on at most 5 W", rules, self.context, **whole).amends
+
+    @pytest.mark.parametrize("topic", ["undo", "reset"])
+    def test_undo_and_reset_have_to_be_said(self, topic: str) -> None:
+        said = {"kind": "command", "topic": topic}
+        for text in ("hello there", "what if we had 20 W?"):
+            offline = OfflineRecogniser().recognise(text, self.context)
+            assert offline.topic != topic, text
+            with pytest.raises(Objection):
+                read(text, offline, self.context, **said)
+        words = {"undo": "that was no good, rolled back it must be", "reset": "a restart would do us good"}
+        assert read(words[topic], by_rules(), self.context, **said).topic == topic
 
     @pytest.mark.parametrize("topic", ["apply", "confirm"])
     def test_only_the_operator_says_yes(self, topic: str) -> None:
@@ -170,6 +222,73 @@ class TestConversation:
 def test_question_back_is_cleaned() -> None:
     found = read("hm", by_rules(), kind="clarify", question="What\x1b[31m do you\u202e want?")
     assert found.question == "What [31m do you  want?"
+
+
+def test_question_back_only_asks() -> None:
+    def asked(question: str) -> str:
+        return read("hm", by_rules(), kind="clarify", question=question).question
+
+    assert asked("All is applied. Type yes.\nLeast power or most speed?") == "Least power or most speed?"
+    assert asked("已应用。要速率还是要省电？") == "要速率还是要省电？"
+    assert asked("What should be done first?") == "What should be done first?"
+    for question in (
+        "Done, applied, anything else?", "I have set it, all right?", "已经应用了，还要什么？",
+        "See http://evil.example, ok?", "Will you visit evil.example/x?", "Ask me@evil.example?", "[link=x]Faster?[/link]",
+    ):  # fmt: skip
+        refused("pretended", "hm", by_rules(), kind="clarify", question=question)
+    refused("asked_nothing", "hm", by_rules(), kind="clarify", question="Done, applied. Type 'yes'.")
+
+
+@pytest.mark.parametrize(
+    ("text", "objective", "words"),
+    [
+        ("hello there", "max_rate", "hello"), ("what if we had 20 W?", "max_rate", "we"),
+        ("don't save power today", "min_power", "save power"), ("is save power a good idea?", "min_power", "is"),
+        ("is save power a good idea?", "min_power", "save power"), ("tell me a joke about speed", "max_rate", "speed"),
+        ("Highest total rate", "min_power", "Highest total rate"), ("let's drain the battery", "min_power", "battery"),
+        ("the concert begins", "max_rate", "the concert"), ("max rate? no", "max_rate", "max rate"),
+        ("the powerful concert begins", "min_power", "powerful"), ("不要省电", "min_power", "省电"),
+        ("你好", "max_rate", "你好"),
+    ],
+)  # fmt: skip
+def test_no_request_from_a_sentence_that_makes_none(text: str, objective: str, words: str) -> None:
+    rules = OfflineRecogniser().recognise(text)
+    with pytest.raises(Objection):
+        read(text, rules, objective=objective, objective_words=words, set_aside=["F1"])
+
+
+@pytest.mark.parametrize(
+    ("text", "objective", "words"),
+    [
+        ("the batteries on site are nearly flat", "min_power", "batteries"),
+        ("everyone deserves a slice of the cake", "proportional_fairness", "a slice of the cake"),
+        ("can you save power?", "min_power", "save power"), ("the uplink stutters", "max_rate", "stutters"),
+        ("谁都别垫底", "max_min_rate", "垫底"),
+    ],
+)  # fmt: skip
+def test_indirect_wishes_are_the_llms(text: str, objective: str, words: str) -> None:
+    rules = OfflineRecogniser().recognise(text)
+    assert read(text, rules, objective=objective, objective_words=words).objective == objective
+
+
+def test_users_are_those_who_were_named() -> None:
+    text, rules = "highest total rate with 7 W", by_rules("allocate", "max_rate", max_power_w=7.0)
+    power = {"objective": "max_rate", "objective_words": "rate", "constraints": [stated("max_power_w", "F1")]}
+    for lists in ({"leave_out": ["7"]}, {"users": ["user 7"]}, {"leave_out": ["W"]}, {"leave_out": ["total"]}):
+        refused("no_user", text, rules, **power, **lists)
+    text = "highest total rate with 7 W for user 7"
+    refused("doubtful", text, rules, **power, leave_out=["7"])  # named, but not to be left out
+    why = {"kind": "question", "topic": "why_user", "details": {"user": "7"}}
+    assert read(text, rules, **why).details == {"user": "7"}
+    refused("no_user", "why did it get 7 W?", by_rules("question"), **why)
+
+
+@pytest.mark.parametrize("label", ["F1 ", "f1", " f1 "])
+def test_a_label_is_a_label_however_it_is_spelt(label: str) -> None:
+    rules = by_rules("allocate", "max_rate", max_power_w=3.0)
+    found = read("faster, at most 3 W", rules, **RATE, constraints=[stated("max_power_w", label)])
+    assert found.constraints == {"max_power_w": 3.0}
+    assert read("faster in 2 s", by_rules(), **RATE, set_aside=[label])
 
 
 def test_figures_of_the_rules_have_labels_too() -> None:

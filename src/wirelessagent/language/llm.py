@@ -15,6 +15,7 @@ from typing import cast
 
 from wirelessagent import plugins
 from wirelessagent.language import llm_prompt
+from wirelessagent.language.excess import too_many_figures
 from wirelessagent.language.intent import Constraint, Intent, IntentKind
 from wirelessagent.language.llm_check import Case, Read
 from wirelessagent.language.llm_door import NoAnswer, fill_in, require_llm
@@ -26,6 +27,7 @@ from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words
+from wirelessagent.language.text import normalise
 from wirelessagent.model.objective import Objective
 
 NAME = "llm"
@@ -53,15 +55,15 @@ class LlmRecogniser(Recogniser):
         """What the operator means; never raises, whatever the text."""
         known = context or Context()
         offline = self._offline.recognise(text, known)
-        if not text.strip() or len(text) > _MAX_CHARACTERS:
+        if not text.strip() or len(text) > _MAX_CHARACTERS or too_many_figures(normalise(text)):
             return offline
-        case = Case(text, known, offline)
         offers = offered()
+        case = Case(text, known, offline, [offer.own_words() for offer in offers])
         try:
             read = fill_in(
                 self._settings,
                 llm_prompt.instructions(offers),
-                llm_prompt.case(text, case.figures, known),
+                _sendable(llm_prompt.case(text, case.figures, known)),
                 meaning_with(tuple(offer.name for offer in offers)),
                 case.read,
             )
@@ -77,6 +79,15 @@ def offered() -> tuple[Offer, ...]:
     return tuple(
         Offer(name=item.name, summary=item.summary, phrases=cast("type[Objective]", item.cls).phrases) for item in found
     )
+
+
+def _sendable(data: str) -> str:
+    """The data as they are, unless they hold half a character."""
+    try:
+        data.encode()
+    except UnicodeEncodeError as error:
+        raise NoAnswer("unsendable") from error
+    return data
 
 
 def _without_llm(offline: Intent, error: NoAnswer) -> Intent:

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from wirelessagent.language.llm_check import Objection
 from wirelessagent.language.llm_door import converse, require_llm
+from wirelessagent.language.llm_reasons import Objection
 from wirelessagent.language.llm_settings import LlmSettings
 from wirelessagent.language.llm_tool import LlmTool
 from wirelessagent.language.quantities import Quantity, parse_quantities

@@ -23,24 +23,22 @@ from wirelessagent.language.intent import (
     checked_constraints,
 )
 from wirelessagent.language.llm_figures import DETAIL_KINDS, KINDS, Figure, FigureKind, figures_of, matching
+from wirelessagent.language.llm_held import Held, by_user, same
 from wirelessagent.language.llm_meaning import Meaning, Reference, Stated
-from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.llm_questions import question_back
+from wirelessagent.language.llm_reasons import Objection
+from wirelessagent.language.llm_wishes import Wishes
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.text import normalise
+from wirelessagent.language.vocabulary import OwnWords
 from wirelessagent.model.errors import InputError
 
 ACTING = ("apply", "confirm")
 """Commands that only the operator's plain words may give."""
 
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
-
-
-class Objection(Exception):
-    """Why a meaning cannot be so: ``reason`` for the LLM, and the ``key`` of what the operator is told."""
-
-    def __init__(self, key: str, reason: str) -> None:
-        super().__init__(reason)
-        self.key, self.reason = key, reason
+CHANGING = ("undo", "reset")
+"""Commands that change the cell, and that the sentence must hold a word for."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,16 +60,13 @@ class Read:
 class Case:
     """One sentence in its conversation, as the rules read it, beside which an LLM's meaning is held."""
 
-    def __init__(self, text: str, context: Context, offline: Intent) -> None:
+    def __init__(self, text: str, context: Context, offline: Intent, own: Sequence[OwnWords] | None = None) -> None:
         self.text, self.context, self.offline = text, context, offline
         self.figures: tuple[Figure, ...] = figures_of(text, context, offline)
-        counted = {f"{figure.value:g}" for figure in self.figures if figure.label.startswith("N")}
-        self._spoken = counted | set(re.findall(r"[0-9]+", normalise(text)))
-        rules = {**offline.pending, **offline.constraints, **context.pending, **context.constraints}
-        self._known_users: set[str] = set()
-        for value in rules.values():
-            self._known_users.update(value if isinstance(value, tuple) else _by_user(value))
-        self._known_users.add(str(offline.details.get("user", EVERYBODY)))
+        registered = own_words()
+        sentence = Sentence(text, registered, names=context.user_names, max_power_w=context.max_power_w)
+        self._held = Held(sentence, context, offline)
+        self._wishes = Wishes(sentence, offline, registered if own is None else own)
 
     def read(self, meaning: Meaning) -> Read:
         """The meaning in the terms of an intent.
@@ -95,11 +90,16 @@ class Case:
             raise Objection("mixed", "kind allocate has no topic")
         if meaning.amends and self.context.objective is None:
             raise Objection("no_request", "there is no current request to amend")
+        self._held.amends(meaning.amends)
         lost = [name for name in meaning.drops if name not in self.context.constraints]
         if lost or (meaning.drops and not meaning.amends):
             raise Objection("no_request", f"drops: the current request to amend has no {lost}")
+        self._held.drops(meaning.drops)
         words = self._quoted(meaning, objective)
         constraints, evidence = self._constraints(meaning)
+        new = any(not self._held.holds(name, value) for name, value in constraints.items())
+        changes = not words and objective == self.context.objective and bool(new or meaning.drops)
+        self._wishes.request(objective, words, changes=changes)
         self._nothing_lost(meaning)
         self._agrees(constraints)
         return Read(
@@ -166,7 +166,7 @@ class Case:
 
     def _known(self, given: Reference, name: str, kind: FigureKind) -> Figure:
         """The figure of this kind that is referred to for a constraint or a detail."""
-        figure = matching(self.figures, given, kind)
+        figure = matching(self.figures, given, kind, name if name in KINDS else "")
         if figure is None:
             labels = ", ".join(figure.label for figure in self.figures if figure.kind == kind)
             raise Objection(
@@ -176,6 +176,9 @@ class Case:
             )
         return figure
 
+    def _meant(self, stated: Stated) -> Figure | None:
+        return matching(self.figures, stated.figure, KINDS[stated.constraint], stated.constraint)
+
     @staticmethod
     def _value(name: str, figure: Figure) -> float:
         """A figure's value; more than half is a reliability, of which the outage is what it leaves."""
@@ -184,22 +187,11 @@ class Case:
 
     def _users(self, said: Sequence[str]) -> list[str]:
         """Users by what the operator calls them."""
-        return list(dict.fromkeys(self._user(name) for name in said))
-
-    def _user(self, said: str) -> str:
-        """A user as the operator calls them: by number, or by a name that stands in the sentence."""
-        name = said.strip()
-        match = re.fullmatch(r"[^0-9]*([0-9]{1,9})[^0-9]*", name)
-        number = None if match is None else str(int(match[1]))
-        if number is not None and (number in self._spoken or number in self._known_users):
-            return number
-        if name and (name in self._known_users or normalise(name).casefold() in normalise(self.text).casefold()):
-            return name
-        raise Objection("no_user", f"the sentence names no user {name[:40]!r}")
+        return list(dict.fromkeys(map(self._held.user, said)))
 
     @staticmethod
     def _uncrossed(constraints: Mapping[str, Constraint]) -> None:
-        low, high = (_by_user(constraints.get(name, {})) for name in ("min_rate_bps", "max_rate_bps"))
+        low, high = (by_user(constraints.get(name, {})) for name in ("min_rate_bps", "max_rate_bps"))
         for user in {*low, *high}:
             least, most = low.get(user, low.get(EVERYBODY, 0.0)), high.get(user, high.get(EVERYBODY, math.inf))
             if least > most:
@@ -207,11 +199,8 @@ class Case:
 
     def _nothing_lost(self, meaning: Meaning) -> None:
         """Every figure of the sentence is used or set aside, and none that raises a question is passed over."""
-        used = {
-            figure.parent
-            for stated in meaning.constraints
-            if (figure := matching(self.figures, stated.figure, KINDS[stated.constraint])) is not None
-        }
+        aside = {label.strip().casefold() for label in meaning.set_aside}
+        used = {figure.parent for stated in meaning.constraints if (figure := self._meant(stated)) is not None}
         named = {
             user
             for users in (meaning.users, meaning.leave_out, *(s.users for s in meaning.constraints))
@@ -222,7 +211,7 @@ class Case:
                 continue
             if figure.kind == "unusable" and f"{figure.value:g}" in named:
                 continue  # "users 1, 2 and 4": a number that names
-            if figure.label not in meaning.set_aside:
+            if figure.label.casefold() not in aside:
                 raise Objection("left_out", f"{figure.label} ({figure.words!r}) is neither used nor in set_aside")
             if figure.kind == "unusable" and self.offline.kind != "allocate":
                 raise Objection(
@@ -231,39 +220,27 @@ class Case:
                 )
 
     def _agrees(self, constraints: Mapping[str, Constraint]) -> None:
-        """The rules read the same figures, wherever they read any."""
-        rules = {**self.offline.pending, **self.offline.constraints}
+        """The rules read the same, wherever they read anything; what they did not read is as the session holds it."""
+        rules = self._held.rules
         for name, value in rules.items():
-            if name not in constraints or not _same(constraints[name], value):
+            if name not in constraints or not same(constraints[name], value):
                 words = self.offline.evidence.get(name, "") or "the sentence"
                 raise Objection(
                     "otherwise",
                     f"{words!r} says {name} = {_told(value)}; say so too, or use clarify",
                 )
-        if self.offline.kind in ("question", "command", "out_of_scope"):
-            return  # the rules saw no request, so they read no figures
-        session = [figure for figure in self.figures if figure.label.startswith("S")]
         for name, value in constraints.items():
-            kind = KINDS.get(name)
-            exact = name == "max_rate_bps" and _same(value, rules.get("min_rate_bps", ()))
-            if name in rules or exact or kind is None or kind == "number":
+            exact = name == "max_rate_bps" and same(value, rules.get("min_rate_bps", ()))
+            if name in rules or exact or name == "weights" or self._held.holds(name, value):
                 continue
-            told = [matching(session, each, kind) for each in _by_user(value).values()]
-            if None in told:
-                raise Objection(
-                    "doubtful",
-                    f"the sentence is not plain about {name} = {_told(value)}: use clarify",
-                )
+            raise Objection(
+                "doubtful",
+                f"the sentence is not plain about {name} = {_told(value)}: use clarify",
+            )
 
     def _question_back(self, meaning: Meaning) -> Read:
-        question = _CONTROL.sub(" ", meaning.question).strip()
-        if not question:
-            raise Objection("asked_nothing", "kind clarify needs a question to the operator")
-        said = [q for q in parse_quantities(question) if q.kind in ("power", "rate")]
         known = [figure.value for figure in self.figures if figure.kind in ("power", "rate")]
-        if any(not any(math.isclose(q.value, value, rel_tol=1e-3) for value in known) for q in said):
-            raise Objection("invented", "the question may only name listed figures")
-        return Read(kind="clarify", question=question, language=meaning.language)
+        return Read(kind="clarify", question=question_back(meaning.question, known), language=meaning.language)
 
     def _about(self, meaning: Meaning) -> Read:
         """A question or a command."""
@@ -274,6 +251,8 @@ class Case:
         awaited = meaning.topic != "confirm" or self.context.awaits == "confirmation"
         if meaning.topic in ACTING and not (plainly and awaited):
             raise Objection("go_ahead", f"the operator did not plainly say {meaning.topic}: use clarify")
+        if meaning.kind == "command" and meaning.topic in CHANGING:
+            self._wishes.command(meaning.topic)
         details = {**self._details(meaning), **self._supposed(meaning)}
         return Read(kind=meaning.kind, topic=meaning.topic, details=details, language=meaning.language)
 
@@ -281,7 +260,7 @@ class Case:
         given = meaning.details
         details: dict[str, Detail] = {}
         if given.user is not None:
-            details["user"] = self._user(given.user)
+            details["user"] = self._held.user(given.user)
         if given.compared_with is not None:
             details["with"] = given.compared_with
         if given.format is not None:
@@ -306,19 +285,6 @@ def _place(text: str, quote: str) -> tuple[int, int] | None:
     words = [re.escape(word) for word in normalise(quote).split()]
     match = re.search(r"\s+".join(words), normalise(text), re.IGNORECASE) if words else None
     return None if match is None else match.span()
-
-
-def _by_user(value: Constraint) -> Mapping[str, float]:
-    if isinstance(value, Mapping):
-        return value
-    return {} if isinstance(value, tuple) else {EVERYBODY: value}
-
-
-def _same(one: Constraint, other: Constraint) -> bool:
-    if isinstance(one, tuple) or isinstance(other, tuple):
-        return isinstance(one, tuple) and isinstance(other, tuple) and set(one) == set(other)
-    a, b = _by_user(one), _by_user(other)
-    return set(a) == set(b) and all(math.isclose(a[user], b[user], rel_tol=1e-6) for user in a)
 
 
 def _told(value: Constraint) -> str:

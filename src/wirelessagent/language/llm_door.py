@@ -9,13 +9,21 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import threading
-from collections.abc import AsyncGenerator, Callable, Coroutine, Mapping, Sequence
+from collections.abc import (
+    AsyncGenerator,
+    AsyncIterable,
+    AsyncIterator,
+    Callable,
+    Coroutine,
+    Iterator,
+    Mapping,
+    Sequence,
+)
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import BaseModel
 
-from wirelessagent.language.llm_check import Objection
-from wirelessagent.language.llm_reasons import told
+from wirelessagent.language.llm_reasons import Objection, told
 from wirelessagent.language.llm_settings import LlmSettings
 from wirelessagent.language.llm_tool import LlmTool
 from wirelessagent.model.errors import MissingDependencyError, WirelessAgentError
@@ -26,6 +34,7 @@ if TYPE_CHECKING:
 _HEADERS = ("host", "authorization", "content-type", "content-length", "accept", "accept-encoding", "connection")
 _GRACE_S = 0.5  # for a cancelled request to close its connection
 _MOST_ROUNDS_WITH_TOOLS = 8
+_MOST_BYTES = 1_000_000
 
 Answer = TypeVar("Answer")
 Filled = TypeVar("Filled", bound=BaseModel)
@@ -156,7 +165,9 @@ async def _model(settings: LlmSettings) -> AsyncGenerator[OpenAIChatModel]:
 
     key = "none" if settings.api_key is None else settings.api_key.get_secret_value()
     async with (
-        DefaultAsyncHttpxClient(follow_redirects=False, event_hooks={"request": [_keep_needed]}) as http,
+        DefaultAsyncHttpxClient(
+            follow_redirects=False, trust_env=False, event_hooks={"request": [_keep_needed], "response": [_bounded]}
+        ) as http,
         AsyncOpenAI(
             base_url=settings.base_url, api_key=key, max_retries=0, timeout=settings.timeout_s, http_client=http
         ) as client,
@@ -168,6 +179,40 @@ async def _keep_needed(request: Any) -> None:
     """Send no header but those that the protocol needs: the client adds some about this machine and its environment."""
     for name in [name for name in request.headers if name.lower() not in _HEADERS]:
         del request.headers[name]
+    request.headers["accept-encoding"] = "identity"
+
+
+async def _bounded(response: Any) -> None:
+    """Read no answer of more than a megabyte, and none that is packed, as nobody asked for that."""
+    from httpx2 import AsyncByteStream
+
+    packed = response.headers.get("content-encoding", "identity").strip().lower() not in ("", "identity")
+    if packed or int(response.headers.get("content-length") or 0) > _MOST_BYTES:
+        raise NoAnswer("unreadable" if packed else "too_long")
+    whole = response.stream
+
+    class Counted(AsyncByteStream):
+        def __aiter__(self) -> AsyncIterator[bytes]:
+            return counted(whole)
+
+        async def aclose(self) -> None:
+            await whole.aclose()
+
+    response.stream = Counted()
+
+
+async def counted(parts: AsyncIterable[bytes]) -> AsyncIterator[bytes]:
+    """The parts of an answer, as long as together they are not too much.
+
+    Raises:
+        NoAnswer: they are.
+    """
+    taken = 0
+    async for part in parts:
+        taken += len(part)
+        if taken > _MOST_BYTES:
+            raise NoAnswer("too_long")
+        yield part
 
 
 def _streaming(settings: LlmSettings) -> Any:
@@ -210,6 +255,11 @@ def _understood(error: BaseException) -> NoAnswer:
     """Why there is no answer, in words of ours: those of servers and libraries may hold anything."""
     from pydantic_ai import exceptions
 
+    ours = next((each for each in _causes(error) if isinstance(each, NoAnswer)), None)
+    if ours is not None:
+        return ours
+    if any(isinstance(each, UnicodeEncodeError) for each in _causes(error)):
+        return NoAnswer("unsent")
     if isinstance(error, exceptions.ModelHTTPError):
         return NoAnswer("key" if error.status_code in (401, 403) else "status", {"status": error.status_code})
     if isinstance(error, exceptions.ContentFilterError):
@@ -219,3 +269,11 @@ def _understood(error: BaseException) -> NoAnswer:
     if isinstance(error, exceptions.UnexpectedModelBehavior | exceptions.UsageLimitExceeded):
         return NoAnswer("unusable")
     return NoAnswer("unreadable")
+
+
+def _causes(error: BaseException) -> Iterator[BaseException]:
+    """An error and what it came from."""
+    cause: BaseException | None = error
+    while cause is not None:
+        yield cause
+        cause = cause.__cause__ or cause.__context__

@@ -60,6 +60,8 @@ class Figure:
         words: the operator's words for it, or where it comes from.
         comparator: how the sentence bounds it.
         quantity: whether the sentence states it and something must become of it.
+        stands_for: the constraint that a figure of the conversation or of the rules belongs to, and no other; "" for
+            the sentence's own.
     """
 
     label: str
@@ -68,6 +70,7 @@ class Figure:
     words: str
     comparator: Comparator | None = None
     quantity: bool = False
+    stands_for: str = ""
 
     @property
     def parent(self) -> str:
@@ -93,12 +96,21 @@ def figures_of(text: str, context: Context, offline: Intent) -> tuple[Figure, ..
     return (*known, *_read_by_rules(offline, known, start=len(own) + 1))
 
 
-def matching(figures: Iterable[Figure], given: str | float, kind: FigureKind) -> Figure | None:
-    """The figure of this kind that a label or a value refers to; the sentence's own before others."""
+def matching(figures: Iterable[Figure], given: str | float, kind: FigureKind, name: str = "") -> Figure | None:
+    """The figure of this kind that a label or a value refers to; the sentence's own before others.
+
+    ``name`` is the constraint that it is for: a figure that belongs to another one is not taken.
+    """
     number = _number(given)
+    label = given.strip().casefold() if isinstance(given, str) else ""
     for figure in figures:
-        same = figure.label == given if number is None else math.isclose(figure.value, number, rel_tol=1e-6)
-        if same and (figure.kind == kind or (kind == "number" and figure.kind == "unusable" and figure.value > 0)):
+        means = figure.label.casefold() == label if number is None else math.isclose(figure.value, number, rel_tol=1e-6)
+        own = not name or figure.stands_for in ("", name)
+        if (
+            means
+            and own
+            and (figure.kind == kind or (kind == "number" and figure.kind == "unusable" and figure.value > 0))
+        ):
             return figure
     return None
 
@@ -148,12 +160,14 @@ def _numbers(text: str, quantities: Sequence[Quantity]) -> Iterator[Figure]:
 
 def _of_session(context: Context) -> list[Figure]:
     """The cell's limit and the figures of the current request."""
-    found = [Figure(label="S1", value=context.max_power_w, kind="power", words="the cell's limit")]
+    limit = context.max_power_w
+    found = [Figure(label="S1", value=limit, kind="power", words="the cell's limit", stands_for="max_power_w")]
     sources = (("current request", context.constraints), ("before the question", context.pending))
     for where, constraints in sources:
         for name, value in _values(constraints):
             words = f"{name} of the {where}" if where == "current request" else f"{name}, said {where}"
-            found.append(Figure(label=f"S{len(found) + 1}", value=value, kind=KINDS[name], words=words))
+            label = f"S{len(found) + 1}"
+            found.append(Figure(label=label, value=value, kind=KINDS[name], words=words, stands_for=name))
     return found
 
 
@@ -164,9 +178,10 @@ def _read_by_rules(offline: Intent, known: Sequence[Figure], *, start: int) -> I
     read: list[tuple[str, FigureKind, object]] = [(name, KINDS[name], value) for name, value in stated]
     read.extend((name, kind, offline.details.get(name)) for name, kind in DETAIL_KINDS.items())
     for name, kind, value in read:
-        if isinstance(value, int | float) and matching(known, value, kind) is None:
+        limit = name if name in KINDS else ""
+        if isinstance(value, int | float) and matching(known, value, kind, limit) is None:
             words = offline.evidence.get(name) or name
-            yield Figure(label=f"S{place}", value=float(value), kind=kind, words=words)
+            yield Figure(label=f"S{place}", value=float(value), kind=kind, words=words, stands_for=limit)
             place += 1
 
 

@@ -13,6 +13,7 @@ from typing import Any
 from wirelessagent.language.intent import EVERYBODY, Constraint
 from wirelessagent.language.llm_figures import UNITS, Figure
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.vocabulary import OwnWords
 
 _MOST_USERS = 300
 _LONGEST_NAME = 60
@@ -29,7 +30,7 @@ kind
 - command: about earlier results: apply, confirm, reject, undo, reset, compare (compared_with), explain,
   history (number), status, help, export (format)
 - clarify: it may be a request, but the objective or a figure is unclear, contradictory or impossible: ask one specific
-  question in the operator's language
+  question in the operator's language, and say nothing else
 - out_of_scope: has nothing to do with running the cell
 
 Objectives
@@ -59,6 +60,11 @@ class Offer:
     name: str
     summary: str
     phrases: Mapping[str, Sequence[str]]
+
+    def own_words(self) -> OwnWords:
+        """Its words, as the check of an LLM's quotation takes them."""
+        spoken = tuple((language, tuple(words)) for language, words in self.phrases.items())
+        return OwnWords(objective=self.name, names=(self.name,), phrases=spoken)
 
     def line(self) -> str:
         said = "; ".join(f"{language}: {', '.join(words)}" for language, words in self.phrases.items() if words)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import ClassVar, Literal
 from urllib.parse import urlsplit
 
@@ -41,8 +42,19 @@ class LlmSettings(EnvironmentSettings):
     @classmethod
     def _is_plain_url(cls, url: str) -> str:
         parts = urlsplit(url)
+        if not url.isascii() or any(sign <= " " or sign == "\x7f" for sign in url):
+            raise ValueError("must be ASCII without spaces")
         if parts.scheme not in ("http", "https") or not parts.hostname:
             raise ValueError("must begin with http:// or https:// and name a host")
         if parts.username or parts.password or parts.query:
             raise ValueError(f"must hold no user, password or query; a key goes into {_PREFIX}API_KEY")
+        if parts.port == 0:  # one that is no number or beyond 65535 raises by itself
+            raise ValueError("must have a port between 1 and 65535")
         return url
+
+    @field_validator("api_key")
+    @classmethod
+    def _fits_a_header(cls, key: SecretStr | None) -> SecretStr | None:
+        if key is not None and not re.fullmatch(r"[!-~]+", key.get_secret_value()):
+            raise ValueError("must be ASCII without spaces or line ends, as it is sent in a header")
+        return key
