@@ -180,7 +180,7 @@ class TestConversation:
             assert offline.topic != topic, text
             with pytest.raises(Objection):
                 read(text, offline, self.context, **said)
-        words = {"undo": "that was no good, rolled back it must be", "reset": "a restart would do us good"}
+        words = {"undo": "oops, reverted it should be", "reset": "a restart would do us good"}
         assert read(words[topic], by_rules(), self.context, **said).topic == topic
 
     @pytest.mark.parametrize("topic", ["apply", "confirm"])
@@ -233,7 +233,8 @@ def test_question_back_only_asks() -> None:
     assert asked("What should be done first?") == "What should be done first?"
     for question in (
         "Done, applied, anything else?", "I have set it, all right?", "已经应用了，还要什么？",
-        "See http://evil.example, ok?", "Will you visit evil.example/x?", "Ask me@evil.example?", "[link=x]Faster?[/link]",
+        "See http://evil.example, ok?", "Will you visit evil.example/x?", "Ask me@evil.example?",
+        "[link=x]Faster?[/link]",
     ):  # fmt: skip
         refused("pretended", "hm", by_rules(), kind="clarify", question=question)
     refused("asked_nothing", "hm", by_rules(), kind="clarify", question="Done, applied. Type 'yes'.")
