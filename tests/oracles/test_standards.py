@@ -123,14 +123,98 @@ def test_achieved_figures_are_the_runs_in_the_standards_units(name: str):
 @pytest.mark.parametrize("name", OBJECTIVES)
 def test_the_objective_is_to_be_better_than_the_current_value(name: str):
     run = run_of(name)
+    more = {"min_rate_bps": 1e5} if name == "min_power" else {"max_power_w": 20.0}
+    objective = alpha_fairness() if name == "alpha_fairness" else name
+    better = replace(subject(objective, **more), current=run.outcome)
+    wanted = target(better, "objective")
+    if name == "min_power":  # who is promised less draws less
+        assert result(better, "objective")["targetFulfilmentInfo"] == {"fulfilmentStatus": "FULFILLED"}
+    assert wanted["targetValueRange"] == pytest.approx(worth(run, name)[1], rel=1e-12)
+    assert wanted["targetCondition"] == ("IS_LESS_THAN" if name == "min_power" else "IS_GREATER_THAN")
+    said = contexts(wanted, "targetContexts")
+    assert "current value" in (said.get("BetterThan"), said.get("NoWorseThan"))
+
+
+@pytest.mark.parametrize("name", OBJECTIVES)
+def test_what_is_in_effect_already_is_to_be_no_worse(name: str):
+    run = run_of(name)
     again = replace(run, current=run.outcome)
     wanted = target(again, "objective")
     assert wanted["targetValueRange"] == pytest.approx(worth(run, name)[1], rel=1e-12)
-    assert wanted["targetCondition"] == ("IS_LESS_THAN" if name == "min_power" else "IS_GREATER_THAN")
-    assert contexts(wanted, "targetContexts")["BetterThan"] == "current value"
-    info = result(again, "objective")["targetFulfilmentInfo"]  # the same again is not better
-    assert info["fulfilmentStatus"] == "NOT_FULFILLED"
-    assert "not better" in info["notFulfilledReasons"][0]
+    said = contexts(wanted, "targetContexts")
+    assert said["BoundaryIncluded"] is True
+    assert said["NoWorseThan"] == "current value"
+    assert result(again, "objective")["targetFulfilmentInfo"] == {"fulfilmentStatus": "FULFILLED"}
+    (condition,) = tmf(again)["intent"]["expression"]["expressionValue"]["log:allOf"]["@list"][0]["log:allOf"]["@list"]
+    assert ("quan:atMost" if name == "min_power" else "quan:atLeast") in condition
+
+
+def test_what_the_bound_proves_unbeatable_is_to_be_no_worse():
+    made = scene()
+    best = subject(max_power_w=10.0)
+    decision = wa.decide(wa.perfect(made), wa.Problem("max_rate", max_power_w=10.0), CELL, "round_robin")
+    outcome = wa.SimulatedBaseStation(made).apply(decision)
+    run = replace(best, decision=decision, outcome=outcome, current=best.outcome)
+    assert contexts(target(run, "objective"), "targetContexts")["NoWorseThan"] == "current value"
+    assert report_of(run)["intentFeasibilityCheckReport"]["feasibilityCheckResult"] == "FEASIBLE"  # so it was before
+    info = result(run, "objective")["targetFulfilmentInfo"]
+    assert info["notFullfilledState"] == "DEGRADED"
+    assert "below" in info["notFulfilledReasons"][0]
+    other = replace(best, current=outcome)
+    assert contexts(target(other, "objective"), "targetContexts")["BetterThan"] == "current value"
+
+
+def only_the_last_user() -> np.ndarray:
+    forbidden = np.ones((4, 8), dtype=bool)
+    forbidden[3] = False
+    return forbidden
+
+
+@pytest.mark.parametrize(
+    "limits",
+    [
+        {"max_power_w": 5.0},
+        {"users": (2, 3)},
+        {"min_rate_bps": 5e5},
+        {"max_rate_bps": 1e5},
+        {"forbidden": only_the_last_user()},
+        {"subcarrier_max_power_w": 0.5},
+        {"resource_block_group_size": 8},
+    ],
+    ids=lambda limits: next(iter(limits)),
+)
+def test_what_breaks_a_limit_of_the_request_is_no_measure_of_it(limits: dict[str, Any]):
+    shared = "resource_block_group_size" in limits
+    before = subject("proportional_fairness" if shared else "max_rate", max_power_w=10.0)
+    run = replace(subject(**{"max_power_w": 10.0, **limits}), current=before.outcome)
+    wanted = target(run, "objective")
+    assert wanted["targetValueRange"] == 0
+    assert contexts(wanted, "targetContexts")["BetterThan"] == "nothing"
+    assert report_of(run)["intentFulfilmentReport"]["intentFulfilmentInfo"] == {"fulfilmentStatus": "FULFILLED"}
+
+
+def test_more_than_the_budget_is_no_measure_of_energy():
+    before = subject("min_power", min_rate_bps=4e5)
+    assert before.outcome is not None
+    power_w = float(before.outcome.power_w.sum())
+    run = replace(subject("min_power", min_rate_bps=1e5, max_power_w=power_w / 2), current=before.outcome)
+    wanted = target(run, "objective")
+    assert contexts(wanted, "targetContexts")["BetterThan"] == "the power budget in full"
+    assert wanted["targetValueRange"] == pytest.approx(drawn_kwh(power_w / 2), rel=1e-12)
+
+
+def test_what_was_taken_back_is_neither_fulfilled_nor_active():
+    run = replace(subject(max_power_w=10.0), taken_back=True)
+    assert intent_of(run)["intentAdminState"] == "DEACTIVATED"
+    info = report_of(run)["intentFulfilmentReport"]["intentFulfilmentInfo"]
+    assert info["notFullfilledState"] == "TERMINATED"
+    assert info["notFulfilledReasons"] == ["the allocation was applied, and taken back: it is not in effect"]
+    assert "targetAchievedValue" not in result(run, "objective")
+    sent = tmf(run)
+    assert sent["intent"]["lifecycleStatus"] == "Terminated"
+    report = sent["intentReport"]["expression"]["expressionValue"]
+    assert report["imo:handlingState"] == {"@id": "imo:StateDegraded"}
+    assert report["icm:result"] is False
 
 
 def test_promises_and_the_budget_are_floors_and_a_ceiling():

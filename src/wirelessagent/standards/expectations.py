@@ -16,6 +16,7 @@ import numpy as np
 from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.metrics import READ_BACK_TOLERANCE
 from wirelessagent.model.units import percent
+from wirelessagent.standards.baseline import baseline
 from wirelessagent.standards.subject import (
     ENERGY_CONSUMPTION,
     USER_THROUGHPUT,
@@ -28,8 +29,9 @@ from wirelessagent.standards.subject import (
 FLOOR = "throughput-floor-"
 """How the names of expectations of promised rates begin."""
 
-Progress: TypeAlias = Literal["kept", "missed", "pending", "impossible", "undecided"]
-"""What became of a target: pending before anything is read back; impossible and undecided as the decision is."""
+Progress: TypeAlias = Literal["kept", "missed", "pending", "taken back", "impossible", "undecided"]
+"""What became of a target: pending before anything is read back; taken back where it was applied and is not in effect
+any more; impossible and undecided as the decision is."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,20 +78,13 @@ def is_kept(found: Iterable[Expectation]) -> bool:
 
 
 def _objective(subject: Subject) -> Expectation:
-    """Better than what was there before; than nothing, or than the budget drawn in full, where that is not known."""
-    metric, before = objective_metric(subject), subject.before()
-    current = None if before is None else metric.of(subject, before, subject.served)
-    if current is not None and np.isfinite(current):
-        wanted, baseline = current, "current value"
-    elif metric is ENERGY_CONSUMPTION:
-        wanted = subject.energy_kwh(subject.decision.problem.budget_w(subject.cell))
-        baseline = "the power budget in full"
-    else:
-        wanted, baseline = 0.0, "nothing"
+    """Better than what was there before, or what stands for it."""
+    metric = objective_metric(subject)
+    than = baseline(subject, metric)
     users = _names(subject, subject.served) if metric.per_user else ()
     return _judged(
-        subject, "objective", metric, subject.served, wanted,
-        users=users, more=metric is not ENERGY_CONSUMPTION, strict=True, baseline=baseline,
+        subject, "objective", metric, subject.served, than.wanted,
+        users=users, more=metric is not ENERGY_CONSUMPTION, strict=than.strict, baseline=than.called,
     )  # fmt: skip
 
 
@@ -165,6 +160,8 @@ def _progress(
     decision = subject.decision
     if not decision.is_usable:
         return "impossible" if decision.status == "infeasible" else "undecided", (decision.reason,)
+    if subject.taken_back:
+        return "taken back", ("the allocation was applied, and taken back: it is not in effect",)
     if achieved is None:
         applied = "applied, but not measured" if subject.outcome is not None else "decided, but not applied"
         return "pending", (f"the allocation is {applied}",)

@@ -37,6 +37,7 @@ class Subject:
         at: when that was, with its time zone.
         language: of the text, as in "en" or "zh".
         current: what was in effect before, read back; None where that is not known.
+        taken_back: whether it was applied and is not in effect any more.
         observation_period_s: for how long the allocation is taken to hold, whole seconds.
     """
 
@@ -47,6 +48,7 @@ class Subject:
     outcome: Outcome | None = None
     language: str = "en"
     current: Outcome | None = None
+    taken_back: bool = False
     observation_period_s: int = OBSERVATION_PERIOD_S
 
     def __post_init__(self) -> None:
@@ -112,8 +114,8 @@ class Subject:
         return State(decision.rate_bps, decision.total_power_w) if decision.is_usable else None
 
     def achieved(self) -> State | None:
-        """What was read back on the true channel; None where that is not known."""
-        return _read_back(self.outcome)
+        """What was read back on the true channel; None where that is not known, or is not in effect any more."""
+        return None if self.taken_back else _read_back(self.outcome)
 
     def before(self) -> State | None:
         """What was in effect before on the true channel; None where that is not known."""
@@ -142,12 +144,14 @@ class Metric:
         name: as the standard writes it; one of our own, named after the objective, where it has none.
         unit: the unit of :attr:`of`.
         of: its value for a subject in a state, with True for the users who are meant, shape (user,).
+        of_figure: the same for a figure in the unit of the decision's value, as its bound.
         per_user: whether each user has its own value, of which the smallest is taken.
     """
 
     name: str
     unit: str
     of: Callable[[Subject, State, BoolArray], float]
+    of_figure: Callable[[Subject, float], float]
     per_user: bool = False
 
 
@@ -155,6 +159,7 @@ AVERAGE_THROUGHPUT = Metric(
     name="AveDLRANUEThpt",
     unit="kbit/s",
     of=lambda subject, state, users: float(np.mean(state.rate_bps[users])) / 1e3,
+    of_figure=lambda subject, total: total / int(subject.served.sum()) / 1e3,
 )
 """Mean of the users' downlink rates. TS 28.312 names it, TS 28.552 clause 5.1.1.3 measures it in kbit/s."""
 
@@ -162,6 +167,7 @@ USER_THROUGHPUT = Metric(
     name="DlThptPerUE",
     unit="kbit/s",
     of=lambda subject, state, users: float(np.min(state.rate_bps[users])) / 1e3,
+    of_figure=lambda subject, lowest: lowest / 1e3,
     per_user=True,
 )
 """The downlink rate that each user gets, of the worst-off of those meant; as XLThpt of TS 28.541 in kbit/s."""
@@ -170,6 +176,7 @@ ENERGY_CONSUMPTION = Metric(
     name="RANEnergyConsumption",
     unit="kWh",
     of=lambda subject, state, users: subject.energy_kwh(state.power_w),
+    of_figure=lambda subject, power_w: subject.energy_kwh(power_w),
 )
 """Energy drawn in the observation period; TS 28.552 clause 5.1.1.19.3 (PEE.Energy) measures it in kWh."""
 
@@ -179,6 +186,7 @@ ENERGY_EFFICIENCY = Metric(
     of=lambda subject, state, users: energy_efficiency_bit_per_j(
         float(state.rate_bps.sum()), state.power_w, subject.cell
     ),
+    of_figure=lambda subject, efficiency: efficiency,
 )
 """Data volume over energy drawn, TS 28.554 clause 6.7.1, in bit/J (ETSI ES 203 228)."""
 
@@ -203,7 +211,8 @@ def objective_metric(subject: Subject) -> Metric:
         return factor * subject.objective.value(state.rate_bps, state.power_w, subject.cell, weight)
 
     weighted = "" if unweighted else "Weighted"
-    return Metric(name=weighted + _camel(objective.name), unit=unit, of=worth)
+    name = weighted + _camel(objective.name)
+    return Metric(name=name, unit=unit, of=worth, of_figure=lambda subject, figure: factor * figure)
 
 
 def _camel(name: str) -> str:

@@ -15,6 +15,7 @@ back, and icm:information for what a request that cannot be kept would take.
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 from wirelessagent.standards.expectations import Expectation, expectations, is_kept
 from wirelessagent.standards.remarks import Remark, needs, remarks
@@ -64,7 +65,7 @@ def document(subject: Subject) -> Document:
             href=href,
             name=name,
             description=subject.text,
-            lifecycleStatus="Created" if subject.outcome is None else "Active",
+            lifecycleStatus=_lifecycle(subject),
             creationDate=subject.at,
             lastUpdate=subject.at,
             statusChangeDate=subject.at,
@@ -86,6 +87,12 @@ def document(subject: Subject) -> Document:
 def to_json(made: Document) -> str:
     """The document as JSON text, with the standard's names."""
     return made.model_dump_json(indent=2, by_alias=True)
+
+
+def _lifecycle(subject: Subject) -> Literal["Created", "Active", "Terminated"]:
+    if subject.taken_back:
+        return "Terminated"
+    return "Created" if subject.outcome is None else "Active"
 
 
 def _expression(node: JsonLd) -> JsonLdExpression:
@@ -128,7 +135,7 @@ def _expectation(subject: Subject, one: Expectation) -> JsonLd:
         "log:allOf": {"@list": [_condition(subject, one)]},
     }
     if one.baseline:
-        made["rdfs:comment"] = f"better than: {one.baseline}"
+        made["rdfs:comment"] = f"{'better' if one.strict else 'no worse'} than: {one.baseline}"
     return made
 
 
@@ -169,7 +176,8 @@ def _report(subject: Subject, found: list[Expectation]) -> JsonLd:
 def _state(found: list[Expectation]) -> str:
     if is_kept(found):
         return "StateCompliant"
-    return "StateDegraded" if any(one.progress == "missed" for one in found) else "StateIntentReceived"
+    fallen = any(one.progress in ("missed", "taken back") for one in found)
+    return "StateDegraded" if fallen else "StateIntentReceived"
 
 
 def _about(subject: Subject, one: Expectation) -> JsonLd:

@@ -99,7 +99,7 @@ class Intent(Part):
     description: str
     version: str = "1"
     isBundle: bool = False
-    lifecycleStatus: Literal["Created", "Active"]
+    lifecycleStatus: Literal["Created", "Active", "Terminated"]
     creationDate: AwareDatetime
     lastUpdate: AwareDatetime
     statusChangeDate: AwareDatetime

@@ -21,6 +21,7 @@ ours, such as OutageProbability or UEWeights.
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 from wirelessagent.standards.expectations import FLOOR, Expectation, Progress, expectations, is_kept
 from wirelessagent.standards.remarks import Relation, Remark, needs, remarks
@@ -56,6 +57,8 @@ _CONDITIONS: dict[Relation, Condition] = {
     "all of": "IS_ALL_OF",
 }
 
+_STATES: dict[Progress, Literal["DEGRADED", "TERMINATED"]] = {"missed": "DEGRADED", "taken back": "TERMINATED"}
+
 
 def document(subject: Subject, *, subnetwork: str = SUBNETWORK) -> Document:
     """The intent and its report; ``subnetwork`` is the distinguished name of the cell."""
@@ -71,6 +74,7 @@ def document(subject: Subject, *, subnetwork: str = SUBNETWORK) -> Document:
                 userLabel=subject.text,
                 intentExpectations=[_expectation(one, subnetwork) for one in found],
                 intentContexts=[_context(remark) for remark in remarks(subject)],
+                intentAdminState="DEACTIVATED" if subject.taken_back else "ACTIVATED",
                 intentReportControl=[_control(subject)],
                 intentReportReference=report_name,
             )
@@ -121,7 +125,7 @@ def _expectation(one: Expectation, subnetwork: str) -> IntentExpectation:
 def _target(one: Expectation) -> ExpectationTarget:
     contexts = [Remark("Unit", "equal", one.metric.unit), Remark("BoundaryIncluded", "equal", not one.strict)]
     if one.baseline:
-        contexts.append(Remark("BetterThan", "equal", one.baseline))
+        contexts.append(Remark("BetterThan" if one.strict else "NoWorseThan", "equal", one.baseline))
     return ExpectationTarget(
         targetName=one.metric.name,
         targetCondition="IS_GREATER_THAN" if one.more_is_better else "IS_LESS_THAN",
@@ -205,12 +209,12 @@ def _of_all(found: list[Expectation]) -> FulfilmentInfo:
 
 
 def _info(progress: Progress, reasons: tuple[str, ...]) -> FulfilmentInfo:
-    """DEGRADED is what was applied and falls short, RECEIVED what nothing was applied for."""
+    """DEGRADED is what was applied and falls short, TERMINATED what was taken back, RECEIVED what was never applied."""
     if progress == "kept":
         return FulfilmentInfo(fulfilmentStatus="FULFILLED")
     return FulfilmentInfo(
         fulfilmentStatus="NOT_FULFILLED",
-        notFullfilledState="DEGRADED" if progress == "missed" else "RECEIVED",
+        notFullfilledState=_STATES.get(progress, "RECEIVED"),
         notFulfilledReasons=list(reasons),
     )
 
