@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass, field, replace
 
 import pytest
 from conversations import LOSS, SCENE, SEED
 
+import wirelessagent as wa
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
 
@@ -72,3 +74,25 @@ def test_what_was_in_effect_before_is_what_an_undo_put_back() -> None:
     targets = [target for expectation in expectations for target in expectation["expectationTargets"]]
     energy = [target["targetValueRange"] for target in targets if target["targetName"] == "RANEnergyConsumption"]
     assert min(energy) == pytest.approx(0.01)  # kWh in an hour: 5 W radiated, 5 W of circuits
+
+
+@dataclass(frozen=True)
+class Halving(wa.BaseStation):
+    """A base station that obeys once and radiates half of what it should from then on."""
+
+    name = "halving"
+
+    applied: list[wa.Decision] = field(default_factory=list[wa.Decision])
+
+    def apply(self, decision: wa.Decision) -> wa.Outcome:
+        self.applied.append(decision)
+        outcome = wa.SimulatedBaseStation(SCENE).apply(decision)
+        return outcome if len(self.applied) != 2 else replace(outcome, power_w=outcome.power_w / 2)
+
+
+def test_what_is_taken_back_is_not_shown_as_what_is_in_effect() -> None:
+    session = Session(SCENE, LOSS, seed=SEED, base_station=Halving(), confirm=False)
+    session.say("highest total rate, 100 kbit/s each, at most 10 W")
+    turn = session.say("with 99 % reliability")
+    assert turn.stage == "reverted"
+    assert turn.reply.endswith("So what is asked for is not in effect; figures shown are of what was taken back.")

@@ -227,7 +227,8 @@ def _put_back(site: Site, state: State, intent: Intent, good: Run, station: Base
 def _told(effect: Effect, last_good: Run | None, language: str) -> str:
     faults = joined(language, effect.faults)
     if effect.restored is not None and not effect.trouble and last_good is not None:
-        return _in_effect(language, "reverted", last_good, faults=faults)
+        taken_back = _in_effect(language, "reverted", last_good, faults=faults)
+        return joined(language, [taken_back, told(language, "asked_but_taken_back")])
     if last_good is None:
         return say(language, "faulty", faults=faults)
     return say(language, "not_reverted", faults=faults, trouble=effect.trouble)
