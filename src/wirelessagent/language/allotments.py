@@ -18,7 +18,7 @@ from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.roles import UserRole, is_something_of, role_of
 
 _SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.5, 0.45
-_AT_ODDS = 0.25
+_AT_ODDS = 0.15
 _SAID = 0.4
 _NEAR = 30
 

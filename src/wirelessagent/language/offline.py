@@ -172,11 +172,12 @@ class _Understanding:
         goal, judged, default = self._goal, self._judged, self._default()
         if default is not None and (judged.objective == "max_rate" or not judged.acts):
             return default
+        wished = judged.objective if judged.acts else goal.objective if goal.verdict == "clear" else ""
+        if wished in self._voice.labels and self._lets_somebody_starve(wished):
+            fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
+            names = {"goal": self._voice.label(wished), "both": self._voice.both(fair, "or")}
+            return self._answer.ask("starving", 0.8, self._reading.values, **names)
         if judged.acts and judged.objective in self._voice.labels:
-            if self._lets_somebody_starve(judged.objective):
-                fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
-                names = {"goal": self._voice.label(judged.objective), "both": self._voice.both(fair, "or")}
-                return self._answer.ask("starving", 0.8, self._reading.values, **names)
             words = (
                 " … ".join(self._text[start:end] for start, end in _merged(goal.spans)) if goal.spans else self._text
             )

@@ -63,10 +63,12 @@ _DESCRIBED_AFTER = re.compile(
     r"minimum|or|share|sharing)\b|[每都共同])"
 )
 _TOO_MUCH = re.compile(
-    r"(?i)[\s,]*(?:(?:each|apiece|per user|for (?:each|every|all)\w*|(?:for )?users? [0-9]+|cada uno|chacun|für jeden)\s+)?"
+    r"(?i)[\s,]*(?:(?:each|apiece|per user|for (?:each|every|all)\w*|(?:for )?users? [0-9]+|cada uno|chacun|"
+    r"für jeden)\s+)?"
     r"(?:(?:(?:is|are|was|were|seems?|looks?|sounds?|feels?|would be|es|son|c'est|est|sont|ist|sind|wäre[n]?)\s+)?"
     r"(?:way|far|much|a bit|a little|simply|just|still|rather|bien|mucho|viel)?\s*"
-    r"(?:too (?:much|many|little|few|low|high|slow|fast|weak)|not (?:enough|sufficient|good enough)|insufficient|excessive|"
+    r"(?:too (?:much|many|little|few|low|high|slow|fast|weak)|not (?:enough|sufficient|good enough)|insufficient|"
+    r"excessive|"
     r"demasiado|muy poco|trop(?: peu)?|zu (?:viel|wenig|hoch|niedrig|langsam))\b|"
     r"(?:is|are|was|were)n't (?:enough|sufficient)\b|(?:will not|won't|would not|wouldn't) (?:do|suffice|be enough)\b|"
     r"(?:no|ne) (?:basta|alcanza|suffi)\w*|(?:reich(?:t|en)|genüg(?:t|en)) nicht\b)|"
@@ -74,7 +76,8 @@ _TOO_MUCH = re.compile(
 )
 _UNWANTED = re.compile(
     r"(?i)(?:\b(?:do|does|did)(?:n't| not) (?:want|need|require|have)|\bno longer (?:want|need|require)|"
-    r"\b(?:no quiero|no necesit\w+)|\b(?:je ne veux pas|ne veux pas(?: de)?)|\b(?:will|wollen|brauche[nt]?|möchten?) keine)\s*"
+    r"\b(?:no quiero|no necesit\w+)|\b(?:je ne veux pas|ne veux pas(?: de)?)|"
+    r"\b(?:will|wollen|brauche[nt]?|möchten?) keine)\s*"
     r"(?:(?:the|a|an|any|all|that|those|them all|everyone|everybody|each|to have|on)\s+)*$|"
     r"(?:不想要|不需要|不再要求|不再需要|不再要|(?<!要)不要(?!超|低|少|高|大))(?:每人|每个用户|每户|大家|都|有|给|的)*\s*$"
 )
@@ -112,7 +115,7 @@ def is_calculated(before: str, after: str) -> bool:
 
 
 def is_refused(before: str, after: str) -> bool:
-    """Whether a figure is called wrong or unwanted, so that another one is wished for: "5 W is too much", 我不要每人1兆."""
+    """Whether a figure is called wrong or is not wanted: "5 W is too much", 我不要每人1兆."""
     return _TOO_MUCH.match(after) is not None or _UNWANTED.search(before) is not None
 
 

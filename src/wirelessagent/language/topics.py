@@ -44,6 +44,11 @@ _HALF_MISSING = re.compile(
 )
 _MISSING_OF = re.compile(r"(?i)\b(?:missing|lost|unknown|gone|loss)\b|缺|丢|falt|manqu|fehl|perd|verlor")
 
+_GONE = re.compile(
+    r"(?i)\b(?:gone|left|leaves?|leaving|out|off|away|without|drop\w*|lost|absent|missing|exist|there|skip\w*|exclu\w*|"
+    r"remov\w*|ignor\w*|sin|fuera|sans|dehors|ohne|weg|raus)\b|走|离|不在|没|去掉|下线|掉线|不服务|不管|退|除|停|少"
+)
+
 
 def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
     """The figures and names of a question or command of this topic."""
@@ -85,7 +90,7 @@ def _what_if(sentence: Sentence) -> dict[str, Detail]:
     if share is not None and 0 <= share < 1:
         details["missing_share"] = share
     values = dict(reading.values)
-    if reading.named and not values and not reading.back and share is None:
+    if reading.named and not values and not reading.back and share is None and _GONE.search(sentence.plain):
         values["leave_out"] = reading.named  # "what if user 3 were gone?"
     if values:
         details["constraints"] = values
