@@ -71,6 +71,106 @@ def test_what_was_put_back_is_what_there_was(place: Path, capsys: pytest.Capture
     assert wanted == pytest.approx(current, rel=1e-12)
 
 
+def info_of(sent: dict[str, Any]) -> dict[str, Any]:
+    return sent["IntentReport"][0]["intentFulfilmentReport"]["intentFulfilmentInfo"]
+
+
+class Halving(wa.BaseStation):
+    """Does as told, but for one time, when it radiates half of it."""
+
+    name = "halving"
+
+    def __init__(self, scene: wa.Scene, fails_at: int) -> None:
+        self._station, self._left = wa.SimulatedBaseStation(scene), fails_at
+
+    def apply(self, decision: wa.Decision) -> wa.Outcome:
+        self._left -= 1
+        done = self._station.apply(decision)
+        return dataclasses.replace(done, power_w=done.power_w * (0.5 if self._left == 0 else 1.0))
+
+
+CONVERSATION = (
+    "Highest total rate with at most 5 W",
+    "now with 10 W",
+    "Highest total rate with at most 5 W",
+    "what if we had 20 W?",
+    "undo",
+)
+"""Applied, reverted, changes nothing, supposes, goes back to a request that is not in effect."""
+
+
+@pytest.fixture(scope="module")
+def talked(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    place = tmp_path_factory.mktemp("talk") / "audit.sqlite3"
+    scene = wa.simulate("rayleigh", wa.Cell(max_power_w=20), num_users=3, num_subcarriers=6, seed=2)
+    with Store.open(place, create=True) as store:
+        session = wa.Session(scene, base_station=Halving(scene, 2), confirm=False, store=store)
+        stages = [session.say(line).stage for line in CONVERSATION]
+    assert stages[:4] == ["applied", "reverted", "nothing", "answered"]
+    return place
+
+
+def test_what_was_reverted_is_terminated_and_deactivated(talked: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    sent = printed(talked, capsys, "2")
+    assert sent["Intent"][0]["intentAdminState"] == "DEACTIVATED"
+    assert info_of(sent)["notFullfilledState"] == "TERMINATED"
+
+
+def test_what_is_in_effect_already_is_fulfilled(talked: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    first, third = printed(talked, capsys, "1"), printed(talked, capsys, "3")
+    for sent in (first, third):
+        assert sent["Intent"][0]["intentAdminState"] == "ACTIVATED"
+        assert info_of(sent) == {"fulfilmentStatus": "FULFILLED"}
+    results = [
+        sent["IntentReport"][0]["intentFulfilmentReport"]["expectationFulfilmentResult"][0]["targetFulfilmentResults"]
+        for sent in (first, third)
+    ]
+    assert results[0][0]["targetAchievedValue"] == results[1][0]["targetAchievedValue"]
+
+
+@pytest.mark.parametrize("number", ["4", "5"])
+def test_what_ifs_and_undoing_are_no_requests(talked: Path, number: str, capsys: pytest.CaptureFixture[str]) -> None:
+    if number == "5":
+        with Store.open(talked) as store:
+            assert store.turn(5).stage == "undone"
+    assert run(["export", number, "--store", str(talked), "--json"]) != 0
+    told = capsys.readouterr().err
+    assert f"turn {number} " in told
+    assert "is no request" in told
+    assert "such as turn" in told
+
+
+def test_what_is_in_effect_is_exported_if_no_turn_is_named(talked: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    sent = printed(talked, capsys)
+    assert sent["Intent"][0]["userLabel"] == "Highest total rate with at most 5 W"
+    assert info_of(sent) == {"fulfilmentStatus": "FULFILLED"}
+
+
+def test_a_yes_is_told_in_the_words_of_the_request(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    place = tmp_path / "audit.sqlite3"
+    scene = wa.simulate("rayleigh", CELL, num_users=3, num_subcarriers=6, seed=2)
+    with Store.open(place, create=True) as store:
+        session = wa.Session(scene, base_station=Halving(scene, 9), confirm=True, store=store)
+        stages = [session.say(line).stage for line in ("Highest total rate with at most 5 W", "apply it")]
+    assert stages == ["planned", "applied"]
+    assert info_of(printed(place, capsys, "1"))["notFullfilledState"] == "RECEIVED"
+    sent = printed(place, capsys)
+    assert sent["Intent"][0]["userLabel"] == "Highest total rate with at most 5 W"
+    assert info_of(sent) == {"fulfilmentStatus": "FULFILLED"}
+
+
+def test_what_is_impossible_is_exported_where_nothing_is_in_effect(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place = tmp_path / "audit.sqlite3"
+    scene = wa.simulate("rayleigh", CELL, num_users=3, num_subcarriers=6, seed=2)
+    with Store.open(place, create=True) as store:
+        refused = decided_turn(scene, wa.Problem("max_rate", max_power_w=5.0, min_rate_bps=1e9), number=1)
+        store.append(dataclasses.replace(refused, stage="nothing"))
+    report = printed(place, capsys)["IntentReport"][0]
+    assert report["intentFeasibilityCheckReport"]["feasibilityCheckResult"] == "INFEASIBLE"
+
+
 def test_the_latest_decision_is_meant_if_none_is_named(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert printed(place, capsys)["Intent"][0]["id"] == "another-one-2-1"
 

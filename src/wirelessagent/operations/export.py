@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import json
 import re
-from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
@@ -16,6 +15,7 @@ from wirelessagent.model.atomic import writable_target, write_atomically
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.operations.fields import Positional
+from wirelessagent.operations.in_effect import Followed, followed, is_request
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.record import Block, Record, Table
 from wirelessagent.operations.recording import StoreOptions, opened
@@ -36,7 +36,7 @@ class ExportRequest(StoreOptions):
     panel = "Options"
 
     number: Annotated[int | None, Positional()] = Field(
-        None, description="number of the turn, as history lists it; the latest that decided something if not given"
+        None, description="number of the turn, as history lists it; the one that is in effect if not given"
     )
     format: Format = Field("ts28312", description="3GPP TS 28.312, or TM Forum's TMF921 v5: ts28312, tmf921")
     observation_period_s: int = Field(
@@ -80,13 +80,13 @@ def run(request: ExportRequest, progress: Progress) -> ExportRecord:
     if request.out is not None:
         writable_target(request.out)
     with opened(request) as store:
-        turn = _decided(store, request.number)
-        subject = _subject(store, turn, request.observation_period_s)
+        chosen = _latest(store) if request.number is None else _numbered(store, request.number)
+        subject = _subject(store, chosen, request.observation_period_s)
     text = _text(subject, request.format)
     if request.out is not None:
         write_atomically(request.out, lambda stream: stream.write(text.encode() + b"\n"))
     return ExportRecord(
-        number=turn.number,
+        number=chosen.turn.number,
         format=request.format,
         document=cast("dict[str, Any]", json.loads(text)),
         out=request.out,
@@ -100,52 +100,77 @@ def _text(subject: Subject, standard: Format) -> str:
     return tmf921.to_json(tmf921.document(subject))
 
 
-def _decided(store: Store, number: int | None) -> StoredTurn:
-    """The turn of this number, or the latest that made a decision."""
-    if number is not None:
-        turn = store.turn(number)
-        if not turn.decided:
-            raise InputError(
-                f"turn {number} decided nothing ({turn.stage}): export one that history lists a status for"
-            )
-        return turn
-    latest: StoredTurn | None = None
-    for turn in store.turns():
-        latest = turn if turn.decided else latest
-    if latest is None:
-        raise InputError(f"no turn in {store.place} decided anything yet: ask for something first")
-    return latest
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class _Chosen:
+    """A turn to export, what was said to ask for it, and what came of it."""
+
+    turn: StoredTurn
+    asked: StoredTurn
+    outcome: Outcome | None
+    at_utc: str
+    before: Outcome | None
+    taken_back: bool = False
 
 
-def _subject(store: Store, turn: StoredTurn, observation_period_s: int) -> Subject:
-    assert turn.estimate is not None
-    estimate = estimate_of(store.content(turn.estimate))
-    names = estimate.user_names
-    return Subject(
-        name=re.sub(r"[^A-Za-z0-9_.-]", "-", f"{turn.session}-{turn.turn}"),
-        text=turn.text,
-        language=turn.intent["language"],
-        decision=decision_of(turn, names).knowing(estimate),
-        outcome=outcome_of(turn),
-        at=datetime.fromisoformat(turn.at_utc),
-        current=_in_effect(store.turns(turn.session), turn, len(names)),
-        observation_period_s=observation_period_s,
+def _numbered(store: Store, number: int) -> _Chosen:
+    """The request of this number and what came of it in that turn."""
+    turn = store.turn(number)
+    if not turn.decided:
+        raise InputError(f"turn {number} decided nothing ({turn.stage}): export one that history lists a status for")
+    (found,) = (one for one in followed(store.turns(turn.session)) if one.turn.number == number)
+    if not is_request(turn):
+        what = "took something back" if turn.stage == "undone" else "only answered a question"
+        held = None if found.after is None else found.after.request
+        holds = "" if held is None else f", such as turn {held.number}, which was in effect then"
+        raise InputError(f"turn {number} {what} and is no request ({turn.text!r}): export one that is{holds}")
+    return _made(found)
+
+
+def _made(found: Followed) -> _Chosen:
+    turn, after = found.turn, found.after
+    outcome = after.outcome if after is not None and after.request is turn else outcome_of(turn)
+    return _Chosen(
+        turn=turn,
+        asked=found.asked,
+        outcome=outcome,
+        at_utc=turn.at_utc,
+        before=None if found.before is None else found.before.outcome,
+        taken_back=turn.restored is not None,
     )
 
 
-def _in_effect(turns: Iterator[StoredTurn], until: StoredTurn, users: int) -> Outcome | None:
-    """What the session last read back before this turn, for as many users; None where there was nothing."""
-    found: Outcome | None = None
-    for turn in turns:
-        if turn.turn >= until.turn:
-            break
-        if turn.restored is not None:
-            found = outcome_of(dataclasses.replace(turn, applied=turn.restored))
-        elif turn.stage == "applied":
-            found = outcome_of(turn)
-    if found is None or found.promised_bps.size != users:
-        return None
-    return found
+def _latest(store: Store) -> _Chosen:
+    """The request that is in effect in the session that asked last; its last request where none is."""
+    session: str | None = None
+    for turn in store.turns():
+        session = turn.session if is_request(turn) else session
+    if session is None:
+        raise InputError(f"no turn in {store.place} decided anything yet: ask for something first")
+    turns = list(followed(store.turns(session)))
+    effect = turns[-1].after
+    if effect is None or effect.request is None:
+        return _made([one for one in turns if is_request(one.turn)][-1])
+    (found,) = (one for one in turns if one.turn is effect.request)
+    return dataclasses.replace(_made(found), outcome=effect.outcome, at_utc=effect.at_utc, before=effect.before)
+
+
+def _subject(store: Store, chosen: _Chosen, observation_period_s: int) -> Subject:
+    turn, asked = chosen.turn, chosen.asked
+    assert turn.estimate is not None
+    estimate = estimate_of(store.content(turn.estimate))
+    names = estimate.user_names
+    before = chosen.before
+    return Subject(
+        name=re.sub(r"[^A-Za-z0-9_.-]", "-", f"{turn.session}-{turn.turn}"),
+        text=asked.text,
+        language=asked.intent["language"],
+        decision=decision_of(turn, names).knowing(estimate),
+        outcome=chosen.outcome,
+        at=datetime.fromisoformat(chosen.at_utc),
+        current=before if before is not None and before.promised_bps.size == len(names) else None,
+        taken_back=chosen.taken_back,
+        observation_period_s=observation_period_s,
+    )
 
 
 EXPORT = Operation(
