@@ -24,7 +24,6 @@ from wirelessagent.language.recogniser import Context
 Said = str | tuple[str, Intent]
 TOTAL = "highest total rate"
 WONDERED = ("what if 5 W?", means("question", topic="what_if", details={"constraints": {"max_power_w": 5.0}}))
-YES = ("yes", means("command", topic="confirm"))
 
 
 def talk(*lines: Said, confirm: bool = False) -> tuple[Session, list[Turn]]:
@@ -231,8 +230,7 @@ def test_what_was_gone_back_from_can_be_had_again() -> None:
 
 @pytest.mark.parametrize("said", ["cancel", "cancel that", "never mind", "取消", "算了"])
 def test_cancel_drops_what_waits_and_undoes_nothing(said: str) -> None:
-    yes = ("yes", means("command", topic="confirm"))
-    session, turns = talk(request(max_power_w=10.0), yes, change(max_power_w=5.0), said, said, confirm=True)
+    session, turns = talk(request(max_power_w=10.0), "yes", change(max_power_w=5.0), said, said, confirm=True)
     assert [turn.stage for turn in turns[-2:]] == ["nothing", "asked"]
     assert session.state.planned is None
     assert asked_for(session) == {"max_power_w": 10.0}
@@ -251,20 +249,20 @@ def test_undo_goes_on_from_where_an_undo_or_a_cancel_left_it() -> None:
         "undo twice", undo,
     )  # fmt: skip
     assert asked_for(session) == {"max_power_w": 10.0}
-    session, _ = talk(request(max_power_w=10.0), YES, change(max_power_w=5.0), "cancel", undo, confirm=True)
+    session, _ = talk(request(max_power_w=10.0), "yes", change(max_power_w=5.0), "cancel", undo, confirm=True)
     assert session.request is None
 
 
 def test_cancel_keeps_a_request_whose_allocation_was_to_be_put_back() -> None:
-    yes, undo = (("yes", means("command", topic="confirm")), ("undo", means("command", topic="undo")))
-    lines = (request(max_power_w=10.0), yes, change(max_power_w=5.0), yes, undo, "cancel")
+    undo = ("undo", means("command", topic="undo"))
+    lines = (request(max_power_w=10.0), "yes", change(max_power_w=5.0), "yes", undo, "cancel")
     session, turns = talk(*lines, confirm=True)
     assert [turn.stage for turn in turns[-2:]] == ["planned", "nothing"]
     assert asked_for(session) == {"max_power_w": 10.0}
 
 
 def test_yes_behind_a_what_if_is_for_the_plan_which_is_named() -> None:
-    session, turns = talk(request(max_power_w=10.0), WONDERED, YES, confirm=True)
+    session, turns = talk(request(max_power_w=10.0), WONDERED, "yes", confirm=True)
     assert "'yes' applies the highest total rate: at most 10 W" in turns[1].reply
     assert turns[2].stage == "applied"
     assert "at most 10 W" in turns[2].reply
@@ -273,21 +271,19 @@ def test_yes_behind_a_what_if_is_for_the_plan_which_is_named() -> None:
 
 @pytest.mark.parametrize("said", ["do that", "Let's do that!", "apply that", "就这么办", "那就这么办吧"])
 def test_do_that_behind_a_what_if_asks_for_it(said: str) -> None:
-    session, turns = talk(request(max_power_w=10.0), WONDERED, said, YES, confirm=True)
+    session, turns = talk(request(max_power_w=10.0), WONDERED, said, "yes", confirm=True)
     assert [turn.stage for turn in turns] == ["planned", "answered", "planned", "applied"]
     assert asked_for(session) == {"max_power_w": 5.0}
     status = ("status", means("command", topic="status"))
-    later = (said, means("command", topic="confirm"))
-    session, turns = talk(request(max_power_w=10.0), WONDERED, status, later, confirm=True)
+    session, turns = talk(request(max_power_w=10.0), WONDERED, status, said, confirm=True)
     assert turns[-1].stage == "applied"
     assert asked_for(session) == {"max_power_w": 10.0}
 
 
 def test_apply_it_behind_a_what_if_is_for_the_plan_where_one_waits() -> None:
-    apply = ("apply it", means("command", topic="apply"))
-    session, _ = talk(request(max_power_w=10.0), WONDERED, apply, confirm=True)
+    session, _ = talk(request(max_power_w=10.0), WONDERED, "apply it", confirm=True)
     assert asked_for(session) == {"max_power_w": 10.0}
-    session, turns = talk(request(max_power_w=10.0), YES, WONDERED, "apply it", confirm=True)
+    session, turns = talk(request(max_power_w=10.0), "yes", WONDERED, "apply it", confirm=True)
     assert turns[-1].stage == "planned"
     assert asked_for(session) == {"max_power_w": 5.0}
 
@@ -389,7 +385,7 @@ def test_yes_to_did_you_mean_does_what_was_meant() -> None:
         unclear = means("clarify", reply=reply, pending={"min_rate_bps": 1e5})
         session, _ = talk(("hm", unclear), "yes")
         assert session.request == Request(objective="min_power", constraints={"min_rate_bps": 1e5})
-    _, turns = talk(("hm", means("clarify", reply="Bits or bytes?")), YES)
+    _, turns = talk(("hm", means("clarify", reply="Bits or bytes?")), ("yes", means("command", topic="confirm")))
     assert turns[-1].stage == "answered"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -17,10 +18,13 @@ from wirelessagent.agent.session import Session
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.model.rates import user_rate_bps
 
 YES, NO = means("command", topic="confirm"), means("command", topic="reject")
 UNDO, APPLY, STATUS = (means("command", topic=topic) for topic in ("undo", "apply", "status"))
+SAID = {"confirm": "yes", "apply": "apply it", "reject": "no"}
+"""Only such words apply or refuse a plan, whatever a recogniser makes of others."""
 
 
 @dataclass(frozen=True)
@@ -58,11 +62,26 @@ class Moody(wa.BaseStation):
                 return outcome
 
 
+class Knowing(Recogniser):
+    """Means what stands in ``next``."""
+
+    name = "scripted"
+
+    def __init__(self, intents: Sequence[Intent]) -> None:
+        self.next = intents[0]
+
+    def recognise(self, text: str, context: Context | None = None) -> Intent:
+        return self.next
+
+
 def talk(station: wa.BaseStation | None, *intents: Intent, confirm: bool | None = False) -> tuple[Session, list[Turn]]:
     """A session after these turns, on a station that needs no yes unless it is said so."""
-    script = Scripted(intents)
+    script = Knowing(intents)
     session = Session(SCENE, LOSS, seed=SEED, recogniser=script, base_station=station, confirm=confirm)
-    return session, [session.say("…") for _ in intents]
+    turns = list[Turn]()
+    for script.next in intents:
+        turns.append(session.say(SAID.get(script.next.topic or "", "…")))
+    return session, turns
 
 
 def run_of(objective: str, method: str | None = None, **constraints: object) -> Run:
@@ -274,7 +293,7 @@ def test_simulated_cells_apply_at_once_unless_they_are_to_ask() -> None:
 def test_without_a_base_station_plans_are_made() -> None:
     blind = replace(SCENE, truth=None)
     session = Session(blind, LOSS, seed=SEED, recogniser=Scripted([asks("max_rate"), APPLY]))
-    first, second = session.say("…"), session.say("…")
+    first, second = session.say("…"), session.say("apply it")
     assert (first.stage, second.stage) == ("planned", "nothing")
     assert "true channel is not known" in first.reply
     assert "true channel is not known" in second.reply

@@ -75,7 +75,8 @@ def apply(site: Site, state: State, intent: Intent) -> Reply:
     station = site.station(run)
     if station is None:
         return Reply(text=say(language, "no_station"), stage="nothing")
-    return _apply(site, state, intent, run, station, "" if state.request is None else restated(state.request, language))
+    request = [] if state.request is None else [restated(state.request, language)]
+    return _apply(site, state, intent, run, station, joined(language, [*request, *notes(run, noted=True)]))
 
 
 def confirm(site: Site, state: State, intent: Intent) -> Reply:
@@ -99,7 +100,8 @@ def reject(state: State, intent: Intent, past: Sequence[State]) -> Reply:
             return Reply(text=told(language, "nothing_to_cancel"), stage="asked")
         return Reply(text=say(language, "nothing_to_confirm"))
     if not cancels:
-        return Reply(text=say(language, "not_applied"), stage="nothing", state=state.settled)
+        dropped = joined(language, [told(language, "plan_dropped"), say(language, "not_applied")])
+        return Reply(text=dropped, stage="nothing", state=state.settled)
     before = state.settled if state.undoes or not past else past[-1]
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
     text = joined(language, [say(language, "not_applied"), _asked_for_again(held, language)])
@@ -194,7 +196,7 @@ def _apply(site: Site, state: State, intent: Intent, run: Run, station: BaseStat
     if run.outcome is not None and run is state.planned:
         return _put_back(site, state, intent, run, station, [said] if said else [])
     effect = site.carry_out(run, station, state.last_good)
-    new = dataclasses.replace(state, run=effect.run, planned=None)
+    new = dataclasses.replace(state, run=effect.run, planned=None, question=None)
     text = [said] if said else []
     if not effect.faults:
         new = dataclasses.replace(new, on_air=effect.run, last_good=effect.run)
@@ -218,7 +220,7 @@ def _put_back(site: Site, state: State, intent: Intent, good: Run, station: Base
     )
     back = good if outcome is None else with_outcome(good, outcome)
     run = back if state.run is good else state.run
-    new = dataclasses.replace(state, run=run, planned=None, on_air=None if trouble else back)
+    new = dataclasses.replace(state, run=run, planned=None, question=None, on_air=None if trouble else back)
     new = dataclasses.replace(new, last_good=state.last_good if trouble else back)
     reply = _reply(site, intent, [*text, told], "undone", new, back)
     return dataclasses.replace(reply, restored=outcome)

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from wirelessagent.agent import asking, needing, supposing
 from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.figures import certificate_line, side_by_side
-from wirelessagent.agent.restating import restated
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.agent.turn_words import told
+from wirelessagent.agent.waiting import plan_named
 from wirelessagent.agent.words import joined, say
 from wirelessagent.language.intent import Detail, Intent
 
@@ -27,8 +27,7 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
     text, request = reply.text, None if "missing_share" in details else supposing.supposed(state, intent)
     if state.planned is not None and state.request is not None:
         key = "plan_still_waits" if request is None else "plan_or_what_if"
-        plan = restated(state.request, language).rstrip(".。")
-        text = joined(language, [text, told(language, key, request=plan[:1].lower() + plan[1:])])
+        text = joined(language, [text, told(language, key, request=plan_named(state, language))])
     return dataclasses.replace(
         reply, text=text, state=dataclasses.replace(state, question=None, supposed=request)
     )  # fmt: skip

@@ -20,7 +20,7 @@ from typing import Any, Protocol, cast
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent import asking, changing, referring
+from wirelessagent.agent import asking, changing, referring, waiting
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.agent.noting import noted_after
@@ -132,7 +132,7 @@ class Session:
             sure = f"{intent.confidence:.0%}"
             message = say(intent.language, "understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure)
             self._progress(Event(stage="understand", message=message))
-        reply = self._reply(intent, text, context)
+        reply = waiting.naming_the_plan(self._reply(intent, text, context), self._state, intent)
         self._take(reply, intent)
         return self._kept(text, intent, reply)
 
@@ -194,6 +194,8 @@ class Session:
         if intent.kind == "clarify":
             _check_users(intent, site.user_names)
             left = unanswered(text, intent, context)
+            if waiting.is_about_the_plan(state, text, left):
+                return waiting.asked_again(site, state, intent)
             question = Question(
                 pending=left.pending, objective=left.objective, users=left.users, offered=left.offered
             )  # fmt: skip
@@ -201,6 +203,9 @@ class Session:
             return Reply(text=intent.reply, stage="asked", state=asked)
         if intent.kind == "out_of_scope":
             return Reply(text=intent.reply)
+        doubt = waiting.doubted(site, state, intent, text, self._turns) if topic in ("apply", "confirm") else None
+        if doubt is not None:
+            return doubt
         handlers: Mapping[str, Callable[[], Reply]] = {
             "apply": lambda: changing.apply(site, state, intent),
             "confirm": lambda: changing.confirm(site, state, intent),

@@ -11,6 +11,7 @@ import dataclasses
 
 from wirelessagent.language.conversation.about import asked_instead, given_instead, read_question
 from wirelessagent.language.conversation.amendments import read_amendment
+from wirelessagent.language.conversation.assent import read_assent
 from wirelessagent.language.conversation.certain import made_certain
 from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.comparing import read_comparison
@@ -32,7 +33,7 @@ __all__ = ["NAME", "Unanswered", "unanswered", "understood"]
 _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""
 _READERS = (
-    read_command, read_method, read_comparison, read_needed, read_relative, read_promisable,
+    read_command, read_assent, read_method, read_comparison, read_needed, read_relative, read_promisable,
     read_question, read_share, read_amendment,
 )  # fmt: skip
 """What a line may be because of its conversation, the closest first."""
