@@ -261,6 +261,19 @@ def test_a_sentence_is_recorded(place: Path, capsys: pytest.CaptureFixture[str])
     assert answer(capsys, "history", "replay", 1)["verdict"] == "identical"
 
 
+@pytest.mark.parametrize("command", [["history"], ["history", "export", "{out}"]])
+def test_a_session_that_is_not_there_is_told(
+    command: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place, out = tmp_path / "sessions.sqlite3", tmp_path / "out.jsonl"
+    with Store.open(place, create=True) as store:
+        store.append(random_turn(1, session="morning", seed=1))
+    words = [word.format(out=out) for word in command]
+    assert run([*words, "--store", str(place), "--session", "nope"]) != 0
+    assert f"there is no session 'nope' in {place}: the latest are morning" in " ".join(capsys.readouterr().err.split())
+    assert not out.exists()
+
+
 @pytest.mark.parametrize("how", ["option", "setting"])
 def test_nothing_is_recorded_where_it_is_not_wanted(
     place: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, how: str

@@ -372,12 +372,30 @@ def test_a_commit_is_on_the_disk_and_no_reader_waits(store: Store) -> None:
         ("postgresql+nosuch://host/audit", "nosuch"),
         ("~nobody-of-that-name/audit.sqlite3", "cannot be at ~nobody-of-that-name"),
         ("postgresql+psycopg2://me:secret@localhost/audit", "needs a driver that is not installed"),
+        ("postgresql://me:secret@localhost:port/audit", "cannot be at 'postgresql://me:.*@localhost:port/audit'"),
+        ("postgresql+psycopg2://localhost/audit?user=me&password=secret", "needs a driver that is not installed"),
+        ("nosuch://me:secret@host/audit", "nosuch"),
+        ("nosuch://me:sec@secret@host/audit", "nosuch"),
     ],
 )
 def test_a_place_that_cannot_be_is_told(where: str, told: str) -> None:
     with pytest.raises(WirelessAgentError, match=told) as refused:
         Store.open(where, create=True)
     assert "secret" not in str(refused.value)
+
+
+@pytest.mark.parametrize("form", ["sqlite:///{place}?mode=ro", "sqlite+aiosqlite:///{place}"])
+def test_a_file_with_options_or_another_driver_is_refused_and_not_made(form: str, place: Path) -> None:
+    with pytest.raises(WirelessAgentError, match="without options or another driver"):
+        Store.open(form.format(place=place), create=True)
+    assert not place.exists()
+
+
+@pytest.mark.parametrize("number", [2**63, -(2**63), 10**30])
+def test_a_number_that_no_database_holds_is_no_turn(store: Store, number: int) -> None:
+    store.append(random_turn(1, seed=1))
+    with pytest.raises(NothingRecordedError, match=f"there is no turn {number}: turns 1 to 1 are recorded"):
+        store.turn(number)
 
 
 def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:

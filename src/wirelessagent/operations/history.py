@@ -15,7 +15,7 @@ from wirelessagent.explain.report import report
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.model.arrays import whole
 from wirelessagent.model.atomic import writable_target, write_atomically
-from wirelessagent.model.errors import NothingRecordedError
+from wirelessagent.model.errors import InputError, NothingRecordedError
 from wirelessagent.model.units import human, percent
 from wirelessagent.operations.answers import DecisionAnswer
 from wirelessagent.operations.fields import Positional
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 _TEXT_SHOWN = 48
 _SESSION_SHOWN = 12
+_SESSIONS_LOOKED_AT, _SESSIONS_SHOWN = 100, 3
+"""The latest turns whose sessions are named where one is not there, and how many of these."""
 
 
 class HistoryRequest(StoreOptions):
@@ -99,9 +101,19 @@ def list_turns(request: HistoryRequest, progress: Progress) -> HistoryRecord:
     try:
         with opened(request) as store:
             turns = [HistoryLine.of(turn) for turn in store.turns(request.session, last=last)]
+            if not turns:
+                _check_session(store, request.session)
             return HistoryRecord(store=store.place, turns=turns)
     except NothingRecordedError:
         return HistoryRecord(store=place_of(request), turns=[])
+
+
+def _check_session(store: Store, session: str | None) -> None:
+    """Refuse a session that has no turns where others have."""
+    there = list(dict.fromkeys(turn.session for turn in store.turns(last=_SESSIONS_LOOKED_AT)))
+    if session is not None and there:
+        shown = ", ".join(there[-_SESSIONS_SHOWN:])
+        raise InputError(f"there is no session {session!r} in {store.place}: the latest are {shown}")
 
 
 class TurnRequest(StoreOptions):
@@ -223,6 +235,8 @@ def export_turns(request: ExportRequest, progress: Progress) -> ExportRecord:
     written = {"turn": 0, "content": 0}
 
     with opened(request) as store:
+        if request.session is not None and next(store.turns(request.session, last=1), None) is None:
+            _check_session(store, request.session)
 
         def write(stream: BinaryIO) -> None:
             for line in exported(store, request.session):

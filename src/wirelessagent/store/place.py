@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import time
 from collections.abc import Callable, Generator
 from datetime import UTC, datetime
@@ -43,15 +44,28 @@ def url_of(where: str | Path | None) -> URL:
     try:
         url = make_url(named)
         url.get_dialect()
-    except (ArgumentError, NoSuchModuleError) as error:
-        raise InputError(f"the audit store cannot be at {named!r}: {error}; name a file or a SQLAlchemy URL") from error
+    except (ArgumentError, NoSuchModuleError, ValueError) as error:  # ValueError: a port that is no number
+        place, why = _unsecret(named), _unsecret(str(error))
+        raise InputError(f"the audit store cannot be at {place!r}: {why}; name a file or a SQLAlchemy URL") from error
     if url.get_backend_name() not in ("sqlite", "postgresql"):
         raise InputError(
             f"the audit store cannot be at {shown(url)}: only SQLite and PostgreSQL are known to keep it append-only"
         )
     if url.get_backend_name() == "sqlite" and file_of(url) is None:
-        raise InputError(f"the audit store needs a file; got {named!r}: as in sqlite:////var/lib/audit.sqlite3")
+        raise InputError(
+            f"the audit store needs a file; got {_unsecret(named)!r}: as in sqlite:////var/lib/audit.sqlite3"
+        )
+    if url.get_backend_name() == "sqlite" and (url.query or url.get_driver_name() != "pysqlite"):
+        raise InputError(
+            f"the audit store takes an SQLite file without options or another driver; got {_unsecret(named)!r}: as in "
+            "sqlite:////var/lib/audit.sqlite3"
+        )
     return url
+
+
+def _unsecret(named: str) -> str:
+    """A URL without its password, also where it is none that could be parsed."""
+    return re.sub(r"(password=)[^&]*", r"\1***", re.sub(r"(://[^:/@]*):.*@", r"\1:***@", named))
 
 
 def _absolute(path: str) -> Path:
@@ -64,7 +78,7 @@ def _absolute(path: str) -> Path:
 def shown(url: URL) -> str:
     """The place as people name it: a file by its path, anything else without its password."""
     path = file_of(url)
-    return url.render_as_string(hide_password=True) if path is None else str(path)
+    return _unsecret(url.render_as_string(hide_password=True)) if path is None else str(path)
 
 
 def file_of(url: URL) -> Path | None:

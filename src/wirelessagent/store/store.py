@@ -105,7 +105,8 @@ class Store:
             NothingRecordedError: there is none.
         """
         with self._reading() as connection:
-            row = connection.execute(select(TURN).where(TURN.c.number == number)).first()
+            storable = abs(number) < 1 << 63  # what a database can hold, and compare with
+            row = connection.execute(select(TURN).where(TURN.c.number == number)).first() if storable else None
             if row is not None:
                 return _turn(row)
             most = connection.execute(select(func.max(TURN.c.number))).scalar()
