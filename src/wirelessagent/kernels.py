@@ -85,7 +85,7 @@ class _Cache(_FunctionCache):
 @functools.cache
 def _say_compiling() -> None:
     """Log, once in a process, that what comes now takes its time."""
-    _compiling.info("compiling for this machine, which is done once and may take a minute")
+    _compiling.info("compiling what this machine needs for the first time, which may take a minute")
 
 
 def _cache_in(folder: Path, function: Callable[..., object]) -> _Cache | None:

@@ -249,5 +249,5 @@ def test_the_first_compilation_is_told_of_once(
             one(1.0)
             one(1)
     assert [record.getMessage() for record in caplog.records if "compiling" in record.name] == [
-        "compiling for this machine, which is done once and may take a minute"
+        "compiling what this machine needs for the first time, which may take a minute"
     ]

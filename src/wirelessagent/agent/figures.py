@@ -56,7 +56,8 @@ def _cells(run: Run, language: str) -> dict[str, str]:
     usable, need = decision.is_usable, decision.needed_power_w
     figure = name_of_figure(decision, language)
     served = decision.problem.serves(decision.rate_bps.size)
-    value = f"{human(decision.value, decision.unit)}{f' ({figure})' if figure else ''}"
+    value = human(decision.value, decision.unit)
+    value = worded(language, "{} ({})", value, figure) if figure else value
     missed = "–" if run.outcome is None or run.outcome.achieved is None else str(int(run.outcome.missed.sum()))
     return {
         "objective": goal_words(objective.name, language),

@@ -11,7 +11,7 @@ from wirelessagent.model.units import reliability
 
 _ROUNDING = 1e-9
 
-_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+_PREFIXES = ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 _WORDS: Mapping[str, Mapping[str, str]] = {
     "en": {
@@ -30,6 +30,7 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
         "but": "{who} but {users}",
         "no_promise": "no least rate for {who}",
         "user": "user {}",
+        "users_by_number": "users {}",
         "and": " and ",
         "comma": ", ",
         "between": ", ",
@@ -50,6 +51,7 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
         "but": "除{users}外{who}",
         "no_promise": "不保证{who}的最低速率",
         "user": "用户{}",
+        "users_by_number": "用户{}",
         "and": "和",
         "comma": "、",
         "between": "，",
@@ -57,6 +59,8 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
 }
 
 _NUMBERED = re.compile(r"(?i)(?:user\s*)?(\d+)")
+_SEVERAL = 3
+"""So many users are named by their numbers alone."""
 
 
 def limits_in_words(limits: Mapping[str, Constraint], language: str) -> str:
@@ -99,7 +103,7 @@ def _by_figure(words: Mapping[str, str], by_user: Mapping[str, float], exempt: l
     """(figure, who gets it), the same figures together and those who are not named last, but for the exempt."""
     named: dict[float, list[str]] = {}
     for user, figure in by_user.items():
-        if user != EVERYBODY:
+        if user != EVERYBODY and figure != by_user.get(EVERYBODY):
             named.setdefault(figure, []).append(_user(words, user))
     said = [(figure, _listed(words, users)) for figure, users in named.items()]
     if EVERYBODY in by_user:
@@ -117,6 +121,10 @@ def _user(words: Mapping[str, str], reference: str) -> str:
 
 
 def _listed(words: Mapping[str, str], names: list[str]) -> str:
+    pattern = re.compile(re.escape(words["user"]).replace(r"\{\}", r"(\d+)"))
+    numbers = [match[1] for match in map(pattern.fullmatch, names) if match is not None]
+    if len(names) >= _SEVERAL and len(numbers) == len(names):  # "users 1, 3 and 4"
+        return words["users_by_number"].format(_listed(words, numbers))
     return words["and"].join([words["comma"].join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 

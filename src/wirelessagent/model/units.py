@@ -41,7 +41,10 @@ def dbm_to_w(value_dbm: float) -> float:
 _NOUGHT = 1e-9
 """Shares up to this are rounding: constraints are kept that well, and a gap of no more is none."""
 
-_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+_LEAST_SHARE = 1e-5
+"""Shares below this are told as less than it."""
+
+_PREFIXES = ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
 def prefixed(largest: float, unit: str) -> tuple[float, str]:
@@ -65,13 +68,15 @@ def reliability(outage_probability: float) -> str:
 def percent(share: float) -> str:
     """A share in percent, with as many digits as people read; 0 where it is rounding.
 
-    >>> percent(0.1234), percent(130.0), percent(2e-3), percent(7e-14)
-    ('12 %', '13,000 %', '0.2 %', '0 %')
+    >>> percent(0.1234), percent(130.0), percent(2e-3), percent(3e-7), percent(7e-14)
+    ('12 %', '13,000 %', '0.2 %', '< 0.001 %', '0 %')
     """
     if not np.isfinite(share):
         return "–"
     if abs(share) <= _NOUGHT:
         return "0 %"
+    if abs(share) < _LEAST_SHARE:
+        return f"< {100 * _LEAST_SHARE:.1g} %"
     return f"{100 * share:,.0f} %" if abs(share) >= 0.1 else f"{100 * share:.2g} %"
 
 
@@ -80,12 +85,14 @@ def human(value: float, unit: str) -> str:
 
     A ratio (no unit, or one per hertz) takes no prefix, nor does a figure beyond them all.
 
-    >>> human(1.234e7, "bit/s"), human(0.0421, "W"), human(0, "W"), human(0.25, "bit/s/Hz")
-    ('12.3 Mbit/s', '42.1 mW', '0 W', '0.25 bit/s/Hz')
+    >>> human(1.234e7, "bit/s"), human(1e12, "bit/s"), human(0.0421, "W"), human(0, "W"), human(0.25, "bit/s/Hz")
+    ('12.3 Mbit/s', '1 Tbit/s', '42.1 mW', '0 W', '0.25 bit/s/Hz')
     """
     if np.isnan(value):
         return "–"
-    if np.isinf(value) or value == 0 or abs(value) >= 1e15 or not unit or unit.endswith("/Hz"):
+    if value == 0:
+        return f"0 {unit}".strip()  # no -0
+    if np.isinf(value) or abs(value) >= 1e15 or not unit or unit.endswith("/Hz"):
         return f"{value:.3g} {unit}".strip()
     for scale, prefix in _PREFIXES:
         if abs(value) >= scale * 0.9995:
