@@ -7,6 +7,7 @@ from conversations import LOSS, SCENE, SEED
 
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
+from wirelessagent.language.llm_prompt import plain
 
 HELD = "highest total rate, at most 10 W"
 
@@ -49,6 +50,32 @@ def test_a_method_goes_with_undo_back_to_a_turn_and_the_usual_one() -> None:
     assert "method greedy" in turns[5].reply
     assert session.request is not None
     assert session.request.method is None
+
+
+@pytest.mark.parametrize(
+    ("said", "name", "limits"),
+    [
+        ("use round robin and at least 1 Mbit/s for everyone", "round_robin", {"min_rate_bps": 1e6}),
+        ("user 2 at most 100 kbit/s, and use greedy", "greedy", {"max_rate_bps": {"2": 1e5}}),
+        ("用贪心算法，功率不超过5瓦", "greedy", {"max_power_w": 5.0}),
+    ],
+)
+def test_a_method_that_is_named_beside_a_limit_is_used(said: str, name: str, limits: dict[str, object]) -> None:
+    session, turns = talk("highest total rate", said)
+    assert session.request is not None
+    assert method_of(turns[1]) == name
+    assert plain(session.request.constraints) == limits
+
+
+def test_a_method_that_cannot_keep_the_limit_beside_it_is_refused_with_what_can() -> None:
+    said = "use equal power and user 2 at most 100 kbit/s"
+    turn = talk("highest total rate", said)[1][1]
+    assert turn.stage == "nothing"
+    assert "knows nothing of maximum rates" in turn.reply
+    assert "dual, exact, greedy" in turn.reply
+    first = talk(said)[1][0]  # no aim was named yet
+    assert first.intent.kind == "clarify"
+    assert "method equal_power again" in first.reply
 
 
 def test_a_method_is_named_with_the_request() -> None:

@@ -144,6 +144,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "command.help": "{help}",
         "command.export": "Export the result.",
         "nothing_yet": "There is no request yet that {text} would change. {offers}",
+        "method_later": "Then name the method {name} again; it is not in use yet.",
         "unsure_command": "Did you mean: {text} Yes or no?",
         "unsure_question": "I am not sure whether that is a question or a request. What should the cell aim for: "
             "{choices}?",
@@ -232,6 +233,7 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "command.help": "{help}",
         "command.export": "导出结果。",
         "nothing_yet": "还没有可以用{text}来修改的请求。{offers}",
+        "method_later": "届时请再说一次方法{name}，它尚未启用。",
         "unsure_command": "您是指“{text}”吗？请回答是或否。",
         "unsure_question": "我不确定这是问题还是请求。小区应以什么为目标：{choices}？",
         "help": "我为小区分配子载波和功率。{offers}",

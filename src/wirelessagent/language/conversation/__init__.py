@@ -17,7 +17,7 @@ from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.comparing import read_comparison
 from wirelessagent.language.conversation.holding import keeping_what_holds
 from wirelessagent.language.conversation.line import NAME, Line
-from wirelessagent.language.conversation.methods import by_method, read_method
+from wirelessagent.language.conversation.methods import beside_method, by_method, read_method, with_method
 from wirelessagent.language.conversation.needing import read_needed
 from wirelessagent.language.conversation.promisable import read_promisable
 from wirelessagent.language.conversation.relative import read_relative
@@ -53,6 +53,12 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
 def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> Intent:
     if len(text) > _LONGEST:
         return recogniser.recognise(text, context)
+    beside = beside_method(text)
+    if beside is not None:
+        rest, name = beside
+        by = with_method(line, _read(rest, Line.of(rest, context), context, recogniser), name)
+        if by is not None:
+            return by
     asked = wondered(text) if context.objective is not None else None
     for read in _READERS:
         intent = read(line)

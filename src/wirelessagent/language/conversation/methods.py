@@ -1,6 +1,7 @@
 """Lines that name the method to solve with: "use the paper's method", "switch to exact", "改用论文的方法".
 
 The request stays as it is; the method is the detail "method" of an amendment, "auto" for the objective's own choice.
+A method that is named beside a request ("use greedy and at least 1 Mbit/s each") goes with it.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import re
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.named_tools import with_tool
+from wirelessagent.language.text import normalise
 
 OWN_CHOICE = "auto"
 """The method for "the usual method"."""
@@ -46,6 +48,13 @@ _WHICH = re.compile(
 _ADDED = re.compile(
     rf"\b(?:with|by|using|via)\s+{_NAMED}\s+{_NOUN}\b|\busing\s+{_NAMED}(?!\w)|(?:用|采用|使用|按)%{_ZH_NOUN}"
 )
+_AND = r"(?:\s*[,;，；。]\s*(?:and|but|with)?|\s+(?:and|but|with))"
+_ZH_AND = r"(?:\s*[,，；;。]\s*|并且?|且|和|同时)"
+_USED = rf"(?:(?:now|then|also|just|please)\s+)*{_VERB}\s+{_NAMED}(?:\s+{_NOUN})?{_LATER}"
+_ZH_USED = rf"(?:现在|就|请)*{_ZH_VERB}(?:一下)?%(?:{_ZH_NOUN})?{_ZH_LATER}"
+_FIRST = re.compile(rf"{_USED}{_AND}\s*(?P<rest>.+)|{_ZH_USED}{_ZH_AND}(?P<zh>.+)")
+_LAST = re.compile(rf"(?P<rest>.+?){_AND}\s+{_USED}|(?P<zh>.+?){_ZH_AND}{_ZH_USED}")
+_COURTESY = re.compile(r"(?:(?:please|thanks?(?:\s+you)?|thank\s+you|ok(?:ay)?|now|谢谢|吧)[\s,!]*)+")
 _USUAL = re.compile(
     rf"(?:{_VERB}\s+|back\s+to\s+)(?:the\s+|your\s+|its\s+)?(?:default|usual|normal|standard|own|original|best|automatic)(?:\s+{_NOUN})?|"
     rf"(?:恢复|{_ZH_VERB})(?:默认|原来|通常|自动|平常)的?(?:方法|算法)"
@@ -70,6 +79,31 @@ def read_method(line: Line) -> Intent | None:
     if not asked and not _GIVES.fullmatch(shape):
         return None
     return line.question("other") if line.context.objective is None else line.command("compare", **{"with": name})
+
+
+def beside_method(text: str) -> tuple[str, str] | None:
+    """What is asked beside a method that a sentence says to use, and the method; None for any other sentence.
+
+    >>> beside_method("use round robin and at least 1 Mbit/s for everyone")
+    ('at least 1 Mbit/s for everyone', 'round_robin')
+    """
+    plain = " ".join(normalise(text).split()).rstrip("?？.。!！ ")
+    shape, name = with_tool(plain, "method")
+    match = (_FIRST.fullmatch(shape) or _LAST.fullmatch(shape)) if name else None
+    if match is None:
+        return None
+    start, end = match.span("rest" if match["rest"] else "zh")
+    rest = plain[len(plain) - (len(shape) - start) :] if start else plain[:end]
+    return None if _COURTESY.fullmatch(rest.lower()) else (rest, name)
+
+
+def with_method(line: Line, intent: Intent, name: str) -> Intent | None:
+    """A request by a method that is named beside it; None for what is neither a request nor a question back."""
+    if intent.kind == "allocate":
+        return dataclasses.replace(intent, details={**intent.details, "method": name})
+    if intent.kind != "clarify":
+        return None
+    return dataclasses.replace(intent, reply=f"{intent.reply} {line.voice.say('method_later', name=name)}")
 
 
 def by_method(line: Line, intent: Intent) -> Intent:
