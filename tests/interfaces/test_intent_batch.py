@@ -165,6 +165,11 @@ def test_the_evaluation_as_a_command(tmp_path: Path, capsys: pytest.CaptureFixtu
         ("{", "line 2"), ('{"text": "a", "kind": "x"', "line 2"), ('{"kind": "question"}', "no 'text'"),
         ('{"text": "a", "kind": "allocate", "constraints": {"altitude": 1}}', "altitude"), ("[1]", "line 2"),
         ('{"text": "a", "kind": "allocate", "constraints": {"max_power_w": -1}}', "-1"),
+        ('{"text": "a", "kind": "allocate", "objective": ["max_rate"]}', "objective is ['max_rate']"),
+        ('{"text": "a", "kind": "allocate", "objective": "max_fun"}', "objective is 'max_fun'"),
+        ('{"text": "a", "kind": "bogus"}', "kind is 'bogus'"), ('{"text": "a", "kind": ["question"]}', "kind is ["),
+        ('{"text": "a", "kind": "question", "constraints": []}', "constraints are []"),
+        ('{"text": "a", "kind": "question", "constraints": 7}', "constraints are 7"), ("7", "it is 7"),
     ],
 )  # fmt: skip
 def test_a_bad_line_of_meanings_is_named(line: str, named: str, tmp_path: Path) -> None:

@@ -14,11 +14,12 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, cast, get_args
 
 import numpy as np
 
-from wirelessagent.language.intent import Constraint, Intent, checked_constraints
+from wirelessagent import plugins
+from wirelessagent.language.intent import Constraint, Intent, IntentKind, checked_constraints
 from wirelessagent.language.recogniser import Recogniser
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.units import dbm_to_w
@@ -100,13 +101,24 @@ def read_meant(path: Path) -> list[Meant]:
     return found
 
 
-def _meant(row: dict[str, Any], number: int) -> Meant:
-    given = cast("Mapping[str, Any]", row.get("constraints") or {})
-    constraints = {name: _listed(value) for name, value in given.items()}
-    if not isinstance(row["text"], str):
-        raise ValueError(f"text is {row['text']!r}")
+def _meant(row: Any, number: int) -> Meant:
+    if not isinstance(row, dict):
+        raise ValueError(f"it is {row!r}")
+    fields = cast("dict[str, Any]", row)
+    text, kind, objective = fields["text"], fields["kind"], fields.get("objective")
+    given = fields.get("constraints")
+    if not isinstance(text, str):
+        raise ValueError(f"text is {text!r}")
+    if kind not in get_args(IntentKind):
+        raise ValueError(f"kind is {kind!r}, not one of {', '.join(get_args(IntentKind))}")
+    if objective is not None and objective not in plugins.names("objective"):
+        raise ValueError(f"objective is {objective!r}, not null or one of {', '.join(plugins.names('objective'))}")
+    if given is not None and not isinstance(given, dict):
+        raise ValueError(f"constraints are {given!r}, not an object")
+    stated = cast("dict[str, Any]", given or {})
+    constraints = {name: _listed(value) for name, value in stated.items()}
     return Meant(
-        text=row["text"], language=str(row.get("language", "")), kind=str(row["kind"]), objective=row.get("objective"),
+        text=text, language=str(fields.get("language", "")), kind=kind, objective=objective,
         constraints=checked_constraints(constraints), line=number,
     )  # fmt: skip
 
