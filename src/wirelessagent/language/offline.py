@@ -114,6 +114,8 @@ class _Understanding:
             self._judged.acts and (self._goal.verdict != "none" or self._judged.certainty > 0.85)
         ) or self._judged.objective_clear:
             return None
+        if self._goal.verdict == "clear" and self._goal.objective != context.objective:
+            return None  # "fair, at most 5 W": a wish that is not sure is no mere limit
         if (self._judged.kind == "command" and self._judged.topic not in (*CHANGING, "reject")) or _ASKED.search(
             self._text
         ):
