@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -54,6 +55,20 @@ class Moody(wa.BaseStation):
                 return replace(outcome, owner=np.where(half, (outcome.owner + 1) % 4, outcome.owner))
             case "cut":
                 return replace(outcome, owner=outcome.owner[half], power_w=outcome.power_w[half])
+            case "lists":
+                return replace(outcome, owner=outcome.owner.tolist(), power_w=outcome.power_w.tolist())
+            case "square":
+                return replace(outcome, owner=outcome.owner[None], power_w=outcome.power_w[None])
+            case "words":
+                return cast(wa.Outcome, "done")
+            case "exit":
+                raise SystemExit(3)
+            case "colour":
+                raise OSError("\x1b[31mlink\x07\ndown\x1b[0m")
+            case "unmeasured":
+                assert outcome.achieved is not None
+                rate = outcome.achieved.user_rate_bps * np.nan
+                return replace(outcome, achieved=replace(outcome.achieved, user_rate_bps=rate))
             case "fade" | "dip":
                 assert outcome.achieved is not None
                 rate = outcome.achieved.user_rate_bps * (0.8 if mood == "fade" else 0.95)
@@ -105,6 +120,12 @@ def applied(run: Run) -> Run:
         ("cut", "10 subcarriers instead of 20"),
         ("raise", "The base station moody failed: the radio link broke off half-way."),
         ("fade", "promised arrive, 2"),
+        ("unmeasured", "promised arrive, 100 % too little"),
+        ("lists", "The base station moody reads back something that is no allocation."),
+        ("square", "reads back something that is no allocation."),
+        ("words", "reads back something that is no allocation."),
+        ("exit", "The base station moody failed: 3."),
+        ("colour", "The base station moody failed: link down."),
     ],
 )
 def test_what_is_not_as_decided_or_promised_is_taken_back(mood: str, told: str) -> None:
@@ -119,7 +140,7 @@ def test_what_is_not_as_decided_or_promised_is_taken_back(mood: str, told: str) 
     assert turns[1].restored is not None
     assert np.array_equal(turns[1].restored.power_w, first.decision.power_w)
     assert [decision.total_power_w for decision in station.applied] == pytest.approx([10, 5, 10])
-    assert (bad.outcome is None) == (mood == "raise")
+    assert (bad.outcome is None) == (mood in ("raise", "lists", "square", "words", "exit", "colour"))
     assert session.state.on_air is first
     assert session.request == Request(objective="max_rate", constraints={"max_power_w": 5.0})
     assert "In effect: 10 W" in turns[2].reply
@@ -154,6 +175,18 @@ def test_a_revert_that_fails_is_told_and_what_is_in_effect_is_not_known() -> Non
     assert turns[1].restored is None
     assert turns[2].stage == "applied"  # what is in effect is not known, so it is not "nothing to change"
     assert session.state.on_air is turns[2].run
+
+
+def test_after_a_revert_that_failed_status_tells_that_it_is_not_known_and_what_was_read_back() -> None:
+    for moods, read in ((["raise", "raise"], "nothing"), (["half", "drop power"], "5 W on 20 of 20 subcarriers")):
+        station = Moody(moods=["obey", *moods])
+        ten, five = (asks("max_rate", max_power_w=power) for power in (10.0, 5.0))
+        session, turns = talk(station, ten, five, STATUS)
+        assert session.state.on_air is None
+        assert "What is in effect is not known" in turns[2].reply
+        assert f"Read back since: {read}." in turns[2].reply
+        _, turns = talk(Moody(), ten, STATUS)
+        assert "In effect: 10 W" in turns[1].reply
 
 
 def test_a_few_missed_promises_are_chance_and_many_are_not() -> None:

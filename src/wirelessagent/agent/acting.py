@@ -13,7 +13,9 @@ Where no outage probability was accepted, a missed promise is no fault by itself
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from scipy.special import bdtrc
@@ -23,6 +25,7 @@ from wirelessagent.agent.run import with_outcome
 from wirelessagent.agent.turn import Run
 from wirelessagent.agent.words import say
 from wirelessagent.explain.report import name_of_figure
+from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.metrics import RATE_TOLERANCE
@@ -37,6 +40,10 @@ _SAME_POWER = 1e-3
 """Share of the power by which two allocations may differ and be the same: what radios round."""
 
 _ROUNDING = 1e-9
+
+_ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
+_LONGEST_MESSAGE = 300
+"""Characters of a base station's own message that are told."""
 
 _UNLIKELY = 1e-3
 """Probability below which so many missed promises are not chance."""
@@ -65,14 +72,22 @@ def carry_out(run: Run, station: BaseStation, last_good: Run | None, tolerance: 
     """Apply a run's decision; where it is at fault, put the last good one back."""
     language = run.intent.language
     outcome, failure = _applied(station, run.decision, language)
-    done = run if outcome is None else with_outcome(run, outcome)
+    done = run
+    if outcome is not None:
+        try:
+            done = with_outcome(run, outcome)
+        except Exception:  # noqa: BLE001  # figures of any kind may be read back
+            outcome, failure = None, say(language, "misread", station=station.name)
     amiss = [failure] if outcome is None else _differences(run.decision, outcome, language)
     faults = list(amiss)
     if outcome is not None and not amiss:
         faults = [*_broken_promises(run.decision, outcome, tolerance, language), *_worse(done, last_good, tolerance)]
     if not faults or last_good is None:
         return Effect(run=done, faults=tuple(faults), as_decided=not amiss)
-    restored, trouble = put_back(last_good, station, language)
+    try:
+        restored, trouble = put_back(last_good, station, language)
+    except InputError as error:  # something was applied before, so what is in effect has to be told
+        restored, trouble = None, say(language, "station_failed", station=station.name, why=_plain(error))
     return Effect(run=done, faults=tuple(faults), restored=restored, trouble=trouble, as_decided=not amiss)
 
 
@@ -103,11 +118,41 @@ def respects(allocation: Decision, wanted: Decision) -> bool:
 
 def _applied(station: BaseStation, decision: Decision, language: str) -> tuple[Outcome | None, str]:
     try:
-        return station.apply(decision), ""
+        outcome = station.apply(decision)
     except InputError:  # what it was made with, or was given, cannot be used; nothing was touched
         raise
-    except Exception as error:  # noqa: BLE001  # equipment of any make must not end the conversation
-        return None, say(language, "station_failed", station=station.name, why=error)
+    except (Exception, SystemExit) as error:  # noqa: BLE001  # equipment of any make must not end the conversation
+        return None, say(language, "station_failed", station=station.name, why=_plain(error))
+    if not _is_readable(outcome, decision):
+        return None, say(language, "misread", station=station.name)
+    return outcome, ""
+
+
+def _plain(error: BaseException) -> str:
+    """The message of an error as one short line, without control characters and their sequences."""
+    try:
+        said = str(error)
+    except Exception:  # noqa: BLE001  # not even that is sure of equipment of any make
+        said = type(error).__name__
+    shown = "".join(sign if sign.isprintable() else " " for sign in _ESCAPES.sub("", said))
+    return " ".join(shown.split())[:_LONGEST_MESSAGE]
+
+
+def _is_readable(outcome: object, decision: Decision) -> bool:
+    """Whether what was read back is an allocation in arrays of numbers, of any size, with rates of these users."""
+    if not isinstance(outcome, Outcome):
+        return False
+    users, achieved = decision.rate_bps.shape, outcome.achieved
+    rates = [outcome.promised_bps, outcome.missed, *([] if achieved is None else [achieved.user_rate_bps])]
+    flat = _is_row(outcome.owner) and _is_row(outcome.power_w) and outcome.owner.shape == outcome.power_w.shape
+    return flat and all(_is_row(each) and each.shape == users for each in rates)
+
+
+def _is_row(values: object) -> bool:
+    if not isinstance(values, np.ndarray):
+        return False
+    row = cast("np.ndarray[tuple[int, ...], np.dtype[np.generic]]", values)
+    return row.ndim == 1 and row.dtype.kind in "biuf"
 
 
 def _in_use(allocation: Decision | Outcome) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
@@ -136,16 +181,22 @@ def _broken_promises(decision: Decision, outcome: Outcome, tolerance: float, lan
         return []
     found: list[str] = []
     promised = outcome.promised_bps
-    carried = float(np.minimum(outcome.achieved.user_rate_bps, promised).sum())
-    total = float(promised.sum())
-    if carried < total * (1 - tolerance):
+    carried = float(np.minimum(_known(outcome.achieved.user_rate_bps), promised).sum())
+    total = float(decision.committed_bps.sum())
+    if not carried >= total * (1 - tolerance):  # NaN is not kept
         short, of = percent(1 - carried / total), human(total, "bit/s")
         found.append(say(language, "too_little", carried=human(carried, "bit/s"), promised=of, short=short))
     outage = decision.problem.outage_probability
-    missed, served = int(np.count_nonzero(outcome.missed)), int(np.count_nonzero(promised > 0))
+    unknown = np.isnan(outcome.achieved.user_rate_bps) & (promised > 0)
+    missed, served = int(np.count_nonzero(outcome.missed | unknown)), int(np.count_nonzero(promised > 0))
     if outage is not None and missed and float(bdtrc(missed - 1, served, outage)) < _UNLIKELY:
         found.append(say(language, "too_many", missed=missed, served=served, sure=reliability(outage)))
     return found
+
+
+def _known(rate: FloatArray) -> FloatArray:
+    """Rates with 0 for those that were not measured: what is not known is not kept."""
+    return np.where(np.isnan(rate), 0.0, rate)
 
 
 def _worse(run: Run, good: Run | None, tolerance: float) -> list[str]:
@@ -156,7 +207,7 @@ def _worse(run: Run, good: Run | None, tolerance: float) -> list[str]:
     objective = run.decision.problem.objective
     assert isinstance(objective, Objective)
     lost = before * (1 - tolerance) - now if objective.direction == "max" else now - before * (1 + tolerance)
-    if not lost > 0:
+    if lost <= 0:  # NaN is worse
         return []
     language, unit = run.intent.language, run.decision.unit
     figure = name_of_figure(run.decision, language) or say(language, "value")
@@ -169,7 +220,7 @@ def _worth(run: Run, outcome: Outcome) -> float:
     assert isinstance(problem.objective, Objective)
     assert achieved is not None
     users = achieved.user_rate_bps.size
-    useful = np.minimum(achieved.user_rate_bps, problem.max_rates_bps(users))
+    useful = np.minimum(_known(achieved.user_rate_bps), problem.max_rates_bps(users))
     return problem.objective.value(useful, achieved.power_w, run.decision.cell, problem.weights_of(users))
 
 

@@ -65,20 +65,30 @@ def _same(one: Run | None, other: Run) -> bool:
     return one is not None and one.decision is other.decision
 
 
-def status(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
+def status(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
     """What is asked for, what was decided, and what is in effect."""
     language = intent.language
-    if state.request is None and state.on_air is None:
+    if state.request is None and state.on_air is None and not site.touched:
         return Reply(text=say(language, "status_none"))
     said: list[str] = []
     if state.request is not None:
         said.append(say(language, "status", request=restated(state.request, language)))
     if state.run is not None:
         said.append(say(language, "status_run", certificate=certificate_line(state.run.decision, language)))
-    said.append(_on_air(state.on_air, language, turns))
+    unknown = state.on_air is None and site.touched
+    said.append(_unknown(site.read_last, language) if unknown else _on_air(state.on_air, language, turns))
     if state.planned is not None:
         said.append(say(language, "status_waits"))
     return Reply(text="\n".join(said))
+
+
+def _unknown(read: Outcome | None, language: str) -> str:
+    """That it is not known what is in effect, and what was read back last."""
+    if read is None:
+        return say(language, "status_unknown", read=say(language, "status_read_nothing"))
+    used, total = int((read.power_w > 0).sum()), read.power_w.size
+    power = human(float(read.power_w.sum()), "W")
+    return say(language, "status_unknown", read=say(language, "status_read", power=power, used=used, total=total))
 
 
 def _on_air(run: Run | None, language: str, turns: Sequence[Turn]) -> str:

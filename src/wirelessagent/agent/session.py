@@ -215,7 +215,7 @@ class Session:
             "compare": lambda: asking.compare(site, state, intent, self._turns),
             "explain": lambda: asking.explain(state, intent),
             "history": lambda: asking.history(intent, self._turns),
-            "status": lambda: asking.status(state, intent, self._turns),
+            "status": lambda: asking.status(site, state, intent, self._turns),
             "what_if": lambda: referring.what_if(site, state, intent),
             "export": lambda: asking.export(state, intent, self._turns),
             "help": lambda: Reply(text=say(intent.language, "help")),

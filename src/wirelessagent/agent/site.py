@@ -27,6 +27,10 @@ class Site:
     """One scene with its losses, the tools that work on it, and the rules of acting.
 
     The channel is looked at once, when it is first needed.
+
+    Attributes:
+        touched: whether anything was tried at the base station.
+        read_last: what was read back last; None where nothing was, or where that could not be read.
     """
 
     def __init__(
@@ -45,6 +49,8 @@ class Site:
         self.tolerance, self.progress = tolerance, progress
         self._base_station, self._confirm = base_station, confirm
         self._sight: Sight | None = None
+        self.touched = False
+        self.read_last: Outcome | None = None
 
     @property
     def user_names(self) -> tuple[str, ...]:
@@ -98,11 +104,15 @@ class Site:
 
     def carry_out(self, run: Run, station: BaseStation, last_good: Run | None) -> acting.Effect:
         """Apply a run, read back, and go back to the last good one where it is at fault."""
-        return acting.carry_out(run, station, last_good, self.tolerance)
+        effect = acting.carry_out(run, station, last_good, self.tolerance)
+        self.touched, self.read_last = True, effect.restored or effect.run.outcome
+        return effect
 
     def put_back(self, run: Run, station: BaseStation) -> tuple[Outcome | None, str]:
         """Apply again what was in effect before: what was read back, and what went wrong."""
-        return acting.put_back(run, station, run.intent.language)
+        outcome, trouble = acting.put_back(run, station, run.intent.language)
+        self.touched, self.read_last = True, outcome
+        return outcome, trouble
 
     def foreseen(self, run: Run) -> Run:
         """A run with what it would achieve, where the true channel is known; nothing is applied."""
