@@ -17,6 +17,8 @@ from wirelessagent.model.units import human, percent, reliability
 
 _STEP_BPS = 100e3
 _SHOWN_CHANCE = 0.0005
+_SHOWN_DB, _SHOWN_COST = 0.005, 1e-6
+"""A contest of less margin that costs no larger share of the value either way is none."""
 
 WORDS = Lexicon(
     english={
@@ -272,12 +274,14 @@ def _sure(case: Case, found: Certainty, language: str) -> list[str]:
 def contested_table(case: Case, found: list[Contested], language: str) -> Table | None:
     """Who won the most contested subcarriers, and by how much; None where nothing was contested."""
     names, unit = case.estimate.user_names, case.decision.unit
+    least = _SHOWN_COST * abs(case.decision.value)
+    found = [one for one in found if np.isnan(one.cost) or one.cost > least or abs(one.contest.margin_db) >= _SHOWN_DB]
     rows = tuple(
         (
             f"{one.first + 1}" if one.first == one.last else f"{one.first + 1}–{one.last + 1}",
             called(language, names[one.contest.winner]),
             called(language, names[one.contest.runner_up]),
-            f"{one.contest.margin_db:.2g} dB" if abs(one.contest.margin_db) >= 0.005 else "0 dB",
+            f"{one.contest.margin_db:.2g} dB" if abs(one.contest.margin_db) >= _SHOWN_DB else "0 dB",
             WORDS.say(language, "not_met") if np.isnan(one.cost) else human(one.cost, unit),
         )
         for one in found
