@@ -12,7 +12,8 @@ from wirelessagent.language.recogniser import Context
 
 HELD = Context(objective="max_rate", constraints={"max_power_w": 10.0}, max_power_w=20.0)
 REFUSED = [
-    "5 W is too much", "12 W is not enough", "8 W won't do", "I don't want 500 kbit/s each", "3 Mbit/s each isn't enough",
+    "5 W is too much", "12 W is not enough", "8 W won't do", "I don't want 500 kbit/s each",
+    "3 Mbit/s each isn't enough",
     "5瓦太多了", "6瓦不够", "我不要每人500k", "每人1兆太少", "5 W es demasiado", "5 W c'est trop", "12 W reichen nicht",
 ]  # fmt: skip
 
@@ -44,7 +45,8 @@ def test_what_is_wanted_instead_is_read(said: str, constraints: dict[str, Any]) 
 @pytest.mark.parametrize(
     "said",
     [
-        "user 3 needs 2 Mbit/s and drop user 3, max rate", "user 3 needs 2 Mbit/s but user 3 must get nothing, max rate",
+        "user 3 needs 2 Mbit/s and drop user 3, max rate",
+        "user 3 needs 2 Mbit/s but user 3 must get nothing, max rate",
         "user -1 needs 1 Mbit/s, max rate", "用户-2至少1兆,总速率最高",
     ],
 )  # fmt: skip
