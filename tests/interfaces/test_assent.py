@@ -10,7 +10,7 @@ from conversations import LOSS, SCENE, SEED, asks, means
 import wirelessagent as wa
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
-from wirelessagent.language.conversation.assent import assent
+from wirelessagent.language.conversation.assent import assent, is_assent
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -33,7 +33,8 @@ DOUBTFUL = (
     "why not", "apply it if it is safe", "apply it to cell 2", "apply the previous one", "apply turn 1", "apply 0 W",
     "yes and no", "apply it at 6 pm", "confirm user 3", "confirm the power", "apply for a job", "no problem",
     "looks good but",
-    "he said yes", "ok I understand", "应用吗", "可以吗", "应用什么", "is that ok?", "what happens if I apply it",
+    "he said yes", "ok I understand", "应用吗", "可以吗", "应用什么", "是吧", "对吧",
+    "is that ok?", "what happens if I apply it",
 )  # fmt: skip
 YES = (
     "yes", "Yes, please!", "y", "yes yes yes", "go ahead", "do it", "confirm", "confirmed", "I agree", "let's do it",
@@ -168,5 +169,6 @@ def test_that_a_limit_holds_is_told_with_the_yes_too(tmp_path: Path) -> None:
 
 
 def test_long_lines_and_repetitions_are_no_assent_and_read_at_once() -> None:
+    assert not any(map(is_assent, ("go on", "行了", "应用了", "对吧")))
     for said in ("好吧" * 49 + "x", "yes " * 24 + "x", "就那就" * 30, "y" * 500):
         assert assent(said) == "other"

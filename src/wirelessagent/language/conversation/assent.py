@@ -39,7 +39,7 @@ _APPLY = "|".join(
         # Chinese
         (
             r"(?:把(?:它|这个|方案|计划))?(?:应用|應用|执行|執行|下发|下發|部署|启用|实施|采用)(?:上|掉)?"
-            r"(?:它|这个|(?:这个|该|此|这份|这一)?(?:方案|计划|分配|决定))?(?:一下)?(?:吧|了|啊)?"
+            r"(?:它|这个|(?:这个|该|此|这份|这一)?(?:方案|计划|分配|决定))?(?:一下)?(?:吧|啊)?"
         ),
         r"让(?:它|方案|计划)生效(?:吧)?",
     )
@@ -47,7 +47,7 @@ _APPLY = "|".join(
 _YES = "|".join(
     (
         r"y|ye[sp]|yeah|yup|aye|of\s+course|absolutely|definitely|certainly|by\s+all\s+means",
-        r"go\s+(?:right\s+)?ahead|go\s+for\s+it|go\s+on|do\s+(?:it|that|this|so)|let'?s\s+(?:do\s+(?:it|that|this)|go)",
+        r"go\s+(?:right\s+)?ahead|go\s+for\s+it|do\s+(?:it|that|this|so)|let'?s\s+(?:do\s+(?:it|that|this)|go)",
         r"make\s+it\s+so|make\s+it\s+happen|proceed|(?:i\s+)?(?:confirm|agree|accept|approve)(?:\s+(?:it|that|this|the\s+plan))?",
         r"(?:it'?s\s+|it\s+is\s+)?(?:confirmed|agreed|accepted|approved)|you\s+(?:can|may)|please\s+do",
         r"sí|si|claro|adelante|confirm(?:o|ado)|hazlo|de\s+acuerdo|oui|ouais|d'accord|bien\s+sûr|vas-y|allez-y|fai[st]e?s?-le",
@@ -68,7 +68,7 @@ _MILD = "|".join(
 _POLITE = (
     r"please|pls|thanks(?:\s+a\s+lot)?|thank\s+you(?:\s+very\s+much)?|thx|now|right\s+(?:now|away)|immediately|at\s+once|"
     r"then|and|just|well|to\s+me|for\s+me|por\s+favor|gracias|ahora|s'il\s+(?:te|vous)\s+pla[iî]t|merci|maintenant|bitte|danke|jetzt|y|et|"
-    r"und|请|麻烦你?|谢谢(?:你|您)?|现在|立即|马上|立刻|就|那就?|直接|吧|了|啊"
+    r"und|请|麻烦你?|谢谢(?:你|您)?|现在|立即|马上|立刻|就|那就?|直接|吧|啊"
 )
 _APART = r"(?:(?<![^\W\d_])|(?<=[\u3400-\u9fff]))"
 _OVER = r"(?:(?![^\W\d_])|(?=[\u3400-\u9fff]))"
@@ -82,6 +82,8 @@ _ASSENT = re.compile(
     rf"(?:\s*(?:{_part('apply', _APPLY)}|{_part('mild', _MILD)}|{_part('yes', _YES)}|"
     rf"{_APART}(?:{_POLITE}){_OVER})){{1,9}}\s*"
 )
+_NO_ASSENT = re.compile(r"[?？\d]|[是对對]吧")
+"""A question or a figure, which no assent has in it."""
 _PLAIN = re.compile(r"[\s,，、.。!！~;；:：…]+")
 
 _WORDS_KNOWN = (
@@ -104,7 +106,7 @@ _WORDS_KNOWN = (
 _KNOWN = frozenset(_WORDS_KNOWN.split())
 """Words of which a line about applying or not applying a plan may be made, and nothing else of the cell."""
 _KNOWN_SIGNS = frozenset(
-    "不没沒别勿先再等会會儿一下明后天晚稍点应應用执執行下发發部署生效确確认認同意可以好的是吗嗎么麼什呢啊吧了就请請它这個个方案"
+    "对對不没沒别勿先再等会會儿一下明后天晚稍点应應用执執行下发發部署生效确確认認同意可以好的是吗嗎么麼什呢啊吧了就请請它这個个方案"
     "计计划划要想取消停止算都也无無需必全现在时时候何谁吗该应否能让还還暂暫缓拒绝绝放弃弃任何东西我们你您他说说懂明白知道"
 )
 _OF_APPLYING = (
@@ -114,7 +116,7 @@ _OF_APPLYING = (
 )
 _WORDS_OF_ASSENT = r"\b(?:agree|disagree|yes|yeah|yep|ok|okay|sure|fine|good|great|right|sí|oui|ja)\b|同意"
 _SPOKEN_OF = re.compile(rf"{_OF_APPLYING}|{_WORDS_OF_ASSENT}")
-_ABOUT = re.compile(rf"{_OF_APPLYING}|{_WORDS_OF_ASSENT}|可以|行|好|是")
+_ABOUT = re.compile(rf"{_OF_APPLYING}|{_WORDS_OF_ASSENT}|可以|行|好|是|对|對")
 _ASKED = re.compile(
     r"[?？]|^(?:(?:ok|so|and|but|well|please)\s+)*(?:should|shall|can|could|may|will|would|do|does|did|is|are|was|has|have|"
     r"what|when|who|why|which|how)\b(?!\s+(?:it|that|this|so|not)(?:\s+(?:not|now|never))?$)(?!\s+not\b)|"
@@ -155,7 +157,7 @@ def assent(text: str) -> Assent:
     if len(text) > _LONGEST:
         return "other"
     said = lowered(normalise(text)).strip()
-    match = None if re.search(r"[?？\d]", said) else _ASSENT.fullmatch(_PLAIN.sub(" ", said).strip())
+    match = None if _NO_ASSENT.search(said) else _ASSENT.fullmatch(_PLAIN.sub(" ", said).strip())
     if match is not None and any(match.groupdict().values()):
         return "apply" if match["apply"] else "yes" if match["yes"] else "mild"
     plain = " ".join(_PLAIN.sub(" ", said).split())
