@@ -398,6 +398,23 @@ def test_a_number_that_no_database_holds_is_no_turn(store: Store, number: int) -
         store.turn(number)
 
 
+@pytest.mark.parametrize("unsettled", [False, True])
+def test_where_nothing_can_be_written_what_is_settled_is_read(place: Path, *, unsettled: bool) -> None:
+    with Store.open(place, create=True) as store:
+        recorded(store, 3)
+    place.with_name(f"{place.name}-shm").mkdir()  # a reader's own file cannot be made
+    if unsettled:
+        place.with_name(f"{place.name}-wal").write_bytes(b"x" * 4096)
+        with pytest.raises(StoreError, match="cannot be used"):
+            Store.open(place)
+        return
+    with Store.open(place) as store:
+        assert [turn.number for turn in store.turns()] == [1, 2, 3]
+        assert store.faults() == []
+        with pytest.raises(StoreError, match="readonly"):
+            store.append(random_turn(4, seed=1))
+
+
 def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
     with pytest.raises(StoreError, match=r"cannot be used: (Not a directory|No such file)"):
         Store.open(tmp_path / "none" / "audit.sqlite3", create=True)

@@ -10,15 +10,18 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import sqlite3
 import time
 from collections.abc import Callable, Generator
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import platformdirs
 from sqlalchemy import URL, Connection, Engine, create_engine, event, inspect, make_url, select
-from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError, SQLAlchemyError
+from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError, OperationalError, SQLAlchemyError
+from sqlalchemy.pool import NullPool
 
 from wirelessagent import __version__
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
@@ -100,7 +103,13 @@ def opened(url: URL, *, create: bool) -> Engine:
         if path is not None:
             _prepare_file(path, create=create)
         engine = _engine(url)
-        _patiently(lambda: _check(engine, create=create))
+        try:
+            _patiently(lambda: _check(engine, create=create))
+        except OperationalError:
+            if create or path is None or not _is_settled(path):
+                raise
+            engine = _engine_that_writes_nothing(path)
+            _check(engine, create=False)
         return engine
 
 
@@ -150,6 +159,21 @@ def _engine(url: URL) -> Engine:
     event.listen(engine, "connect", _set_up)
     event.listen(engine, "begin", _begin)
     return engine
+
+
+def _engine_that_writes_nothing(path: Path) -> Engine:
+    """For reading where even a reader's own files cannot be made: on a full disk, or a read-only file system."""
+    place = f"file:{quote(str(path))}?mode=ro&immutable=1"
+    engine = create_engine("sqlite://", creator=lambda: sqlite3.connect(place, uri=True), poolclass=NullPool)
+    event.listen(engine, "connect", _set_up)
+    event.listen(engine, "begin", _begin)
+    return engine
+
+
+def _is_settled(path: Path) -> bool:
+    """Whether the file is all there is: what was committed last is in a file beside it until that is taken over."""
+    beside = path.with_name(path.name + "-wal")
+    return path.is_file() and not (beside.is_file() and beside.stat().st_size > 0)
 
 
 def _set_up(connection: Any, _: object) -> None:
