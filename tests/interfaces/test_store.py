@@ -402,7 +402,7 @@ def test_a_number_that_no_database_holds_is_no_turn(store: Store, number: int) -
 def test_where_nothing_can_be_written_what_is_settled_is_read(place: Path, *, unsettled: bool) -> None:
     with Store.open(place, create=True) as store:
         recorded(store, 3)
-    place.with_name(f"{place.name}-shm").mkdir()  # a reader's own file cannot be made
+    place.with_name(f"{place.name}-shm" if unsettled else f"{place.name}-wal").mkdir()  # a reader's file cannot be made
     if unsettled:
         place.with_name(f"{place.name}-wal").write_bytes(b"x" * 4096)
         with pytest.raises(StoreError, match="cannot be used"):
