@@ -40,7 +40,7 @@ def test_json_is_a_line_per_turn(script: Path, capsys: pytest.CaptureFixture[str
     turns = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert [turn["number"] for turn in turns] == [1, 2]
     assert [turn["request"]["objective"] for turn in turns] == ["max_rate", "min_power"]
-    assert turns[1]["request"]["constraints"] == {"min_rate_bps": 500e3}
+    assert turns[1]["request"]["constraints"] == {"max_power_w": 10.0, "min_rate_bps": 500e3}
     assert turns[1]["decision"]["unit"] == "W"
     assert turns[1]["outcome"]["power_w"] == turns[1]["decision"]["power_w"]
     assert turns[0]["session"] == turns[1]["session"]

@@ -127,7 +127,7 @@ def test_one_users_limit_goes_where_a_limit_for_all_holds() -> None:
     assert asked_for(session) == {
         "min_rate_bps": {"1": 1e6, "3": 1e6, "4": 1e6}, "max_rate_bps": {"1": 5e6, "2": 5e6, "4": 5e6},
     }  # fmt: skip
-    assert "user 1, user 3 and user 4" in turn.reply
+    assert "users 1, 3 and 4" in turn.reply
     assert other.intent.language == "zh"
     session, (_, turn) = talk(request(min_rate_bps={"1": 1e6}), "remove user 2's rate limit")
     assert turn.stage == "asked"

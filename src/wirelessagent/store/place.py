@@ -172,7 +172,7 @@ def _engine_that_writes_nothing(path: Path) -> Engine:
 
 def _is_settled(path: Path) -> bool:
     """Whether the file is all there is: what was committed last is in a file beside it until that is taken over."""
-    beside = path.with_name(path.name + "-wal")
+    beside = Path(f"{path}-wal")
     return path.is_file() and not (beside.is_file() and beside.stat().st_size > 0)
 
 
