@@ -146,6 +146,14 @@ def test_what_is_not_as_decided_or_promised_is_taken_back(mood: str, told: str) 
     assert "In effect: 10 W" in turns[2].reply
 
 
+def test_what_was_taken_back_is_exported_as_deactivated() -> None:
+    asked = (asks("max_rate", max_power_w=10.0), asks("max_rate", max_power_w=5.0), means("command", topic="export"))
+    _, turns = talk(Moody(moods=["obey", "half"]), *asked)
+    assert '"DEACTIVATED"' in turns[-1].reply
+    _, turns = talk(Moody(), *asked)
+    assert '"ACTIVATED"' in turns[-1].reply
+
+
 def test_a_reverted_request_can_be_applied_again_or_undone() -> None:
     station = Moody(moods=["obey", "half"])
     session, turns = talk(station, asks("max_rate", max_power_w=10.0), asks("max_rate", max_power_w=5.0), APPLY)

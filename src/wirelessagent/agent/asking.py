@@ -163,6 +163,7 @@ def export(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
         outcome=on_air.outcome if on_air is not None and _same(on_air, run) else None,
         language=run.intent.language,
         current=_in_effect_before(last, turns),
+        taken_back=last.stage == "reverted",
     )
     if name == "ts28312":
         return Reply(text=ts28312.to_json(ts28312.document(subject)))
