@@ -3,17 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from conversations import LOSS, SCENE, SEED
+from conversations import talk
 
 from wirelessagent.agent.session import Session
-from wirelessagent.agent.turn import Turn
 
 HELD = ("highest total rate, at most 10 W", "now with 5 W", "now with 4 W")
-
-
-def talk(*lines: str) -> tuple[Session, list[Turn]]:
-    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
-    return session, [session.say(line) for line in lines]
 
 
 def limit_of(session: Session) -> float | None:

@@ -2,25 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import pytest
-from conversations import LOSS, SCENE, SEED
+from conversations import talked_into as talk
 
-from wirelessagent.agent.session import Session
-from wirelessagent.agent.turn import Turn
 from wirelessagent.language.conversation.wondering import supposes
 
 HELD = "highest total rate, 300 kbit/s each, at most 10 W"
-
-
-def talk(*lines: str) -> tuple[dict[str, Any], list[Turn]]:
-    """What is asked for after these lines, and their turns."""
-    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
-    turns = [session.say(line) for line in lines]
-    held = {} if session.request is None else session.request.constraints
-    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in held.items()}, turns
 
 
 def test_an_assumed_rate_stays_for_the_others_when_one_user_is_named() -> None:

@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from conversations import LOSS, SCENE, SEED
+from conversations import talk
 
-from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
 from wirelessagent.language.llm_prompt import plain
 
 HELD = "highest total rate, at most 10 W"
-
-
-def talk(*lines: str) -> tuple[Session, list[Turn]]:
-    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
-    return session, [session.say(line) for line in lines]
 
 
 def method_of(turn: Turn) -> str:

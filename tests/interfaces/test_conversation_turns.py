@@ -2,23 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import pytest
-from conversations import LOSS, SCENE, SEED
-
-from wirelessagent.agent.session import Session
-from wirelessagent.agent.turn import Turn
+from conversations import talked_into as talk
 
 HELD = "highest total rate, at most 10 W"
-
-
-def talk(*lines: str) -> tuple[dict[str, Any], list[Turn]]:
-    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
-    turns = [session.say(line) for line in lines]
-    held = {} if session.request is None else session.request.constraints
-    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in held.items()}, turns
 
 
 def test_reports_do_not_add_up() -> None:

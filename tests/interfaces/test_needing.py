@@ -6,30 +6,24 @@ import re
 
 import numpy as np
 import pytest
-from tests.support.conversations import LOSS, SCENE, SEED
+from conversations import LOSS, SEED, talk
 
 import wirelessagent as wa
 from wirelessagent.agent.session import Session
-from wirelessagent.agent.turn import Turn
 from wirelessagent.model.units import human
 
 HELD = "highest total rate, 300 kbit/s each"
 
 
-def talk(*lines: str) -> list[Turn]:
-    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
-    return [session.say(line) for line in lines]
-
-
 def reply(*lines: str) -> str:
-    turn = talk(*lines)[-1]
+    turn = talk(*lines)[1][-1]
     assert turn.stage in ("answered", "nothing")
     return turn.reply
 
 
 @pytest.mark.parametrize("asked", ["how many watts would 1 Mbit/s each need?", "每人1兆最少要多少瓦"])
 def test_the_power_that_rates_take_is_a_power(asked: str) -> None:
-    least = talk("least power, 1 Mbit/s each")[-1].run
+    least = talk("least power, 1 Mbit/s each")[1][-1].run
     assert least is not None
     power = f"{least.decision.total_power_w:.3g} W"
     for held in (HELD, "max-min", "least power, 300 kbit/s each"):
@@ -53,7 +47,7 @@ def test_more_than_the_cell_radiates_is_said_to_be() -> None:
     ],
 )
 def test_whether_a_power_is_needed_is_answered(asked: str, told: str) -> None:
-    turns = talk("least power, 300 kbit/s each", asked)
+    _, turns = talk("least power, 300 kbit/s each", asked)
     assert told in turns[-1].reply
     assert turns[-1].stage == "answered"
 
@@ -64,10 +58,10 @@ def test_another_aim_is_told_beside_what_holds() -> None:
 
 
 def test_the_gain_and_the_snr_of_a_user_are_told() -> None:
-    *_, overall, there, nowhere = talk(
+    _, (*_, overall, there, nowhere) = talk(
         HELD, "what is the SNR of user 3?", "用户3在第5个子载波上的增益多大", "gain on subcarrier 999?"
     )
-    run = talk(HELD)[0].run
+    run = talk(HELD)[1][0].run
     assert run is not None
     gain_db = 10 * np.log10(run.estimate.gain[2])
     own = (run.decision.owner == 2) & (run.decision.power_w > 0)
@@ -85,7 +79,7 @@ def test_how_long_it_took_cannot_be_told(asked: str) -> None:
 
 @pytest.mark.parametrize("asked", ["who limits us?", "which user is the bottleneck?", "瓶颈是什么？"])
 def test_what_holds_the_result_back_is_told(asked: str) -> None:
-    run = talk(HELD)[0].run
+    run = talk(HELD)[1][0].run
     assert run is not None
     said = reply(HELD, asked)
     assert human(run.decision.price_of_power, "bit/s") in said

@@ -6,18 +6,12 @@ import json
 from dataclasses import dataclass, field, replace
 
 import pytest
-from conversations import LOSS, SCENE, SEED
+from conversations import LOSS, SCENE, SEED, talk
 
 import wirelessagent as wa
 from wirelessagent.agent.session import Session
-from wirelessagent.agent.turn import Turn
 
 TEN = "highest total rate, at most 10 W"
-
-
-def talk(*lines: str, confirm: bool = False) -> tuple[Session, list[Turn]]:
-    session = Session(SCENE, LOSS, seed=SEED, confirm=confirm)
-    return session, [session.say(line) for line in lines]
 
 
 def power_of(session: Session) -> float:

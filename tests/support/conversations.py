@@ -9,11 +9,26 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import wirelessagent as wa
+from wirelessagent.agent.session import Session
+from wirelessagent.agent.turn import Turn
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
 
 SCENE = wa.simulate("rayleigh", wa.Cell(max_power_w=20), num_users=4, seed=3)
 LOSS, SEED = wa.loss.random(0.2), 3
+
+
+def talk(*lines: str, confirm: bool = False) -> tuple[Session, list[Turn]]:
+    """A conversation of these lines with the offline recogniser, and its turns."""
+    session = Session(SCENE, LOSS, seed=SEED, confirm=confirm)
+    return session, [session.say(line) for line in lines]
+
+
+def talked_into(*lines: str) -> tuple[dict[str, Any], list[Turn]]:
+    """The constraints that are asked for after these lines, and their turns."""
+    session, turns = talk(*lines)
+    held = {} if session.request is None else session.request.constraints
+    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in held.items()}, turns
 
 
 class Scripted(Recogniser):

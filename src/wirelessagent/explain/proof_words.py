@@ -16,7 +16,6 @@ from wirelessagent.explain.table import Table
 from wirelessagent.model.units import human, percent, reliability
 
 _STEP_BPS = 100e3
-_SHOWN_CHANCE = 0.0005
 _SHOWN_DB, _SHOWN_COST = 0.005, 1e-6
 """A contest of less margin that costs no larger share of the value either way is none."""
 

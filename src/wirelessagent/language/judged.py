@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import TypeVar
 
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
 from wirelessagent.language.looks import first_look, second_look
@@ -17,6 +18,7 @@ from wirelessagent.language.number_roles import ITEMS, PERHAPS, NumberRoles
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 
+_Answer = TypeVar("_Answer")
 # The share of those who have a rate or a weight, among all users named and among those of each role.
 _OWN, _OWNS = 0.7, {"leave_out": 0.02, "users": 0.4, "none": 0.95}
 
@@ -76,9 +78,7 @@ class Judged:
             together = next((each for each in self.lists if figure.start in each), [figure.start])
             each = [answers(figure.kind, self._view.figure(self._places[start])) for start in together]
             joint = {role: math.prod(chances[role] for chances in each) ** (1 / len(each)) for role in each[0]}
-            total = sum(joint.values())
-            chances = {role: chance / total for role, chance in joint.items()}
-            self._means |= dict.fromkeys(together, chances)
+            self._means |= dict.fromkeys(together, _shares(joint))
         return self._means[figure.start]
 
     def said_of(self, mention: Mention) -> Mapping[str, float]:
@@ -96,8 +96,7 @@ class Judged:
             role: chance * (_OWNS[role] * owning / _OWN + (1 - _OWNS[role]) * (1 - owning) / (1 - _OWN))
             for role, chance in by_words.items()
         }
-        total = sum(joint.values())
-        return {role: chance / total for role, chance in joint.items()}
+        return _shares(joint)
 
     def _owning(self, mention: Mention) -> float:
         """How likely some rate or weight is meant for somebody mentioned."""
@@ -107,9 +106,13 @@ class Judged:
     def owners(self, start: int, candidates: Sequence[Mention]) -> Mapping[Mention | None, float]:
         """How likely the figure at ``start`` is for each of the candidates, or, as None, for everybody."""
         chances = self._owners[start]
-        able = {mention: chances[mention] for mention in (*candidates, None)}
-        total = sum(able.values()) or 1.0
-        return {mention: chance / total for mention, chance in able.items()}
+        return _shares({mention: chances[mention] for mention in (*candidates, None)})
+
+
+def _shares(chances: Mapping[_Answer, float]) -> dict[_Answer, float]:
+    """Chances that add up to one."""
+    total = sum(chances.values()) or 1.0
+    return {answer: chance / total for answer, chance in chances.items()}
 
 
 def _lists(plain: str, items: Sequence[Quantity] | Sequence[Number]) -> list[list[int]]:

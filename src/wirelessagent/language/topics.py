@@ -42,7 +42,6 @@ _MORE_USERS = re.compile(
 _HALF_MISSING = re.compile(
     r"(?i)\bhalf\b.{0,30}\b(?:missing|lost|unknown|gone)\b|(?:一半.{0,12}(?:缺|丢)|(?:缺|丢).{0,8}一半)"
 )
-_MISSING_OF = re.compile(r"(?i)\b(?:missing|lost|unknown|gone|loss)\b|缺|丢|falt|manqu|fehl|perd|verlor")
 
 _GONE = re.compile(
     r"(?i)\b(?:gone|left|leaves?|leaving|out|off|away|without|drop\w*|lost|absent|missing|exist|there|skip\w*|exclu\w*|"
