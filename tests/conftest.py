@@ -1,4 +1,4 @@
-"""No test may speak to the network (servers on this machine are none) or record turns among the user's own."""
+"""No test may speak to the network (servers on this machine are none), compile, or record among the user's turns."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+
+os.environ.setdefault("WIRELESSAGENT_COMPILE", "never")  # the machine code that is there is used, the rest interpreted
 
 
 @pytest.fixture(autouse=True, scope="session")

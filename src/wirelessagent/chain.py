@@ -8,7 +8,7 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from wirelessagent import plugins
+from wirelessagent import kernels, plugins
 from wirelessagent.deciding.expected import counted_on
 from wirelessagent.deciding.method import Method
 from wirelessagent.model.arrays import FloatArray
@@ -54,7 +54,9 @@ def repair(
             method="none" if observation.measured[-1].all() else "earlier repair",
         )
     chosen = chosen_plugin("repairer", default_repairer(observation) if method is None else method, options, Repairer)
-    return chosen.repair(observation, at_s=at_s)
+    with kernels.work_on(observation.gain.size) as work:
+        estimate = chosen.repair(observation, at_s=at_s)
+    return estimate.computed(work.ran)
 
 
 def default_repairer(observation: ChannelObservation) -> str:
@@ -127,14 +129,22 @@ def decide(
     _check(resolved, type(chosen))
     if after is not None:
         _check_start(chosen, estimate, after)
-    if resolved.outage_probability is not None and "outage_probability" not in chosen.constraints:
+    with kernels.work_on(estimate.gain.size) as work:
+        decision = _decided(chosen, estimate, resolved, cell, after)
+    return decision.knowing(estimate, work.ran)
+
+
+def _decided(
+    chosen: Method, estimate: ChannelEstimate, problem: Problem, cell: Cell, after: Decision | None
+) -> Decision:
+    if problem.outage_probability is not None and "outage_probability" not in chosen.constraints:
         from wirelessagent.deciding.outage import decide_with_outage
 
-        return decide_with_outage(chosen, estimate, resolved, cell, after).knowing(estimate)
-    channel = estimate if resolved.outage_probability is not None else counted_on(estimate, resolved, cell)
+        return decide_with_outage(chosen, estimate, problem, cell, after)
+    channel = estimate if problem.outage_probability is not None else counted_on(estimate, problem, cell)
     if after is None:
-        return chosen.solve(channel, resolved, cell).knowing(estimate)
-    return cast(Decision, cast(Any, chosen).solve(channel, resolved, cell, after=after)).knowing(estimate)
+        return chosen.solve(channel, problem, cell)
+    return cast(Decision, cast(Any, chosen).solve(channel, problem, cell, after=after))
 
 
 def _check_start(chosen: Method, estimate: ChannelEstimate, after: Decision) -> None:
@@ -177,7 +187,8 @@ def decide_batch(
 
     resolved = resolve(problem)
     _check(resolved, Dual)
-    return decide_all(Dual(restarts=restarts, seed=seed), gain, resolved, given_cell(cell), workers=workers)
+    with kernels.work_on(np.size(gain)):
+        return decide_all(Dual(restarts=restarts, seed=seed), gain, resolved, given_cell(cell), workers=workers)
 
 
 _Tool = TypeVar("_Tool", Method, Repairer)

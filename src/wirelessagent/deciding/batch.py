@@ -11,6 +11,7 @@ import math
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,7 +64,9 @@ def decide_all(
             decide(chunk)
     else:
         with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(decide, chunks))  # which raises what a thread has raised
+            runs = [pool.submit(copy_context().run, decide, chunk) for chunk in chunks]
+        for run in runs:
+            run.result()  # which raises what a thread has raised
     return results.of_shape(leading, method.objective_of(problem).unit, problem, cell)
 
 

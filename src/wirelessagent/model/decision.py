@@ -86,6 +86,8 @@ class Decision:
         cell: the cell it was solved for.
         user_names: one name per user.
         estimate: what was known of the channel; None where a method was asked by itself and does not tell.
+        kernels: whether machine code ran alone or some kernels were interpreted; "" where a method was asked by itself.
+            The last bits of figures depend on it.
     """
 
     owner: IntArray
@@ -111,15 +113,16 @@ class Decision:
     expected_rate_bps: FloatArray = field(default_factory=lambda: np.empty(0))
     outage: FloatArray = field(default_factory=lambda: np.empty(0))
     estimate: ChannelEstimate | None = field(default=None, repr=False, compare=False)
+    kernels: Literal["", "compiled", "interpreted"] = field(default="", compare=False)
 
     def __post_init__(self) -> None:
         for name in ("owner", "power_w", "rate_bps", "price_of_rate", "expected_rate_bps", "outage"):
             object.__setattr__(self, name, frozen(getattr(self, name)))
 
-    def knowing(self, estimate: ChannelEstimate) -> Decision:
-        """The same decision with what was known of the channel."""
+    def knowing(self, estimate: ChannelEstimate, kernels: Literal["compiled", "interpreted"]) -> Decision:
+        """The same decision with what was known of the channel, and how it was computed."""
         found = object.__new__(type(self))
-        found.__dict__.update(self.__dict__, estimate=estimate)
+        found.__dict__.update(self.__dict__, estimate=estimate, kernels=kernels)
         found.__dict__.pop("forecast", None)
         return found
 

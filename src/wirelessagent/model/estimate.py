@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 
@@ -25,6 +26,8 @@ class ChannelEstimate:
         user_names: one name per user.
         method: name of the repairer; "none" where nothing was missing, "earlier repair" where it was filled before.
         joint_posterior: the joint distribution of the true gains where the repairer knows it.
+        kernels: whether machine code ran alone or some kernels were interpreted; "" where a repairer was asked by
+            itself. The last bits of figures depend on it.
     """
 
     gain: FloatArray
@@ -34,6 +37,7 @@ class ChannelEstimate:
     user_names: tuple[str, ...]
     method: str
     joint_posterior: Posterior | None = field(default=None, repr=False)
+    kernels: Literal["", "compiled", "interpreted"] = field(default="", compare=False)
 
     def __post_init__(self) -> None:
         gain = float_array("gain", self.gain)
@@ -76,6 +80,12 @@ class ChannelEstimate:
             method=method,
             joint_posterior=joint_posterior,
         )
+
+    def computed(self, kernels: Literal["compiled", "interpreted"]) -> ChannelEstimate:
+        """The same estimate, which tells how it was computed."""
+        found = object.__new__(type(self))
+        found.__dict__.update(self.__dict__, kernels=kernels)
+        return found
 
     @property
     def posterior(self) -> Posterior:

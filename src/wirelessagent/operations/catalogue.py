@@ -16,10 +16,11 @@ from wirelessagent.operations.repair import REPAIR
 from wirelessagent.operations.reproduce import REPRODUCE
 from wirelessagent.operations.simulate import SIMULATE
 from wirelessagent.operations.solve import SOLVE
+from wirelessagent.operations.warm_up import WARM_UP
 
 OPERATIONS: tuple[AnyOperation, ...] = (
     ASK, CHAT, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, EVALUATE_REPAIR, EVALUATE_DECISION,
-    EVALUATE_INTENTS, PLUGINS, HISTORY, HISTORY_SHOW, HISTORY_REPLAY, HISTORY_EXPORT, EXPORT,
+    EVALUATE_INTENTS, PLUGINS, HISTORY, HISTORY_SHOW, HISTORY_REPLAY, HISTORY_EXPORT, EXPORT, WARM_UP,
 )  # fmt: skip
 
 GROUPS: dict[str, str] = {

@@ -18,6 +18,7 @@ import numpy as np
 from wirelessagent import plugins
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.model.decision import Decision
+from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.problem import Problem
 from wirelessagent.plugin_options import options_of
@@ -55,6 +56,7 @@ def record_of(turn: Turn) -> tuple[dict[str, Any], tuple[Content, ...]]:
     }
     if turn.run is None:
         return _plain_columns(row), ()
+    row["platform"] = {**this_platform(), "kernels": ran(turn.run.estimate, turn.run.decision)}
     contents = observation_content(turn.run.observation), estimate_content(turn.run.estimate)
     row.update(_run_columns(turn.run), observation=contents[0].hash, estimate=contents[1].hash)
     outcome = _outcome(turn.run.outcome) if turn.stage in APPLIED else None
@@ -116,6 +118,11 @@ def _outcome(outcome: Outcome | None) -> dict[str, Any] | None:
         return None
     names = ("base_station", "owner", "power_w", "promised_bps", "achieved", "written_to")
     return {name: getattr(outcome, name) for name in names}
+
+
+def ran(estimate: ChannelEstimate, decision: Decision) -> str:
+    """Whether kernels were interpreted for these, on which the last bits of figures depend, too."""
+    return "interpreted" if "interpreted" in (estimate.kernels, decision.kernels) else "compiled"
 
 
 @functools.cache

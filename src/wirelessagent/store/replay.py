@@ -19,7 +19,7 @@ from wirelessagent.model.errors import InputError
 from wirelessagent.store.content import estimate_content, estimate_of, observation_of
 from wirelessagent.store.plain import canonical
 from wirelessagent.store.rebuilt import cell_of, problem_of
-from wirelessagent.store.record_of import decision_columns, this_platform
+from wirelessagent.store.record_of import decision_columns, ran, this_platform
 from wirelessagent.store.stored import StoredTurn
 
 if TYPE_CHECKING:
@@ -85,7 +85,8 @@ def replay(store: Store, turn: StoredTurn) -> Replay:
         turn=turn,
         decision=decision,
         verdict=_verdict(found),
-        same_setting=turn.version == __version__ and turn.platform == this_platform(),
+        same_setting=turn.version == __version__
+        and {"kernels": "compiled", **turn.platform} == {**this_platform(), "kernels": ran(estimate, decision)},
         differences=tuple(str(difference) for difference in found),
     )
 

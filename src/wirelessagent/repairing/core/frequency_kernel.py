@@ -12,8 +12,6 @@ the two would add up to more than 1 they are scaled down to 1, so that the predi
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from wirelessagent.kernels import kernel
@@ -84,7 +82,7 @@ def fading_variance(gain: float, error: float) -> float:
     A complex Gaussian channel known up to a diffuse power s has a noncentral χ² gain: of mean ĝ it has the variance
     ĝ² − (ĝ − s)². On average over ĝ that is 2s − s² = ``error``. So peaks are less certain than fades.
     """
-    diffuse = 1.0 - math.sqrt(1.0 - min(error, 1.0))
+    diffuse = 1.0 - np.sqrt(1.0 - min(error, 1.0))
     certain = max(gain - diffuse, 0.0)
     return max((gain - certain) * (gain + certain), SMALLEST_ERROR)
 
@@ -216,7 +214,7 @@ def misfit(
                 found[k, c] += error * error / variance
                 product[c] *= variance
                 if not 1e-200 < product[c] < 1e200:  # logarithms are dear: one for many factors
-                    found[k, c] += math.log(product[c])
+                    found[k, c] += np.log(product[c])
                     product[c] = 1.0
         found[k] += np.log(product)
     return found
