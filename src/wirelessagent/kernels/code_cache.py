@@ -126,9 +126,11 @@ def _is_private(folder: Path) -> bool:
 
 
 def _fingerprint(sources: tuple[Path, ...]) -> str:
-    """A hash of the sources, of this package's door, of Numba's and Python's version, and of the processor."""
+    """A hash of the sources, of how they are compiled, of Numba's and Python's version, and of the processor."""
     digest = hashlib.sha256(f"numba {_numba.__version__} python {sys.version} {_processor()}".encode())
-    for source in sorted((*Path(__file__).parent.glob("*.py"), *sources), key=lambda source: (source.name, source)):
+    for source in sorted(
+        (Path(__file__).with_name("dispatcher.py"), *sources), key=lambda source: (source.name, source)
+    ):
         content = source.read_bytes()
         digest.update(f"{source.name} {len(content)} ".encode() + content)
     return digest.hexdigest()[:16]
