@@ -13,7 +13,7 @@ import dataclasses
 import numpy as np
 
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
-from wirelessagent.repairing.core.history import OverFrequency
+from wirelessagent.repairing.core.history import History, OverFrequency
 
 BLENDS = (0.3, 0.6, 0.9)
 """Shares of what is learned beside the model."""
@@ -84,18 +84,19 @@ def positive_definite(table: FloatArray) -> FloatArray:
     return cut / np.maximum(cut[..., :1], 1e-12)
 
 
-def refined(over: OverFrequency, seen: FloatArray) -> OverFrequency:
-    """The same with what the slots show of the correlation, where enough of them are new channels.
+def refined(over: OverFrequency, seen: History) -> OverFrequency:
+    """The same with what the reports show of the correlation, where enough slots are new channels.
 
-    ``seen`` holds the slots of ``over.filled`` with their holes, shape (user, slot, subcarrier). The last slot, which
-    is to be repaired, is not learned from. One half of the others is weighed on by what the other half shows.
+    The last slot, which is to be repaired, is not learned from. One half of the others is weighed on by what the other
+    half shows.
     """
     new = new_channels(over.filled)[1:]
     if new.size < LEAST_SLOTS:
         return over
     halves = new[::2], new[1::2]
+    with_holes = seen.gain[-over.filled.shape[1] :].swapaxes(0, 1)
     tables = [
-        blended(over, over.filled[:, learnt], seen[:, weighed[:MOST_WEIGHED]])
+        blended(over, over.filled[:, learnt], with_holes[:, weighed[:MOST_WEIGHED]])
         for learnt, weighed in (halves, halves[::-1])
     ]
     return dataclasses.replace(over, table=np.mean(tables, axis=0))
