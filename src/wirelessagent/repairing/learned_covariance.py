@@ -14,7 +14,7 @@ from wirelessagent.repairing.kriging import Kriging, completed
 from wirelessagent.repairing.repairer import Repairer
 
 SLOTS = 64
-"""Slots looked at, the last ones."""
+"""Reports of each user looked at, the last ones."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +34,7 @@ class LearnedCovariance(Repairer):
         if seen is None or observation.num_slots == 1 or not now.seen.any():
             return dataclasses.replace(Kriging().repair(observation), method=self.name)
         over = over_frequency(seen, observation, most=SLOTS)
-        better = learned.refined(over, seen.gain[-SLOTS:].swapaxes(0, 1))
+        better = learned.refined(over, seen)
         if better is over:
             return dataclasses.replace(Kriging().repair(observation), method=self.name)
         learnt = fit.given(now, better.candidates, better.table, better.noise_share)

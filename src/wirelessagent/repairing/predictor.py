@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.fading_posterior import FadingPosterior
 from wirelessagent.model.observation import ChannelObservation
@@ -46,7 +46,7 @@ class Predictor(Repairer):
             return dataclasses.replace(Kriging().repair(observation), method=self.name)
         if at_s is None and is_new(seen, observation):
             return dataclasses.replace(LearnedCovariance().repair(observation), method=self.name)
-        over = over_frequency(seen, observation)
+        over = learned.refined(over_frequency(seen, observation), seen)
         found = estimated(seen, over, doppler(observation), steps(observation, at_s))
         level = seen.level[:, np.newaxis]
         slot, learnt = fit.relative(observation), known_parameters(over)
@@ -73,11 +73,13 @@ class Predictor(Repairer):
 
 
 def is_new(seen: History, observation: ChannelObservation) -> bool:
-    """Whether the current slot was observed and has nothing to do with the one before."""
-    last = observation.num_slots - 1
-    if seen.place.size < 2 or seen.place[-1] != last or not (~np.isnan(seen.gain[-1])).sum(axis=1).min() > FEW:
+    """Whether the current slot was observed and has nothing to do with the one before, by the users heard in both."""
+    heard = (~np.isnan(seen.gain)).sum(axis=2)
+    if seen.place.size < 2 or seen.place[-1] != observation.num_slots - 1 or heard[-1][heard[-1] > 0].min() <= FEW:
         return False
     both = ~np.isnan(seen.gain[-2:]).any(axis=0)
+    if 2 * both.any(axis=1).sum() < (heard[-1] > 0).sum():
+        return False
     now, before = np.where(both, seen.gain[-2:] - 1.0, 0.0)
     return float((now * before).sum()) <= learned.NEW * float(np.sqrt((now**2).sum() * (before**2).sum()))
 
@@ -109,50 +111,49 @@ def errors(slot: fit.Relative, learnt: fit.Learnt, *, late: bool) -> ErrorRoots:
 
 
 def estimated(seen: History, over: OverFrequency, candidates: Doppler, at: float) -> FloatArray:
-    """Mean, variance from fading and other variance of all gains ``at`` a time, shape (user, subcarrier, 3)."""
+    """Mean, variance from fading and other variance of all gains ``at`` a time, shape (user, subcarrier, 3).
+
+    Each user's from its own reports, whenever they came; of users without any nothing is said.
+    """
     from wirelessagent.repairing.core import space_time_kernel
 
     now = dataclasses.replace(candidates, time=candidates.time[seen.place])
     chance, level = weighed(over, now)
-    bin_of = bins.bins_of(now.time[-1] - now.time + 1.0)
-    mean, noise, count = averaged(seen, bin_of)
-    time = bins.over_time(now, bin_of, at)
-    slots_of = np.bincount(bin_of)
-    users, _, subcarriers = mean.shape
-    found = np.empty((users, subcarriers, 3))
-    for k in range(users):
+    _, users, subcarriers = seen.gain.shape
+    found = np.zeros((users, subcarriers, 3))
+    for k, reported in enumerate(seen.reported):
+        if not reported.any():
+            continue
         order = np.argsort(-chance[k])
         kept = order[: min(KEPT, 1 + int(np.searchsorted(np.cumsum(chance[k][order]), ENOUGH)))]
+        own = bins.binned(seen.gain[reported, k], seen.noise[reported, k], now.time[reported], now, kept, at)
         space_time_kernel.estimate_user(
-            mean[k], noise[k], count[k], slots_of, over.candidates.place, over.table[k], float(over.noise_share[k]),
-            float(seen.grown[k]), time.between[kept], time.towards[kept], level[k, kept],
+            own.mean, own.noise, own.count, own.reports, over.candidates.place, over.table[k],
+            float(over.noise_share[k]), float(seen.grown[k]), own.between, own.towards, level[k, kept],
             chance[k, kept] / chance[k, kept].sum(), found[k],
         )  # fmt: skip
     return found
 
 
 def weighed(over: OverFrequency, now: Doppler) -> tuple[FloatArray, FloatArray]:
-    """How likely each Doppler hypothesis is for each user, and the level it says, shape (user, hypothesis)."""
+    """How likely each Doppler hypothesis is for each user, and the level it says, shape (user, hypothesis).
+
+    What a user reported is evidence, nothing else; users who reported in the same slots are worked out together.
+    """
     from wirelessagent.repairing.core import evidence_kernel, pooling_kernel
 
-    slots = over.filled.shape[1]
-    time = now.time[-slots:]
-    between = np.moveaxis(now.correlation(np.abs(time[:, np.newaxis] - time)), -1, 0)
-    place = over.candidates.place[: bins.BLOCK]
+    users, slots, _ = over.filled.shape
+    time, place = now.time[-slots:], over.candidates.place[: bins.BLOCK]
     alike = over.table[:, np.abs(place[:, np.newaxis] - place)]
-    likelihood, level = bins.log_evidence(over.filled[:, :, : bins.BLOCK], over.noise_share, alike, between)
+    likelihood, level = np.zeros((users, now.shift.size)), np.ones((users, now.shift.size))
+    patterns, pattern_of = np.unique(over.told, axis=0, return_inverse=True)
+    for p, told in enumerate(patterns):
+        if told.any():
+            who = np.flatnonzero(pattern_of == p)
+            filled = over.filled[np.ix_(who, told)][..., : bins.BLOCK]
+            between = np.moveaxis(now.correlation(np.abs(time[told][:, np.newaxis] - time[told])), -1, 0)
+            likelihood[who], level[who] = bins.log_evidence(filled, over.noise_share[who], alike[who], between)
     chance = pooling_kernel.pooled_weights(
         evidence_kernel.SHARE * likelihood, now.families, now.log_step, now.log_prior
     )
     return chance, level
-
-
-def averaged(seen: History, bin_of: IntArray) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Means of the bins, the variance of their noise, and how many slots they are of, (user, bin, subcarrier)."""
-    from wirelessagent.repairing.core import space_time_kernel
-
-    _, users, subcarriers = seen.gain.shape
-    shape = users, int(bin_of.max()) + 1, subcarriers
-    mean, noise, count = np.empty(shape), np.empty(shape), np.empty(shape, dtype=np.int64)
-    space_time_kernel.average(seen.gain, seen.noise, bin_of, mean, noise, count)
-    return mean, noise, count

@@ -32,27 +32,47 @@ def bins_of(age: FloatArray) -> IntArray:
 
 
 @dataclass(frozen=True, kw_only=True)
-class OverTime:
-    """Correlations of the bins under each hypothesis of the Doppler shift.
+class Binned:
+    """A user's reports in bins.
 
     Attributes:
-        between: of two bins, shape (hypothesis, bin, bin).
+        mean, noise, count: mean of what was observed, variance of its noise, and how many reports it is of, 0 where
+            nothing was, shape (bin, subcarrier).
+        reports: how many each bin is of, shape (bin,).
+        between: correlation of two bins over time under each hypothesis, shape (hypothesis, bin, bin).
         towards: of a bin and the slot that is asked for, shape (hypothesis, bin).
     """
 
+    mean: FloatArray
+    noise: FloatArray
+    count: IntArray
+    reports: IntArray
     between: FloatArray
     towards: FloatArray
 
 
-def over_time(candidates: Doppler, bin_of: IntArray, at: float) -> OverTime:
-    """Means over the slots of the bins; ``at`` is the time asked for, in steps."""
-    time = candidates.time
+def binned(
+    gain: FloatArray, noise: FloatArray, time: FloatArray, candidates: Doppler, likely: IntArray, at: float
+) -> Binned:
+    """The reports of a user, shape (report, subcarrier), NaN where missing, at ``time`` (report,), in steps.
+
+    ``likely`` are the hypotheses that count, ``at`` is the time asked for, in steps.
+    """
+    bin_of = bins_of(time[-1] - time + 1.0)
     member = bin_of == np.arange(int(bin_of.max()) + 1)[:, np.newaxis]
-    mean: FloatArray = member / member.sum(axis=1, keepdims=True)
-    pairs = candidates.correlation(np.abs(time[:, np.newaxis] - time))
-    return OverTime(
-        between=np.ascontiguousarray(np.einsum("bt,tsh,cs->hbc", mean, pairs, mean)),
-        towards=np.ascontiguousarray((mean @ candidates.correlation(np.abs(at - time))).T),
+    reports = member.sum(axis=1)
+    there = ~np.isnan(gain)
+    count = member @ there.astype(np.int64)
+    size = np.maximum(count, 1)
+    over_slots: FloatArray = member / reports[:, np.newaxis]
+    pairs = np.moveaxis(candidates.correlation(np.abs(time[:, np.newaxis] - time), likely), -1, 0)
+    return Binned(
+        mean=member @ np.where(there, gain, 0.0) / size,
+        noise=member @ np.where(there, noise, 0.0) / size**2,
+        count=count,
+        reports=reports,
+        between=np.ascontiguousarray(over_slots @ pairs @ over_slots.T),
+        towards=np.ascontiguousarray((over_slots @ candidates.correlation(np.abs(at - time), likely)).T),
     )
 
 

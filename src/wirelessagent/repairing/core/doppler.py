@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.observation import ChannelObservation
 
 SHIFTS = 24
@@ -25,6 +25,9 @@ UNFORESEEN = (1e-3, 1e-2, 1e-1)
 EXPECTED_TURNS, FACTOR = 0.03, 10.0
 """Doppler shift times the step that is expected beforehand, and by what factor it may well be wrong: 30 Hz at a step
 of 1 ms is a user at 9 km/h in a band at 3.5 GHz."""
+
+DECIMALS = 9
+"""Of a step to which distances are told apart: most slots are equally far apart, but for rounding."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,13 +54,14 @@ class Doppler:
         """How many kinds there are; hypotheses of one kind follow each other."""
         return self.shift.size // SHIFTS
 
-    def correlation(self, distance: FloatArray) -> FloatArray:
-        """Of gains that lie ``distance`` (any shape) steps apart, that shape and (hypothesis,)."""
+    def correlation(self, distance: FloatArray, of: IntArray | slice = slice(None)) -> FloatArray:
+        """Of gains that lie ``distance`` (any shape) steps apart, that shape and (hypothesis,), for those of ``of``."""
         from scipy.special import j0
 
-        angle = np.multiply.outer(distance, self.shift)
-        smooth = np.where(self.gaussian > 0, np.exp(-0.5 * angle**2), j0(angle) ** 2)
-        return np.where(angle > 0, (1.0 - self.unforeseen) * smooth, 1.0)
+        apart, where = np.unique(np.round(distance, DECIMALS), return_inverse=True)
+        angle = np.multiply.outer(apart, self.shift[of])
+        smooth = np.where(self.gaussian[of] > 0, np.exp(-0.5 * angle**2), j0(angle) ** 2)
+        return np.where(angle > 0, (1.0 - self.unforeseen[of]) * smooth, 1.0)[where.reshape(distance.shape)]
 
 
 def doppler(observation: ChannelObservation) -> Doppler:

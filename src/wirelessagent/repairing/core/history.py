@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.repairing.core import fit
 from wirelessagent.repairing.core.hypotheses import Hypotheses, hypotheses
 
 RECENT = 16
-"""Slots from which correlations over time are learnt, the last ones."""
+"""Reports of each user from which correlations over time are learnt, the last ones."""
 LARGEST_SHARE = 0.9
 
 
@@ -37,6 +37,11 @@ class History:
     noise_share: FloatArray
     grown: FloatArray
     place: IntArray
+
+    @property
+    def reported(self) -> BoolArray:
+        """Where a user told anything, shape (user, slot); reports get lost, and users join late."""
+        return ~np.isnan(self.gain).all(axis=2).T
 
 
 def history(observation: ChannelObservation) -> History | None:
@@ -73,13 +78,14 @@ def history(observation: ChannelObservation) -> History | None:
 
 @dataclass(frozen=True, kw_only=True)
 class OverFrequency:
-    """What the last slots say of the correlation over frequency, and those slots without holes.
+    """What each user's last reports say of the correlation over frequency, and those reports without holes.
 
     Attributes:
         candidates: where subcarriers are on a raster.
         table: each user's |ρ|² at each distance, shape (user, distance).
         noise_share: η of each user, shape (user,).
-        filled: the last slots, holes estimated over frequency, shape (user, slot, subcarrier).
+        filled: the last slots, holes estimated over frequency, shape (user, slot, subcarrier). NaN where a report was
+            lost, lies too far back or holds no positive gain: nothing was told, and nothing may be learnt.
     """
 
     candidates: Hypotheses
@@ -87,32 +93,38 @@ class OverFrequency:
     noise_share: FloatArray
     filled: FloatArray
 
+    @property
+    def told(self) -> BoolArray:
+        """Which users' reports ``filled`` holds, shape (user, slot)."""
+        return ~np.isnan(self.filled[..., 0])
+
 
 def over_frequency(seen: History, observation: ChannelObservation, *, most: int = RECENT) -> OverFrequency:
-    """Kriging on each of the last slots, ``most`` of them, each user's correlation the mean over them."""
-    recent = seen.gain[-most:].swapaxes(0, 1)
-    users, slots, subcarriers = recent.shape
+    """Kriging on each user's last reports, ``most`` of them, each user's correlation the mean over them."""
     known_noise = observation.noise_variance is not None
-    noise = seen.noise[-most:].swapaxes(0, 1)
+    reported = seen.reported & (seen.reported[:, ::-1].cumsum(axis=1)[:, ::-1] <= most)
+    first = int(np.argmax(reported.any(axis=0)))
+    reported = reported[:, first:]
+    gain, noise = (entries[first:].swapaxes(0, 1)[reported] for entries in (seen.gain, seen.noise))
     rows = ChannelObservation(
-        gain=recent.reshape(-1, subcarriers),
-        noise_variance=np.where(np.isnan(recent), np.nan, noise).reshape(-1, subcarriers) if known_noise else None,
+        gain=gain,
+        noise_variance=np.where(np.isnan(gain), np.nan, noise) if known_noise else None,
         subcarrier_frequencies_hz=observation.subcarrier_frequencies_hz,
     )
     slot = fit.relative(rows)
     learnt = fit.learn(slot, hypotheses(rows))
     estimated = fit.estimate(slot, learnt, tested=False)[..., 0] * slot.level[:, np.newaxis]
-    estimated = np.where(slot.known, rows.gain, estimated).reshape(recent.shape)
-    known_rows = (slot.seen > 0).reshape(users, slots, 1)
-    estimated = np.where(known_rows, estimated, 1.0)
-    table, noise_share, _ = fit.mean_hypothesis(slot, learnt)
-    count = np.maximum(known_rows.sum(axis=1), 1)
-    table = np.where(known_rows, table.reshape(users, slots, -1), 0.0).sum(axis=1) / count
+    filled = np.full((*reported.shape, rows.num_subcarriers), np.nan)
+    filled[reported] = np.where((slot.seen > 0)[:, np.newaxis], np.where(slot.known, gain, estimated), np.nan)
+    whose = np.nonzero(reported)[0] == np.arange(len(reported))[:, np.newaxis]
+    share = whose & (slot.seen > 0)
+    share = share / np.maximum(share.sum(axis=1, keepdims=True), 1)
+    of_row, noise_share, _ = fit.mean_hypothesis(slot, learnt)
+    table = share @ of_row
     table[table[:, 0] == 0.0] = table[table[:, 0] > 0.0].mean(axis=0) if (table[:, 0] > 0.0).any() else 1.0
-    share = np.where(known_rows[..., 0], noise_share.reshape(users, slots), 0.0).sum(axis=1) / count[:, 0]
     return OverFrequency(
         candidates=learnt.candidates,
         table=table,
-        noise_share=seen.noise_share if known_noise else share,
-        filled=estimated,
+        noise_share=seen.noise_share if known_noise else share @ noise_share,
+        filled=filled,
     )

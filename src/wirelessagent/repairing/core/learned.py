@@ -12,8 +12,8 @@ import dataclasses
 
 import numpy as np
 
-from wirelessagent.model.arrays import FloatArray, IntArray
-from wirelessagent.repairing.core.history import OverFrequency
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
+from wirelessagent.repairing.core.history import History, OverFrequency
 
 BLENDS = (0.3, 0.6, 0.9)
 """Shares of what is learned beside the model."""
@@ -30,27 +30,40 @@ SHARE = 0.5
 JITTER = 1e-6
 
 
+def deviations(filled: FloatArray) -> tuple[FloatArray, BoolArray]:
+    """From each user's level, in its units, 0 where nothing was reported, and where something was, (user, slot)."""
+    told = ~np.isnan(filled[..., 0])
+    gain = np.where(told[..., np.newaxis], filled, 0.0)
+    reports = np.maximum(told.sum(axis=1), 1)[:, np.newaxis, np.newaxis]
+    level = gain.mean(axis=2, keepdims=True).sum(axis=1, keepdims=True) / reports
+    return np.where(told[..., np.newaxis], gain / np.where(level > 0, level, 1.0) - 1.0, 0.0), told
+
+
 def new_channels(filled: FloatArray) -> IntArray:
-    """Slots, from the last one backwards, each hardly correlated with the one before; ``filled`` (user, slot, …)."""
-    deviation = filled - filled.mean(axis=(1, 2), keepdims=True)
-    power = np.mean(deviation**2, axis=(0, 2))
+    """Slots, from the last one backwards, each hardly correlated with the one before; ``filled`` (user, slot, …).
+
+    Two slots are compared by the users who reported in both.
+    """
+    deviation, told = deviations(filled)
     chosen = [filled.shape[1] - 1]
     for slot in range(filled.shape[1] - 2, -1, -1):
-        common = float((deviation[:, slot] * deviation[:, chosen[-1]]).mean())
-        if common <= NEW * np.sqrt(power[slot] * power[chosen[-1]]):
+        both = told[:, slot] & told[:, chosen[-1]]
+        now, before = deviation[both, slot], deviation[both, chosen[-1]]
+        if both.any() and float((now * before).sum()) <= NEW * float(np.sqrt((now**2).sum() * (before**2).sum())):
             chosen.append(slot)
     return np.array(chosen)
 
 
-def empirical(filled: FloatArray, noise: FloatArray, place: IntArray) -> FloatArray:
-    """Correlation at each distance on the raster for each user, shape (user, distance).
+def empirical(filled: FloatArray, noise: FloatArray, place: IntArray) -> tuple[FloatArray, IntArray]:
+    """Correlation at each distance on the raster for each user, (user, distance), and of how many slots, (user,).
 
-    ``filled`` (user, slot, subcarrier) is in units of about the level, ``noise`` (user,) the variance of its error.
-    Distances that no two subcarriers have are interpolated.
+    ``filled`` (user, slot, subcarrier) is in units of about the level, NaN where nothing was reported, ``noise``
+    (user,) the variance of its error. Distances that no two subcarriers have are interpolated.
     """
     users, _, subcarriers = filled.shape
-    deviation = filled / filled.mean(axis=(1, 2), keepdims=True) - 1.0
-    product = np.einsum("ksm,ksn->kmn", deviation, deviation) / filled.shape[1]
+    deviation, told = deviations(filled)
+    reports = told.sum(axis=1)
+    product = np.einsum("ksm,ksn->kmn", deviation, deviation) / np.maximum(reports, 1)[:, np.newaxis, np.newaxis]
     product -= noise[:, np.newaxis, np.newaxis] * np.eye(subcarriers)
     distance = np.abs(place[:, np.newaxis] - place)
     width = int(distance.max()) + 1
@@ -59,7 +72,7 @@ def empirical(filled: FloatArray, noise: FloatArray, place: IntArray) -> FloatAr
     for k in range(users):
         total = np.bincount(distance.ravel(), weights=product[k].ravel(), minlength=width)
         table[k] = np.interp(np.arange(width), np.flatnonzero(count), (total / np.maximum(count, 1))[count > 0])
-    return positive_definite(table)
+    return positive_definite(table), reports
 
 
 def positive_definite(table: FloatArray) -> FloatArray:
@@ -71,18 +84,19 @@ def positive_definite(table: FloatArray) -> FloatArray:
     return cut / np.maximum(cut[..., :1], 1e-12)
 
 
-def refined(over: OverFrequency, seen: FloatArray) -> OverFrequency:
-    """The same with what the slots show of the correlation, where enough of them are new channels.
+def refined(over: OverFrequency, seen: History) -> OverFrequency:
+    """The same with what the reports show of the correlation, where enough slots are new channels.
 
-    ``seen`` holds the slots of ``over.filled`` with their holes, shape (user, slot, subcarrier). The last slot, which
-    is to be repaired, is not learned from. One half of the others is weighed on by what the other half shows.
+    The last slot, which is to be repaired, is not learned from. One half of the others is weighed on by what the other
+    half shows.
     """
     new = new_channels(over.filled)[1:]
     if new.size < LEAST_SLOTS:
         return over
     halves = new[::2], new[1::2]
+    with_holes = seen.gain[-over.filled.shape[1] :].swapaxes(0, 1)
     tables = [
-        blended(over, over.filled[:, learnt], seen[:, weighed[:MOST_WEIGHED]])
+        blended(over, over.filled[:, learnt], with_holes[:, weighed[:MOST_WEIGHED]])
         for learnt, weighed in (halves, halves[::-1])
     ]
     return dataclasses.replace(over, table=np.mean(tables, axis=0))
@@ -94,8 +108,11 @@ def blended(over: OverFrequency, filled: FloatArray, held_out: FloatArray) -> Fl
     Both are of shape (user, slot, subcarrier), held-out ones NaN where missing.
     """
     place = over.candidates.place
-    own = empirical(filled, over.noise_share, place)
-    everybody = np.broadcast_to(own.mean(axis=0), own.shape)
+    own, reports = empirical(filled, over.noise_share, place)
+    if not reports.any():
+        return over.table
+    everybody = np.broadcast_to(np.average(own, axis=0, weights=reports), own.shape)
+    own = np.where(reports[:, np.newaxis] > 0, own, everybody)
     shown = [(share, table) for share in BLENDS for table in (own, everybody)]
     tables = np.array([over.table, *((1.0 - share) * over.table + share * table for share, table in shown)])
     likelihood = np.array(

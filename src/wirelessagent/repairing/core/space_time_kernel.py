@@ -21,34 +21,6 @@ LEAST = 1e-13
 
 
 @kernel
-def average(
-    gain: FloatArray, noise: FloatArray, bin_of: IntArray, mean: FloatArray, mean_noise: FloatArray, count: IntArray
-) -> None:
-    """Write means over bins, the variance of their noise, and how many slots they are of, (user, bin, subcarrier).
-
-    ``gain`` and ``noise`` are of shape (slot, user, subcarrier), the gain NaN where missing and the noise 0 where
-    unknown, ``bin_of`` (slot,), −1 for slots that are left out.
-    """
-    mean[:], mean_noise[:], count[:] = 0.0, 0.0, 0
-    slots, users, subcarriers = gain.shape
-    for t in range(slots):
-        b = bin_of[t]
-        for k in range(users if b >= 0 else 0):
-            for n in range(subcarriers):
-                if not np.isnan(gain[t, k, n]):
-                    mean[k, b, n] += gain[t, k, n]
-                    mean_noise[k, b, n] += noise[t, k, n]
-                    count[k, b, n] += 1
-    for k in range(users):
-        for b in range(mean.shape[1]):
-            for n in range(subcarriers):
-                size = count[k, b, n]
-                if size > 0:
-                    mean[k, b, n] /= size
-                    mean_noise[k, b, n] /= size * size
-
-
-@kernel
 def factorise(matrix: FloatArray, size: int) -> None:
     """Overwrite the lower half of a positive definite matrix by its Cholesky factor."""
     for i in range(size):
@@ -100,8 +72,7 @@ def estimate_user(
     """Write mean, variance from fading and other variance of each subcarrier of a user, shape (subcarrier, 3).
 
     Args:
-        mean, mean_noise, count: of :func:`average`, shape (bin, subcarrier).
-        slots_of: how many slots each bin has, shape (bin,).
+        mean, mean_noise, count, slots_of: ``mean``, ``noise``, ``count`` and ``reports`` of :class:`.bins.Binned`.
         place: of the subcarriers, shape (subcarrier,).
         over_frequency: |ρ|² at each distance, shape (distance,).
         noise, grown: η of one slot, and 1 + η where measured gains are conditional means, else 1.
