@@ -101,9 +101,9 @@ class File(ChannelSource):
         """
         try:
             data = read_bounded(self.path, self.max_bytes)
-            contents = recognise(data, self.path.suffix).read(data, max_bytes=self.max_bytes)
-            entry, _ = choose(contents, self.key)
-            axes = self._axes(contents, entry)
+            with recognise(data, self.path.suffix).read(data, max_bytes=self.max_bytes) as contents:
+                entry, _ = choose(contents, self.key)
+                axes = self._axes(contents, entry)
         except InputError as error:
             raise FileFormatError(f"{self.path}: {error}") from error
         return entry.shape[axes.names.index("drop")] if "drop" in axes.names else 1
@@ -129,7 +129,10 @@ class File(ChannelSource):
     def _scene(self, cell: Cell) -> Scene:
         data = read_bounded(self.path, self.max_bytes)
         form = recognise(data, self.path.suffix)
-        contents = form.read(data, max_bytes=self.max_bytes)
+        with form.read(data, max_bytes=self.max_bytes) as contents:
+            return self._understood(cell, form, contents)
+
+    def _understood(self, cell: Cell, form: Format, contents: Contents) -> Scene:
         metadata = metadata_of(contents)
         entry, reason = choose(contents, self.key)
         axes = self._axes(contents, entry)
