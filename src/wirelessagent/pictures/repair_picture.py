@@ -38,5 +38,5 @@ def repair_canvas(*, observation: ChannelObservation, estimate: ChannelEstimate)
     highest = max(1.0, float(share[known].max(initial=0.0)))
     sure.matrix(share, limits=(0.0, highest), clipped=False, colour_label="Standard deviation / gain")
     subcarrier_ticks(sure, estimate.num_subcarriers)
-    sure.describe("How sure the repaired gains are", "Subcarrier", user_ticks(sure, "y", names))
+    sure.describe("How sure the repaired gains are (others hatched)", "Subcarrier", user_ticks(sure, "y", names))
     return canvas

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -24,8 +22,9 @@ def write_csv(path: Path, gain: FloatArray, user_names: Sequence[str]) -> None:
             raise InputError(
                 f"the user name {name!r} would be read back from CSV as a number; write NPZ, or name the user otherwise"
             )
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["user", *(f"f{n}" for n in range(1, gain.shape[1] + 1))])
-    writer.writerows([name, *map(repr, row)] for name, row in zip(user_names, gain.tolist(), strict=True))
-    write_atomically(path, lambda stream: stream.write(text.getvalue().encode()))
+    lines = [["user", *(f"f{n}" for n in range(1, gain.shape[1] + 1))]]
+    for name, row in zip(user_names, gain.tolist(), strict=True):
+        quoted = name.replace('"', '""')
+        lines.append([f'"{quoted}"', *map(repr, row)])  # in quotes, lest what is in it be taken for a separator
+    text = "".join(",".join(line) + "\n" for line in lines)
+    write_atomically(path, lambda stream: stream.write(text.encode()))

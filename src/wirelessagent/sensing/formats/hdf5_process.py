@@ -27,6 +27,7 @@ from wirelessagent.sensing.formats.contents import array_bytes, damaged
 
 _LIMIT_S = 20.0
 _SLOWEST_BYTES_PER_S = 4 * 2**20  # of the file; a busy machine of two cores unpacks 40 MiB/s
+_ADAPTER = Path(__file__).with_name("h5py_adapter.py")
 _CHILD = """
 import json, runpy, sys
 sys.path[:], adapter, *limits = json.loads(sys.argv[1])
@@ -89,7 +90,7 @@ class Hdf5Process:
         self._max_bytes = max_bytes
         self._limit_s = limit_s
         self._is_late = False
-        given = json.dumps([_paths(), str(Path(__file__).with_name("h5py_adapter.py")), max_bytes])
+        given = json.dumps([_paths(), str(_ADAPTER), max_bytes])
         try:
             self._child = subprocess.Popen(
                 [sys.executable, "-I", "-c", _CHILD, given],
@@ -193,7 +194,7 @@ class Hdf5Process:
     def _death(self) -> FileFormatError:
         code = self._child.wait()
         if self._is_late:
-            return damaged("HDF5", f"reading it did not end within {self._limit_s:g} s")
+            return damaged("HDF5", f"reading it did not end within {self._limit_s:.0f} s")
         names = {-number.value: number.name for number in signal.Signals}
         return damaged("HDF5", f"HDF5's own library broke down over it, {names.get(code, f'exit code {code}')}")
 
