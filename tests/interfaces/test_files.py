@@ -47,6 +47,27 @@ def test_csv_with_header_names_and_every_word_for_missing(separator: str, end: s
     assert scene.truth is None
 
 
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_csv_with_decimal_commas_is_read_and_it_is_said(separator: str, tmp_path: Path) -> None:
+    lines = [["user", "f1", "f2", "f3"], ["Ann", "1", "", "2,5"], ["Bo", "2,5e-9", "NA", "0,125"]]
+    scene = wa.read(csv(tmp_path, "\n".join(map(separator.join, lines))))
+    np.testing.assert_array_equal(scene.sensed.gain, [[1, np.nan, 2.5], [2.5e-9, np.nan, 0.125]])
+    assert scene.facts["decimals"] == "decimal comma: 2,5 is read as 2.5"
+    complex_ = wa.read(csv(tmp_path, f"0,3+0,4i{separator}1,5"))
+    np.testing.assert_allclose(complex_.sensed.gain, [[0.25, 2.25]], rtol=1e-14)
+
+
+@pytest.mark.parametrize("text", ["1,5,2,5", "1,5\n2,5", "user,f1,f2\nAnn,1,5", "+1,5,2,50"])
+def test_commas_that_may_be_decimal_ones_are_told(text: str, tmp_path: Path) -> None:
+    told = wa.read(csv(tmp_path, text)).facts["decimals"]
+    assert told.endswith("If 1,5 is meant as one number, write 1.5 or separate cells with semicolons")
+
+
+@pytest.mark.parametrize("text", ["1.5,2,3,4", "1,2,3", "5;2;3;4", "1,,2,3", "1e1,2"])
+def test_commas_that_separate_for_sure_are_not_wondered_about(text: str, tmp_path: Path) -> None:
+    assert "decimals" not in wa.read(csv(tmp_path, text)).facts
+
+
 def test_csv_with_slots(tmp_path: Path) -> None:
     text = "slot,user,f1,f2\n0,a,1,2\n0,b,3,4\n1,a,5,\n1,b,7,8\n"
     scene = wa.read(csv(tmp_path, text))
@@ -397,6 +418,14 @@ def test_the_plug_in_and_the_function_agree(tmp_path: Path) -> None:
 def test_options_that_make_no_sense(options: dict[str, object], message: str) -> None:
     with pytest.raises(InputError, match=message):
         File(path=Path("x.csv"), **options)
+
+
+def test_reading_hdf5_does_not_load_h5py_in_this_process(tmp_path: Path) -> None:
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["gain"] = GAIN
+    code = "import sys, wirelessagent as wa; wa.read(sys.argv[1]); print('h5py' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code, tmp_path / "a.h5"], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
 
 
 def test_importing_the_reader_loads_neither_scipy_nor_h5py() -> None:

@@ -62,6 +62,7 @@ class Bomb:
 GAIN = np.arange(1.0, 7.0).reshape(2, 3)
 OBJECTS = np.array([[Bomb(), 1.0]], dtype=object)
 DEEP = "[" * 100_000 + "]" * 100_000
+NESTED = b"[" * 900 + b"1" + b"]" * 900
 
 BAD: dict[str, tuple[str, bytes, dict[str, object], str]] = {
     # what: file name, content, options, the words that must be in the message
@@ -104,7 +105,22 @@ BAD: dict[str, tuple[str, bytes, dict[str, object], str]] = {
     "header only": ("a.csv", b"user,f1,f2\n", {}, "only a header"),
     "text cell": ("a.csv", b"1,2\n3,abc\n", {}, "line 2, column 2 holds abc, which is not a number"),
     "text cell behind names": ("a.csv", b"user,a,b\nx,1,2\ny,1,?\n", {}, "line 3, column 3 holds ?"),
-    "decimal comma": ("a.csv", b"1,5;2\n", {}, "decimal point"),
+    "point after comma": (
+        "a.csv",
+        b"1;2,5\n3.5;4\n",
+        {},
+        "3.5 with a decimal point, line 1 has 2,5 with a decimal comma",
+    ),
+    "comma after point": (
+        "a.csv",
+        b"1\t2.5\n3,5\t4\n",
+        {},
+        "3,5 with a decimal comma, line 1 has 2.5 with a decimal point",
+    ),
+    "thousands": ("a.csv", b"1,234.5;2\n", {}, "without commas that group its digits"),
+    "two thousands": ("a.csv", b"1,234,567;2\n", {}, "without commas that group its digits"),
+    "quoted comma": ("a.csv", b'"1,5","2,5"\n', {}, "holds 1,5, which is not a number; write it with a decimal point"),
+    "comma for both": ("a.csv", b"0,5,0,25\n,0,5\n", {}, "missing. If 1,5 is meant as one number, write 1.5"),
     "spaces": ("a.txt", b"1 2 3\n4 5 6\n", {}, "separate cells with commas"),
     "underscore": ("a.csv", b"1,1_000\n2,3\n", {}, "holds 1_000"),
     "blank line": ("a.csv", b"1,2\n\n3,4\n", {}, "line 2 is empty"),
@@ -126,7 +142,19 @@ BAD: dict[str, tuple[str, bytes, dict[str, object], str]] = {
     "broken json": ("a.json", b"[[1, 2], [3,", {}, "cannot be read as JSON"),
     "json number": ("a.json", b"3", {}, "holds 3 where a list of lists"),
     "json null": ("a.json", b"null", {}, "holds None"),
-    "json deep": ("a.json", DEEP.encode(), {}, "cannot be read as JSON"),
+    "json deep": ("a.json", DEEP.encode(), {}, "is nested too deeply"),
+    "json deep objects": ("a.json", b'{"a":' * 100_000 + b"1" + b"}" * 100_000, {}, "is nested too deeply"),
+    "json deep gain": ("a.json", b'{"gain": ' + NESTED + b"}", {}, "'gain' is nested 900 deep"),
+    "json deep cell": ("a.json", b"[[1, 2], [3, " + NESTED + b"]]", {}, "the matrix[1][1] is [[[[[[[...]]]]]]]"),
+    "json deep meta": ("a.json", b'{"gain": [[1]], "meta": ' + NESTED + b"}", {}, "meta is [[[[[[[...]]]]]]]"),
+    "json deep meta text": (
+        "a.json",
+        json.dumps({"gain": [[1]], "meta": DEEP}).encode(),
+        {},
+        "meta is nested too deep",
+    ),
+    "json deep variance": ("a.json", b'{"gain": [[1]], "noise_variance": ' + NESTED + b"}", {}, "nested 900 deep"),
+    "json long name": ("a.json", json.dumps({"a\nb" * 9999: [[1, 2], [3]]}).encode(), {}, "write null where missing"),
     "json ragged": ("a.json", b"[[1, 2], [3]]", {}, "the matrix[1] has 1 entries, the matrix[0] has 2"),
     "json ragged depth": ("a.json", b"[[1, 2], 3]", {}, "the matrix[1] is 3 where a list"),
     "json text": ("a.json", b'{"gain": [[1, "x"]]}', {}, "gain[0][1] is 'x'"),
@@ -176,6 +204,14 @@ def test_json_that_is_nested_deeply_does_not_end_the_process(tmp_path: Path) -> 
     path = tmp_path / "a.json"
     path.write_text('{"gain": [[1]], "deep": ' + "[" * 900 + "]" * 900 + "}")
     assert wa.read(path).sensed.gain.tolist() == [[1]]
+
+
+def test_names_with_half_a_character_can_be_written_down(tmp_path: Path) -> None:
+    path = tmp_path / "a.json"
+    path.write_text('{"gain": [[1], [2]], "user_names": ["Zo\\ud800", "x"], "\\udfff": [[1]]}')
+    scene = wa.read(path)
+    assert scene.sensed.user_names == ("Zo?", "x")
+    assert json.dumps(scene.facts, ensure_ascii=False).encode()
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from wirelessagent.comparison import Comparison
 from wirelessagent.model.atomic import writable_target
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
+from wirelessagent.model.errors import InputError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
@@ -28,11 +29,19 @@ def check_allocation(path: Path | None) -> None:
         writable_target(path)
 
 
-def check_gains(path: Path | None) -> None:
-    """Raise an error where gains cannot be written to ``path``; None is fine."""
+def check_gains(path: Path | None, *, csv: bool = False) -> None:
+    """Raise an error where gains cannot be written to ``path``, as CSV only if ``csv``; None is fine."""
     if path is not None:
-        check_npz(path)
+        if csv and path.suffix.lower() not in (".csv", ".npz"):
+            raise InputError(f"gains are written as NPZ or CSV; end the name in .npz or .csv instead of {path.name!r}")
+        if not csv:
+            check_npz(path)
         writable_target(path)
+
+
+def is_csv(path: Path) -> bool:
+    """Whether its name says that a file is to be CSV."""
+    return path.suffix.lower() == ".csv"
 
 
 def check_picture(path: Path | None) -> None:
@@ -56,6 +65,13 @@ def draw_run(
     from wirelessagent.pictures.chain_picture import draw_chain
 
     draw_chain(observation=observation, estimate=estimate, decision=decision, outcome=outcome, path=path)
+
+
+def draw_repair(path: Path, observation: ChannelObservation, estimate: ChannelEstimate) -> None:
+    """Draw what a repair did; the drawing library is loaded only here."""
+    from wirelessagent.pictures import repair_picture
+
+    repair_picture.draw_repair(observation=observation, estimate=estimate, path=path)
 
 
 def draw_comparison(path: Path, found: Sequence[Comparison]) -> None:

@@ -10,14 +10,17 @@ from pydantic import Field
 
 from wirelessagent import chain
 from wirelessagent.model.arrays import BoolArray, FloatArray
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.units import db
 from wirelessagent.operations.answers import EstimateAnswer
 from wirelessagent.operations.channel_file import ChannelFile
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
-from wirelessagent.operations.outputs import channel_meta, check_gains
+from wirelessagent.operations.outputs import channel_meta, check_gains, check_picture, draw_repair, is_csv
 from wirelessagent.operations.record import Block, Record, Table
 from wirelessagent.operations.simulate import describe
+from wirelessagent.sensing.csv_gains import write_csv
 from wirelessagent.sensing.npz import write_npz
 
 
@@ -30,7 +33,10 @@ class RepairRequest(ChannelFile):
     method_options: Annotated[PluginOptions, OptionsOf("repairer")] = Field(
         default_factory=dict, description="options of the repairer"
     )
-    out: Path | None = Field(None, description="NPZ file to write gain, gain_variance and repaired to")
+    out: Path | None = Field(
+        None, description="file to write: NPZ with gain, gain_variance and repaired, or CSV with the gains alone"
+    )
+    plot: Path | None = Field(None, description="picture of the gains before and after: PNG, SVG or PDF")
 
 
 class RepairRecord(Record):
@@ -42,12 +48,15 @@ class RepairRecord(Record):
     estimate: EstimateAnswer
     normalised_rmse: float | None
     out: Path | None
+    plot: Path | None
 
     def blocks(self) -> list[Block]:
         said: list[Block] = [self._summary(), self._users()]
         if self.normalised_rmse is not None:
             said.append(f"error of the repaired entries: {self.normalised_rmse:.3g} of the user's mean gain (RMSE)")
-        return [*said, f"written to {self.out}"] if self.out else said
+        if self.out is not None:
+            said.append(f"written to {self.out}{_GAINS_ALONE if is_csv(self.out) else ''}")
+        return [*said, f"written to {self.plot}"] if self.plot else said
 
     def _summary(self) -> str:
         if not self.missing:
@@ -70,21 +79,20 @@ class RepairRecord(Record):
         )
 
 
+_GAINS_ALONE = ": the gains alone; which of them are repaired, how sure they are, noise and bandwidth need NPZ"
+
+
 def run(request: RepairRequest, progress: Progress) -> RepairRecord:
-    check_gains(request.out)
+    check_gains(request.out, csv=True)
+    check_picture(request.plot)
     scene = request.scene(progress)
     seen = scene.sensed
     estimate = chain.repair(seen, request.method, **request.method_options)
     progress(Event(stage="repair", message=describe(seen)))
     if request.out is not None:
-        arrays: dict[str, Any] = {
-            "gain": estimate.gain,
-            "gain_variance": estimate.gain_variance,
-            "repaired": estimate.repaired,
-            "user_names": np.array(estimate.user_names),
-        }
-        meta = channel_meta(scene.cell, axes="user,subcarrier", maker=f", repairer {estimate.method}")
-        write_npz(request.out, arrays, meta)
+        _write(request.out, estimate, scene.cell)
+    if request.plot is not None:
+        draw_repair(request.plot, seen, estimate)
     return RepairRecord(
         facts=dict(scene.facts),
         missing=int(seen.missing.sum()),
@@ -92,7 +100,21 @@ def run(request: RepairRequest, progress: Progress) -> RepairRecord:
         estimate=EstimateAnswer.of(estimate),
         normalised_rmse=_error(estimate.gain, scene.current_truth, estimate.repaired),
         out=request.out,
+        plot=request.plot,
     )
+
+
+def _write(path: Path, estimate: ChannelEstimate, cell: Cell) -> None:
+    if is_csv(path):
+        write_csv(path, estimate.gain, estimate.user_names)
+        return
+    arrays: dict[str, Any] = {
+        "gain": estimate.gain,
+        "gain_variance": estimate.gain_variance,
+        "repaired": estimate.repaired,
+        "user_names": np.array(estimate.user_names),
+    }
+    write_npz(path, arrays, channel_meta(cell, axes="user,subcarrier", maker=f", repairer {estimate.method}"))
 
 
 def _error(gain: FloatArray, truth: FloatArray | None, repaired: BoolArray) -> float | None:

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
@@ -63,28 +63,35 @@ def chain_canvas(
     """
     canvas = Canvas(rows=2, columns=2, width_in=11.0, height_in=7.4)
     sensed, repaired, allocation, rates = canvas.panels
-    names = _labels(decision.user_names)
-    sensed_db, estimate_db = (_gain_db(gain) for gain in (observation.current, estimate.gain))
-    lowest, highest, clipped = _colour_limits(estimate_db)
-    for panel, gain_db in ((sensed, sensed_db), (repaired, estimate_db)):
-        panel.matrix(gain_db, limits=(lowest, highest), clipped=clipped, colour_label="Power gain (dB)")
-        _subcarrier_ticks(panel, estimate.num_subcarriers)
-    lost = np.count_nonzero(observation.missing)
-    share = lost / observation.missing.size
-    sensed.describe(
-        f"Sensed: {lost} of {observation.missing.size} gains missing ({share:.0%})",
-        "Subcarrier",
-        _user_ticks(sensed, "y", names),
-    )
-    mark = _mark_repaired(repaired, estimate)
-    title = f"Repaired by {estimate.method} ({mark})" if lost else "Nothing to repair"
-    repaired.describe(title, "Subcarrier", _user_ticks(repaired, "y", names))
+    names = labels(decision.user_names)
+    draw_gains(sensed, repaired, observation, estimate, names)
     _draw_allocation(allocation, estimate, decision, names)
     _draw_rates(rates, decision, outcome, names)
     return canvas
 
 
-def _labels(user_names: tuple[str, ...]) -> list[str]:
+def draw_gains(
+    sensed: Panel, repaired: Panel, observation: ChannelObservation, estimate: ChannelEstimate, names: list[str]
+) -> None:
+    """The sensed gains with their holes, and beside them the repaired ones in the same colours."""
+    sensed_db, estimate_db = (gain_db(gain) for gain in (observation.current, estimate.gain))
+    lowest, highest, clipped = colour_limits(estimate_db)
+    for panel, shown_db in ((sensed, sensed_db), (repaired, estimate_db)):
+        panel.matrix(shown_db, limits=(lowest, highest), clipped=clipped, colour_label="Power gain (dB)")
+        subcarrier_ticks(panel, estimate.num_subcarriers)
+    lost = np.count_nonzero(observation.missing)
+    share = lost / observation.missing.size
+    sensed.describe(
+        f"Sensed: {lost} of {observation.missing.size} gains missing ({share:.0%})",
+        "Subcarrier",
+        user_ticks(sensed, "y", names),
+    )
+    mark = mark_repaired(repaired, estimate.repaired)
+    title = f"Repaired by {estimate.method} ({mark})" if lost else "Nothing to repair"
+    repaired.describe(title, "Subcarrier", user_ticks(repaired, "y", names))
+
+
+def labels(user_names: tuple[str, ...]) -> list[str]:
     """Names short enough for a tick and within the font's characters; else, or if they are many, the user's number."""
     if len(user_names) > _MOST_NAMED:
         return [f"user {k}" for k in range(1, len(user_names) + 1)]
@@ -94,12 +101,12 @@ def _labels(user_names: tuple[str, ...]) -> list[str]:
     ]
 
 
-def _gain_db(gain: FloatArray) -> FloatArray:
+def gain_db(gain: FloatArray) -> FloatArray:
     """Gains in dB; zero becomes a value below every colour scale, while NaN stays NaN."""
     return db(gain, floor_db=_ZERO_DB)
 
 
-def _colour_limits(gain_db: FloatArray) -> tuple[float, float, bool]:
+def colour_limits(gain_db: FloatArray) -> tuple[float, float, bool]:
     """Lowest and highest gain of the colour scale in dB, and whether lower ones exist."""
     positive = gain_db[gain_db > _ZERO_DB]
     if not positive.size:
@@ -110,7 +117,7 @@ def _colour_limits(gain_db: FloatArray) -> tuple[float, float, bool]:
     return (lowest, highest, clipped) if highest > lowest else (highest - 1.0, highest + 1.0, clipped)
 
 
-def _user_ticks(panel: Panel, axis: Literal["x", "y"], names: list[str]) -> str:
+def user_ticks(panel: Panel, axis: Literal["x", "y"], names: list[str]) -> str:
     """A tick with each user's name, or, where they are too many, even ticks with numbers; the label of the axis."""
     count = len(names)
     if count > _MOST_NAMED:
@@ -122,7 +129,7 @@ def _user_ticks(panel: Panel, axis: Literal["x", "y"], names: list[str]) -> str:
     return ""
 
 
-def _subcarrier_ticks(panel: Panel, num_subcarriers: int) -> None:
+def subcarrier_ticks(panel: Panel, num_subcarriers: int) -> None:
     """Ticks at subcarriers 1, step, 2 step, …, counted from 1."""
     step = _step(num_subcarriers, most_ticks=8)
     numbers = sorted({1, *range(step, num_subcarriers + 1, step)})
@@ -136,13 +143,13 @@ def _step(count: int, *, most_ticks: int) -> int:
     return next((step for step in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if count / step <= most_ticks), 5000)
 
 
-def _mark_repaired(panel: Panel, estimate: ChannelEstimate) -> str:
+def mark_repaired(panel: Panel, where: BoolArray) -> str:
     """Mark the repaired entries and say how: a dot in each, or a paler colour where a dot would not fit."""
-    users, subcarriers = np.nonzero(estimate.repaired)
+    users, subcarriers = np.nonzero(where)
     width, height = panel.size_pt()
-    cell = min(width / estimate.num_subcarriers, height / estimate.num_users)
+    cell = min(width / where.shape[1], height / where.shape[0])
     if cell < _SMALLEST_DOTTED_CELL_PT:
-        panel.fade(estimate.repaired)
+        panel.fade(where)
         return "paler"
     if len(users):
         panel.marks(subcarriers, users, size_pt=min(0.35 * cell, 5.0), shape="o", colour="white", label=None)
@@ -164,7 +171,7 @@ def _draw_allocation(panel: Panel, estimate: ChannelEstimate, decision: Decision
         reason = f"{decision.status}: {decision.reason}" if not decision.is_usable else "No power is radiated"
         panel.note("\n".join(textwrap.fill(line, 48) for line in [reason, *needed_lines([decision])]))
         return
-    _subcarrier_ticks(panel, decision.owner.size)
+    subcarrier_ticks(panel, decision.owner.size)
     panel.limits(x=(-0.7, decision.owner.size - 0.3))
     colours = _owner_colours(panel, decision, names)
     subcarriers, owners = np.arange(decision.owner.size), decision.owner.tolist()
@@ -220,7 +227,7 @@ def _draw_rates(panel: Panel, decision: Decision, outcome: Outcome | None, names
     else:
         title = "Predicted rates" if achieved is None else "Predicted and achieved rates"
         _draw_rate_bars(panel, decision, outcome, scale)
-    panel.describe(title, _user_ticks(panel, "x", names), f"Rate ({unit})")
+    panel.describe(title, user_ticks(panel, "x", names), f"Rate ({unit})")
     if tallest.max() == 0:
         panel.note("No rate was asked for" if not decision.is_usable else "No user gets a rate")
         return

@@ -26,6 +26,7 @@ from wirelessagent.model.errors import FileFormatError
 from wirelessagent.model.units import human
 from wirelessagent.sensing.formats.contents import Contents
 from wirelessagent.sensing.formats.json_format import parse
+from wirelessagent.sensing.wording import shown
 
 FROM_FILE = "from the file"
 """How a fact says that the file states it."""
@@ -46,7 +47,7 @@ def metadata_of(contents: Contents) -> dict[str, Any]:
         except FileFormatError as error:
             raise FileFormatError(f"meta {error}") from error
     if not isinstance(meta, dict):
-        raise FileFormatError(f'meta is {meta!r:.40}; it must be a JSON object such as {{"carrier_hz": 3.5e9}}')
+        raise FileFormatError(f'meta is {shown(meta)}; it must be a JSON object such as {{"carrier_hz": 3.5e9}}')
     return {**contents.metadata, **cast("dict[str, Any]", meta)}
 
 

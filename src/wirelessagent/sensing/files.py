@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import functools
 import os
+import stat
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -50,6 +51,7 @@ from wirelessagent.sensing.formats.contents import Contents, Entry, check_size
 from wirelessagent.sensing.formats.signature import Format, recognise
 from wirelessagent.sensing.gains import Scale, Unit, doubt, missing_fact, range_fact, shape_fact
 from wirelessagent.sensing.source import ChannelSource
+from wirelessagent.sensing.wording import legible, one_line
 
 _CHUNK_BYTES = 2**20
 
@@ -101,11 +103,11 @@ class File(ChannelSource):
         """
         try:
             data = read_bounded(self.path, self.max_bytes)
-            contents = recognise(data, self.path.suffix).read(data, max_bytes=self.max_bytes)
-            entry, _ = choose(contents, self.key)
-            axes = self._axes(contents, entry)
+            with recognise(data, self.path.suffix).read(data, max_bytes=self.max_bytes) as contents:
+                entry, _ = choose(contents, self.key)
+                axes = self._axes(contents, entry)
         except InputError as error:
-            raise FileFormatError(f"{self.path}: {error}") from error
+            raise FileFormatError(f"{self.path}: {one_line(str(error))}") from error
         return entry.shape[axes.names.index("drop")] if "drop" in axes.names else 1
 
     def _axes(self, contents: Contents, entry: Entry) -> Axes:
@@ -124,12 +126,15 @@ class File(ChannelSource):
         try:
             return self._scene(cell)
         except InputError as error:
-            raise FileFormatError(f"{self.path}: {error}") from error
+            raise FileFormatError(f"{self.path}: {one_line(str(error))}") from error
 
     def _scene(self, cell: Cell) -> Scene:
         data = read_bounded(self.path, self.max_bytes)
         form = recognise(data, self.path.suffix)
-        contents = form.read(data, max_bytes=self.max_bytes)
+        with form.read(data, max_bytes=self.max_bytes) as contents:
+            return self._understood(cell, form, contents)
+
+    def _understood(self, cell: Cell, form: Format, contents: Contents) -> Scene:
         metadata = metadata_of(contents)
         entry, reason = choose(contents, self.key)
         axes = self._axes(contents, entry)
@@ -161,7 +166,9 @@ class File(ChannelSource):
         truth, facts["truth"] = truth_of(
             contents, entry, gain, sensed.estimated, lambda stored: scale.gain(arranged(stored))
         )
-        return Scene(cell=cell, sensed=sensed, truth=truth, facts=facts)
+        return Scene(
+            cell=cell, sensed=sensed, truth=truth, facts={label: legible(text) for label, text in facts.items()}
+        )
 
 
 def read(path: Path | str, cell: Cell | None = None, **options: Any) -> Scene:
@@ -181,9 +188,15 @@ def read(path: Path | str, cell: Cell | None = None, **options: Any) -> Scene:
 
 
 def read_bounded(path: Path, max_bytes: int) -> bytes:
-    """A file's bytes, never more than ``max_bytes`` of them."""
+    """An ordinary file's bytes, never more than ``max_bytes`` of them; others might never end, or never begin."""
     chunks: list[bytes] = []
     try:
+        mode = path.stat().st_mode
+        if stat.S_ISDIR(mode):
+            raise FileFormatError("is a folder; name a file in it")
+        if not stat.S_ISREG(mode):
+            kind = "a pipe" if stat.S_ISFIFO(mode) else "a socket" if stat.S_ISSOCK(mode) else "a device"
+            raise FileFormatError(f"is {kind} and not an ordinary file; save the gains to a file and name that")
         with path.open("rb") as stream:
             size = os.fstat(stream.fileno()).st_size
             while size <= max_bytes and (chunk := stream.read(_CHUNK_BYTES)):
@@ -191,8 +204,8 @@ def read_bounded(path: Path, max_bytes: int) -> bytes:
                 size = max(size, sum(map(len, chunks)))
     except FileNotFoundError as error:
         raise FileFormatError("there is no such file; check the path") from error
-    except IsADirectoryError as error:
-        raise FileFormatError("is a folder; name a file in it") from error
+    except FileFormatError:
+        raise
     except (OSError, ValueError) as error:
         raise FileFormatError(f"cannot be opened: {error}; check its permissions") from error
     check_size("the file", size, max_bytes)

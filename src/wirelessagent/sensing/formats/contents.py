@@ -59,11 +59,19 @@ class Contents:
         entries: every array, in the file's order.
         metadata: single values that the file states, by name, besides those in an array called ``meta``.
         notes: what was understood of the file as a whole, as (label, text).
+        close: gives back what reading entries needs; after it no entry can be read. Leaving a ``with`` calls it.
     """
 
     entries: tuple[Entry, ...]
     metadata: Mapping[str, Any] = field(default_factory=dict[str, Any])
     notes: Mapping[str, str] = field(default_factory=dict[str, str])
+    close: Callable[[], None] = lambda: None
+
+    def __enter__(self) -> Contents:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def entry(self, name: str) -> Entry | None:
         """The array of this name; an error where two have it."""
@@ -130,11 +138,12 @@ def decoding(form: str) -> Generator[None]:
     except WirelessAgentError:
         raise
     except Exception as error:  # damaged bytes make foreign parsers fail in any way
-        reason = " ".join(str(error).split())
-        raise FileFormatError(
-            f"cannot be read as {form}: it is damaged or cut short ({type(error).__name__}: {reason:.160}); "
-            "copy or write it again"
-        ) from error
+        raise damaged(form, f"{type(error).__name__}: {' '.join(str(error).split()):.160}") from error
+
+
+def damaged(form: str, reason: str) -> FileFormatError:
+    """The error for a file that is not what its format wants."""
+    return FileFormatError(f"cannot be read as {form}: it is damaged or cut short ({reason}); copy or write it again")
 
 
 _KINDS: dict[str, Kind] = {

@@ -9,8 +9,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,28 +28,32 @@ from wirelessagent.sensing.formats.contents import (
     never_loaded,
 )
 from wirelessagent.sensing.formats.hdf5_heap import check_heaps
-
-if TYPE_CHECKING:
-    from wirelessagent.sensing.formats.h5py_adapter import Dataset
+from wirelessagent.sensing.formats.hdf5_process import Dataset, Hdf5Process
 
 _NETCDF_FILL = float(np.float32(9.9692099683868690e36))  # NC_FILL_FLOAT and NC_FILL_DOUBLE, netcdf.h
 _PARTS = (("real", "imag"), ("r", "i"), ("re", "im"))
 _TEXT_BYTES = 64  # at least this much memory for a string
 
+_Load: TypeAlias = Callable[[Dataset], NDArray[Any]]
+
 
 def read_hdf5(data: bytes, *, max_bytes: int, matlab: bool = False) -> Contents:
     """The datasets of an HDF5 file by their path; ``matlab`` says that it is MATLAB's, with its axes reversed."""
-    from wirelessagent.sensing.formats import h5py_adapter
-
     check_heaps(data)
-    with decoding("HDF5"):
-        listing = h5py_adapter.listing(data)
-    netcdf = "_NCProperties" in listing.attributes
-    entries = tuple(_entry(data, found, matlab, netcdf, max_bytes) for found in listing.datasets)
-    return Contents(entries=entries, metadata=listing.attributes)
+    process = Hdf5Process(max_bytes)
+    try:
+        with decoding("HDF5"):
+            listing = process.listing(data)
+            netcdf = "_NCProperties" in listing.attributes
+            load = partial(_load, process, max_bytes)
+            entries = tuple(_entry(found, load, matlab, netcdf) for found in listing.datasets)
+    except BaseException:
+        process.close()
+        raise
+    return Contents(entries=entries, metadata=listing.attributes, close=process.close)
 
 
-def _entry(data: bytes, found: Dataset, matlab: bool, netcdf: bool, max_bytes: int) -> Entry:
+def _entry(found: Dataset, load: _Load, matlab: bool, netcdf: bool) -> Entry:
     kind, dtype = _kind(found)
     known = partial(Entry, name=found.name, dtype=dtype, kind=kind)
     if kind == "refused":
@@ -57,7 +62,7 @@ def _entry(data: bytes, found: Dataset, matlab: bool, netcdf: bool, max_bytes: i
         shape=found.shape[::-1] if matlab else found.shape,
         axes=found.dimensions[::-1] if matlab else found.dimensions,
         units=str(found.attributes.get("units", "")),
-        read=partial(_text if kind == "text" else _numbers, data, found, matlab, netcdf, max_bytes),
+        read=partial(_text if kind == "text" else _numbers, load, found, matlab, netcdf),
         notes=_notes(found, matlab),
     )
 
@@ -99,20 +104,18 @@ def _notes(found: Dataset, matlab: bool) -> dict[str, str]:
     return notes
 
 
-def _load(data: bytes, found: Dataset, max_bytes: int) -> NDArray[Any]:
+def _load(process: Hdf5Process, max_bytes: int, found: Dataset) -> NDArray[Any]:
     """The stored values, once it is clear that neither they nor a single chunk of them take too much memory."""
-    from wirelessagent.sensing.formats import h5py_adapter
-
     item_bytes = max(found.dtype.itemsize, _TEXT_BYTES if found.is_text else 1)
     check_size(f"dataset {found.name!r}", array_bytes(found.shape, item_bytes), max_bytes)
     if found.chunk_shape:
         check_size(f"a chunk of dataset {found.name!r}", array_bytes(found.chunk_shape, item_bytes), max_bytes)
     with decoding("HDF5"):
-        return h5py_adapter.load(data, found.name)
+        return process.load(found.name)
 
 
-def _text(data: bytes, found: Dataset, matlab: bool, netcdf: bool, max_bytes: int) -> NDArray[Any]:
-    stored = _load(data, found, max_bytes)
+def _text(load: _Load, found: Dataset, matlab: bool, netcdf: bool) -> NDArray[Any]:
+    stored = load(found)
     if stored.dtype.kind == "U":
         return stored
     rows = np.atleast_2d(stored.T)  # MATLAB's char matrix: UTF-16 code units, a row per text
@@ -120,8 +123,8 @@ def _text(data: bytes, found: Dataset, matlab: bool, netcdf: bool, max_bytes: in
         return np.array([row.astype("<u2").tobytes().decode("utf-16-le").rstrip() for row in rows])
 
 
-def _numbers(data: bytes, found: Dataset, matlab: bool, netcdf: bool, max_bytes: int) -> NDArray[Any]:
-    stored = _load(data, found, max_bytes)
+def _numbers(load: _Load, found: Dataset, matlab: bool, netcdf: bool) -> NDArray[Any]:
+    stored = load(found)
     names = _parts(stored.dtype)
     parts = [stored] if names is None else [stored[name] for name in names]
     if stored.dtype.kind == "b":

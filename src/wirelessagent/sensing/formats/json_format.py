@@ -17,8 +17,10 @@ from numpy.typing import NDArray
 from wirelessagent.model.errors import FileFormatError
 from wirelessagent.sensing.formats.contents import Contents, Entry, decoding, never_loaded
 from wirelessagent.sensing.formats.text import decode
+from wirelessagent.sensing.wording import shown
 
 _COMPLEX = {"real", "imag"}
+_DEEPEST = 16  # of lists in lists: no array of gains has more than the four known axes
 
 
 def read_json(data: bytes, *, max_bytes: int) -> Contents:
@@ -27,7 +29,9 @@ def read_json(data: bytes, *, max_bytes: int) -> Contents:
     if isinstance(value, list) or _is_complex(value):
         return Contents(entries=(_entry("", value),))
     if not isinstance(value, dict):
-        raise FileFormatError(f"holds {value!r:.40} where a list of lists of gains (or an object with one) is expected")
+        raise FileFormatError(
+            f"holds {shown(value)} where a list of lists of gains (or an object with one) is expected"
+        )
     named = cast("dict[str, Any]", value)
     arrays: dict[str, Any] = {
         name: item for name, item in named.items() if isinstance(item, list | dict) and name != "meta"
@@ -40,11 +44,11 @@ def read_json(data: bytes, *, max_bytes: int) -> Contents:
 
 def parse(text: str) -> Any:
     """The value of a JSON text; names that stand twice in an object are an error, since one would be lost."""
-    try:
-        with decoding("JSON"):
+    with decoding("JSON"):
+        try:
             return json.loads(text, object_pairs_hook=_unique)
-    except RecursionError as error:  # raised while handling another one
-        raise FileFormatError("is nested too deeply; it must be a list of lists of gains") from error
+        except RecursionError as error:
+            raise FileFormatError("is nested too deeply; it must be a list of lists of gains") from error
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -62,15 +66,17 @@ def _is_complex(value: Any) -> bool:
 
 def _entry(name: str, value: Any) -> Entry:
     """A list, or an object of real and imaginary lists, judged by its first elements."""
-    if _is_complex(value):
-        shape, _ = _peek(value["real"])
+    if not isinstance(value, list) and not _is_complex(value):
+        return Entry(name=name, shape=(), dtype="an object", kind="refused", read=never_loaded(name, "an object"))
+    shape, leaf = _peek(value["real"] if isinstance(value, dict) else value)
+    if len(shape) > _DEEPEST:
+        deep = f"nested {len(shape)} deep"
+        return Entry(name=name, shape=(), dtype=deep, kind="refused", read=never_loaded(name, deep))
+    if isinstance(value, dict):
         return Entry(
             name=name, shape=shape, dtype="complex numbers", kind="complex", read=partial(_complex, name, value)
         )
-    if not isinstance(value, list):
-        return Entry(name=name, shape=(), dtype="an object", kind="refused", read=never_loaded(name, "an object"))
     items = cast("list[Any]", value)
-    shape, leaf = _peek(items)
     if isinstance(leaf, str) and len(shape) == 1:
         return Entry(name=name, shape=shape, dtype="text", kind="text", read=partial(_texts, name, items))
     if isinstance(leaf, bool):
@@ -92,7 +98,7 @@ def _peek(value: Any) -> tuple[tuple[int, ...], Any]:
 def _texts(name: str, items: list[Any]) -> NDArray[Any]:
     for i, item in enumerate(items):
         if not isinstance(item, str):
-            raise FileFormatError(f"{name}[{i}] is {item!r:.40}, which is not text; write it in quotes")
+            raise FileFormatError(f"{name}[{i}] is {shown(item)}, which is not text; write it in quotes")
     return np.array(items)
 
 
@@ -123,7 +129,7 @@ def _collect(flat: list[float], value: Any, shape: tuple[int, ...], name: str, p
         return
     if not isinstance(value, list):
         raise FileFormatError(
-            f"is ragged: {_place(name, path)} is {value!r:.40} where a list of {shape[0]} numbers is expected"
+            f"is ragged: {_place(name, path)} is {shown(value)} where a list of {shape[0]} numbers is expected"
         )
     items = cast("list[Any]", value)
     if len(items) != shape[0]:
@@ -147,7 +153,7 @@ def _number(value: Any, name: str, path: Sequence[int]) -> float:
         except OverflowError:
             pass
     raise FileFormatError(
-        f"{_place(name, path)} is {value!r:.40}, which is not a number that a gain can have; "
+        f"{_place(name, path)} is {shown(value)}, which is not a number that a gain can have; "
         "write null if it is missing"
     )
 
