@@ -65,9 +65,8 @@ class StoreError(WirelessAgentError):
 
 
 class MissingDependencyError(WirelessAgentError, ImportError):
-    """An optional package is needed and not installed."""
+    """An optional package is needed and not installed; ``extra`` is the one that brings it, "" where none does."""
 
     def __init__(self, package: str, extra: str, purpose: str) -> None:
-        super().__init__(
-            f"{purpose} needs the package {package!r}, which is not installed: pip install 'wirelessagent[{extra}]'"
-        )
+        wanted = f"'wirelessagent[{extra}]'" if extra else package
+        super().__init__(f"{purpose} needs the package {package!r}, which is not installed: pip install {wanted}")

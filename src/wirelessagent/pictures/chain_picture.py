@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
@@ -21,8 +22,8 @@ from wirelessagent.pictures.needed import needed_lines
 _MOST_NAMED = 16
 """Users up to which every one gets a tick with its name; more are counted."""
 
-_PREDICTED, _ACHIEVED = "#C4C4C4", "#5A5A5A"
-"""Greys, because the colours beside are the users'."""
+_GREYS = ("#C4C4C4", "#5A5A5A")
+"""Of predicted and achieved rates: greys, because the colours beside are the users'."""
 
 _ZERO_DB = -4000.0
 
@@ -63,28 +64,28 @@ def chain_canvas(
     """
     canvas = Canvas(rows=2, columns=2, width_in=11.0, height_in=7.4)
     sensed, repaired, allocation, rates = canvas.panels
-    names = _labels(decision.user_names)
-    sensed_db, estimate_db = (_gain_db(gain) for gain in (observation.current, estimate.gain))
-    lowest, highest, clipped = _colour_limits(estimate_db)
-    for panel, gain_db in ((sensed, sensed_db), (repaired, estimate_db)):
-        panel.matrix(gain_db, limits=(lowest, highest), clipped=clipped, colour_label="Power gain (dB)")
-        _subcarrier_ticks(panel, estimate.num_subcarriers)
+    names = labels(decision.user_names)
+    sensed_db, estimate_db = (gain_db(gain) for gain in (observation.current, estimate.gain))
+    lowest, highest, clipped = colour_limits(estimate_db)
+    for panel, shown_db in ((sensed, sensed_db), (repaired, estimate_db)):
+        panel.matrix(shown_db, limits=(lowest, highest), clipped=clipped, colour_label="Power gain (dB)")
+        subcarrier_ticks(panel, estimate.num_subcarriers)
     lost = np.count_nonzero(observation.missing)
     share = lost / observation.missing.size
     sensed.describe(
         f"Sensed: {lost} of {observation.missing.size} gains missing ({share:.0%})",
         "Subcarrier",
-        _user_ticks(sensed, "y", names),
+        user_ticks(sensed, "y", names),
     )
-    mark = _mark_repaired(repaired, estimate)
+    mark = mark_repaired(repaired, estimate.repaired)
     title = f"Repaired by {estimate.method} ({mark})" if lost else "Nothing to repair"
-    repaired.describe(title, "Subcarrier", _user_ticks(repaired, "y", names))
-    _draw_allocation(allocation, estimate, decision, names)
-    _draw_rates(rates, decision, outcome, names)
+    repaired.describe(title, "Subcarrier", user_ticks(repaired, "y", names))
+    draw_allocation(allocation, decision, names)
+    draw_rates(rates, decision, names, outcome)
     return canvas
 
 
-def _labels(user_names: tuple[str, ...]) -> list[str]:
+def labels(user_names: tuple[str, ...]) -> list[str]:
     """Names short enough for a tick and within the font's characters; else, or if they are many, the user's number."""
     if len(user_names) > _MOST_NAMED:
         return [f"user {k}" for k in range(1, len(user_names) + 1)]
@@ -94,12 +95,12 @@ def _labels(user_names: tuple[str, ...]) -> list[str]:
     ]
 
 
-def _gain_db(gain: FloatArray) -> FloatArray:
+def gain_db(gain: FloatArray) -> FloatArray:
     """Gains in dB; zero becomes a value below every colour scale, while NaN stays NaN."""
     return db(gain, floor_db=_ZERO_DB)
 
 
-def _colour_limits(gain_db: FloatArray) -> tuple[float, float, bool]:
+def colour_limits(gain_db: FloatArray) -> tuple[float, float, bool]:
     """Lowest and highest gain of the colour scale in dB, and whether lower ones exist."""
     positive = gain_db[gain_db > _ZERO_DB]
     if not positive.size:
@@ -110,7 +111,7 @@ def _colour_limits(gain_db: FloatArray) -> tuple[float, float, bool]:
     return (lowest, highest, clipped) if highest > lowest else (highest - 1.0, highest + 1.0, clipped)
 
 
-def _user_ticks(panel: Panel, axis: Literal["x", "y"], names: list[str]) -> str:
+def user_ticks(panel: Panel, axis: Literal["x", "y"], names: list[str]) -> str:
     """A tick with each user's name, or, where they are too many, even ticks with numbers; the label of the axis."""
     count = len(names)
     if count > _MOST_NAMED:
@@ -122,7 +123,7 @@ def _user_ticks(panel: Panel, axis: Literal["x", "y"], names: list[str]) -> str:
     return ""
 
 
-def _subcarrier_ticks(panel: Panel, num_subcarriers: int) -> None:
+def subcarrier_ticks(panel: Panel, num_subcarriers: int) -> None:
     """Ticks at subcarriers 1, step, 2 step, …, counted from 1."""
     step = _step(num_subcarriers, most_ticks=8)
     numbers = sorted({1, *range(step, num_subcarriers + 1, step)})
@@ -136,52 +137,54 @@ def _step(count: int, *, most_ticks: int) -> int:
     return next((step for step in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if count / step <= most_ticks), 5000)
 
 
-def _mark_repaired(panel: Panel, estimate: ChannelEstimate) -> str:
+def mark_repaired(panel: Panel, where: BoolArray) -> str:
     """Mark the repaired entries and say how: a dot in each, or a paler colour where a dot would not fit."""
-    users, subcarriers = np.nonzero(estimate.repaired)
+    users, subcarriers = np.nonzero(where)
     width, height = panel.size_pt()
-    cell = min(width / estimate.num_subcarriers, height / estimate.num_users)
+    cell = min(width / where.shape[1], height / where.shape[0])
     if cell < _SMALLEST_DOTTED_CELL_PT:
-        panel.fade(estimate.repaired)
+        panel.fade(where)
         return "paler"
     if len(users):
         panel.marks(subcarriers, users, size_pt=min(0.35 * cell, 5.0), shape="o", colour="white", label=None)
     return "white dots"
 
 
-def _draw_allocation(panel: Panel, estimate: ChannelEstimate, decision: Decision, names: list[str]) -> None:
-    """Power per subcarrier in its owner's colour, with the water level where there is one.
+def draw_allocation(panel: Panel, decision: Decision, names: list[str]) -> None:
+    """Power per subcarrier in its owner's colour with the water level where there is one, or why nothing is allocated."""
+    if decision.is_usable and decision.power_w.any():
+        title = f"Decided by {decision.method}: {human(decision.total_power_w, 'W')}"
+        draw_powers(panel, title, decision.owner, decision.power_w, names, _water_level_w(decision))
+        return
+    reason = "No power is radiated" if decision.is_usable else f"{decision.status}: {decision.reason}"
+    panel.describe(f"Decided by {decision.method}: {'0 W' if decision.is_usable else decision.status}", "", "")
+    panel.note("\n".join(textwrap.fill(line, 48) for line in [reason, *needed_lines([decision])]))
 
-    A strip below shows the owner where the power is too little to be seen.
-    """
-    verdict = human(decision.total_power_w, "W") if decision.is_usable else decision.status
-    title = f"Decided by {decision.method}: {verdict}"
-    level = _water_level_w(estimate, decision)
-    tallest = max(float(decision.power_w.max()), level or 0.0)
+
+def draw_powers(
+    panel: Panel, title: str, owner: IntArray, power_w: FloatArray, names: list[str], level_w: float | None = None
+) -> None:
+    """Power per subcarrier in its owner's colour; a strip below shows the owner where it is too little to be seen."""
+    tallest = max(float(power_w.max()), level_w or 0.0)
     scale, unit = prefixed(tallest, "W")
     panel.describe(title, "Subcarrier (strip: its owner)", f"Power ({unit})")
-    if not decision.is_usable or tallest == 0:
-        reason = f"{decision.status}: {decision.reason}" if not decision.is_usable else "No power is radiated"
-        panel.note("\n".join(textwrap.fill(line, 48) for line in [reason, *needed_lines([decision])]))
-        return
-    _subcarrier_ticks(panel, decision.owner.size)
-    panel.limits(x=(-0.7, decision.owner.size - 0.3))
-    colours = _owner_colours(panel, decision, names)
-    subcarriers, owners = np.arange(decision.owner.size), decision.owner.tolist()
-    own = [colours.get(owner, GREY) for owner in owners]
-    panel.bars(subcarriers, decision.power_w / scale, width=0.8, colour=own)
+    subcarrier_ticks(panel, owner.size)
+    panel.limits(x=(-0.7, owner.size - 0.3))
+    colours = _owner_colours(panel, owner, names)
+    own = [colours.get(one, GREY) for one in owner.tolist()]
+    panel.bars(np.arange(owner.size), power_w / scale, width=0.8, colour=own)
     entries = len(colours) if len(colours) <= len(PALETTE) else 0
-    for owner, colour in list(colours.items())[:entries]:
-        panel.swatch(colour, names[owner])
-    if level is not None:
-        panel.level(level / scale, label=f"water level {human(level, 'W')}")
-    _headroom(panel, tallest / scale, entries=entries + (level is not None), columns=3)
-    panel.strip(subcarriers, [colours.get(owner, "white") for owner in owners], below=-0.05 * panel.top())
+    for user, colour in list(colours.items())[:entries]:
+        panel.swatch(colour, names[user])
+    if level_w is not None:
+        panel.level(level_w / scale, label=f"water level {human(level_w, 'W')}")
+    _headroom(panel, tallest / scale, entries=entries + (level_w is not None), columns=3)
+    panel.strip(np.arange(owner.size), [colours.get(one, "white") for one in owner.tolist()], below=-0.05 * panel.top())
 
 
-def _owner_colours(panel: Panel, decision: Decision, names: list[str]) -> dict[int, str]:
+def _owner_colours(panel: Panel, owner: IntArray, names: list[str]) -> dict[int, str]:
     """The colour of each user that owns a subcarrier: its own, one by one, or along a scale where they are too many."""
-    owners: list[int] = np.unique(decision.owner[decision.owner >= 0]).tolist()
+    owners: list[int] = np.unique(owner[owner >= 0]).tolist()
     if len(names) <= len(PALETTE):
         return {owner: PALETTE[owner] for owner in owners}
     if len(owners) <= len(PALETTE):
@@ -197,49 +200,58 @@ def _headroom(panel: Panel, tallest: float, *, entries: int, columns: int) -> No
     panel.legend(columns=columns, place="upper center")
 
 
-def _water_level_w(estimate: ChannelEstimate, decision: Decision) -> float | None:
+def _water_level_w(decision: Decision) -> float | None:
     """The common p + 1/a of all powered subcarriers in W; None where they have none, or are fewer than two."""
+    if decision.estimate is None:
+        return None
     powered = decision.power_w > 0
-    gain = owned_gain(estimate.gain, decision.owner)[powered]
+    gain = owned_gain(decision.estimate.gain, decision.owner)[powered]
     if gain.size < 2 or not np.all(gain > 0):
         return None
     levels = decision.power_w[powered] + 1.0 / normalised_gain(gain, decision.cell)
     return float(levels.mean()) if np.ptp(levels) <= 1e-6 * levels.max() else None
 
 
-def _draw_rates(panel: Panel, decision: Decision, outcome: Outcome | None, names: list[str]) -> None:
+def draw_rates(panel: Panel, decision: Decision, names: list[str], outcome: Outcome | None = None) -> None:
     """Each user's predicted rate, beside it the achieved one where known, and the rate it was promised at least."""
-    achieved = None if outcome is None else outcome.achieved
-    users = np.arange(len(names))
     wanted = decision.problem.min_rates_bps(len(names))
-    known = [decision.rate_bps, wanted] + ([] if achieved is None else [achieved.user_rate_bps])
-    tallest = np.max(known, axis=0)
-    scale, unit = prefixed(float(tallest.max()), "bit/s")
     if not decision.is_usable:
-        title = "Rates asked for; nothing is allocated"
+        nothing = "No rate was asked for" if not wanted.any() else ""
+        draw_rate_bars(panel, "Rates asked for; nothing is allocated", {}, names, wanted=wanted, nothing=nothing)
+    elif outcome is None or outcome.achieved is None:
+        draw_rate_bars(panel, "Predicted rates", {"predicted": decision.rate_bps}, names, wanted=wanted)
     else:
-        title = "Predicted rates" if achieved is None else "Predicted and achieved rates"
-        _draw_rate_bars(panel, decision, outcome, scale)
-    panel.describe(title, _user_ticks(panel, "x", names), f"Rate ({unit})")
-    if tallest.max() == 0:
-        panel.note("No rate was asked for" if not decision.is_usable else "No user gets a rate")
-        return
-    if achieved is not None and outcome is not None and outcome.missed.any():
+        rates = {"predicted": decision.rate_bps, "achieved": outcome.achieved.user_rate_bps}
         missed = np.flatnonzero(outcome.missed)
+        draw_rate_bars(panel, "Predicted and achieved rates", rates, names, wanted=wanted, missed=missed)
+
+
+def draw_rate_bars(
+    panel: Panel,
+    title: str,
+    rates_bps: Mapping[str, FloatArray],
+    names: list[str],
+    *,
+    wanted: FloatArray,
+    missed: Sequence[int] | IntArray = (),
+    nothing: str = "",
+) -> None:
+    """A bar for each user and each of one or two kinds of rates, those who ``missed`` theirs, and what was ``wanted``."""
+    users = np.arange(len(names))
+    tallest = np.max([wanted, *rates_bps.values()], axis=0)
+    scale, unit = prefixed(float(tallest.max()), "bit/s")
+    offset = 0.2 if len(rates_bps) > 1 else 0.0
+    for side, (label, rate_bps) in enumerate(rates_bps.items()):
+        place = users + (offset if side else -offset)
+        panel.bars(place, rate_bps / scale, width=0.8 - 2 * offset, colour=_GREYS[side], label=label)
+    panel.describe(title, user_ticks(panel, "x", names), f"Rate ({unit})")
+    if tallest.max() == 0:
+        panel.note(nothing or "No user gets a rate")
+        return
+    if len(missed):
         heights = (tallest[missed] + 0.04 * tallest.max()) / scale
         panel.marks(missed, heights, size_pt=6, shape="X", colour=PALETTE[1], label="missed")
     if np.any(wanted > 0):
         panel.segments(users - 0.45, users + 0.45, wanted / scale, label="minimum")
     panel.limits(x=(-0.7, len(names) - 0.3))
     _headroom(panel, float(tallest.max()) / scale, entries=4, columns=4)
-
-
-def _draw_rate_bars(panel: Panel, decision: Decision, outcome: Outcome | None, scale: float) -> None:
-    """A bar for each user's predicted rate and, where known, one for the achieved rate beside it."""
-    achieved = None if outcome is None else outcome.achieved
-    users = np.arange(decision.rate_bps.size)
-    offset = 0.0 if achieved is None else 0.2
-    width = 0.8 - 2 * offset
-    panel.bars(users - offset, decision.rate_bps / scale, width=width, colour=_PREDICTED, label="predicted")
-    if achieved is not None:
-        panel.bars(users + offset, achieved.user_rate_bps / scale, width=width, colour=_ACHIEVED, label="achieved")
