@@ -52,16 +52,16 @@ class Comparison(Shown):
     def __getitem__(self, place: int) -> Compared:
         return self.answers[place]
 
-    def _summary(self) -> Summary:
+    def summary(self) -> Summary:
         header = ("method", "status", "value", "bound", "gap", "power", "time")
         rows = [(one.method, one.status, *_figures(one.decision), human(one.time_s, "s")) for one in self]
         return Summary(title=f"Comparison of {len(self)} methods", header=header, rows=tuple(rows))
 
-    def _picture(self) -> Picture | None:
+    def picture(self) -> Picture | None:
         decided = any(one.decision is not None for one in self)
         return Picture(kind="comparison", parts={"found": self.answers}) if decided else None
 
-    def _columns(self) -> Mapping[str, Any]:
+    def columns(self) -> Mapping[str, Any]:
         """One row for each method; NaN where it has no decision."""
         names = ("value", "bound", "gap", "total_power_w")
         return {

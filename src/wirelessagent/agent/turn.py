@@ -56,26 +56,24 @@ class Run(Shown):
         line = certificate_line(self.decision, self.intent.language)
         return "\n".join([line, *self.notes, *self.explanation, str(self.report)])
 
-    def _summary(self) -> Summary:
+    def summary(self) -> Summary:
         seen, lost = self.observation, int(self.observation.missing.sum())
         sensed = f"{seen.num_users} users × {seen.num_subcarriers} subcarriers, {lost} of {seen.missing.size} missing"
-        told = (self.explanation or ("",))[0]
         applied = "not applied" if self.outcome is None else f"by the base station {self.outcome.base_station}"
-        rows = [("sensed", sensed), ("repaired by", self.estimate.method), ("applied", applied), ("because", told)]
+        rows = [("sensed", sensed), ("repaired by", self.estimate.method), ("applied", applied)]
+        rows += [("because", line) for line in self.explanation[:1]]
         language = self.intent.language
-        figures = [row[:3] for row in self.report.figures(language)[:4]]
-        table = [*rows, ("", "predicted", "achieved"), *figures]
-        return Summary(
-            title=f"Run: {certificate_line(self.decision, language)}", rows=tuple(row for row in table if row[1])
-        )
+        for label, predicted, achieved, *_ in self.report.figures(language)[:4]:
+            rows.append((label, f"{predicted} predicted{'' if achieved == '–' else f'; achieved: {achieved}'}"))
+        return Summary(title=f"Run: {certificate_line(self.decision, language)}", rows=tuple(rows))
 
-    def _picture(self) -> Picture:
+    def picture(self) -> Picture:
         names = ("observation", "estimate", "decision", "outcome")
         return Picture(kind="chain", parts={name: getattr(self, name) for name in names})
 
-    def _columns(self) -> Mapping[str, Any]:
+    def columns(self) -> Mapping[str, Any]:
         """One row for each user: its report."""
-        return self.report._columns()
+        return self.report.columns()
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -112,20 +110,15 @@ class Turn(Shown):
     tables: tuple[Table, ...] = ()
     restored: Outcome | None = None
 
-    def _summary(self) -> Summary:
-        rows = [
-            ("said", self.text),
-            ("understood", self.intent.reply),
-            *(("reply", line) for line in self.reply.split("\n")),
-        ]
-        if self.run is not None:
-            rows.append(("decided", certificate_line(self.run.decision, self.intent.language)))
-        return Summary(title=f"Turn {self.number}: {self.stage}", rows=tuple(row for row in rows if row[1].strip()))
+    def summary(self) -> Summary:
+        reply = [("reply", line) for line in self.reply.split("\n") if line.strip()]
+        tables = [("tables", ", ".join(table.title for table in self.tables))] if self.tables else []
+        return Summary(title=f"Turn {self.number}: {self.stage}", rows=(("said", self.text), *reply, *tables))
 
-    def _picture(self) -> Picture | None:
-        return None if self.run is None else self.run._picture()
+    def picture(self) -> Picture | None:
+        return None if self.run is None else self.run.picture()
 
-    def _columns(self) -> Mapping[str, Any]:
+    def columns(self) -> Mapping[str, Any]:
         """One row."""
         decision = None if self.run is None else self.run.decision
         figures = ("status", "value", "bound", "gap", "total_power_w")

@@ -126,17 +126,16 @@ class Report(Shown):
 
     _derived: ClassVar[tuple[str, ...]] = ("regret", "goodput_regret")
 
-    def _summary(self) -> Summary:
+    def summary(self) -> Summary:
         header = ("", "predicted", "achieved", *([] if self.perfect is None else ["all gains known"]))
-        missed = self._missed()
-        rows = [*self.figures(), *([("missed", missed)] if missed else [])]
-        return Summary(title=f"Report of a decision that is {self.decision.status}", header=header, rows=tuple(rows))
+        title = f"Report: {self._missed() or f'a decision that is {self.decision.status}'}"
+        return Summary(title=title, header=header, rows=tuple(self.figures()))
 
-    def _picture(self) -> Picture:
+    def picture(self) -> Picture:
         parts = {"decision": self.decision, "achieved": self.achieved, "missed_users": self.missed_users}
         return Picture(kind="rates", parts=parts)
 
-    def _columns(self) -> Mapping[str, Any]:
+    def columns(self) -> Mapping[str, Any]:
         """One row for each user; no rate achieved where that is not known."""
         decision, users = self.decision, np.arange(self.decision.rate_bps.size)
         known = self.achieved is not None

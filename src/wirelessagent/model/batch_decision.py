@@ -50,7 +50,7 @@ class BatchDecision(Shown):
 
     _derived: ClassVar[tuple[str, ...]] = ("is_usable", "total_power_w")
 
-    def _summary(self) -> Summary:
+    def summary(self) -> Summary:
         statuses, counts = np.unique(self.status, return_counts=True)
         found = ", ".join(f"{count} {status}" for status, count in zip(statuses, counts, strict=True))
         shape = " × ".join(map(str, (*self.status.shape, *self.rate_bps.shape[-1:], *self.owner.shape[-1:])))
@@ -66,7 +66,7 @@ class BatchDecision(Shown):
         title = f"BatchDecision: {aim} on {self.status.size} channels ({shape}: channel, user, subcarrier)"
         return Summary(title=title, rows=tuple(rows))
 
-    def _columns(self) -> Mapping[str, Any]:
+    def columns(self) -> Mapping[str, Any]:
         """One row for each channel, in the order of ``status.ravel()``."""
         names = ("status", "value", "bound", "gap", "total_power_w")
         return {name: np.ravel(getattr(self, name)) for name in names}

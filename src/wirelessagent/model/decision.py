@@ -121,14 +121,13 @@ class Decision(Shown):
 
     _derived: ClassVar[tuple[str, ...]] = ("is_usable", "total_power_w")
 
-    def _summary(self) -> Summary:
+    def summary(self) -> Summary:
         objective = self.problem.objective
         aim = objective if isinstance(objective, str) else objective.name
         found = f", {human(self.value, self.unit)}" if self.is_usable else ""
         title = f"Decision: {self.status}{found} ({aim} by {self.method})"
-        rows = [("bound", f"{human(self.bound, self.unit)}, gap {percent(self.gap)}")]
-        if self.is_usable:
-            rows += self._allocation_rows()
+        bound = [("bound", f"{human(self.bound, self.unit)}, gap {percent(self.gap)}")]
+        rows = [*([] if np.isnan(self.bound) else bound), *(self._allocation_rows() if self.is_usable else [])]
         if self.problem.promises_rates and self.needed_power_w is not None:
             least, enough = (human(one, "W") for one in (self.needed_power_w.at_least, self.needed_power_w.at_most))
             rows.append(("power needed", f"at least {least}, enough {enough}"))
@@ -149,10 +148,10 @@ class Decision(Shown):
         sure = [] if outage is None else [("kept with", reliability(outage))]
         return [("rates", rates), *sure, ("power", power)]
 
-    def _picture(self) -> Picture:
+    def picture(self) -> Picture:
         return Picture(kind="decision", parts={"decision": self})
 
-    def _columns(self) -> Mapping[str, Any]:
+    def columns(self) -> Mapping[str, Any]:
         """One row for each subcarrier: its owner by number and name ("" for nobody), and its power."""
         names = np.array([*self.user_names, ""])[self.owner]
         return {"subcarrier": np.arange(self.owner.size), "owner": self.owner, "user": names, "power_w": self.power_w}

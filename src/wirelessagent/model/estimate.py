@@ -87,7 +87,7 @@ class ChannelEstimate(Shown):
         """The distribution of the true gains: the joint one, or independent gamma entries where none is known."""
         return self.joint_posterior or GammaPosterior(self.gain, self.gain_variance)
 
-    def _summary(self) -> Summary:
+    def summary(self) -> Summary:
         count, size = int(self.repaired.sum()), self.repaired.size
         made = f"{count} of {size} gains repaired by {self.method}" if count else "nothing was missing"
         rows = [("mean gain", level(self.gain)), ("users", few(self.user_names))]
@@ -100,13 +100,13 @@ class ChannelEstimate(Shown):
         title = f"ChannelEstimate: {self.num_users} users × {self.num_subcarriers} subcarriers, {made}"
         return Summary(title=title, rows=tuple(rows))
 
-    def _picture(self) -> Picture:
+    def picture(self) -> Picture:
         made = f"Repaired by {self.method}" if self.repaired.any() else "Nothing was missing"
         gain = Matrix(title=made, values=self.gain, marked=self.repaired)
         spread = Matrix(title="How sure", values=self._relative_std, colour_label="Standard deviation / gain")
         return Picture(kind="matrices", parts={"user_names": self.user_names, "matrices": (gain, spread)})
 
-    def _columns(self) -> Mapping[str, Any]:
+    def columns(self) -> Mapping[str, Any]:
         """One row for each entry."""
         names = ("gain", "gain_variance", "repaired")
         return {**entries(self.user_names, self.gain), **{name: getattr(self, name).ravel() for name in names}}

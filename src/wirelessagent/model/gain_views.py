@@ -43,7 +43,8 @@ def level(gain: FloatArray) -> str:
     if not seen.size:
         return "nothing was observed"
     users = np.nanmean(seen, axis=1)
-    mean, low, high = (float(db(one, floor_db=-400.0)) for one in (np.nanmean(seen), users.min(), users.max()))
+    levels = db(np.array([np.nanmean(seen), users.min(), users.max()], dtype=np.float64), floor_db=-400.0)
+    mean, low, high = levels.tolist()
     return f"{mean:.1f} dB; of the users {low:.1f} to {high:.1f} dB"
 
 
@@ -60,13 +61,11 @@ def entries(user_names: tuple[str, ...], gain: FloatArray) -> dict[str, NDArray[
 def gains_picture(
     user_names: tuple[str, ...], slots: FloatArray, title: str, others: Mapping[str, FloatArray] | None = None
 ) -> Picture:
-    """The current slot of gains (slot, user, subcarrier), then ``others`` of that slot by their titles, then the history
-    if there is one.
-    """
+    """The current slot of gains (slot, user, subcarrier), ``others`` of that slot by their titles, and the history."""
     matrices = [Matrix(title=name, values=gain) for name, gain in {title: slots[-1], **(others or {})}.items()]
     if len(slots) > 1:
         seen = ~np.isnan(slots)
-        total = np.where(seen, slots, 0.0).sum(axis=2)
-        mean = np.divide(total, seen.sum(axis=2), where=seen.any(axis=2), out=np.full(total.shape, np.nan))
+        with np.errstate(invalid="ignore"):  # nothing of a user in a slot is NaN
+            mean: FloatArray = np.where(seen, slots, 0.0).sum(axis=2) / seen.sum(axis=2)
         matrices.append(Matrix(title="History: mean over the subcarriers", values=mean.T, x_label="Slot"))
     return Picture(kind="matrices", parts={"user_names": user_names, "matrices": tuple(matrices)})

@@ -77,7 +77,7 @@ class ChannelObservation(Shown):
             raise InputError(f"{name} must be {size} finite, increasing values; got shape {axis.shape}")
         object.__setattr__(self, name, axis)
 
-    def _summary(self) -> Summary:
+    def summary(self) -> Summary:
         lost, size = int(self.missing.sum()), self.missing.size
         holes = f"{lost} of {size} gains missing ({percent(lost / size)})" if lost else "no gain missing"
         rows = [("mean gain", level(self.current)), ("users", few(self.user_names))]
@@ -90,11 +90,11 @@ class ChannelObservation(Shown):
         title = f"ChannelObservation: {self.num_users} users × {self.num_subcarriers} subcarriers, {holes}"
         return Summary(title=title, rows=tuple(rows))
 
-    def _picture(self) -> Picture:
+    def picture(self) -> Picture:
         lost, size = int(self.missing.sum()), self.missing.size
         return gains_picture(self.user_names, self.slots, f"Observed; missing: {lost} of {size}")
 
-    def _columns(self) -> Mapping[str, Any]:
+    def columns(self) -> Mapping[str, Any]:
         """One row for each entry."""
         found: dict[str, Any] = {**entries(self.user_names, self.gain), "gain": self.gain.ravel()}
         if self.noise_variance is not None:

@@ -46,7 +46,7 @@ class Outcome(Shown):
             short = ~kept(self.achieved.user_rate_bps, self.promised_bps, READ_BACK_TOLERANCE)
         object.__setattr__(self, "missed", short)
 
-    def _summary(self) -> Summary:
+    def summary(self) -> Summary:
         used, size = int(np.count_nonzero(self.power_w > 0)), self.owner.size
         rows = [("power", f"{human(float(self.power_w.sum()), 'W')} on {used} of {size} subcarriers")]
         served = int(np.count_nonzero(self.promised_bps > 0))
@@ -58,9 +58,9 @@ class Outcome(Shown):
             rows.append(("written to", str(self.written_to)))
         return Summary(title=f"Outcome of the base station {self.base_station}, read back", rows=tuple(rows))
 
-    def _picture(self) -> Picture:
+    def picture(self) -> Picture:
         return Picture(kind="outcome", parts={"outcome": self})
 
-    def _columns(self) -> Mapping[str, Any]:
+    def columns(self) -> Mapping[str, Any]:
         """One row for each subcarrier, as read back."""
         return {"subcarrier": np.arange(self.owner.size), "owner": self.owner, "power_w": self.power_w}

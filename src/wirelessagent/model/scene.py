@@ -53,7 +53,7 @@ class Scene(Shown):
             )
         object.__setattr__(self, "truth", truth)
 
-    def _summary(self) -> Summary:
+    def summary(self) -> Summary:
         sensed, cell = self.sensed, self.cell
         known = "not known" if self.truth is None else "known"
         slots = f", {sensed.num_slots} slots" if sensed.num_slots > 1 else ""
@@ -62,14 +62,14 @@ class Scene(Shown):
         rows = (("cell", radiates), ("mean gain", level(sensed.current)), ("true channel", known), *self.facts.items())
         return Summary(title=title, rows=rows)
 
-    def _picture(self) -> Picture:
+    def picture(self) -> Picture:
         truth, sensed = self.current_truth, self.sensed.current
         differs = truth is not None and not np.array_equal(truth, sensed)
         others = {"True": truth} if truth is not None and differs else {}
         title = "Sensed" if differs or truth is None else "Sensed, and true"
         return gains_picture(self.sensed.user_names, self.sensed.slots, title, others)
 
-    def _columns(self) -> Mapping[str, Any]:
+    def columns(self) -> Mapping[str, Any]:
         """One row for each entry."""
         sensed = self.sensed
         found: dict[str, Any] = {**entries(sensed.user_names, sensed.gain), "gain": sensed.gain.ravel()}

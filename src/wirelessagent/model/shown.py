@@ -82,23 +82,23 @@ class Plain(KnownKeywords):
 class Shown(Plain):
     """An object that people look at: in a terminal, in a notebook, as a picture, as a table."""
 
-    def _summary(self) -> Summary:
+    def summary(self) -> Summary:
         """What people read of it."""
         raise NotImplementedError
 
-    def _picture(self) -> Picture | None:
+    def picture(self) -> Picture | None:
         """What is to be drawn; None where there is nothing."""
         return None
 
-    def _columns(self) -> Mapping[str, Sequence[Any] | NDArray[Any]]:
+    def columns(self) -> Mapping[str, Sequence[Any] | NDArray[Any]]:
         """The columns of its table, all of one length."""
         raise NotImplementedError
 
     def __repr__(self) -> str:
-        return _as_text(self._summary())
+        return _as_text(self.summary())
 
     def _repr_html_(self) -> str:
-        return _as_html(self._summary(), self._picture())
+        return _as_html(self.summary(), self.picture())
 
     def plot(self) -> Drawn:
         """The object as a picture: a notebook shows it, ``.save("picture.png")`` writes it, ``.figure`` is
@@ -108,9 +108,9 @@ class Shown(Plain):
             InputError: there is nothing to draw.
             MissingDependencyError: matplotlib is not installed.
         """
-        picture = self._picture()
+        picture = self.picture()
         if picture is None:
-            raise InputError(f"there is nothing to draw: {self._summary().title}")
+            raise InputError(f"there is nothing to draw: {self.summary().title}")
         return cast("Drawn", through("draw")(picture, small=False))
 
     def to_frame(self) -> Any:
@@ -123,7 +123,7 @@ class Shown(Plain):
             import pandas as pd  # pyright: ignore[reportMissingImports, reportMissingModuleSource]
         except ImportError as error:
             raise MissingDependencyError("pandas", "", f"{type(self).__name__}.to_frame()") from error
-        return cast("Any", pd).DataFrame(dict(self._columns()))
+        return cast("Any", pd).DataFrame(dict(self.columns()))
 
 
 def plain_data(value: object) -> Any:
@@ -145,8 +145,9 @@ def plain_data(value: object) -> Any:
     if isinstance(value, list | tuple | set | frozenset):
         return [plain_data(each) for each in cast("Iterable[object]", value)]
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        named = {"name": value.name} if isinstance(getattr(value, "name", None), str) else {}  # a plug-in
-        return {**named, **{item.name: plain_data(getattr(value, item.name)) for item in dataclasses.fields(value)}}
+        name = getattr(value, "name", None)  # a plug-in's
+        fields = {item.name: plain_data(getattr(value, item.name)) for item in dataclasses.fields(value)}
+        return {"name": name, **fields} if isinstance(name, str) else fields
     return str(value)
 
 
@@ -165,14 +166,17 @@ def _as_call(value: Any) -> str:
     parts: list[str] = []
     for item in dataclasses.fields(value):
         given = getattr(value, item.name)
-        unset = given is None or given is False or (isinstance(given, str | tuple | Mapping) and not given)
-        if item.init and item.repr and not unset:
+        if item.init and item.repr and not _is_unset(given):
             parts.append(f"{item.name}={_argument(given)}" if item.kw_only else _argument(given))
     name, inner = type(value).__name__, ", ".join(parts)
     if len(name) + len(inner) + 2 <= _WIDEST_LINE:
         return f"{name}({inner})"
     lines = textwrap.wrap(inner, _WIDEST_LINE - 4, break_on_hyphens=False, max_lines=_MOST_LINES - 2, placeholder=" …")
     return "\n".join([f"{name}(", *(f"    {line}" for line in lines), ")"])
+
+
+def _is_unset(value: object) -> bool:
+    return value is None or value is False or (isinstance(value, str | tuple | Mapping) and not value)
 
 
 def _argument(value: object) -> str:

@@ -99,7 +99,7 @@ class Canvas:
         write_atomically(path, lambda stream: self.figure.savefig(stream, format=suffix[1:], metadata=FORMATS[suffix]))
 
     def _repr_html_(self) -> str:
-        """The picture for a notebook, on white ground of its own, whatever the page's, and twice as fine as it is wide."""
+        """The picture for a notebook: on white ground, whatever the page's, with two dots for each of the page."""
         stream = BytesIO()
         self.figure.savefig(stream, format="png", dpi=2 * _PAGE_DOTS_PER_INCH)
         data = b64encode(stream.getvalue()).decode("ascii")

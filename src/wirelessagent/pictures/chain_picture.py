@@ -28,6 +28,7 @@ _GREYS = ("#C4C4C4", "#5A5A5A")
 _ZERO_DB = -4000.0
 
 _SMALLEST_DOTTED_CELL_PT = 5.0
+_LEGEND_ROW_PT = 14.0
 
 _DYNAMIC_RANGE_DB = 80.0
 """Gains further below the strongest are drawn in the scale's last colour, which gets an arrow."""
@@ -151,7 +152,7 @@ def mark_repaired(panel: Panel, where: BoolArray) -> str:
 
 
 def draw_allocation(panel: Panel, decision: Decision, names: list[str]) -> None:
-    """Power per subcarrier in its owner's colour with the water level where there is one, or why nothing is allocated."""
+    """Power per subcarrier in its owner's colour with a water level if there is one, or why nothing is allocated."""
     if decision.is_usable and decision.power_w.any():
         title = f"Decided by {decision.method}: {human(decision.total_power_w, 'W')}"
         draw_powers(panel, title, decision.owner, decision.power_w, names, _water_level_w(decision))
@@ -195,8 +196,9 @@ def _owner_colours(panel: Panel, owner: IntArray, names: list[str]) -> dict[int,
 
 def _headroom(panel: Panel, tallest: float, *, entries: int, columns: int) -> None:
     """Room above the bars for a legend of so many entries, and the legend."""
-    rows = -(-entries // columns)
-    panel.limits(y=(0.0, tallest * (1.10 + 0.12 * rows) or 1.0))
+    legend_pt = _LEGEND_ROW_PT * -(-entries // columns) + 0.5 * _LEGEND_ROW_PT
+    share = min(legend_pt / panel.size_pt()[1], 0.6)
+    panel.limits(y=(0.0, 1.05 * tallest / (1.0 - share) or 1.0))
     panel.legend(columns=columns, place="upper center")
 
 
@@ -236,7 +238,7 @@ def draw_rate_bars(
     missed: Sequence[int] | IntArray = (),
     nothing: str = "",
 ) -> None:
-    """A bar for each user and each of one or two kinds of rates, those who ``missed`` theirs, and what was ``wanted``."""
+    """A bar for each user and each of one or two kinds of rates, who ``missed`` theirs, and what was ``wanted``."""
     users = np.arange(len(names))
     tallest = np.max([wanted, *rates_bps.values()], axis=0)
     scale, unit = prefixed(float(tallest.max()), "bit/s")

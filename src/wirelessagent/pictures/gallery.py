@@ -58,14 +58,18 @@ def _matrices(*, small: bool, user_names: tuple[str, ...], matrices: Sequence[Ma
     """One panel for each matrix; only the first where it is small."""
     shown = matrices[:1] if small else matrices
     canvas = _panels(len(shown), small=small)
+    gains = [gain_db(matrix.values).ravel() for matrix in shown if matrix.in_db]
+    limits = colour_limits(np.concatenate(gains))  # one scale for all, so that they can be compared
     for panel, matrix in zip(canvas.panels, shown, strict=True):
-        _draw_matrix(panel, matrix, user_names)
+        _draw_matrix(panel, matrix, user_names, limits)
     return canvas
 
 
-def _draw_matrix(panel: Panel, matrix: Matrix, user_names: tuple[str, ...]) -> None:
+def _draw_matrix(
+    panel: Panel, matrix: Matrix, user_names: tuple[str, ...], limits_db: tuple[float, float, bool]
+) -> None:
     values = gain_db(matrix.values) if matrix.in_db else matrix.values
-    lowest, highest, clipped = colour_limits(values) if matrix.in_db else (0.0, _largest(values), False)
+    lowest, highest, clipped = limits_db if matrix.in_db else (0.0, _largest(values), False)
     panel.matrix(values, limits=(lowest, highest), clipped=clipped, colour_label=matrix.colour_label)
     subcarrier_ticks(panel, values.shape[1])
     title = matrix.title
