@@ -105,7 +105,7 @@ def compare(
     surplus = options.keys() - set[str]().union(*known.values())
     if surplus:
         of = f"the methods {', '.join(map(_label, named))}"
-        raise UnknownNameError("option", min(surplus), {"methods"}.union(*known.values()), of=of)
+        raise UnknownNameError("option", min(surplus), set[str]().union(*known.values()), of=of, beside=("methods",))
     found: list[Compared] = []
     for method in named:
         own = {name: value for name, value in options.items() if _is_name(method) and name in known[method]}

@@ -123,7 +123,7 @@ def create(
     known = {option.name: option for option in options_of(cls)}
     for key in given:
         if key not in known:
-            raise UnknownNameError("option", key, {*known, *beside}, of=f"the {kind.replace('_', ' ')} {name!r}")
+            raise UnknownNameError("option", key, known, of=f"the {kind.replace('_', ' ')} {name!r}", beside=beside)
     missing = [option.name for option in known.values() if option.required and option.name not in given]
     if missing:
         raise InputError(f"the {kind.replace('_', ' ')} {name!r} needs {', '.join(missing)}")

@@ -81,7 +81,7 @@ def chain_canvas(
     mark = mark_repaired(repaired, estimate.repaired)
     title = f"Repaired by {estimate.method} ({mark})" if lost else "Nothing to repair"
     repaired.describe(title, "Subcarrier", user_ticks(repaired, "y", names))
-    draw_allocation(allocation, decision, names)
+    draw_allocation(allocation, decision, names, estimate)
     draw_rates(rates, decision, names, outcome)
     return canvas
 
@@ -151,11 +151,11 @@ def mark_repaired(panel: Panel, where: BoolArray) -> str:
     return "white dots"
 
 
-def draw_allocation(panel: Panel, decision: Decision, names: list[str]) -> None:
+def draw_allocation(panel: Panel, decision: Decision, names: list[str], estimate: ChannelEstimate | None) -> None:
     """Power per subcarrier in its owner's colour with a water level if there is one, or why nothing is allocated."""
     if decision.is_usable and decision.power_w.any():
         title = f"Decided by {decision.method}: {human(decision.total_power_w, 'W')}"
-        draw_powers(panel, title, decision.owner, decision.power_w, names, _water_level_w(decision))
+        draw_powers(panel, title, decision.owner, decision.power_w, names, _water_level_w(estimate, decision))
         return
     reason = "No power is radiated" if decision.is_usable else f"{decision.status}: {decision.reason}"
     panel.describe(f"Decided by {decision.method}: {'0 W' if decision.is_usable else decision.status}", "", "")
@@ -202,12 +202,12 @@ def _headroom(panel: Panel, tallest: float, *, entries: int, columns: int) -> No
     panel.legend(columns=columns, place="upper center")
 
 
-def _water_level_w(decision: Decision) -> float | None:
+def _water_level_w(estimate: ChannelEstimate | None, decision: Decision) -> float | None:
     """The common p + 1/a of all powered subcarriers in W; None where they have none, or are fewer than two."""
-    if decision.estimate is None:
+    if estimate is None:
         return None
     powered = decision.power_w > 0
-    gain = owned_gain(decision.estimate.gain, decision.owner)[powered]
+    gain = owned_gain(estimate.gain, decision.owner)[powered]
     if gain.size < 2 or not np.all(gain > 0):
         return None
     levels = decision.power_w[powered] + 1.0 / normalised_gain(gain, decision.cell)

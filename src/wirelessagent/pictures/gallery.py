@@ -88,7 +88,7 @@ def _decision(*, small: bool, decision: Decision) -> Canvas:
     """Who has which subcarrier at what power, and the rates that come of it."""
     canvas = _panels(2, small=small)
     names = labels(decision.user_names)
-    draw_allocation(canvas.panels[0], decision, names)
+    draw_allocation(canvas.panels[0], decision, names, decision.estimate)
     draw_rates(canvas.panels[1], decision, names)
     return canvas
 
@@ -143,7 +143,7 @@ def _chain(
         return chain_canvas(observation=observation, estimate=estimate, decision=decision, outcome=outcome)
     canvas = _panels(2, small=True)
     names = labels(decision.user_names)
-    draw_allocation(canvas.panels[0], decision, names)
+    draw_allocation(canvas.panels[0], decision, names, estimate)
     draw_rates(canvas.panels[1], decision, names, outcome)
     return canvas
 
