@@ -68,7 +68,9 @@ def test_the_packages_of_all_kinds_pass_their_own_tests(tmp_path: Path, capsys: 
 def test_a_package_imports_from_one_public_place(kind: plugins.Kind) -> None:
     files = package_files(kind, NAMES[kind])
     assert "import wirelessagent as wa\n" in files[f"wirelessagent_{NAMES[kind]}.py"]
-    assert [text for text in files.values() if re.search(r"wirelessagent\.\w+ import|import wirelessagent\.", text)] == []
+    assert [
+        text for text in files.values() if re.search(r"wirelessagent\.\w+ import|import wirelessagent\.", text)
+    ] == []
 
 
 @pytest.mark.parametrize("kind", plugins.KINDS)

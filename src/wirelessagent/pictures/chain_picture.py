@@ -196,7 +196,7 @@ def _owner_colours(panel: Panel, owner: IntArray, names: list[str]) -> dict[int,
 
 def _headroom(panel: Panel, tallest: float, *, entries: int, columns: int) -> None:
     """Room above the bars for a legend of so many entries, and the legend."""
-    legend_pt = _LEGEND_ROW_PT * -(-entries // columns) + 0.5 * _LEGEND_ROW_PT
+    legend_pt = _LEGEND_ROW_PT * (1 + -(-entries // columns))  # a row more, for its frame and air
     share = min(legend_pt / panel.size_pt()[1], 0.6)
     panel.limits(y=(0.0, 1.05 * tallest / (1.0 - share) or 1.0))
     panel.legend(columns=columns, place="upper center")

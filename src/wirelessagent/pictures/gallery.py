@@ -38,6 +38,8 @@ from wirelessagent.pictures.compare_picture import comparison_canvas
 
 _SMALL_IN, _LARGE_IN = (4.6, 2.7), (6.6, 4.0)
 """Width and height of a panel."""
+_WIDEST_IN = 13.2
+"""Of a picture, which is made smaller where a page is narrower, and its words with it."""
 
 
 def draw(picture: Picture, *, small: bool) -> Canvas:
@@ -51,7 +53,7 @@ def draw(picture: Picture, *, small: bool) -> Canvas:
 
 def _panels(count: int, *, small: bool) -> Canvas:
     width, height = _SMALL_IN if small else _LARGE_IN
-    return Canvas(columns=count, width_in=width * count, height_in=height)
+    return Canvas(columns=count, width_in=min(width * count, _WIDEST_IN), height_in=height)
 
 
 def _matrices(*, small: bool, user_names: tuple[str, ...], matrices: Sequence[Matrix]) -> Canvas:
