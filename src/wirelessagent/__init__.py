@@ -7,7 +7,8 @@
 >>> wa.decide(estimate, wa.Problem("max_rate"), cell).status
 'optimal'
 
-Names load when they are first used, so that importing the package costs next to nothing.
+Names load when they are first used, so that importing the package costs next to nothing. Who writes a plug-in imports
+from here and nowhere else.
 """
 
 from __future__ import annotations
@@ -15,22 +16,32 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from wirelessagent.model import doors
+
 if TYPE_CHECKING:
     from wirelessagent import plugins, testing
-    from wirelessagent.acting.base_station import BaseStation
+    from wirelessagent.acting.base_station import BaseStation, check_applicable
     from wirelessagent.acting.file import FileBaseStation
     from wirelessagent.acting.simulated import SimulatedBaseStation
     from wirelessagent.agent.session import Session, ask
+    from wirelessagent.agent.turn import Run, Turn
     from wirelessagent.chain import decide, decide_batch, perfect, repair, simulate
-    from wirelessagent.comparison import compare
+    from wirelessagent.comparison import Comparison, compare
+    from wirelessagent.deciding.core.certificate import certified
+    from wirelessagent.deciding.core.normal_form import NormalForm
     from wirelessagent.deciding.method import Method
-    from wirelessagent.explain.report import report
+    from wirelessagent.explain.report import Report, report
     from wirelessagent.kernels import kernel
     from wirelessagent.model import units
     from wirelessagent.model.batch_decision import BatchDecision
     from wirelessagent.model.cell import Cell
     from wirelessagent.model.decision import Bracket, Decision, Prices
-    from wirelessagent.model.errors import InputError, WirelessAgentError
+    from wirelessagent.model.errors import (
+        InputError,
+        MissingDependencyError,
+        UnsupportedProblemError,
+        WirelessAgentError,
+    )
     from wirelessagent.model.estimate import ChannelEstimate
     from wirelessagent.model.fading_posterior import FadingPosterior
     from wirelessagent.model.metrics import LinkMetrics, link_metrics
@@ -57,6 +68,7 @@ _HOMES = {
     "ChannelEstimate": "model.estimate",
     "ChannelObservation": "model.observation",
     "ChannelSource": "sensing.source",
+    "Comparison": "comparison",
     "Decision": "model.decision",
     "FadingPosterior": "model.fading_posterior",
     "FileBaseStation": "acting.file",
@@ -65,17 +77,25 @@ _HOMES = {
     "Kriging": "repairing.kriging",
     "LinkMetrics": "model.metrics",
     "Method": "deciding.method",
+    "MissingDependencyError": "model.errors",
+    "NormalForm": "deciding.core.normal_form",
     "Objective": "model.objective",
     "Outcome": "model.outcome",
     "Posterior": "model.posterior",
     "Prices": "model.decision",
     "Problem": "model.problem",
     "Repairer": "repairing.repairer",
+    "Report": "explain.report",
+    "Run": "agent.turn",
     "Scene": "model.scene",
     "Session": "agent.session",
     "SimulatedBaseStation": "acting.simulated",
+    "Turn": "agent.turn",
+    "UnsupportedProblemError": "model.errors",
     "WirelessAgentError": "model.errors",
     "ask": "agent.session",
+    "certified": "deciding.core.certificate",
+    "check_applicable": "acting.base_station",
     "compare": "comparison",
     "decide": "chain",
     "decide_batch": "chain",
@@ -95,10 +115,12 @@ _HOMES = {
 
 __all__ = [  # kept in the order of _HOMES; a test compares the two
     "BaseStation", "BatchDecision", "Bracket", "Cell", "ChannelEstimate", "ChannelObservation", "ChannelSource",
-    "Decision", "FadingPosterior", "FileBaseStation", "GammaPosterior", "InputError", "Kriging", "LinkMetrics",
-    "Method", "Objective", "Outcome", "Posterior", "Prices", "Problem", "Repairer", "Scene", "Session",
-    "SimulatedBaseStation", "WirelessAgentError", "ask", "compare", "decide", "decide_batch", "kernel", "link_metrics",
-    "loss", "perfect", "phrases", "plugins", "read", "repair", "report", "simulate", "testing", "units",
+    "Comparison", "Decision", "FadingPosterior", "FileBaseStation", "GammaPosterior", "InputError", "Kriging",
+    "LinkMetrics", "Method", "MissingDependencyError", "NormalForm", "Objective", "Outcome", "Posterior", "Prices",
+    "Problem", "Repairer", "Report", "Run", "Scene", "Session", "SimulatedBaseStation", "Turn",
+    "UnsupportedProblemError", "WirelessAgentError", "ask", "certified", "check_applicable", "compare", "decide",
+    "decide_batch", "kernel", "link_metrics", "loss", "perfect", "phrases", "plugins", "read", "repair", "report",
+    "simulate", "testing", "units",
 ]  # fmt: skip
 
 
@@ -114,4 +136,9 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_HOMES})
+    """What is meant for users, and nothing else that happens to be loaded."""
+    return [*__all__, "__version__"]
+
+
+doors.install("check_objective", lambda: importlib.import_module("wirelessagent.plugins").check_objective)
+doors.install("draw", lambda: importlib.import_module("wirelessagent.pictures.gallery").draw)

@@ -29,8 +29,8 @@ DEFAULT_REPAIRER, DEFAULT_WITH_HISTORY = "kriging", "predictor"
 
 def simulate(source: str | ChannelSource, cell: Cell | None = None, *, seed: int = 0, **options: Any) -> Scene:
     """A scene from a channel source, named with its options or given; the same seed gives the same scene."""
-    chosen = plugins.create("channel_source", source, options) if isinstance(source, str) else source
-    return cast(ChannelSource, chosen).observe(cell or Cell(), seed=seed)
+    chosen = chosen_plugin("channel_source", source, options, ChannelSource, beside=("cell", "seed"))
+    return chosen.observe(given_cell(cell), seed=seed)
 
 
 def repair(
@@ -46,17 +46,26 @@ def repair(
     The method is "earlier repair" where the observation is complete because gains were repaired before.
     """
     observation = given_observation(observation)
-    if not observation.missing.any() and at_s is None:
-        return ChannelEstimate.completing(
-            observation,
-            gain=observation.current,
-            gain_variance=observation.current_noise_variance,
-            method="none" if observation.measured[-1].all() else "earlier repair",
-        )
-    chosen = chosen_plugin("repairer", default_repairer(observation) if method is None else method, options, Repairer)
+    complete = not observation.missing.any() and at_s is None
+    if complete and method is None and not options:
+        return _as_observed(observation)
+    named = default_repairer(observation) if method is None else method
+    chosen = chosen_plugin("repairer", named, options, Repairer, beside=("method", "at_s"))
+    if complete:
+        return _as_observed(observation)
     with kernels.work_on(observation.gain.size) as work:
         estimate = chosen.repair(observation, at_s=at_s)
     return estimate.computed(work.ran)
+
+
+def _as_observed(observation: ChannelObservation) -> ChannelEstimate:
+    """The estimate where there is nothing to repair."""
+    return ChannelEstimate.completing(
+        observation,
+        gain=observation.current,
+        gain_variance=observation.current_noise_variance,
+        method="none" if observation.measured[-1].all() else "earlier repair",
+    )
 
 
 def default_repairer(observation: ChannelObservation) -> str:
@@ -125,7 +134,8 @@ def decide(
     """
     estimate, cell = given_estimate(estimate), given_cell(cell)
     resolved = resolve(problem).for_users(estimate.user_names)
-    chosen = chosen_plugin("method", default_method(resolved) if method is None else method, options, Method)
+    named = default_method(resolved) if method is None else method
+    chosen = chosen_plugin("method", named, options, Method, beside=("method", "after", "cell"))
     _check(resolved, type(chosen))
     if after is not None:
         _check_start(chosen, estimate, after)
@@ -191,22 +201,30 @@ def decide_batch(
         return decide_all(Dual(restarts=restarts, seed=seed), gain, resolved, given_cell(cell), workers=workers)
 
 
-_Tool = TypeVar("_Tool", Method, Repairer)
+_Tool = TypeVar("_Tool", Method, Repairer, ChannelSource)
 
 
-def chosen_plugin(kind: plugins.Kind, named: str | _Tool, options: Mapping[str, Any], base: type[_Tool]) -> _Tool:
-    """A plug-in by its name with its options, or itself.
+def chosen_plugin(
+    kind: plugins.Kind,
+    named: str | _Tool,
+    options: Mapping[str, Any],
+    base: type[_Tool],
+    *,
+    beside: tuple[str, ...] = (),
+) -> _Tool:
+    """A plug-in by its name with its options, or itself; ``beside`` are arguments that the caller takes itself.
 
     Raises:
         InputError: it is neither, or options were given to one that is made already.
     """
     if isinstance(named, str):
-        return cast("_Tool", plugins.create(kind, named, options))
+        return cast("_Tool", plugins.create(kind, named, options, beside=beside))
+    what = kind.replace("_", " ")
     if not isinstance(cast(object, named), base):
-        how = f"a {kind} of your own is given as {named.__name__}(…)" if isinstance(named, type) else "name one"
-        raise InputError(f"{kind} must be a registered name or a wa.{base.__name__}; got {named!r:.80}: {how}")
+        how = f"a {what} of your own is given as {named.__name__}(…)" if isinstance(named, type) else "name one"
+        raise InputError(f"{what} must be a registered name or a wa.{base.__name__}; got {named!r:.80}: {how}")
     if options:
-        raise InputError(f"options go to a {kind} by name; {type(named).__name__}({', '.join(options)}=…) has its own")
+        raise InputError(f"options go to a {what} by name; {type(named).__name__}({', '.join(options)}=…) has its own")
     return named
 
 

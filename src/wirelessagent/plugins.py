@@ -14,7 +14,7 @@ from __future__ import annotations
 import functools
 import importlib
 import inspect
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib import metadata
 from typing import Any, Literal, TypeAlias, cast, get_args
@@ -108,8 +108,12 @@ def load(kind: Kind, name: str) -> type[Any]:
     return found.cls
 
 
-def create(kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *args: Any) -> Any:
+def create(
+    kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *args: Any, beside: Iterable[str] = ()
+) -> Any:
     """An instance of the plug-in ``name`` with its options; positional ``args`` go before them.
+
+    ``beside`` are names that the caller takes itself, one of which may be what a mistyped option meant.
 
     Raises:
         InputError: an option that it does not have, or a value that it refuses.
@@ -119,7 +123,7 @@ def create(kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *
     known = {option.name: option for option in options_of(cls)}
     for key in given:
         if key not in known:
-            raise UnknownNameError("option", key, known, of=f"the {kind.replace('_', ' ')} {name!r}")
+            raise UnknownNameError("option", key, known, of=f"the {kind.replace('_', ' ')} {name!r}", beside=beside)
     missing = [option.name for option in known.values() if option.required and option.name not in given]
     if missing:
         raise InputError(f"the {kind.replace('_', ' ')} {name!r} needs {', '.join(missing)}")
@@ -129,6 +133,16 @@ def create(kind: Kind, name: str, options: Mapping[str, Any] | None = None, /, *
 def objective(name: str, options: Mapping[str, Any] | None = None) -> Objective:
     """The objective of this name or alias ("max_rate" or "P1"), with its options."""
     return _plain_objective(name) if not options else _objective(name, options)
+
+
+def check_objective(name: str) -> None:
+    """Raise where no objective has this name or alias. A registered name loads nothing; an alias is asked for.
+
+    Raises:
+        UnknownNameError: nothing is registered under the name.
+    """
+    if name not in _entry_points("objective"):
+        objective(name)
 
 
 @functools.cache

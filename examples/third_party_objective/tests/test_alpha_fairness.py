@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +12,6 @@ import pytest
 from alpha_fairness import AlphaFairness
 
 import wirelessagent as wa
-from wirelessagent.interfaces.cli import run
 
 
 class TestAlphaFairness(wa.testing.ObjectiveContract):
@@ -103,17 +104,24 @@ def test_compare_lists_every_method_that_solves_it(channel: tuple[wa.ChannelEsti
     assert all(one.value <= best.bound * (1 + 1e-9) for one in found.values() if one.is_usable)
 
 
-def test_the_command_line_solves_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def answered(*arguments: str) -> dict[str, object]:
+    """What the command line prints as JSON."""
+    command = [sys.executable, "-m", "wirelessagent", *arguments, "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_the_command_line_solves_it(tmp_path: Path) -> None:
     gains = tmp_path / "gains.csv"
     np.savetxt(gains, 1e-11 * np.random.default_rng(1).exponential(size=(3, 8)), delimiter=",")
-    assert run(["solve", str(gains), "--objective", "alpha_fairness", "--alpha", "1", "--json"]) == 0
-    decided = json.loads(capsys.readouterr().out)
+    decided = answered("solve", str(gains), "--objective", "alpha_fairness", "--alpha", "1")
     assert (decided["objective"], decided["method"]) == ("alpha_fairness", "dual")
     assert decided["gap"] < 0.1
 
 
-def test_an_operator_may_ask_for_it(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["ask", "Share alpha-fairly with at most 10 W", "--json"]) == 0
-    asked = json.loads(capsys.readouterr().out)
+def test_an_operator_may_ask_for_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("WIRELESSAGENT_STORE_URL", str(tmp_path / "audit.sqlite3"))  # not among the user's own turns
+    asked = answered("ask", "Share alpha-fairly with at most 10 W")
     assert asked["decision"]["objective"] == "alpha_fairness"
     assert asked["decision"]["method"] == "dual"

@@ -9,12 +9,13 @@ from typing import ClassVar
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
+from wirelessagent.model.keywords import KnownKeywords
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
 
 
 @dataclass(frozen=True)
-class BaseStation(ABC):
+class BaseStation(KnownKeywords, ABC):
     """Something that applies a decision and reads back what it did.
 
     Subclass as a frozen dataclass with keyword-only fields, which become options everywhere. Every base station is

@@ -12,6 +12,7 @@ from wirelessagent.explain.table import Table
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.language.recogniser import Awaited
 from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.shown import Plain
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,8 +42,8 @@ class Question:
     missing: Missing | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class State:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class State(Plain):
     """What holds in a conversation.
 
     Attributes:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.tools import Tools
@@ -15,6 +16,7 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
+from wirelessagent.model.shown import Picture, Shown, Summary
 
 Stage: TypeAlias = Literal["answered", "asked", "planned", "applied", "reverted", "undone", "nothing"]
 """What a turn came to: answered (a question; nothing was to be applied), asked (a question back), planned (a decision
@@ -22,8 +24,8 @@ that waits to be applied), applied, reverted (applied, found worse than promised
 (what was wanted is so already, or cannot be done)."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Run:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Run(Shown):
     """One run of the chain: every stage's result, the notes made on the way and the explanation.
 
     Attributes:
@@ -54,9 +56,28 @@ class Run:
         line = certificate_line(self.decision, self.intent.language)
         return "\n".join([line, *self.notes, *self.explanation, str(self.report)])
 
+    def summary(self) -> Summary:
+        seen, lost = self.observation, int(self.observation.missing.sum())
+        sensed = f"{seen.num_users} users × {seen.num_subcarriers} subcarriers, {lost} of {seen.missing.size} missing"
+        applied = "not applied" if self.outcome is None else f"by the base station {self.outcome.base_station}"
+        rows = [("sensed", sensed), ("repaired by", self.estimate.method), ("applied", applied)]
+        rows += [("because", line) for line in self.explanation[:1]]
+        language = self.intent.language
+        for label, predicted, achieved, *_ in self.report.figures(language)[:4]:
+            rows.append((label, f"{predicted} predicted{'' if achieved == '–' else f'; achieved: {achieved}'}"))
+        return Summary(title=f"Run: {certificate_line(self.decision, language)}", rows=tuple(rows))
 
-@dataclass(frozen=True, kw_only=True)
-class Turn:
+    def picture(self) -> Picture:
+        names = ("observation", "estimate", "decision", "outcome")
+        return Picture(kind="chain", parts={name: getattr(self, name) for name in names})
+
+    def columns(self) -> Mapping[str, Any]:
+        """One row for each user: its report."""
+        return self.report.columns()
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Turn(Shown):
     """What came of one line of a conversation.
 
     Attributes:
@@ -88,3 +109,19 @@ class Turn:
     recogniser: str
     tables: tuple[Table, ...] = ()
     restored: Outcome | None = None
+
+    def summary(self) -> Summary:
+        reply = [("reply", line) for line in self.reply.split("\n") if line.strip()]
+        tables = [("tables", ", ".join(table.title for table in self.tables))] if self.tables else []
+        return Summary(title=f"Turn {self.number}: {self.stage}", rows=(("said", self.text), *reply, *tables))
+
+    def picture(self) -> Picture | None:
+        return None if self.run is None else self.run.picture()
+
+    def columns(self) -> Mapping[str, Any]:
+        """One row."""
+        decision = None if self.run is None else self.run.decision
+        figures = ("status", "value", "bound", "gap", "total_power_w")
+        said = {"number": self.number, "stage": self.stage, "text": self.text, "reply": self.reply}
+        decided = {name: None if decision is None else getattr(decision, name) for name in figures}
+        return {name: [value] for name, value in {**said, **decided}.items()}

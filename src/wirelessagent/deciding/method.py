@@ -10,6 +10,7 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.keywords import KnownKeywords
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.problem import Problem
 
@@ -28,7 +29,7 @@ WHOLE_PROBLEM = frozenset(
 
 
 @dataclass(frozen=True, kw_only=True)
-class Method(ABC):
+class Method(KnownKeywords, ABC):
     """A way to solve problems. Subclass as a frozen keyword-only dataclass; its fields become options everywhere.
 
     Attributes:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -15,6 +17,7 @@ from wirelessagent.model.metrics import LinkMetrics, jain_index, metrics_of_rate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.phrases import phrases
+from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human, reliability
 
 _FIGURES = (
@@ -27,8 +30,8 @@ _FIGURES = (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Report:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Report(Shown):
     """A decision's metrics on the estimated channel and, where the truth is known, on the true one.
 
     Attributes:
@@ -121,14 +124,42 @@ class Report:
         weight = decision.problem.weights_of(decision.rate_bps.size)
         return _objective(decision).value(metrics.user_rate_bps, metrics.power_w, decision.cell, weight)
 
+    _derived: ClassVar[tuple[str, ...]] = ("regret", "goodput_regret")
+
+    def summary(self) -> Summary:
+        header = ("", "predicted", "achieved", *([] if self.perfect is None else ["all gains known"]))
+        title = f"Report: {self._missed() or f'a decision that is {self.decision.status}'}"
+        return Summary(title=title, header=header, rows=tuple(self.figures()))
+
+    def picture(self) -> Picture:
+        parts = {"decision": self.decision, "achieved": self.achieved, "missed_users": self.missed_users}
+        return Picture(kind="rates", parts=parts)
+
+    def columns(self) -> Mapping[str, Any]:
+        """One row for each user; no rate achieved where that is not known."""
+        decision, users = self.decision, np.arange(self.decision.rate_bps.size)
+        known = self.achieved is not None
+        return {
+            "user": list(decision.user_names),
+            "min_rate_bps": decision.problem.min_rates_bps(users.size),
+            "predicted_bps": self.predicted.user_rate_bps,
+            "committed_bps": decision.committed_bps,
+            **({"achieved_bps": self.achieved.user_rate_bps} if self.achieved is not None else {}),
+            **({"missed": np.isin(users, self.missed_users)} if known else {}),
+        }
+
+    def _missed(self) -> str:
+        """How many users missed their rates; empty where that is not known."""
+        if self.achieved is None:
+            return ""
+        served = int(np.count_nonzero(self.decision.committed_bps > 0))
+        rate = "promised" if self.decision.problem.promises_rates else "committed"
+        return f"{len(self.missed_users)} of {served} served users missed their {rate} rate"
+
     def __str__(self) -> str:
         head = ("", "predicted", "achieved", *([] if self.perfect is None else ["all gains known"]))
         lines = [f"{label:22}" + "".join(f" {one:>16}" for one in rest) for label, *rest in (head, *self.figures())]
-        if self.achieved is not None:
-            served = int(np.count_nonzero(self.decision.committed_bps > 0))
-            rate = "promised" if self.decision.problem.promises_rates else "committed"
-            lines.append(f"{len(self.missed_users)} of {served} served users missed their {rate} rate")
-        return "\n".join(lines)
+        return "\n".join([*lines, *filter(None, [self._missed()])])
 
 
 def report(decision: Decision, outcome: Outcome | None = None) -> Report:

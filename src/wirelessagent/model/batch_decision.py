@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,10 +12,12 @@ from numpy.typing import NDArray
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray, frozen
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.problem import Problem
+from wirelessagent.model.shown import Shown, Summary
+from wirelessagent.model.units import human, percent
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class BatchDecision:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class BatchDecision(Shown):
     """The decisions for channels of shape (…, user, subcarrier); each field is that of :class:`.decision.Decision`.
 
     Attributes:
@@ -43,6 +47,29 @@ class BatchDecision:
     def __post_init__(self) -> None:
         for name in ("owner", "power_w", "rate_bps", "status", "value", "bound", "gap"):
             object.__setattr__(self, name, frozen(getattr(self, name)))
+
+    _derived: ClassVar[tuple[str, ...]] = ("is_usable", "total_power_w")
+
+    def summary(self) -> Summary:
+        statuses, counts = np.unique(self.status, return_counts=True)
+        found = ", ".join(f"{count} {status}" for status, count in zip(statuses, counts, strict=True))
+        shape = " × ".join(map(str, (*self.status.shape, *self.rate_bps.shape[-1:], *self.owner.shape[-1:])))
+        objective, usable = self.problem.objective, self.is_usable
+        rows = [("status", found)]
+        if usable.any():
+            value = float(np.mean(self.value[usable]))
+            rows.append(
+                ("value", f"{human(value, self.unit)} on average, gap at most {percent(float(self.gap[usable].max()))}")
+            )
+            rows.append(("power", f"{human(float(self.total_power_w[usable].mean()), 'W')} on average"))
+        aim = objective if isinstance(objective, str) else objective.name
+        title = f"BatchDecision: {aim} on {self.status.size} channels ({shape}: channel, user, subcarrier)"
+        return Summary(title=title, rows=tuple(rows))
+
+    def columns(self) -> Mapping[str, Any]:
+        """One row for each channel, in the order of ``status.ravel()``."""
+        names = ("status", "value", "bound", "gap", "total_power_w")
+        return {name: np.ravel(getattr(self, name)) for name in names}
 
     @property
     def is_usable(self) -> BoolArray:

@@ -12,11 +12,12 @@ import numpy as np
 
 from wirelessagent.model.arrays import positive
 from wirelessagent.model.errors import InputError
+from wirelessagent.model.shown import Plain
 from wirelessagent.model.units import from_db
 
 
-@dataclass(frozen=True, kw_only=True)
-class Cell:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Cell(Plain):
     """A downlink OFDMA cell.
 
     Attributes:

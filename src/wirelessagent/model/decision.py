@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
+from typing import Any, ClassVar, Literal, TypeAlias
 
 import numpy as np
 
@@ -14,6 +15,8 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.forecast import Forecast, forecast
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.problem import Problem
+from wirelessagent.model.shown import Picture, Plain, Shown, Summary
+from wirelessagent.model.units import human, percent, reliability
 
 Status: TypeAlias = Literal["optimal", "feasible", "infeasible", "undecided"]
 
@@ -33,8 +36,8 @@ class Bracket:
     at_most: float
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Prices:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Prices(Plain):
     """Where the search for a decision ended: hand the decision to ``wa.decide(…, after=decision)`` to start there.
 
     Attributes:
@@ -49,8 +52,8 @@ class Prices:
         object.__setattr__(self, "log_rate", frozen(self.log_rate))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Decision:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Decision(Shown):
     """An allocation for the current slot.
 
     Attributes:
@@ -119,7 +122,44 @@ class Decision:
         for name in ("owner", "power_w", "rate_bps", "price_of_rate", "expected_rate_bps", "outage"):
             object.__setattr__(self, name, frozen(getattr(self, name)))
 
-    def knowing(self, estimate: ChannelEstimate, kernels: Literal["compiled", "interpreted"]) -> Decision:
+    _derived: ClassVar[tuple[str, ...]] = ("is_usable", "total_power_w")
+
+    def summary(self) -> Summary:
+        objective = self.problem.objective
+        aim = objective if isinstance(objective, str) else objective.name
+        found = f", {human(self.value, self.unit)}" if self.is_usable else ""
+        title = f"Decision: {self.status}{found} ({aim} by {self.method})"
+        bound = [("bound", f"{human(self.bound, self.unit)}, gap {percent(self.gap)}")]
+        rows = [*([] if np.isnan(self.bound) else bound), *(self._allocation_rows() if self.is_usable else [])]
+        if self.problem.promises_rates and self.needed_power_w is not None:
+            least, enough = (human(one, "W") for one in (self.needed_power_w.at_least, self.needed_power_w.at_most))
+            rows.append(("power needed", f"at least {least}, enough {enough}"))
+        if self.reason:
+            rows.append(("reason", self.reason))
+        return Summary(title=title, rows=tuple(rows))
+
+    def _allocation_rows(self) -> list[tuple[str, str]]:
+        budget, outage = self.problem.budget_w(self.cell), self.problem.outage_probability
+        served = self.problem.serves(self.rate_bps.size)
+        used, size = int(np.count_nonzero(self.power_w > 0)), self.owner.size
+        least, most, total = (
+            float(one) for one in (self.rate_bps[served].min(), self.rate_bps.max(), self.rate_bps.sum())
+        )
+        lowest = self.user_names[int(np.where(served, self.rate_bps, np.inf).argmin())]
+        rates = f"{human(total, 'bit/s')} in all, {human(least, 'bit/s')} ({lowest}) to {human(most, 'bit/s')}"
+        power = f"{human(self.total_power_w, 'W')} of {human(budget, 'W')}, on {used} of {size} subcarriers"
+        sure = [] if outage is None else [("kept with", reliability(outage))]
+        return [("rates", rates), *sure, ("power", power)]
+
+    def picture(self) -> Picture:
+        return Picture(kind="decision", parts={"decision": self})
+
+    def columns(self) -> Mapping[str, Any]:
+        """One row for each subcarrier: its owner by number and name ("" for nobody), and its power."""
+        names = np.array([*self.user_names, ""])[self.owner]
+        return {"subcarrier": np.arange(self.owner.size), "owner": self.owner, "user": names, "power_w": self.power_w}
+
+    def knowing(self, estimate: ChannelEstimate, kernels: Literal["", "compiled", "interpreted"] = "") -> Decision:
         """The same decision with what was known of the channel, and how it was computed."""
         found = object.__new__(type(self))
         found.__dict__.update(self.__dict__, estimate=estimate, kernels=kernels)

@@ -33,11 +33,11 @@ class FileFormatError(InputError):
 
 
 class UnknownNameError(InputError):
-    """A name that nothing is registered under."""
+    """A name that nothing is registered under; ``beside`` are names of something else that may have been meant."""
 
-    def __init__(self, kind: str, name: str, known: Iterable[str], *, of: str = "") -> None:
+    def __init__(self, kind: str, name: str, known: Iterable[str], *, of: str = "", beside: Iterable[str] = ()) -> None:
         names = sorted(known)
-        close = get_close_matches(name, names, n=1)
+        close = get_close_matches(name, [*names, *beside], n=1)
         hint = f"did you mean {close[0]!r}? " if close else ""
         none = f"{of} has none" if of else "there is none"
         told = f"known are {', '.join(names)}" if names else none
@@ -65,9 +65,8 @@ class StoreError(WirelessAgentError):
 
 
 class MissingDependencyError(WirelessAgentError, ImportError):
-    """An optional package is needed and not installed."""
+    """An optional package is needed and not installed; ``extra`` is the one that brings it, "" where none does."""
 
     def __init__(self, package: str, extra: str, purpose: str) -> None:
-        super().__init__(
-            f"{purpose} needs the package {package!r}, which is not installed: pip install 'wirelessagent[{extra}]'"
-        )
+        wanted = f"'wirelessagent[{extra}]'" if extra else package
+        super().__init__(f"{purpose} needs the package {package!r}, which is not installed: pip install {wanted}")

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen
 from wirelessagent.model.errors import InputError
+from wirelessagent.model.gain_views import Matrix, entries, level
 from wirelessagent.model.observation import ChannelObservation, check_gain
 from wirelessagent.model.posterior import GammaPosterior, Posterior
+from wirelessagent.model.shown import Picture, Shown, Summary, few
+from wirelessagent.model.units import percent
 
 
-@dataclass(frozen=True, kw_only=True)
-class ChannelEstimate:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class ChannelEstimate(Shown):
     """A complete power-gain matrix for the current slot.
 
     Attributes:
@@ -91,6 +95,36 @@ class ChannelEstimate:
     def posterior(self) -> Posterior:
         """The distribution of the true gains: the joint one, or independent gamma entries where none is known."""
         return self.joint_posterior or GammaPosterior(self.gain, self.gain_variance)
+
+    def summary(self) -> Summary:
+        count, size = int(self.repaired.sum()), self.repaired.size
+        made = f"{count} of {size} gains repaired by {self.method}" if count else "nothing was missing"
+        rows = [("mean gain", level(self.gain)), ("users", few(self.user_names))]
+        spread = self._relative_std[self.repaired]
+        if spread.size and not np.isnan(spread).all():
+            rows.append(("how sure", f"± {percent(float(np.nanmedian(spread)))} of a repaired gain (median)"))
+        if self.unobserved_users.any():
+            unseen = (name for name, flag in zip(self.user_names, self.unobserved_users, strict=True) if flag)
+            rows.append(("never observed", f"{few(unseen)}: a guess"))
+        title = f"ChannelEstimate: {self.num_users} users × {self.num_subcarriers} subcarriers, {made}"
+        return Summary(title=title, rows=tuple(rows))
+
+    def picture(self) -> Picture:
+        made = f"Repaired by {self.method}" if self.repaired.any() else "Nothing was missing"
+        gain = Matrix(title=made, values=self.gain, marked=self.repaired)
+        spread = Matrix(title="How sure", values=self._relative_std, colour_label="Standard deviation / gain")
+        return Picture(kind="matrices", parts={"user_names": self.user_names, "matrices": (gain, spread)})
+
+    def columns(self) -> Mapping[str, Any]:
+        """One row for each entry."""
+        names = ("gain", "gain_variance", "repaired")
+        return {**entries(self.user_names, self.gain), **{name: getattr(self, name).ravel() for name in names}}
+
+    @property
+    def _relative_std(self) -> FloatArray:
+        """The standard deviation of each gain over the gain, shape (user, subcarrier), NaN where that is zero."""
+        none = np.full(self.gain.shape, np.nan)
+        return np.divide(np.sqrt(self.gain_variance), self.gain, where=self.gain > 0, out=none)
 
     @property
     def num_users(self) -> int:

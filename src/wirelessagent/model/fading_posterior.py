@@ -22,6 +22,7 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.even_draws import normal_draws
 from wirelessagent.model.mean_log import MeanLogs
 from wirelessagent.model.posterior import Posterior
+from wirelessagent.model.shown import Plain
 
 _NODES = 513
 """Nodes of a quantile's table over √(c/m)."""
@@ -41,8 +42,8 @@ class ErrorCorrelation(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class FadingPosterior(Posterior):
+@dataclass(frozen=True, repr=False)
+class FadingPosterior(Plain, Posterior):
     """Powers of partly known coefficients.
 
     Attributes:

@@ -21,13 +21,14 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.metrics import RATE_TOLERANCE
 from wirelessagent.model.rates import subcarrier_rate_bps
+from wirelessagent.model.shown import Plain
 
 _DRAWS = 4000
 _BAND = (0.05, 0.95)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Forecast:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Forecast(Plain):
     """The true rates of an allocation by the posterior of the gains, and what to commit to.
 
     Attributes:

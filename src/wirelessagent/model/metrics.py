@@ -9,6 +9,7 @@ import numpy as np
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.rates import user_rate_bps
+from wirelessagent.model.shown import Plain
 
 RATE_TOLERANCE = 1e-9
 """Relative shortfall up to which a constraint on a rate is met: rounding."""
@@ -18,8 +19,8 @@ READ_BACK_TOLERANCE = 1e-4
 less than the three digits that people are shown."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class LinkMetrics:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class LinkMetrics(Plain):
     """What an allocation gives on one channel.
 
     Attributes:

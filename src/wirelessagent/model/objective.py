@@ -16,12 +16,13 @@ import numpy as np
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError
+from wirelessagent.model.keywords import KnownKeywords
 from wirelessagent.model.metrics import energy_efficiency_bit_per_j
 from wirelessagent.model.phrases import Phrases, phrases
 
 
 @dataclass(frozen=True, kw_only=True)
-class Objective(ABC):
+class Objective(KnownKeywords, ABC):
     """A goal for the allocation. Subclass as a frozen keyword-only dataclass; its fields become options everywhere.
 
     Attributes:

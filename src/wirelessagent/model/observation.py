@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen
 from wirelessagent.model.errors import InputError
+from wirelessagent.model.gain_views import entries, gains_picture, level
+from wirelessagent.model.shown import Picture, Shown, Summary, few
+from wirelessagent.model.units import percent
 
 
-@dataclass(frozen=True, kw_only=True)
-class ChannelObservation:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class ChannelObservation(Shown):
     """Observed power gains, NaN where missing.
 
     Attributes:
@@ -71,6 +76,30 @@ class ChannelObservation:
         if axis.shape != (size,) or not np.all(np.isfinite(axis)) or np.any(np.diff(axis) <= 0):
             raise InputError(f"{name} must be {size} finite, increasing values; got shape {axis.shape}")
         object.__setattr__(self, name, axis)
+
+    def summary(self) -> Summary:
+        lost, size = int(self.missing.sum()), self.missing.size
+        holes = f"{lost} of {size} gains missing ({percent(lost / size)})" if lost else "no gain missing"
+        rows = [("mean gain", level(self.current)), ("users", few(self.user_names))]
+        if self.num_slots > 1:
+            rows.append(("slots", f"{self.num_slots}, the last is the current one"))
+        if self.noise_variance is not None:
+            rows.append(("measurement noise", "known"))
+        if self.estimated is not None and self.estimated.any():
+            rows.append(("repaired before", f"{int(self.estimated.sum())} entries"))
+        title = f"ChannelObservation: {self.num_users} users × {self.num_subcarriers} subcarriers, {holes}"
+        return Summary(title=title, rows=tuple(rows))
+
+    def picture(self) -> Picture:
+        lost, size = int(self.missing.sum()), self.missing.size
+        return gains_picture(self.user_names, self.slots, f"Observed; missing: {lost} of {size}")
+
+    def columns(self) -> Mapping[str, Any]:
+        """One row for each entry."""
+        found: dict[str, Any] = {**entries(self.user_names, self.gain), "gain": self.gain.ravel()}
+        if self.noise_variance is not None:
+            found["noise_variance"] = self.noise_variance.ravel()
+        return found if self.estimated is None else {**found, "estimated": self.estimated.ravel()}
 
     @property
     def num_users(self) -> int:

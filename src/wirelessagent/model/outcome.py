@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.metrics import READ_BACK_TOLERANCE, LinkMetrics, kept
+from wirelessagent.model.shown import Picture, Shown, Summary
+from wirelessagent.model.units import human
 
 
-@dataclass(frozen=True, kw_only=True)
-class Outcome:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Outcome(Shown):
     """The state of the base station after it applied a decision.
 
     Attributes:
@@ -41,3 +45,22 @@ class Outcome:
         if self.achieved is not None:
             short = ~kept(self.achieved.user_rate_bps, self.promised_bps, READ_BACK_TOLERANCE)
         object.__setattr__(self, "missed", short)
+
+    def summary(self) -> Summary:
+        used, size = int(np.count_nonzero(self.power_w > 0)), self.owner.size
+        rows = [("power", f"{human(float(self.power_w.sum()), 'W')} on {used} of {size} subcarriers")]
+        served = int(np.count_nonzero(self.promised_bps > 0))
+        rows.append(("committed", f"{human(float(self.promised_bps.sum()), 'bit/s')} to {served} users"))
+        if self.achieved is not None:
+            rows.append(("achieved", human(self.achieved.sum_rate_bps, "bit/s")))
+            rows.append(("missed", f"{int(self.missed.sum())} of {served} users fell short"))
+        if self.written_to is not None:
+            rows.append(("written to", str(self.written_to)))
+        return Summary(title=f"Outcome of the base station {self.base_station}, read back", rows=tuple(rows))
+
+    def picture(self) -> Picture:
+        return Picture(kind="outcome", parts={"outcome": self})
+
+    def columns(self) -> Mapping[str, Any]:
+        """One row for each subcarrier, as read back."""
+        return {"subcarrier": np.arange(self.owner.size), "owner": self.owner, "power_w": self.power_w}

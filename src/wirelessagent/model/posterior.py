@@ -15,6 +15,7 @@ import numpy as np
 
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.mean_log import MeanLogs
+from wirelessagent.model.shown import Plain
 
 
 class Posterior(ABC):
@@ -48,8 +49,8 @@ class Posterior(ABC):
         """E[ln(1 + s·g)] per entry for a scale s (broadcast), shape (user, subcarrier), in nats."""
 
 
-@dataclass(frozen=True)
-class GammaPosterior(Posterior):
+@dataclass(frozen=True, repr=False)
+class GammaPosterior(Plain, Posterior):
     """Independent gamma distributions with given means and variances, both of shape (user, subcarrier)."""
 
     mean: FloatArray

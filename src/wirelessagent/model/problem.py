@@ -11,16 +11,18 @@ from numpy.typing import ArrayLike
 
 from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen, per_user, positive, shown, whole
 from wirelessagent.model.cell import Cell
+from wirelessagent.model.doors import through
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.objective import Objective
+from wirelessagent.model.shown import Plain
 from wirelessagent.model.units import human
 
 _WIDEST = 1e12
 """How far apart weights may lie; sums of rates so weighted would lose the digits of the smaller ones."""
 
 
-@dataclass(frozen=True)
-class Problem:
+@dataclass(frozen=True, repr=False)
+class Problem(Plain):
     """What to optimise, under which constraints. None means: as the cell has it, or not constrained.
 
     Attributes:
@@ -51,6 +53,8 @@ class Problem:
     outage_probability: float | None = None
 
     def __post_init__(self) -> None:
+        if isinstance(self.objective, str):
+            through("check_objective")(self.objective)
         for name in ("weights", "min_rate_bps", "max_rate_bps", "subcarrier_max_power_w"):
             value = getattr(self, name)
             if value is None:

@@ -5,14 +5,17 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from wirelessagent.model.arrays import BoolArray, FloatArray, float_array
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError
+from wirelessagent.model.gain_views import entries, gains_picture, level
 from wirelessagent.model.observation import ChannelObservation, check_gain
+from wirelessagent.model.shown import Picture, Shown, Summary
+from wirelessagent.model.units import human
 
 
 class Loss(Protocol):
@@ -23,8 +26,8 @@ class Loss(Protocol):
         ...
 
 
-@dataclass(frozen=True, kw_only=True)
-class Scene:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Scene(Shown):
     """What a channel source delivers.
 
     Attributes:
@@ -49,6 +52,28 @@ class Scene:
                 f"truth must be complete and of the observation's shape {self.sensed.gain.shape}; got {truth.shape}"
             )
         object.__setattr__(self, "truth", truth)
+
+    def summary(self) -> Summary:
+        sensed, cell = self.sensed, self.cell
+        known = "not known" if self.truth is None else "known"
+        slots = f", {sensed.num_slots} slots" if sensed.num_slots > 1 else ""
+        radiates = f"at most {human(cell.max_power_w, 'W')}, {human(cell.subcarrier_bandwidth_hz, 'Hz')} a subcarrier"
+        title = f"Scene: {sensed.num_users} users × {sensed.num_subcarriers} subcarriers{slots}"
+        rows = (("cell", radiates), ("mean gain", level(sensed.current)), ("true channel", known), *self.facts.items())
+        return Summary(title=title, rows=rows)
+
+    def picture(self) -> Picture:
+        truth, sensed = self.current_truth, self.sensed.current
+        differs = truth is not None and not np.array_equal(truth, sensed)
+        others = {"True": truth} if truth is not None and differs else {}
+        title = "Sensed" if differs or truth is None else "Sensed, and true"
+        return gains_picture(self.sensed.user_names, self.sensed.slots, title, others)
+
+    def columns(self) -> Mapping[str, Any]:
+        """One row for each entry."""
+        sensed = self.sensed
+        found: dict[str, Any] = {**entries(sensed.user_names, sensed.gain), "gain": sensed.gain.ravel()}
+        return found if self.truth is None else {**found, "truth": self.truth.ravel()}
 
     @property
     def current_truth(self) -> FloatArray | None:

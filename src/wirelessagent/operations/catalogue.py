@@ -11,6 +11,7 @@ from wirelessagent.operations.export import EXPORT
 from wirelessagent.operations.history import HISTORY, HISTORY_EXPORT, HISTORY_REPLAY, HISTORY_SHOW
 from wirelessagent.operations.intent import INTENT
 from wirelessagent.operations.list_plugins import PLUGINS
+from wirelessagent.operations.new_plugin import NEW_PLUGIN
 from wirelessagent.operations.operation import AnyOperation
 from wirelessagent.operations.repair import REPAIR
 from wirelessagent.operations.reproduce import REPRODUCE
@@ -20,7 +21,7 @@ from wirelessagent.operations.warm_up import WARM_UP
 
 OPERATIONS: tuple[AnyOperation, ...] = (
     ASK, CHAT, INTENT, SIMULATE, REPAIR, SOLVE, COMPARE, REPRODUCE, EVALUATE_REPAIR, EVALUATE_DECISION,
-    EVALUATE_INTENTS, PLUGINS, HISTORY, HISTORY_SHOW, HISTORY_REPLAY, HISTORY_EXPORT, EXPORT, WARM_UP,
+    EVALUATE_INTENTS, PLUGINS, NEW_PLUGIN, HISTORY, HISTORY_SHOW, HISTORY_REPLAY, HISTORY_EXPORT, EXPORT, WARM_UP,
 )  # fmt: skip
 
 GROUPS: dict[str, str] = {

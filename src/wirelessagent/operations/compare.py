@@ -8,7 +8,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from wirelessagent.comparison import Comparison, compare
+from wirelessagent.comparison import Compared, compare
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human, percent
@@ -83,7 +83,7 @@ def _row(answer: MethodAnswer) -> tuple[str, ...]:
     )
 
 
-def _place(one: Comparison) -> tuple[int, float, float, float]:
+def _place(one: Compared) -> tuple[int, float, float, float]:
     """Where a method stands: the best value first, of equal ones what proves the most, then the fastest; then those
     without an allocation, then those that refuse.
     """

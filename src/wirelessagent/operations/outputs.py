@@ -11,7 +11,7 @@ from typing import Any
 
 from wirelessagent import __version__
 from wirelessagent.acting.file import allocation_writer
-from wirelessagent.comparison import Comparison
+from wirelessagent.comparison import Compared
 from wirelessagent.model.atomic import writable_target
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
@@ -74,7 +74,7 @@ def draw_repair(path: Path, observation: ChannelObservation, estimate: ChannelEs
     repair_picture.draw_repair(observation=observation, estimate=estimate, path=path)
 
 
-def draw_comparison(path: Path, found: Sequence[Comparison]) -> None:
+def draw_comparison(path: Path, found: Sequence[Compared]) -> None:
     """Draw methods side by side; the drawing library is loaded only here."""
     from wirelessagent.pictures import compare_picture
 

@@ -9,7 +9,9 @@ scale is needed.
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -34,6 +36,8 @@ GREY = "#8A8A8A"
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 _LINES = ("-", "--", "-.", ":", "--", "-.", "-", ":")
 _DOTS_PER_INCH = 150
+_PAGE_DOTS_PER_INCH = 80
+"""Of a picture in a notebook, where it stands beside text."""
 _PLAIN = {"boxstyle": "square,pad=0.03", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}
 """Ground for words that lines may cross."""
 
@@ -88,10 +92,20 @@ class Canvas:
             handles, labels, fontsize=9, ncols=columns, loc="outside lower center", frameon=False, columnspacing=1.6
         )
 
-    def save(self, path: Path) -> None:
+    def save(self, path: Path | str) -> None:
         """Write the picture as PNG, SVG or PDF by its suffix, whole or not at all."""
+        path = Path(path)
         suffix = check_suffix(path)
         write_atomically(path, lambda stream: self.figure.savefig(stream, format=suffix[1:], metadata=FORMATS[suffix]))
+
+    def _repr_html_(self) -> str:
+        """The picture for a notebook: on white ground, whatever the page's, with two dots for each of the page."""
+        stream = BytesIO()
+        self.figure.savefig(stream, format="png", dpi=2 * _PAGE_DOTS_PER_INCH)
+        data = b64encode(stream.getvalue()).decode("ascii")
+        width = round(self.figure.get_figwidth() * _PAGE_DOTS_PER_INCH)
+        style = "max-width:100%;height:auto;border-radius:4px"
+        return f'<img alt="picture" width="{width}" style="{style}" src="data:image/png;base64,{data}">'
 
 
 class Panel:

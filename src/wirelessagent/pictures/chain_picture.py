@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
-from wirelessagent.model.arrays import BoolArray, FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
@@ -21,12 +22,13 @@ from wirelessagent.pictures.needed import needed_lines
 _MOST_NAMED = 16
 """Users up to which every one gets a tick with its name; more are counted."""
 
-_PREDICTED, _ACHIEVED = "#C4C4C4", "#5A5A5A"
-"""Greys, because the colours beside are the users'."""
+_GREYS = ("#C4C4C4", "#5A5A5A")
+"""Of predicted and achieved rates: greys, because the colours beside are the users'."""
 
 _ZERO_DB = -4000.0
 
 _SMALLEST_DOTTED_CELL_PT = 5.0
+_LEGEND_ROW_PT = 14.0
 
 _DYNAMIC_RANGE_DB = 80.0
 """Gains further below the strongest are drawn in the scale's last colour, which gets an arrow."""
@@ -65,8 +67,8 @@ def chain_canvas(
     sensed, repaired, allocation, rates = canvas.panels
     names = labels(decision.user_names)
     draw_gains(sensed, repaired, observation, estimate, names)
-    _draw_allocation(allocation, estimate, decision, names)
-    _draw_rates(rates, decision, outcome, names)
+    draw_allocation(allocation, decision, names, estimate)
+    draw_rates(rates, decision, names, outcome)
     return canvas
 
 
@@ -156,39 +158,41 @@ def mark_repaired(panel: Panel, where: BoolArray) -> str:
     return "white dots"
 
 
-def _draw_allocation(panel: Panel, estimate: ChannelEstimate, decision: Decision, names: list[str]) -> None:
-    """Power per subcarrier in its owner's colour, with the water level where there is one.
+def draw_allocation(panel: Panel, decision: Decision, names: list[str], estimate: ChannelEstimate | None) -> None:
+    """Power per subcarrier in its owner's colour with a water level if there is one, or why nothing is allocated."""
+    if decision.is_usable and decision.power_w.any():
+        title = f"Decided by {decision.method}: {human(decision.total_power_w, 'W')}"
+        draw_powers(panel, title, decision.owner, decision.power_w, names, _water_level_w(estimate, decision))
+        return
+    reason = "No power is radiated" if decision.is_usable else f"{decision.status}: {decision.reason}"
+    panel.describe(f"Decided by {decision.method}: {'0 W' if decision.is_usable else decision.status}", "", "")
+    panel.note("\n".join(textwrap.fill(line, 48) for line in [reason, *needed_lines([decision])]))
 
-    A strip below shows the owner where the power is too little to be seen.
-    """
-    verdict = human(decision.total_power_w, "W") if decision.is_usable else decision.status
-    title = f"Decided by {decision.method}: {verdict}"
-    level = _water_level_w(estimate, decision)
-    tallest = max(float(decision.power_w.max()), level or 0.0)
+
+def draw_powers(
+    panel: Panel, title: str, owner: IntArray, power_w: FloatArray, names: list[str], level_w: float | None = None
+) -> None:
+    """Power per subcarrier in its owner's colour; a strip below shows the owner where it is too little to be seen."""
+    tallest = max(float(power_w.max()), level_w or 0.0)
     scale, unit = prefixed(tallest, "W")
     panel.describe(title, "Subcarrier (strip: its owner)", f"Power ({unit})")
-    if not decision.is_usable or tallest == 0:
-        reason = f"{decision.status}: {decision.reason}" if not decision.is_usable else "No power is radiated"
-        panel.note("\n".join(textwrap.fill(line, 48) for line in [reason, *needed_lines([decision])]))
-        return
-    subcarrier_ticks(panel, decision.owner.size)
-    panel.limits(x=(-0.7, decision.owner.size - 0.3))
-    colours = _owner_colours(panel, decision, names)
-    subcarriers, owners = np.arange(decision.owner.size), decision.owner.tolist()
-    own = [colours.get(owner, GREY) for owner in owners]
-    panel.bars(subcarriers, decision.power_w / scale, width=0.8, colour=own)
+    subcarrier_ticks(panel, owner.size)
+    panel.limits(x=(-0.7, owner.size - 0.3))
+    colours = _owner_colours(panel, owner, names)
+    own = [colours.get(one, GREY) for one in owner.tolist()]
+    panel.bars(np.arange(owner.size), power_w / scale, width=0.8, colour=own)
     entries = len(colours) if len(colours) <= len(PALETTE) else 0
-    for owner, colour in list(colours.items())[:entries]:
-        panel.swatch(colour, names[owner])
-    if level is not None:
-        panel.level(level / scale, label=f"water level {human(level, 'W')}")
-    _headroom(panel, tallest / scale, entries=entries + (level is not None), columns=3)
-    panel.strip(subcarriers, [colours.get(owner, "white") for owner in owners], below=-0.05 * panel.top())
+    for user, colour in list(colours.items())[:entries]:
+        panel.swatch(colour, names[user])
+    if level_w is not None:
+        panel.level(level_w / scale, label=f"water level {human(level_w, 'W')}")
+    _headroom(panel, tallest / scale, entries=entries + (level_w is not None), columns=3)
+    panel.strip(np.arange(owner.size), [colours.get(one, "white") for one in owner.tolist()], below=-0.05 * panel.top())
 
 
-def _owner_colours(panel: Panel, decision: Decision, names: list[str]) -> dict[int, str]:
+def _owner_colours(panel: Panel, owner: IntArray, names: list[str]) -> dict[int, str]:
     """The colour of each user that owns a subcarrier: its own, one by one, or along a scale where they are too many."""
-    owners: list[int] = np.unique(decision.owner[decision.owner >= 0]).tolist()
+    owners: list[int] = np.unique(owner[owner >= 0]).tolist()
     if len(names) <= len(PALETTE):
         return {owner: PALETTE[owner] for owner in owners}
     if len(owners) <= len(PALETTE):
@@ -199,13 +203,16 @@ def _owner_colours(panel: Panel, decision: Decision, names: list[str]) -> dict[i
 
 def _headroom(panel: Panel, tallest: float, *, entries: int, columns: int) -> None:
     """Room above the bars for a legend of so many entries, and the legend."""
-    rows = -(-entries // columns)
-    panel.limits(y=(0.0, tallest * (1.10 + 0.12 * rows) or 1.0))
+    legend_pt = _LEGEND_ROW_PT * (1 + -(-entries // columns))  # a row more, for its frame and air
+    share = min(legend_pt / panel.size_pt()[1], 0.6)
+    panel.limits(y=(0.0, 1.05 * tallest / (1.0 - share) or 1.0))
     panel.legend(columns=columns, place="upper center")
 
 
-def _water_level_w(estimate: ChannelEstimate, decision: Decision) -> float | None:
+def _water_level_w(estimate: ChannelEstimate | None, decision: Decision) -> float | None:
     """The common p + 1/a of all powered subcarriers in W; None where they have none, or are fewer than two."""
+    if estimate is None:
+        return None
     powered = decision.power_w > 0
     gain = owned_gain(estimate.gain, decision.owner)[powered]
     if gain.size < 2 or not np.all(gain > 0):
@@ -214,39 +221,46 @@ def _water_level_w(estimate: ChannelEstimate, decision: Decision) -> float | Non
     return float(levels.mean()) if np.ptp(levels) <= 1e-6 * levels.max() else None
 
 
-def _draw_rates(panel: Panel, decision: Decision, outcome: Outcome | None, names: list[str]) -> None:
+def draw_rates(panel: Panel, decision: Decision, names: list[str], outcome: Outcome | None = None) -> None:
     """Each user's predicted rate, beside it the achieved one where known, and the rate it was promised at least."""
-    achieved = None if outcome is None else outcome.achieved
-    users = np.arange(len(names))
     wanted = decision.problem.min_rates_bps(len(names))
-    known = [decision.rate_bps, wanted] + ([] if achieved is None else [achieved.user_rate_bps])
-    tallest = np.max(known, axis=0)
-    scale, unit = prefixed(float(tallest.max()), "bit/s")
     if not decision.is_usable:
-        title = "Rates asked for; nothing is allocated"
+        nothing = "No rate was asked for" if not wanted.any() else ""
+        draw_rate_bars(panel, "Rates asked for; nothing is allocated", {}, names, wanted=wanted, nothing=nothing)
+    elif outcome is None or outcome.achieved is None:
+        draw_rate_bars(panel, "Predicted rates", {"predicted": decision.rate_bps}, names, wanted=wanted)
     else:
-        title = "Predicted rates" if achieved is None else "Predicted and achieved rates"
-        _draw_rate_bars(panel, decision, outcome, scale)
+        rates = {"predicted": decision.rate_bps, "achieved": outcome.achieved.user_rate_bps}
+        missed = np.flatnonzero(outcome.missed)
+        draw_rate_bars(panel, "Predicted and achieved rates", rates, names, wanted=wanted, missed=missed)
+
+
+def draw_rate_bars(
+    panel: Panel,
+    title: str,
+    rates_bps: Mapping[str, FloatArray],
+    names: list[str],
+    *,
+    wanted: FloatArray,
+    missed: Sequence[int] | IntArray = (),
+    nothing: str = "",
+) -> None:
+    """A bar for each user and each of one or two kinds of rates, who ``missed`` theirs, and what was ``wanted``."""
+    users = np.arange(len(names))
+    tallest = np.max([wanted, *rates_bps.values()], axis=0)
+    scale, unit = prefixed(float(tallest.max()), "bit/s")
+    offset = 0.2 if len(rates_bps) > 1 else 0.0
+    for side, (label, rate_bps) in enumerate(rates_bps.items()):
+        place = users + (offset if side else -offset)
+        panel.bars(place, rate_bps / scale, width=0.8 - 2 * offset, colour=_GREYS[side], label=label)
     panel.describe(title, user_ticks(panel, "x", names), f"Rate ({unit})")
     if tallest.max() == 0:
-        panel.note("No rate was asked for" if not decision.is_usable else "No user gets a rate")
+        panel.note(nothing or "No user gets a rate")
         return
-    if achieved is not None and outcome is not None and outcome.missed.any():
-        missed = np.flatnonzero(outcome.missed)
+    if len(missed):
         heights = (tallest[missed] + 0.04 * tallest.max()) / scale
         panel.marks(missed, heights, size_pt=6, shape="X", colour=PALETTE[1], label="missed")
     if np.any(wanted > 0):
         panel.segments(users - 0.45, users + 0.45, wanted / scale, label="minimum")
     panel.limits(x=(-0.7, len(names) - 0.3))
     _headroom(panel, float(tallest.max()) / scale, entries=4, columns=4)
-
-
-def _draw_rate_bars(panel: Panel, decision: Decision, outcome: Outcome | None, scale: float) -> None:
-    """A bar for each user's predicted rate and, where known, one for the achieved rate beside it."""
-    achieved = None if outcome is None else outcome.achieved
-    users = np.arange(decision.rate_bps.size)
-    offset = 0.0 if achieved is None else 0.2
-    width = 0.8 - 2 * offset
-    panel.bars(users - offset, decision.rate_bps / scale, width=width, colour=_PREDICTED, label="predicted")
-    if achieved is not None:
-        panel.bars(users + offset, achieved.user_rate_bps / scale, width=width, colour=_ACHIEVED, label="achieved")

@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
-from wirelessagent.comparison import Comparison
+from wirelessagent.comparison import Compared
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.objective import Objective
@@ -26,7 +26,7 @@ _MOST_TICKS = 6
 _MARK_PT = 8.0
 
 
-def draw_comparison(found: Sequence[Comparison], path: Path) -> None:
+def draw_comparison(found: Sequence[Compared], path: Path) -> None:
     """Write the picture of a comparison, :func:`comparison_canvas`, to ``path``: PNG, SVG or PDF.
 
     Raises:
@@ -38,7 +38,7 @@ def draw_comparison(found: Sequence[Comparison], path: Path) -> None:
     comparison_canvas(found).save(path)
 
 
-def comparison_canvas(found: Sequence[Comparison]) -> Canvas:
+def comparison_canvas(found: Sequence[Compared]) -> Canvas:
     """The picture of ``wa.compare(…)``: a row for each method in the order given, in three panels.
 
     The value of each allocation, with a line to the method's own bound and a dashed one at the tightest bound of all;
@@ -71,7 +71,7 @@ def comparison_canvas(found: Sequence[Comparison]) -> Canvas:
     return canvas
 
 
-def _nothing_canvas(found: Sequence[Comparison], decisions: Sequence[Decision], objective: Objective) -> Canvas:
+def _nothing_canvas(found: Sequence[Compared], decisions: Sequence[Decision], objective: Objective) -> Canvas:
     """Why there is no allocation, in the words of the first method that has none, and who says what."""
     verdicts = [f"{one.method}: {'refused' if one.decision is None else one.decision.status}" for one in found]
     reason = next((f"{one.status}: {one.reason}" for one in decisions if one.reason), "")
@@ -82,7 +82,7 @@ def _nothing_canvas(found: Sequence[Comparison], decisions: Sequence[Decision], 
     return canvas
 
 
-def _draw_values(panel: Panel, found: Sequence[Comparison], objective: Objective) -> None:
+def _draw_values(panel: Panel, found: Sequence[Compared], objective: Objective) -> None:
     """The values on one axis, from which each method's line leads to what it has proven."""
     usable = _usable(found)
     bounds = [one.decision.bound for one in found if one.decision is not None and math.isfinite(one.decision.bound)]
@@ -110,7 +110,7 @@ def _draw_values(panel: Panel, found: Sequence[Comparison], objective: Objective
             panel.marks([math.nan], [math.nan], size_pt=_MARK_PT, shape=shape, colour=colour, label=status)
 
 
-def _draw_gaps(panel: Panel, found: Sequence[Comparison]) -> None:
+def _draw_gaps(panel: Panel, found: Sequence[Compared]) -> None:
     """The gaps in % on a logarithmic axis, whose left end stands for none."""
     panel.describe("Gap (the optimum is at most that far)", "Gap to the method's own bound (%)", "")
     gaps = {row: 100.0 * decision.gap for row, decision in _usable(found)}
@@ -131,7 +131,7 @@ def _draw_gaps(panel: Panel, found: Sequence[Comparison]) -> None:
             _mark(panel, gap, row, decision, percent(decision.gap))
 
 
-def _draw_times(panel: Panel, found: Sequence[Comparison]) -> None:
+def _draw_times(panel: Panel, found: Sequence[Compared]) -> None:
     """What a decision takes, in ms."""
     panel.describe("Time (of one decision)", "Time (ms)", "")
     lowest, highest = _decades([1e3 * one.time_s for one in found if one.decision is not None])
@@ -142,7 +142,7 @@ def _draw_times(panel: Panel, found: Sequence[Comparison]) -> None:
             _mark(panel, 1e3 * one.time_s, row, one.decision, human(one.time_s, "s"))
 
 
-def _usable(found: Sequence[Comparison]) -> list[tuple[int, Decision]]:
+def _usable(found: Sequence[Compared]) -> list[tuple[int, Decision]]:
     """Rows and decisions of the methods that have an allocation."""
     return [(row, one.decision) for row, one in enumerate(found) if one.decision is not None and one.decision.is_usable]
 

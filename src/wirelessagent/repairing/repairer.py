@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.keywords import KnownKeywords
 from wirelessagent.model.observation import ChannelObservation
 
 
 @dataclass(frozen=True, kw_only=True)
-class Repairer(ABC):
+class Repairer(KnownKeywords, ABC):
     """An estimator of missing gains. Subclass as a frozen keyword-only dataclass; its fields become options everywhere.
 
     A repairer is stateless: history travels in the observation.

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from wirelessagent.model.cell import Cell
+from wirelessagent.model.keywords import KnownKeywords
 from wirelessagent.model.scene import Scene
 
 
 @dataclass(frozen=True, kw_only=True)
-class ChannelSource(ABC):
+class ChannelSource(KnownKeywords, ABC):
     """A source of channels. Subclass as a frozen keyword-only dataclass; its fields become options everywhere."""
 
     name: ClassVar[str]
