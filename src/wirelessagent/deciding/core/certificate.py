@@ -7,6 +7,7 @@ from typing import TypedDict, Unpack
 
 import numpy as np
 
+from wirelessagent.deciding.core.exact_powers import to_the_last_bit
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Bracket, Decision, Prices, Status
@@ -60,6 +61,7 @@ def certified(
 
     The value counts the users of the form's weights, so the form is that of the whole problem (see :mod:`.unserved`).
     """
+    power_w = to_the_last_bit(form, form.estimate.gain, owner, power_w)
     rate_bps = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
     value = form.objective.value(rate_bps, float(power_w.sum()), form.cell, form.weight)
     bound, gap, status = judged(form.objective, value, bound, form.method)
@@ -149,6 +151,7 @@ def _decision(
         bound=bound,
         gap=gap,
         unit=form.objective.unit,
+        steps=form.limit.steps,
         method=form.method,
         problem=form.problem,
         cell=form.cell,

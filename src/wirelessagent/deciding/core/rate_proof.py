@@ -71,7 +71,7 @@ def prove(form: NormalForm) -> RateProof:
             needed, best = power, found
         settled = factor != 1.0 and tighter > scaling * (1.0 - _SETTLED)
         scaling = min(scaling, tighter)
-        if settled or scaling <= 0.0:
+        if settled or scaling <= 0.0 or form.limit.is_over():
             break
         factor = scaling
     price[users] = np.exp(best)
@@ -181,7 +181,8 @@ def _climb(form: NormalForm, snr: FloatArray, nats: FloatArray) -> tuple[FloatAr
 
     rows, log_price, no_share = promises(nats), np.empty(nats.size), np.zeros((nats.size, 3))
     ask = Ask(
-        LEAST_POWER, form.cap_w, float(form.max_nats), form.start, rows, no_share, 0.0, float(form.budget_w), 0.0
+        LEAST_POWER, form.cap_w, float(form.max_nats), form.start, rows, no_share, 0.0, float(form.budget_w), 0.0,
+        form.limit.work,
     )  # fmt: skip
     term = np.empty((form.start.size - 1, nats.size))
     _, _, steps = find_prices(snr, channel_of(snr, ask), ask, rows, log_price, 0.0, False, term)
