@@ -11,6 +11,7 @@ import numpy as np
 from wirelessagent import plugins
 from wirelessagent.deciding.expected import counted_on
 from wirelessagent.deciding.method import Method
+from wirelessagent.deciding.soundness import checked
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.batch_decision import BatchDecision
 from wirelessagent.model.cell import Cell
@@ -130,11 +131,13 @@ def decide(
     if resolved.outage_probability is not None and "outage_probability" not in chosen.constraints:
         from wirelessagent.deciding.outage import decide_with_outage
 
-        return decide_with_outage(chosen, estimate, resolved, cell, after).knowing(estimate)
+        decision = decide_with_outage(chosen, estimate, resolved, cell, after)
+        return checked(decision, estimate, type(chosen)).knowing(estimate)
     channel = estimate if resolved.outage_probability is not None else counted_on(estimate, resolved, cell)
-    if after is None:
-        return chosen.solve(channel, resolved, cell).knowing(estimate)
-    return cast(Decision, cast(Any, chosen).solve(channel, resolved, cell, after=after)).knowing(estimate)
+    start: dict[str, Any] = {} if after is None else {"after": after}
+    with chosen.limited():
+        decision = cast(Decision, cast(Any, chosen).solve(channel, resolved, cell, **start))
+    return checked(decision, channel, type(chosen)).knowing(estimate)
 
 
 def _check_start(chosen: Method, estimate: ChannelEstimate, after: Decision) -> None:

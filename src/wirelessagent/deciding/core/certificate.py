@@ -69,7 +69,7 @@ def certified(
 
 
 def judged(objective: Objective, value: float, bound: float, method: str) -> tuple[float, float, Status]:
-    """The bound, which a value beyond it by rounding alone replaces, the gap and the status of a usable allocation.
+    """The bound, moved to the safe side of a value that rounding has put beyond it; the gap; the status.
 
     Raises:
         PluginError: the value is better than the bound proves possible, so the objective or the method is wrong.
@@ -80,6 +80,8 @@ def judged(objective: Objective, value: float, bound: float, method: str) -> tup
         bound = value
     elif beyond > _BEATEN * max(abs(value), abs(bound)):
         raise _beaten(objective, value, bound, method)
+    elif beyond > 0.0:  # as far as it was off on the one side it may be off on the other
+        bound = value + beyond if objective.direction == "max" else value - beyond
     gap = relative_gap(value, bound)
     return bound, gap, "optimal" if gap <= OPTIMAL_GAP else "feasible"
 

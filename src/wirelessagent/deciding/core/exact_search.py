@@ -234,7 +234,8 @@ def _listed(
     wettest = goal.at(limit).users if np.isfinite(limit) else market.users
     complete, user, first, member = bundles_within(
         market.users, market.floor, market.inverse, market.ceiling, market.start, priced.price, priced.log_mu,
-        bound - gap, np.ascontiguousarray(wettest), market.least_log_mu, market.budget_w, _NODES, most_sets, market.limit.work,
+        bound - gap, np.ascontiguousarray(wettest), market.least_log_mu, market.budget_w, _NODES, most_sets,
+        market.limit.work,
     )  # fmt: skip
     return complete, Sets(user=user, first=first, member=member)
 

@@ -50,7 +50,7 @@ def make_ready() -> None:
     ask = Ask(
         LEAST_POWER, np.full(2, np.inf), np.inf, np.arange(3), rows, np.zeros((2, 3)), 0.0, 1.0, 0.0, TimeLimit().work
     )  # fmt: skip
-    solve(np.ones((2, 2)), ask, 2, 0, 0, False, np.zeros(2), 0.0, False, owner.copy(), np.empty(2))  # noqa: FBT003
+    solve(np.ones((2, 2)), ask, 2, 0, 0, False, np.zeros(2), 0.0, False, owner.copy(), np.empty(2))
     market = Market.of(rows, np.ones((2, 2)), np.ones((2, 2)), np.arange(3), cost_per_w=1.0, budget_w=np.inf)
     known = Sets.of_owner(owner, 2)
     priced = column_prices(market, start_prices(market, np.zeros(2), 0.0), 0.0, known, rounds=2)

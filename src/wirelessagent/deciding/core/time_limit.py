@@ -86,8 +86,9 @@ class TimeLimit:
 
         Steps that are given take the place of the clock.
         """
-        before, deadline = self.deadline, self.now_s + seconds
-        if not self._is_timed or deadline >= before:
+        before = self.deadline
+        deadline = self.now_s + seconds if self._is_timed and seconds < np.inf else np.inf
+        if deadline >= before:
             yield
             return
         alarm = threading.Timer(min(seconds, threading.TIMEOUT_MAX), self._stop)

@@ -49,6 +49,4 @@ class Exact(Method):
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
         with self.limited():
             form = NormalForm.of(self, estimate, problem, cell)
-            return dual_decision(
-                form, Plan(restarts=None, seed=self.seed, is_thorough=True, most_sets=self.max_sets)
-            )
+            return dual_decision(form, Plan(restarts=None, seed=self.seed, is_thorough=True, most_sets=self.max_sets))
