@@ -11,6 +11,7 @@ import numpy as np
 from wirelessagent import kernels, plugins
 from wirelessagent.deciding.expected import counted_on
 from wirelessagent.deciding.method import Method
+from wirelessagent.deciding.soundness import checked
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.batch_decision import BatchDecision
 from wirelessagent.model.cell import Cell
@@ -150,11 +151,12 @@ def _decided(
     if problem.outage_probability is not None and "outage_probability" not in chosen.constraints:
         from wirelessagent.deciding.outage import decide_with_outage
 
-        return decide_with_outage(chosen, estimate, problem, cell, after)
+        return checked(decide_with_outage(chosen, estimate, problem, cell, after), estimate, type(chosen))
     channel = estimate if problem.outage_probability is not None else counted_on(estimate, problem, cell)
-    if after is None:
-        return chosen.solve(channel, problem, cell)
-    return cast(Decision, cast(Any, chosen).solve(channel, problem, cell, after=after))
+    start: dict[str, Any] = {} if after is None else {"after": after}
+    with chosen.limited():
+        decision = cast(Decision, cast(Any, chosen).solve(channel, problem, cell, **start))
+    return checked(decision, channel, type(chosen))
 
 
 def _check_start(chosen: Method, estimate: ChannelEstimate, after: Decision) -> None:

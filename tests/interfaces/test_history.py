@@ -19,7 +19,7 @@ import pytest
 
 import wirelessagent as wa
 from wirelessagent.agent.tools import Tools
-from wirelessagent.deciding.methods import dual
+from wirelessagent.deciding.core import time_limit
 from wirelessagent.deciding.objectives.proportional_fairness import ProportionalFairness
 from wirelessagent.interfaces.cli import run
 from wirelessagent.store import replay as replaying
@@ -104,9 +104,11 @@ def test_a_deadline_is_replayed_by_its_restarts(
     place: Path, scene: wa.Scene, problem: wa.Problem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ticks = itertools.count()
-    monkeypatch.setattr(dual, "time", SimpleNamespace(perf_counter=lambda: next(ticks) / 1e3))
-    turn = decided_turn(scene, problem, tools=Tools(method_options={"deadline_ms": 9.5, "seed": 5}))
-    monkeypatch.setattr(dual, "time", SimpleNamespace(perf_counter=lambda: 0.0))  # a machine of another speed
+    silent = SimpleNamespace(start=lambda: None, cancel=lambda: None)
+    monkeypatch.setattr(time_limit.threading, "Timer", lambda *_: silent)
+    monkeypatch.setattr(time_limit, "time", SimpleNamespace(perf_counter=lambda: next(ticks) / 1e3))
+    turn = decided_turn(scene, problem, tools=Tools(method_options={"deadline_s": 0.06, "seed": 5}))
+    monkeypatch.setattr(time_limit, "time", SimpleNamespace(perf_counter=lambda: 0.0))  # a machine of another speed
     assert turn.run is not None
     with Store.open(place, create=True) as store:
         assert store.replay(store.append(turn)).verdict == "identical"

@@ -14,6 +14,7 @@ from wirelessagent.deciding.core.dual_kernel import channel_of
 from wirelessagent.deciding.core.moves_kernel import gain_of, improve, some_wanting
 from wirelessagent.deciding.core.program import LEAST_POWER, promises
 from wirelessagent.deciding.core.sets_kernel import OWNER, Sets, assign, empty_sets, total_worth, value_all
+from wirelessagent.deciding.core.time_limit import TimeLimit
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.testing.channels import known, rayleigh_gain
 from wirelessagent.testing.exhaustive import best_allocation
@@ -76,8 +77,8 @@ def random_sets(users: int, groups: int, seed: int) -> Sets:
     gain = rayleigh_gain(users, groups, seed=seed)[0]
     rows = promises(rng.uniform(2.0, 6.0, users))
     start, share = np.arange(groups + 1), np.zeros((users, 3))
-    ask = Ask(LEAST_POWER, np.full(groups, np.inf), np.inf, start, rows, share, 0.0, 1e6, 0.0)
-    sets = empty_sets(channel_of(gain / AMPLE.noise_power_w, ask), start, rows)
+    ask = Ask(LEAST_POWER, np.full(groups, np.inf), np.inf, start, rows, share, 0.0, 1e6, 0.0, TimeLimit().work)
+    sets = empty_sets(channel_of(gain / AMPLE.noise_power_w, ask), start, rows, ask.work)
     assign(sets, rng.permutation(np.arange(groups) % users))
     value_all(sets, 0.0)
     return sets

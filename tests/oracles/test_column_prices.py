@@ -11,6 +11,7 @@ from scipy.optimize import linprog, minimize, minimize_scalar
 from wirelessagent.deciding.core.column_prices import column_prices
 from wirelessagent.deciding.core.market import NOTHING, Market, Sets
 from wirelessagent.deciding.core.mixture_kernel import mix
+from wirelessagent.deciding.core.time_limit import TimeLimit
 from wirelessagent.model.arrays import FloatArray
 
 USERS, COLUMNS = 4, 6
@@ -95,7 +96,7 @@ def test_a_step_minimises_what_is_known_near_the_centre(seed: int, step_mu: floa
     weight[begin[:-1]] = 1.0
     mu, model, inexact = mix(
         begin, first, np.concatenate(member), utility, power, center, center_mu, step, step_mu, least_mu, budget_w,
-        1e-12, 10**5, weight, price,
+        1e-12, 10**5, weight, price, TimeLimit().work,
     )  # fmt: skip
     incidence = np.zeros((utility.size, COLUMNS))
     for s, columns in enumerate(member):

@@ -13,6 +13,7 @@ from wirelessagent.deciding.core.bundle_kernel import bundle
 from wirelessagent.deciding.core.column_prices import column_prices
 from wirelessagent.deciding.core.column_search_kernel import best_bundles, bundles_within
 from wirelessagent.deciding.core.market import Market, Sets
+from wirelessagent.deciding.core.time_limit import TimeLimit
 from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.deciding.methods.exact import Exact
 from wirelessagent.deciding.objectives.max_energy_efficiency import MaxEnergyEfficiency
@@ -84,9 +85,9 @@ def lowest_floors(market: Market) -> FloatArray:
 @pytest.mark.parametrize("seed", range(12))
 def test_no_set_of_priced_columns_is_better(kind: str, seed: int) -> None:
     market, price, log_mu = random_market(kind, seed)
-    bound, nothing = np.empty(1), np.full(1, -np.inf)
+    bound, nothing, work = np.empty(1), np.full(1, -np.inf), TimeLimit().work
     arguments = (market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu)
-    worth, _, member = best_bundles(*arguments, nothing, 0.0, 10**6, bound)
+    worth, _, member = best_bundles(*arguments, nothing, 0.0, 10**6, bound, work)
     every = all_sets(market, price, log_mu)
     best = max(value for value, _ in every.values())
     if best < -1e190:
@@ -96,9 +97,9 @@ def test_no_set_of_priced_columns_is_better(kind: str, seed: int) -> None:
     assert every[tuple(sorted(member.tolist()))][0] == pytest.approx(best, rel=1e-9, abs=1e-12)
     assert bound[0] >= best - 1e-12 * abs(best)
     nearly = best - 1e-6 * abs(best)
-    worth, _, member = best_bundles(*arguments, np.full(1, nearly), 0.0, 10**6, bound)
+    worth, _, member = best_bundles(*arguments, np.full(1, nearly), 0.0, 10**6, bound, work)
     assert every[tuple(sorted(member.tolist()))][0] == pytest.approx(best, rel=1e-9, abs=1e-12)
-    worth, _, member = best_bundles(*arguments, np.full(1, best), 1e-9 * abs(best), 10**6, bound)
+    worth, _, member = best_bundles(*arguments, np.full(1, best), 1e-9 * abs(best), 10**6, bound, work)
     assert worth[0] < -1e199
     assert member.size == 0
     assert bound[0] == pytest.approx(best, rel=2e-9)
@@ -117,7 +118,7 @@ def test_all_sets_within_a_limit_are_listed_once(kind: str, seed: int) -> None:
         market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu, np.array([least]),
         market.users, log_mu, np.inf, 10**6,
     )  # fmt: skip
-    complete, user, first, member = bundles_within(*arguments, 10**5)
+    complete, user, first, member = bundles_within(*arguments, 10**5, TimeLimit().work)
     listed = [tuple(sorted(member[first[s] : first[s + 1]].tolist())) for s in range(user.size)]
     low = lowest_floors(market)
     wanted = [
@@ -126,7 +127,7 @@ def test_all_sets_within_a_limit_are_listed_once(kind: str, seed: int) -> None:
     assert complete
     assert sorted(listed) == sorted(wanted)
     if len(wanted) > 1:
-        complete, user, _, _ = bundles_within(*arguments, len(wanted) - 1)
+        complete, user, _, _ = bundles_within(*arguments, len(wanted) - 1, TimeLimit().work)
         assert not complete
         assert user.size == len(wanted) - 1
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from wirelessagent.deciding.core.time_limit import TimeLimit
 from wirelessagent.model.arrays import FloatArray, IntArray
 
 if TYPE_CHECKING:
@@ -41,8 +42,8 @@ def read(snr: FloatArray, cap_w: FloatArray, max_snr: float, start: IntArray) ->
     from wirelessagent.deciding.core.ask_kernel import SUM, Ask
     from wirelessagent.deciding.core.dual_kernel import channel_of
 
-    rows, share = np.zeros((USERS, 6)), np.zeros((USERS, 3))
-    return channel_of(snr, Ask(SUM, cap_w, float(np.log1p(max_snr)), start, rows, share, 1.0, 1.0, 0.0))
+    rows, share, work = np.zeros((USERS, 6)), np.zeros((USERS, 3)), TimeLimit().work
+    return channel_of(snr, Ask(SUM, cap_w, float(np.log1p(max_snr)), start, rows, share, 1.0, 1.0, 0.0, work))
 
 
 @pytest.mark.parametrize("capped", [False, True])

@@ -21,6 +21,7 @@ from wirelessagent.deciding.core.batch_search import Searches, search_objectives
 from wirelessagent.deciding.core.certificate import judged
 from wirelessagent.deciding.core.closed_form import closed_allocations, nats_worth
 from wirelessagent.deciding.core.dual_search import Effort
+from wirelessagent.deciding.core.exact_powers import to_the_last_bit
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import LEAST_POWER, Program, Programs
 from wirelessagent.deciding.core.unserved import needy_users
@@ -104,16 +105,17 @@ def _decider(
 ) -> Callable[[slice], None]:
     """A function that decides on one chunk of the channels."""
     single = NormalForm.of(method, _estimate(np.zeros(gain.shape[1:])), problem, cell)
-    needy, effort = needy_users(single, Program.of(single)), method.effort_for(single)
+    needy, effort = needy_users(single, Program.of(single)), method.plan.effort_for(single)
     in_rounds = method.restarts is not None and method.restarts > effort.restarts
 
     def decide(chunk: slice) -> None:
         form = single.on(gain[chunk])
         found, doubtful = _solve(form, gain[chunk], effort, needy, in_rounds=in_rounds)
-        rate = user_rate_bps(gain[chunk], found.owner, found.power_w, cell)
+        power_w = to_the_last_bit(form, gain[chunk], found.owner, found.power_w)
+        rate = user_rate_bps(gain[chunk], found.owner, power_w, cell)
         weight = problem.weights_of(single.weight.size)
-        value = form.objective.values(rate, found.power_w.sum(axis=-1), cell, weight)
-        results.owner[chunk], results.power_w[chunk], results.rate_bps[chunk] = found.owner, found.power_w, rate
+        value = form.objective.values(rate, power_w.sum(axis=-1), cell, weight)
+        results.owner[chunk], results.power_w[chunk], results.rate_bps[chunk] = found.owner, power_w, rate
         results.value[chunk] = value
         for row in np.flatnonzero(~doubtful):
             verdict = judged(form.objective, float(value[row]), float(found.bound[row]), method.name)

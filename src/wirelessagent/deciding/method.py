@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import ClassVar
 
+from wirelessagent.deciding.core.time_limit import TimeLimit
+from wirelessagent.model.arrays import positive, whole
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import UnsupportedProblemError
@@ -39,12 +42,38 @@ class Method(KnownKeywords, ABC):
             that sets others is refused, never solved as if they were not there.
         warm_starts: whether :meth:`solve` also takes ``after``, an earlier decision to start from, or None: a keyword
             that changes how fast a good decision is found, not what a good one is.
+        deadline_s: time in s by which it decides on the best found so far; without it each method has its own. What
+            the first decision of a process takes to load is not counted.
+        steps: after how many steps of its search it ends, instead of at a deadline: the number that a decision under a
+            deadline tells makes the same decision again.
     """
 
     name: ClassVar[str]
     objectives: ClassVar[tuple[str, ...] | None] = None
     constraints: ClassVar[frozenset[str]] = frozenset()
     warm_starts: ClassVar[bool] = False
+
+    deadline_s: float | None = None
+    steps: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.deadline_s is not None:
+            positive("deadline_s", self.deadline_s)
+        if self.steps is not None:
+            whole("steps", self.steps, smallest=0)
+
+    @property
+    def allowed_s(self) -> float | None:
+        """The time in s that it has; None where there is no limit."""
+        return self.deadline_s
+
+    def limited(self) -> AbstractContextManager[TimeLimit]:
+        """The time and the steps that it has, for all that is done inside (:class:`.core.time_limit.TimeLimit`)."""
+        if self.allowed_s is not None:
+            from wirelessagent.deciding.core.thorough import make_ready
+
+            make_ready()
+        return TimeLimit.of(self.allowed_s, self.steps)
 
     @abstractmethod
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:

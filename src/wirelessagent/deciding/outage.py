@@ -60,7 +60,8 @@ def decide_with_outage(
     assert problem.outage_probability is not None
     plain = dataclasses.replace(problem, outage_probability=None)
     if (estimate.gain_variance > 0).any():
-        return _Search.of(method, estimate, problem, plain, cell).decision(after)
+        with method.limited():
+            return _Search.of(method, estimate, problem, plain, cell).decision(after)
     decision = _solve(method, estimate, plain, cell, after)
     return dataclasses.replace(
         decision, problem=problem, expected_rate_bps=decision.rate_bps, outage=np.zeros(decision.rate_bps.size)
@@ -74,9 +75,14 @@ def _solve(method: Method, estimate: ChannelEstimate, problem: Problem, cell: Ce
 
 
 def _drafting(method: Method) -> Method:
-    """The method as it decides in the rounds: without options that make it spend time, which the last one has."""
-    spending = {"effort": "fast", "deadline_ms": None, "restarts": None}
+    """The method as it decides in the rounds: without options that make it spend time, which the last one has.
+
+    A method that does not restart spends none for its own sake.
+    """
     known = {one.name for one in dataclasses.fields(method)}
+    if "restarts" not in known:
+        return method
+    spending = {"effort": "fast", "deadline_s": None, "deadline_ms": None, "steps": None, "restarts": None}
     return dataclasses.replace(method, **{name: value for name, value in spending.items() if name in known})
 
 
@@ -131,6 +137,8 @@ class _Search:
             return self._nothing(hoped, "infeasible", f"{hoped.reason}, {even}")
         tried: list[_Found] = []
         for q in (self.channel.outage, max(self.channel.outage, _BOLD)):
+            if tried and self.form.limit.is_over():
+                break
             start = np.full(self.channel.uncertain.shape[0], self.channel.place_of(q))
             tried += self._rounds(start, after, any(not np.isnan(found.value) for found in tried))
         best = self._best(tried)
@@ -152,7 +160,8 @@ class _Search:
             now = self._judged(decision, place)
             found.append(now)
             is_kept |= not np.isnan(now.value)
-            if is_kept and (done >= _ROUNDS or np.abs(now.place - place).max() < _SETTLED):
+            settled = done >= _ROUNDS or np.abs(now.place - place).max() < _SETTLED
+            if (is_kept and settled) or self.form.limit.is_over():
                 break
             after, place = decision, np.maximum(now.place - _BACK_OFF * (done - 1) * now.short, 0.0)
         return found
@@ -222,6 +231,7 @@ class _Search:
             needed_power_w=_needed(hoped, spent if self.form.objective.measure == "power" else np.nan),
             rate_scaling=_scaled(hoped, 1.0),
             restarts=restarts,
+            steps=self.form.limit.steps,
             problem=self.problem,
             cell=self.cell,
             expected_rate_bps=expected,
@@ -245,6 +255,7 @@ class _Search:
             prices=None,
             needed_power_w=_needed(hoped, np.nan),
             rate_scaling=_scaled(hoped, 0.0),
+            steps=self.form.limit.steps,
             method=self.method.name,
             problem=self.problem,
         )

@@ -25,7 +25,7 @@ from wirelessagent.model.problem import Problem
 
 _SAFE = 1.0 - 1e-7
 """Part of the largest factor found that is asked for, so that rounding does not decide."""
-_CLOSE, _SEARCHED_MS = 1.02, 1000.0
+_CLOSE, _SEARCHED_S = 1.02, 1.0
 """A factor that is known less closely is searched for, so long."""
 _FIRST_STEP, _LEAST_FACTOR = 0.98, 1e-6
 """A factor that no bound comes near is searched for downwards, each step the square of the one before."""
@@ -150,7 +150,7 @@ def lower_rates(case: Case) -> LowerRates | None:
         return None
     searched = known
     if case.problem.outage_probability is None and known.at_most > known.at_least * _CLOSE:
-        searched = case.otherwise(case.problem, effort="thorough", deadline_ms=_SEARCHED_MS).rate_scaling or known
+        searched = case.otherwise(case.problem, effort="thorough", deadline_s=_SEARCHED_S).rate_scaling or known
     most, factor = min(known.at_most, searched.at_most, 1.0), max(known.at_least, searched.at_least) * _SAFE
     while factor > 0:
         decision = _scaled(case, factor)

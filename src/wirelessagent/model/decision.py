@@ -77,8 +77,9 @@ class Decision(Shown):
         needed_power_w: the power that the promised rates need, whatever the budget; None where none are promised.
         rate_scaling: the largest common factor on the promised rates that the budget carries; None likewise.
         iterations: outer iterations done by the method.
-        restarts: restarts of a local search done by the method: given to it as its option ``restarts``, they make the
-            same decision again where a deadline ended it.
+        restarts: restarts of a local search done by the method.
+        steps: of the search: given to the method as its option ``steps``, beside ``restarts`` where it has that, they
+            make the same decision again where a deadline ended it.
         prices: where the search ended, for the next slot's to start from; None if the method does not search prices.
         expected_rate_bps: each user's mean rate under the estimate's posterior, shape (user,), where an outage
             probability is accepted; empty otherwise.
@@ -112,6 +113,7 @@ class Decision(Shown):
     rate_scaling: Bracket | None = None
     iterations: int = 0
     restarts: int = 0
+    steps: int = 0
     prices: Prices | None = None
     expected_rate_bps: FloatArray = field(default_factory=lambda: np.empty(0))
     outage: FloatArray = field(default_factory=lambda: np.empty(0))

@@ -69,6 +69,7 @@ class DecisionAnswer(Record):
     rate_scaling: BracketAnswer | None
     iterations: int
     restarts: int
+    steps: int
     user_names: list[str]
 
     @classmethod
@@ -78,6 +79,7 @@ class DecisionAnswer(Record):
         copied = (
             "method", "status", "reason", "value", "bound", "gap", "unit", "owner", "power_w", "rate_bps",
             "expected_rate_bps", "outage", "total_power_w", "price_of_power", "price_of_rate", "iterations", "restarts",
+            "steps",
         )  # fmt: skip
         return {
             **{name: getattr(decision, name) for name in copied},

@@ -31,8 +31,8 @@ APPLIED = ("applied", "reverted")
 FIGURES = ("value", "bound", "gap")
 ALLOCATION = ("owner", "power_w", "rate_bps")
 CERTIFICATE = (
-    "reason", "price_of_power", "price_of_rate", "needed_power_w", "rate_scaling", "iterations", "restarts", "prices",
-    "expected_rate_bps", "outage", "forecast",
+    "reason", "price_of_power", "price_of_rate", "needed_power_w", "rate_scaling", "iterations", "restarts", "steps",
+    "prices", "expected_rate_bps", "outage", "forecast",
 )  # fmt: skip
 """What is kept of a decision beside its allocation and the figures that have columns."""
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
 
 import numpy as np
 
-from wirelessagent import __version__, chain
+from wirelessagent import __version__, chain, plugins
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.store.content import estimate_content, estimate_of, observation_of
@@ -92,14 +92,19 @@ def replay(store: Store, turn: StoredTurn) -> Replay:
 
 
 def _options(turn: StoredTurn) -> dict[str, Any]:
-    """The method's options, with the restarts that a deadline left time for in its place.
+    """The method's options, with what a deadline left time for in its place: restarts, and steps of the search.
 
-    A thorough search does more than restarts until its deadline, which it keeps.
+    Turns of earlier versions did not count the steps; a thorough search of theirs keeps its deadline.
     """
     options = dict(turn.method["options"])
-    if "deadline_ms" in options and options.get("effort", "fast") == "fast":
-        del options["deadline_ms"]
-        options["restarts"] = turn.certificate["restarts"]
+    counted = "steps" in turn.certificate
+    if not counted and options.get("effort", "fast") != "fast":
+        return options
+    deadlines = [options.pop(name) for name in ("deadline_s", "deadline_ms") if name in options]
+    known = {option.name for option in plugins.plugin("method", turn.method["name"]).options}
+    for name in ("restarts", "steps"):
+        if deadlines and name in known and name in turn.certificate:
+            options[name] = turn.certificate[name]
     return options
 
 

@@ -73,6 +73,14 @@ def random_problem(seed: int, objective: Objective, *, num_users: int = 3, num_s
     return RandomProblem(known(gain), Problem(objective, **limits), cell, link)
 
 
+def tiny_problem(number: int, objectives: tuple[Objective, ...]) -> RandomProblem:
+    """One of a list of problems of two to four users and three to eight subcarriers, the objectives in turn."""
+    rng = np.random.default_rng([number, 77])
+    users, subcarriers = int(rng.integers(2, 5)), int(rng.integers(3, 9))
+    objective = objectives[number % len(objectives)]
+    return random_problem(5000 + number, objective, num_users=users, num_subcarriers=subcarriers)
+
+
 def _cell(link: str, *, circuit_power_w: float, max_power_w: float = 20.0) -> Cell:
     if link == "practical":
         return Cell.nr(max_power_w=max_power_w, circuit_power_w=circuit_power_w)

@@ -21,6 +21,7 @@ class Ask(NamedTuple):
         share: for the highest common level each user's share and limits, shape (user, 3).
         most_level: the level beyond which nothing is gained.
         budget_w, circuit_w: P and C.
+        work: steps done and to do; see :mod:`.work_kernel`.
     """
 
     goal: int
@@ -32,3 +33,4 @@ class Ask(NamedTuple):
     most_level: float
     budget_w: float
     circuit_w: float
+    work: IntArray

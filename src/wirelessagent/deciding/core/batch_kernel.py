@@ -45,7 +45,8 @@ def solve_all(
     """  # fmt: skip
     for b in range(snr_per_w.shape[0]):
         own = Ask(
-            ask.goal, ask.cap_w, ask.max_nats, ask.start, rows[b], share[b], most_level[b], ask.budget_w, ask.circuit_w
+            ask.goal, ask.cap_w, ask.max_nats, ask.start, rows[b], share[b], most_level[b], ask.budget_w, ask.circuit_w,
+            ask.work,
         )  # fmt: skip
         found = solve(
             snr_per_w[b], own, choices, restarts, seed, warm[b], log_price[b], log_mu[b], given, owner[b], power_w[b]

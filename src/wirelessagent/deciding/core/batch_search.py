@@ -8,9 +8,10 @@ import numpy as np
 
 from wirelessagent.deciding.core.dual_bounds import bounds_of
 from wirelessagent.deciding.core.dual_search import CANDIDATES, REFITS, SMALL, WORST, Effort, owners_with_power
+from wirelessagent.deciding.core.exact_powers import BUDGET_ROUNDING
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import Programs
-from wirelessagent.deciding.core.search_decision import BUDGET_ROUNDING
+from wirelessagent.deciding.core.time_limit import TimeLimit
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.rates import user_rate_bps
 
@@ -118,7 +119,7 @@ def _search(
     score = np.empty(batch)
     ask = Ask(
         programs.goal, form.cap_w, float(form.max_nats), form.start, rows[0], share[0], 0.0, float(form.budget_w),
-        float(form.circuit_w),
+        float(form.circuit_w), TimeLimit().work,
     )  # fmt: skip
     choices = users if users <= SMALL else CANDIDATES
     solve_all(

@@ -1,6 +1,6 @@
 """Bounds that prove how good a decision is; each holds for any price, the right one makes it tight.
 
-They are worked out from the gains and the price alone, not from the allocation that they judge.
+They are worked out from the gains and the price alone, not from the allocation that they judge, and are rounded up.
 """
 
 from __future__ import annotations
@@ -11,11 +11,12 @@ from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.model.arrays import FloatArray
 
 _STEP = 4e-16
+"""Least change of a number, and the share of its terms, for each of them, that a sum may be off by."""
 
 
 def rate_bound_nats(form: NormalForm, price: float | FloatArray) -> FloatArray:
     """The most nats that the budget can carry: Φ(μ) + μ P_max, the Lagrangian dual of P1; elementwise, (…)."""
-    return _best_surplus(form, price) + price * form.budget_w
+    return (_best_surplus(form, price) + price * form.budget_w) * (1.0 + _STEP * form.cap_w.size)
 
 
 def efficiency_bound_nats_per_j(form: NormalForm, price: float | FloatArray) -> FloatArray:
@@ -31,7 +32,8 @@ def efficiency_bound_nats_per_j(form: NormalForm, price: float | FloatArray) -> 
         price = np.where(low, price * (1.0 + step), price)
         step *= 2.0
         value = _best_surplus(form, price)
-    return np.minimum(price, (value + price * form.budget_w) / (form.budget_w + form.circuit_w))
+    bound = np.minimum(price, (value + price * form.budget_w) / (form.budget_w + form.circuit_w))
+    return bound * (1.0 + _STEP * form.cap_w.size)
 
 
 def best_efficiency_nats_per_j(form: NormalForm) -> float:

@@ -7,6 +7,7 @@ from typing import TypedDict, Unpack
 
 import numpy as np
 
+from wirelessagent.deciding.core.exact_powers import to_the_last_bit
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import OPTIMAL_GAP, Bracket, Decision, Prices, Status
@@ -60,6 +61,7 @@ def certified(
 
     The value counts the users of the form's weights, so the form is that of the whole problem (see :mod:`.unserved`).
     """
+    power_w = to_the_last_bit(form, form.estimate.gain, owner, power_w)
     rate_bps = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
     value = form.objective.value(rate_bps, float(power_w.sum()), form.cell, form.weight)
     bound, gap, status = judged(form.objective, value, bound, form.method)
@@ -67,7 +69,7 @@ def certified(
 
 
 def judged(objective: Objective, value: float, bound: float, method: str) -> tuple[float, float, Status]:
-    """The bound, which a value beyond it by rounding alone replaces, the gap and the status of a usable allocation.
+    """The bound, moved to the safe side of a value that rounding has put beyond it; the gap; the status.
 
     Raises:
         PluginError: the value is better than the bound proves possible, so the objective or the method is wrong.
@@ -78,6 +80,8 @@ def judged(objective: Objective, value: float, bound: float, method: str) -> tup
         bound = value
     elif beyond > _BEATEN * max(abs(value), abs(bound)):
         raise _beaten(objective, value, bound, method)
+    elif beyond > 0.0:  # as far as it was off on the one side it may be off on the other
+        bound = value + beyond if objective.direction == "max" else value - beyond
     gap = relative_gap(value, bound)
     return bound, gap, "optimal" if gap <= OPTIMAL_GAP else "feasible"
 
@@ -149,6 +153,7 @@ def _decision(
         bound=bound,
         gap=gap,
         unit=form.objective.unit,
+        steps=form.limit.steps,
         method=form.method,
         problem=form.problem,
         cell=form.cell,

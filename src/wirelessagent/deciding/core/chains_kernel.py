@@ -31,6 +31,7 @@ from wirelessagent.deciding.core.sets_kernel import (
     set_bundle,
     value_changed,
 )
+from wirelessagent.deciding.core.work_kernel import is_over
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
@@ -278,6 +279,8 @@ def improve_by_chains(sets: Sets, candidates: IntArray, chains: Chains) -> None:
     """Take chains, and moves and swaps after each, for as long as there are any that gain."""
     first = 0
     for _ in range(MOST_CHAINS):
+        if is_over(sets.work):
+            return
         size = find_chain(sets, candidates, chains, first)
         if size == 0:
             return

@@ -15,7 +15,6 @@ corner, take hundreds.
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -187,19 +186,17 @@ def column_prices(
     *,
     value: float = -np.inf,
     accuracy: float = 1e-9,
-    deadline: float = np.inf,
     rounds: int = 200,
 ) -> ColumnPrices:
     """Minimise D from ``price`` and ``log_mu``.
 
     Args:
-        market: users, columns and power.
+        market: users, columns and power, and the time that there is; one bound is worked out where that suffices.
         price: π to start from, shape (column,).
         log_mu: ln μ to start from; ln q where there is no budget.
         known: sets to start with, such as those of an allocation; may be empty.
         value: of the best allocation known; the search ends where the bound reaches it.
         accuracy: relative; the search also ends where D can hardly fall by more.
-        deadline: in seconds on ``time.perf_counter``; at least one bound is worked out.
         rounds: trials at most.
     """
     users = market.users.shape[0]
@@ -209,7 +206,7 @@ def column_prices(
     sets = sets.chosen(np.argsort(sets.sets.user, kind="stable"))
     everybody = sets.begin_at(users, price, float(np.exp(log_mu)))
     foretold, done, again = abs(first_bound), 0, 0
-    while everybody and done < rounds and time.perf_counter() < deadline:
+    while everybody and done < rounds and not market.limit.is_over():
         if center.bound - value <= 1e-12 * abs(center.bound):
             break
         close = accuracy * abs(center.bound)
@@ -253,7 +250,7 @@ def _proximal(
     mu, model, inexact = mix(
         known.begins(market.users.shape[0]), sets.first, sets.member, known.utility, known.power, center.price,
         center_mu, center.step, center.step_mu(market), least_mu, market.budget_w, exactness, _SWEEPS, known.weight,
-        price,
+        price, market.limit.work,
     )  # fmt: skip
     if np.isfinite(market.budget_w):
         model += (least_mu - market.cost_per_w) * market.budget_w
@@ -276,7 +273,7 @@ def priced_bounds(
     sought[:] = 4.0 * NOTHING if least is None else least
     worth, first, member = best_bundles(
         market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu,
-        sought, tolerance, _NODES, bound,
+        sought, tolerance, _NODES, bound, market.limit.work,
     )  # fmt: skip
     sets = Sets(user=np.arange(users, dtype=np.int64), first=first, member=member)
     return bound, sets.chosen(np.flatnonzero(worth > NOTHING))
@@ -295,6 +292,6 @@ def _priced(market: Market, price: FloatArray, log_mu: float) -> tuple[float, Se
     typical = (float(np.abs(bound).sum()) + float(price.sum())) / bound.size
     _, user, first, member = bundles_within(
         market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu,
-        bound - _NEAR * typical, market.users, log_mu, np.inf, _NEAR_NODES, _NEAR_SETS,
+        bound - _NEAR * typical, market.users, log_mu, np.inf, _NEAR_NODES, _NEAR_SETS, market.limit.work,
     )  # fmt: skip
     return total_bound(market, price, log_mu, bound), best.with_others(Sets(user=user, first=first, member=member))

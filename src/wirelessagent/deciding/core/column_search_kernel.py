@@ -11,6 +11,7 @@ import numpy as np
 
 from wirelessagent.deciding.core.bundle_kernel import HIGH, best_level, bundle, fill_level
 from wirelessagent.deciding.core.columns_kernel import NOTHING, decoupled, relaxed_level
+from wirelessagent.deciding.core.work_kernel import is_over
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
@@ -164,6 +165,7 @@ def explore(
     budget_w: float,
     most_nodes: int,
     most_sets: int,
+    work: IntArray,
 ) -> tuple[float, float, int, IntArray, IntArray]:
     """Branch and bound for one user; see :func:`best_bundles` and :func:`bundles_within`, which call it.
 
@@ -174,6 +176,8 @@ def explore(
     first, member = np.zeros(17, dtype=np.int64), np.empty(64, dtype=np.int64)
     sets, nodes, depth = 0, 0, 0
     best = least
+    if is_over(work):
+        return 4.0 * NOTHING, np.inf, -1, first, member
     root = relaxed_level(user, floor, inverse, ceiling, start, price, log_mu)
     if root == np.inf:
         return NOTHING, NOTHING, 0, first, member
@@ -205,12 +209,13 @@ def explore(
                 return best, max(best, least) + max(tolerance, 0.0), sets, first, member
             depth -= 1
             continue
-        path.position[depth] = i + 1
         if bottom[i] >= path.wet[depth]:
+            path.position[depth] = i + 1
             continue  # here and in all larger sets it would get no power
         nodes += 1
-        if nodes > most_nodes:
+        if nodes > most_nodes or is_over(work):
             break
+        path.position[depth] = i + 1
         filled = path.size[depth]
         for n in range(start[order[i]], start[order[i] + 1]):
             if ceiling[n] > 0.0:
@@ -236,7 +241,10 @@ def explore(
         for g in range(base.size):
             path.gained[depth, g] = path.gained[depth - 1, g] + gain[i, g]
         fresh = True
-    return best, (base + left[0]).min(), -1 - sets, first, member
+    bound = best + max(tolerance, 0.0)
+    for d in range(depth + 1):  # what was left open
+        bound = max(bound, least_sum(path.gained[d], left[path.position[d]]))
+    return best, bound, -1 - sets, first, member
 
 
 @kernel
@@ -252,6 +260,7 @@ def best_bundles(
     tolerance: float,
     most_nodes: int,
     bound: FloatArray,
+    work: IntArray,
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """For every user the set of columns with the most V(S; μ) − π(S), to within ``tolerance``.
 
@@ -266,6 +275,7 @@ def best_bundles(
         tolerance: at least 0.
         most_nodes: sets to look at per user at most; where that is not enough the bound is weaker.
         bound: written, shape (user,): no set is worth more.
+        work: steps done and to do; see :mod:`.work_kernel`.
 
     Returns:
         What the sets are worth (user,), less than ``NOTHING`` where there is none of interest; where each set begins in
@@ -278,7 +288,7 @@ def best_bundles(
     for k in range(number):
         worth[k], bound[k], count, begin, found = explore(
             users[k], floor[k], inverse[k], ceiling[k], start, price, log_mu, least[k], tolerance,
-            users[k], log_mu, np.inf, most_nodes, 1,
+            users[k], log_mu, np.inf, most_nodes, 1, work,
         )  # fmt: skip
         held = begin[1]
         if count == 0 or count == -1:
@@ -305,6 +315,7 @@ def bundles_within(
     budget_w: float,
     most_nodes: int,
     most_sets: int,
+    work: IntArray,
 ) -> tuple[bool, IntArray, IntArray, IntArray]:
     """All sets with V(S; μ) − π(S) ≥ ``least`` (user,), but none with a column that gets no power whatever happens.
 
@@ -322,7 +333,7 @@ def bundles_within(
     for k in range(users.shape[0]):
         _, _, count, begin, found = explore(
             users[k], floor[k], inverse[k], ceiling[k], start, price, log_mu, least[k], -1.0,
-            wettest[k], least_log_mu, budget_w, most_nodes, most_sets,
+            wettest[k], least_log_mu, budget_w, most_nodes, most_sets, work,
         )  # fmt: skip
         if count < 0:
             complete = False

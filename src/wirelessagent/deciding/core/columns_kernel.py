@@ -26,6 +26,7 @@ from wirelessagent.deciding.core.bundle_kernel import (
     bundle,
     utility,
 )
+from wirelessagent.deciding.core.work_kernel import is_over
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
@@ -256,14 +257,18 @@ def worths(
     owner: IntArray,
     first: IntArray,
     member: IntArray,
+    work: IntArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """V(S; μ) and the power in W of every set of a list, both (set,)."""
+    """V(S; μ) and the power in W of every set of a list, both (set,); without time the rest counts as nothing."""
     value = np.empty(owner.size)
     power = np.empty(owner.size)
     subcarriers = floor.shape[1]
     set_floor, set_inverse, set_ceiling = np.empty(subcarriers), np.empty(subcarriers), np.empty(subcarriers)
     scratch, scratch_cap = np.empty(subcarriers), np.empty(subcarriers)
     for s in range(owner.size):
+        if is_over(work):
+            value[s:], power[s:] = 4.0 * NOTHING, 0.0
+            break
         k = owner[s]
         size = 0
         for i in range(first[s], first[s + 1]):

@@ -21,8 +21,8 @@ from wirelessagent.model.arrays import FloatArray
 _COARSE = np.append(0.0, np.arange(-8.0, 8.25, 0.5))
 _FINE = np.arange(-0.5, 0.51, 0.05)
 """Steps in ln μ at which the bound is worked out; the first is the price that was found."""
-_ROUNDING = 1e-15
-"""Share of its terms that a difference may be off by; a bound is on the safe side of it."""
+_ROUNDING = 4e-16
+"""Share of its terms, for each of them, that a sum may be off by; every bound is on the safe side of it."""
 _DEAREST = 1e130
 """No price is higher, so that products stay within the range of numbers."""
 
@@ -37,14 +37,18 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
     log_price = np.minimum(log_price, np.log(_DEAREST))
     price = np.exp(log_price)
     worth_w = _groups_worth_w(form, price)
+    rounding = _ROUNDING * sum(form.snr_per_w.shape[-2:])
     if program.goal == LEAST_POWER:
+        paid_w = price @ form.promised_nats
         with np.errstate(invalid="ignore"):  # ∞ − ∞ proves nothing
-            return np.fmax(price @ form.promised_nats - worth_w, _first_nats_w(form))
+            proven_w = paid_w - worth_w - rounding * (paid_w + worth_w)
+        return np.fmax(proven_w, _first_nats_w(form) * (1.0 - rounding))
     weight = float(form.weight.sum())
     if program.goal == HIGHEST_LEVEL:
-        level = _highest_level(program, log_price, worth_w + form.budget_w) * form.bps_per_nat
+        worth_w = (worth_w + form.budget_w) * (1.0 + rounding)
+        level = _highest_level(program, log_price, worth_w) * (1.0 + rounding) * form.bps_per_nat
         return form.objective.figures(form.objective.utility(level[..., np.newaxis])[..., 0], weight)
-    full = _conjugate(form, program, np.zeros(price.shape))  # what the highest rates are worth, whatever they take
+    full = _conjugate(form, program, np.zeros(price.shape), rounding)  # the highest rates, whatever they take
     best = full
     if program.goal == MOST_EFFICIENCY:
         best = np.minimum(_efficiency(form, full, np.zeros(full.shape)), _first_nats_per_j(form, program))
@@ -53,13 +57,13 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
         tried = center[..., np.newaxis] + steps
         with np.errstate(over="ignore"):
             mu = np.minimum(np.exp(tried), _DEAREST) * np.asarray(program.scale)[..., np.newaxis]
-        joint = _conjugate(form, program, price[..., np.newaxis, :] * mu[..., np.newaxis] / form.bps_per_nat)
+        rate_price = price[..., np.newaxis, :] * mu[..., np.newaxis] / form.bps_per_nat
+        joint = _conjugate(form, program, rate_price, rounding)
+        paid = mu * worth_w[..., np.newaxis] * (1.0 + rounding)
         if program.goal == MOST_EFFICIENCY:
-            paid = mu * worth_w[..., np.newaxis]
-            rounding = _ROUNDING * (np.abs(joint) + paid + mu * form.circuit_w)
-            bounds = _efficiency(form, joint + paid + rounding, mu)
+            bounds = _efficiency(form, joint + paid + rounding * mu * form.circuit_w, mu) * (1.0 + rounding)
         else:
-            bounds = joint + mu * (worth_w + form.budget_w)[..., np.newaxis]
+            bounds = joint + paid + mu * form.budget_w * (1.0 + rounding)
         at = bounds.argmin(axis=-1)[..., np.newaxis]
         center = np.take_along_axis(tried, at, axis=-1)[..., 0]
         best = np.minimum(best, np.take_along_axis(bounds, at, axis=-1)[..., 0])
@@ -93,17 +97,19 @@ def _first_nats_per_j(form: NormalForm, program: Program | Programs) -> FloatArr
     return best * program.scale * form.cell.amplifier_efficiency
 
 
-def _conjugate(form: NormalForm, program: Program | Programs, price: FloatArray) -> FloatArray:
+def _conjugate(form: NormalForm, program: Program | Programs, price: FloatArray, rounding: float) -> FloatArray:
     """u*(w) = Σ ω_k u_k*(w_k/ω_k) for prices w (…, user) per bit/s, over the rates that are allowed, shape (…).
 
-    A user of weight 0 takes what it is promised.
+    A user of weight 0 takes what it is promised. ``rounding`` is the share of its terms by which the sum is raised.
     """
     share = program.share if program.share.ndim == price.ndim + 1 else program.share[..., np.newaxis, :, :]
     low, high = share[..., 1] * form.bps_per_nat, share[..., 2] * form.bps_per_nat
     counts = form.weight > 0
     weight = np.where(counts, form.weight, 1.0)
-    value, _ = form.objective.conjugate(price / weight, low, high)
-    return np.asarray(np.where(counts, weight * value, -price * low).sum(axis=-1))
+    value, rate = form.objective.conjugate(price / weight, low, high)
+    value = np.where(counts, weight * value, -price * low)
+    paid = price * np.where(counts, np.where(np.isfinite(rate), rate, 0.0), low)
+    return np.asarray(value.sum(axis=-1) + rounding * (np.abs(value) + paid).sum(axis=-1))
 
 
 def _groups_worth_w(form: NormalForm, price: FloatArray) -> FloatArray:

@@ -215,7 +215,7 @@ def solve(
     rows = ask.rows.copy()
     term = np.empty((groups, users))
     dual, log_mu, iterations = find_prices(snr_per_w, channel, ask, rows, log_price, log_mu, warm, term)
-    sets = empty_sets(channel, ask.start, rows)
+    sets = empty_sets(channel, ask.start, rows, ask.work)
     usable = usable_groups(channel.ceiling, ask.start, rows)
     candidates = np.empty((groups, min(choices, users)), dtype=np.int64)
     choose_candidates(term, usable, NEAR * mean_term(term), candidates)

@@ -10,7 +10,7 @@ from wirelessagent.deciding.core.certificate import Figures
 from wirelessagent.deciding.core.dual_search import Effort, Search, search
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY
-from wirelessagent.deciding.core.scaling import scaling_at_hand, searched_scaling
+from wirelessagent.deciding.core.scaling import scaling_at_hand
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Bracket
 from wirelessagent.model.rates import user_rate_bps
@@ -21,14 +21,14 @@ _STEP = 1e-3
 """Of the circuit power, next to all that is drawn, from which the power at the bound is worked out."""
 
 
-def figures_of(form: NormalForm, found: Search, least: Search | None, scaled_by: Effort | None = None) -> Figures:
+def figures_of(form: NormalForm, found: Search, least: Search | None, searched: Bracket | None = None) -> Figures:
     """Prices and brackets of a decision.
 
     Args:
         form: the problem.
         found: what was found for it.
         least: the search for the least power of the promised rates, if there are any.
-        scaled_by: the effort of a search for the largest factor on them; None takes what is at hand.
+        searched: what a search for the largest factor on them has found; None takes what is at hand.
     """
     figures = Figures(
         price_of_power=_price_of_power(form, found),
@@ -41,8 +41,7 @@ def figures_of(form: NormalForm, found: Search, least: Search | None, scaled_by:
     figures["price_of_rate"] = _price_of_rate(form, found)
     figures["needed_power_w"] = Bracket(at_least=least.bound, at_most=least.spent_w)
     scaling = scaling_at_hand(form, least)
-    if scaled_by is not None:
-        searched = searched_scaling(form, least, scaled_by)
+    if searched is not None:
         scaling = Bracket(
             at_least=max(scaling.at_least, searched.at_least), at_most=min(scaling.at_most, searched.at_most)
         )  # fmt: skip
@@ -98,6 +97,8 @@ def _drawn_w(form: NormalForm, found: Search) -> float:
     1/q is the least (P/ξ + P_c)/U, so its slope over P_c is 1/U, and P/ξ + P_c is U/q there.
     """
     cell, spent_w = form.cell, (found.spent_w + form.circuit_w) / form.cell.amplifier_efficiency
+    if form.limit.is_over():
+        return spent_w
     circuit_w = np.maximum(cell.circuit_power_w + spent_w * _STEP * np.array([-1.0, 1.0]), 0.0)
     cells = (replace(cell, circuit_power_w=float(circuit)) for circuit in circuit_w)
     forms = (replace(form, cell=other) for other in cells)

@@ -11,7 +11,7 @@ import numpy as np
 
 from wirelessagent.deciding.core.dual_bounds import bound_of
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.deciding.core.program import Program
+from wirelessagent.deciding.core.program import LEAST_POWER, Program
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Prices
 from wirelessagent.model.rates import user_rate_bps
@@ -53,6 +53,7 @@ class Search:
         prices: of the dual; ln μ is in the program's utility per W.
         iterations: Newton steps.
         restarts: of the local search.
+        open: why it is not known that nothing is better, for people; empty where it is, or nobody has looked.
     """
 
     program: Program
@@ -64,6 +65,7 @@ class Search:
     prices: Prices
     iterations: int
     restarts: int = 0
+    open: str = ""
 
     @property
     def spent_w(self) -> float:
@@ -111,12 +113,12 @@ def search_objective(
     best = search(form, program, effort, after, owner)
     for _ in range(REFITS):
         nats = rates_of(form, best)
-        if not best.kept or best.program.meets(form, nats):
+        if not best.kept or best.program.meets(form, nats) or form.limit.is_over():
             break
         again = search(form, Program.of(form, nats), effort, best.prices, best.owner)
-        if not again.kept:
+        if not again.kept or form.limit.is_over():
             break
-        best = dataclasses.replace(again, bound=tighter(form, best.bound, again.bound))
+        best = dataclasses.replace(again, bound=tighter(form, program, best.bound, again.bound))
     return best
 
 
@@ -131,7 +133,7 @@ def ask_of(form: NormalForm, program: Program) -> Ask:
 
     return Ask(
         program.goal, form.cap_w, float(form.max_nats), form.start, program.rows, program.share,
-        float(program.most_level), float(form.budget_w), float(form.circuit_w),
+        float(program.most_level), float(form.budget_w), float(form.circuit_w), form.limit.work,
     )  # fmt: skip
 
 
@@ -148,6 +150,7 @@ def owners_with_power(form: NormalForm, owner: IntArray, power_w: FloatArray) ->
     return np.where(np.repeat(used, np.diff(form.start), axis=-1), owner, -1)
 
 
-def tighter(form: NormalForm, one: float, other: float) -> float:
-    """The better of two bounds."""
-    return min(one, other) if form.objective.direction == "max" else max(one, other)
+def tighter(form: NormalForm, program: Program, one: float, other: float) -> float:
+    """The better of two bounds on what ``program`` asks for, which may be the least power under any objective."""
+    is_lower = program.goal == LEAST_POWER or form.objective.direction == "min"
+    return max(one, other) if is_lower else min(one, other)

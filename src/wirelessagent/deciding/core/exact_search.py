@@ -13,7 +13,6 @@ than its user's best (its reduced cost), since all the others together are worth
 from __future__ import annotations
 
 import heapq
-import time
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,7 +30,7 @@ _PRICE_ACCURACY = 1e-6
 _ROUNDS = 30
 _NODES = 300_000
 _FRACTION = 1e-6
-_PACKED_FROM = 0.3
+_PACKED_SHARE = 0.3
 """Share of the time left that a search among the sets met may take."""
 
 
@@ -75,6 +74,12 @@ class _Best:
     sets: Sets
     x: float
     log_mu: float
+    enough: float
+
+    @property
+    def is_enough(self) -> bool:
+        """Whether no better one is wanted."""
+        return self.x >= self.enough
 
     def offer(self, goal: Goal, sets: Sets, log_mu: float) -> bool:
         """Take an allocation that reaches more."""
@@ -103,42 +108,46 @@ class _Node:
     limit: float
 
 
-def search(goal: Goal, known: Sets, price: FloatArray, log_mu: float, *, deadline: float, most_sets: int) -> Optimum:
+def search(
+    goal: Goal, known: Sets, price: FloatArray, log_mu: float, *, most_sets: int, enough: float = np.inf
+) -> Optimum:
     """The best allocation from a ``known`` one that keeps every limit, and prices π and ln μ to start from.
 
-    ``most_sets`` is how many sets are listed at most for one problem before it is divided.
+    ``most_sets`` is how many sets are listed at most for one problem before it is divided; no allocation better than
+    one that reaches ``enough`` is looked for.
     """
+    limit = goal.market.limit
     x, own = goal.reached(known, log_mu)
-    best = _Best(sets=known, x=x, log_mu=own)
+    best = _Best(sets=known, x=x, log_mu=own, enough=enough)
     everything = np.ones((goal.market.users.shape[0], goal.market.columns), dtype=bool)
     root = _Node(allowed=everything, price=price, log_mu=log_mu, sets=known, limit=np.inf)
     first_price = price
     heap: list[tuple[float, int, _Node]] = [(-np.inf, 0, root)]
     nodes = made = 0
-    limit = -np.inf  # of the problems that were closed without proof
-    while heap and time.perf_counter() < deadline:
+    most = -np.inf  # of the problems that were closed without proof
+    while heap and not best.is_enough and not limit.is_over():
         node = heapq.heappop(heap)[2]
         if node.limit - best.x <= _ACCURACY * abs(best.x):
-            limit = max(limit, node.limit)
+            most = max(most, node.limit)
             continue
-        priced, left = _look(goal, node, best, deadline, most_sets)
+        priced, left = _look(goal, node, best, most_sets)
         nodes += 1
         if nodes == 1:
             first_price = priced.price
         left = min(left, node.limit)
         if left <= best.x:
             continue
-        children = _children(node, priced, left)
-        if not children or time.perf_counter() >= deadline:
-            limit = max(limit, left)
-        for child in children if time.perf_counter() < deadline else ():
+        children = [] if limit.is_over() else _children(node, priced, left)
+        if not children:
+            most = max(most, left)
+        for child in children:
             made += 1
             heapq.heappush(heap, (-left, made, child))
-    limit = max([limit, best.x, *(node.limit for _, _, node in heap)])
-    return Optimum(sets=best.sets, x=best.x, log_mu=best.log_mu, bound=limit, price=first_price, nodes=max(nodes, 1))
+    most = max([most, best.x, *(node.limit for _, _, node in heap)])
+    return Optimum(sets=best.sets, x=best.x, log_mu=best.log_mu, bound=most, price=first_price, nodes=max(nodes, 1))
 
 
-def _look(goal: Goal, node: _Node, best: _Best, deadline: float, most_sets: int) -> tuple[ColumnPrices, float]:
+def _look(goal: Goal, node: _Node, best: _Best, most_sets: int) -> tuple[ColumnPrices, float]:
     """Prices of a problem, and the level that no allocation of it exceeds; at most ``best.x`` where it is closed."""
     price, log_mu, sets = node.price, node.log_mu, node.sets
     while True:
@@ -152,21 +161,22 @@ def _look(goal: Goal, node: _Node, best: _Best, deadline: float, most_sets: int)
             sets,
             value=target,
             accuracy=_PRICE_ACCURACY,
-            deadline=deadline,
         )
         price, log_mu, sets = priced.price, priced.log_mu, priced.sets
+        if not np.isfinite(priced.bound):  # time ran out before there was one
+            return priced, np.inf
         scale = _scale(market, priced)
         if priced.bound - target <= _ACCURACY * scale:
             return priced, x
-        now = time.perf_counter()
         limit = goal.no_more_than(x, market, price, log_mu, priced.bound)
-        if now >= deadline:
+        if market.limit.is_over():
             return priced, limit
         near = _near(market, priced, priced.bound - target)
-        until = now + _PACKED_FROM * (deadline - now)
-        packed = pack(market, near, priced.log_mu, scale=scale, least=target, deadline=until)
+        packed = pack(market, near, priced.log_mu, scale=scale, least=target, share=_PACKED_SHARE)
         if not (packed.sets is not None and best.offer(goal, packed.sets, packed.log_mu)):
             break
+        if best.is_enough:
+            return priced, limit
         if goal.at(best.x) is goal.at(x):  # a sum: the prices hold for the better allocation, too
             target = goal.target(best.x)
             if priced.bound - target <= _ACCURACY * scale:
@@ -174,24 +184,24 @@ def _look(goal: Goal, node: _Node, best: _Best, deadline: float, most_sets: int)
             break
     gap = priced.bound - target + _ROUNDING * scale
     complete, listed = _listed(goal, market, priced, gap, limit, most_sets)
-    left = _settled(goal, node, listed, best, scale, deadline) if complete else limit
+    left = _settled(goal, node, listed, best, scale) if complete else limit
     return priced, left
 
 
-def _settled(goal: Goal, node: _Node, listed: Sets, best: _Best, scale: float, deadline: float) -> float:
-    """The level that no choice among all sets of a problem exceeds; ``best.x`` but where time runs out."""
+def _settled(goal: Goal, node: _Node, listed: Sets, best: _Best, scale: float) -> float:
+    """The level that no choice among all sets of a problem exceeds; ``best.x`` unless time runs out."""
     for _ in range(_ROUNDS):
         market = _masked(goal.at(best.x), node.allowed)
         target = goal.target(best.x)
-        packed = pack(
-            market, listed, max(best.log_mu, market.least_log_mu), scale=scale, least=target, deadline=deadline
-        )
+        packed = pack(market, listed, max(best.log_mu, market.least_log_mu), scale=scale, least=target)
         if packed.bound <= target + 2.0 * _ACCURACY * scale:
             return best.x
         better = packed.sets is not None and best.offer(goal, packed.sets, packed.log_mu)
-        if not better or packed.bound <= goal.target(best.x) + 2.0 * _ACCURACY * scale:
-            done = packed.bound <= max(packed.value, goal.target(best.x)) + 2.0 * _ACCURACY * scale
-            return best.x if done else np.inf
+        if packed.bound <= goal.target(best.x) + 2.0 * _ACCURACY * scale:
+            return best.x
+        if not better:  # all of them are worth less, or some are worth so little more that it is rounding
+            is_rounding = packed.bound <= packed.value + 2.0 * _ACCURACY * scale
+            return best.x if is_rounding and not goal.market.limit.is_over() else np.inf
     return np.inf
 
 
@@ -225,6 +235,7 @@ def _listed(
     complete, user, first, member = bundles_within(
         market.users, market.floor, market.inverse, market.ceiling, market.start, priced.price, priced.log_mu,
         bound - gap, np.ascontiguousarray(wettest), market.least_log_mu, market.budget_w, _NODES, most_sets,
+        market.limit.work,
     )  # fmt: skip
     return complete, Sets(user=user, first=first, member=member)
 

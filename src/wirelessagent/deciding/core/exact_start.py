@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 
 from wirelessagent.deciding.core.goals import Goal, HighestLevel, Most, MostPerJoule
@@ -11,6 +9,7 @@ from wirelessagent.deciding.core.market import Market, Sets
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_UTILITY, Program, promises
 from wirelessagent.deciding.core.rate_proof import ceilings
+from wirelessagent.deciding.core.set_packing import LONGEST_S
 from wirelessagent.model.arrays import FloatArray
 
 _RATES = (1e-6, 1e-3, 0.1, 0.5, 2.0, 10.0)
@@ -55,7 +54,7 @@ def is_met_everywhere(form: NormalForm, program: Program) -> bool:
     return all(program.meets(form, np.clip(part * reference, low, high)) for part in _RATES)
 
 
-def carried_at_any_power(market: Market, nats: FloatArray, deadline: float) -> tuple[bool, Sets | None]:
+def carried_at_any_power(market: Market, nats: FloatArray) -> tuple[bool, Sets | None]:
     """Whether ceilings may carry ``nats`` (user,), and sets that do: a covering problem, by integer programming."""
     from scipy.optimize import Bounds, LinearConstraint, milp
     from scipy.sparse import block_diag, hstack, identity, vstack
@@ -74,7 +73,7 @@ def carried_at_any_power(market: Market, nats: FloatArray, deadline: float) -> t
         ),
         integrality=np.ones(users.size * columns, dtype=np.int64),
         bounds=Bounds(0.0, 1.0),
-        options={"time_limit": max(deadline - time.perf_counter(), 0.01)},
+        options={"time_limit": max(min(market.limit.left_s, LONGEST_S), 0.01)},
     )
     if result.x is None:
         return result.status != 2, None
@@ -92,4 +91,5 @@ def _market(form: NormalForm, rows: FloatArray, *, budgeted: bool) -> Market:
         form.start,
         cost_per_w=0.0 if budgeted else 1.0,
         budget_w=form.budget_w if budgeted else np.inf,
+        limit=form.limit,
     )

@@ -32,6 +32,7 @@ from wirelessagent.deciding.core.sets_kernel import (
     worth_of,
 )
 from wirelessagent.deciding.core.settle_kernel import settle
+from wirelessagent.deciding.core.work_kernel import is_over
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
@@ -88,7 +89,7 @@ def hand_out(sets: Sets, alike: bool) -> None:
             needy = sets.user[k, WORTH] <= -UNREACHABLE
             if chosen < 0 or (needy and not urgent) or (needy == urgent and gain[k] > gain[chosen]):
                 chosen, urgent = k, needy
-        if chosen < 0:
+        if chosen < 0 or is_over(sets.work):
             return
         change(sets, choice[chosen], chosen, none())
         choice[chosen] = UNKNOWN
@@ -112,7 +113,7 @@ def solve_greedily(
     rows = ask.rows.copy()
     term = np.empty((groups, users))
     dual, log_mu, iterations = find_prices(snr_per_w, channel, ask, rows, log_price, 0.0, False, term)
-    sets = empty_sets(channel, ask.start, rows)
+    sets = empty_sets(channel, ask.start, rows, ask.work)
     owners = np.empty(groups, dtype=np.int64)
     for g in range(groups):
         owners[g] = owner[ask.start[g]]

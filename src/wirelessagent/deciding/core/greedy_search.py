@@ -44,7 +44,7 @@ def search_objective_greedily(form: NormalForm, program: Program, owner: IntArra
         again = search_greedily(form, Program.of(form, nats), owner)
         if not again.kept:
             break
-        best = dataclasses.replace(again, bound=tighter(form, best.bound, again.bound))
+        best = dataclasses.replace(again, bound=tighter(form, program, best.bound, again.bound))
     return best
 
 

@@ -11,10 +11,11 @@ by strong duality on given sets. A sum of utilities has q = 0, the least power q
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from wirelessagent.deciding.core.time_limit import TimeLimit
 from wirelessagent.model.arrays import FloatArray, IntArray
 
 NOTHING = -0.5e200
@@ -107,6 +108,7 @@ class Market:
         start: where each column begins, and the number of subcarriers, shape (column + 1,).
         cost_per_w: q, what a watt costs in any case.
         budget_w: P; infinite where there is none, and then q is above 0.
+        limit: when what is searched in it has to end.
     """
 
     users: FloatArray
@@ -116,6 +118,7 @@ class Market:
     start: IntArray
     cost_per_w: float
     budget_w: float
+    limit: TimeLimit = field(default_factory=TimeLimit)
 
     @classmethod
     def of(
@@ -127,6 +130,7 @@ class Market:
         *,
         cost_per_w: float,
         budget_w: float,
+        limit: TimeLimit | None = None,
     ) -> Market:
         """From a (user, subcarrier), in 1/W, 0 where a pair may not be used, and the most nats there."""
         with np.errstate(divide="ignore"):
@@ -140,19 +144,13 @@ class Market:
             start=np.ascontiguousarray(start),
             cost_per_w=cost_per_w,
             budget_w=budget_w,
+            limit=limit or TimeLimit(),
         )
 
     def with_users(self, users: FloatArray, cost_per_w: float | None = None) -> Market:
         """The same columns for users of other rows, and at another cost of power."""
-        return Market(
-            users=np.ascontiguousarray(users),
-            floor=self.floor,
-            inverse=self.inverse,
-            ceiling=self.ceiling,
-            start=self.start,
-            cost_per_w=self.cost_per_w if cost_per_w is None else cost_per_w,
-            budget_w=self.budget_w,
-        )
+        cost_per_w = self.cost_per_w if cost_per_w is None else cost_per_w
+        return replace(self, users=np.ascontiguousarray(users), cost_per_w=cost_per_w)
 
     @property
     def columns(self) -> int:
@@ -168,12 +166,13 @@ class Market:
         return 0.0 if np.isinf(self.budget_w) else float((np.exp(log_mu) - self.cost_per_w) * self.budget_w)
 
     def worths(self, sets: Sets, log_mu: float) -> tuple[FloatArray, FloatArray]:
-        """V(S; μ) and the power of each set, (set,)."""
+        """V(S; μ) and the power of each set, (set,); nothing for those that time does not suffice for."""
         from wirelessagent.deciding.core.columns_kernel import worths
 
         return worths(
-            self.users, self.floor, self.inverse, self.ceiling, self.start, log_mu, sets.user, sets.first, sets.member
-        )
+            self.users, self.floor, self.inverse, self.ceiling, self.start, log_mu, sets.user, sets.first,
+            sets.member, self.limit.work,
+        )  # fmt: skip
 
     def value(self, sets: Sets, near_log_mu: float = 0.0) -> tuple[float, float]:
         """What one set for each user is worth together, and the ln μ of its budget; −inf where it cannot be.

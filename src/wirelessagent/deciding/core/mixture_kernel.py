@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from wirelessagent.deciding.core.work_kernel import is_over
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
@@ -124,6 +125,7 @@ def mix(
     sweeps: int,
     weight: FloatArray,
     price: FloatArray,
+    work: IntArray,
 ) -> tuple[float, float, float]:
     """The proximal step of the module's docstring, to within ``tolerance``; returns μ, m there, and how exact that is.
 
@@ -137,6 +139,7 @@ def mix(
         tolerance, sweeps: where to stop.
         weight: x to start from, shape (set,), each user's adding up to 1; overwritten.
         price: written, π, shape (column,).
+        work: steps done and to do; see :mod:`.work_kernel`.
     """  # fmt: skip
     load = np.empty(center.size)
     mark = np.zeros(center.size, dtype=np.int64)
@@ -152,7 +155,7 @@ def mix(
             )  # fmt: skip
             gap += most - mean
             worth += most
-        if gap <= tolerance or sweep == sweeps - 1:
+        if gap <= tolerance or sweep == sweeps - 1 or is_over(work):
             break
         for k in range(begin.size - 1):
             for _ in range(MOVES):

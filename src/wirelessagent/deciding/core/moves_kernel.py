@@ -25,6 +25,7 @@ from wirelessagent.deciding.core.sets_kernel import (
     value_set,
     worth_of,
 )
+from wirelessagent.deciding.core.work_kernel import is_over
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray, IntArray
 
@@ -119,7 +120,7 @@ def improve(sets: Sets, candidates: IntArray) -> int:
     changes, refused = 0, 0
     groups = group.shape[1] - 1
     g = groups - 1
-    while refused < groups:
+    while refused < groups and not is_over(sets.work):
         g, new_owner, in_return = find_change(sets, candidates, g)
         if g < 0:
             break
@@ -154,7 +155,7 @@ def serve_all(sets: Sets) -> int:
     for k in range(user.shape[0]):
         while user[k, WORTH] <= -UNREACHABLE:
             best, chosen = 0.0, none()
-            for g in range(group.shape[1] - 1):
+            for g in range(0 if is_over(sets.work) else group.shape[1] - 1):
                 holder = group[OWNER, g]
                 if holder == k:
                     continue

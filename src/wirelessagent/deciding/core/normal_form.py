@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from wirelessagent.deciding.core.time_limit import TimeLimit
 from wirelessagent.deciding.method import Method
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.cell import Cell
@@ -44,11 +45,12 @@ class NormalForm:
         budget_w: power budget.
         cap_w: power cap of each subcarrier, shape (subcarrier,); infinite where there is none.
         max_nats: the largest rate of a subcarrier in nats; infinite where there is none.
-        promised_nats: the rate each served user must get, shape (user,).
+        promised_nats, promised_bps: the rate each served user must get, shape (user,).
         most_nats: the rate beyond which a user has nothing to send, shape (user,); infinite where there is none.
         weight: each user's weight, shape (user,); 0 for users who are not served.
         start: first subcarrier of each resource-block group, and the number of subcarriers, shape (group + 1,).
         bps_per_nat: bit/s that one nat on a subcarrier is worth.
+        limit: when the search has to end.
     """
 
     method: str
@@ -61,10 +63,12 @@ class NormalForm:
     cap_w: FloatArray
     max_nats: float
     promised_nats: FloatArray
+    promised_bps: FloatArray
     most_nats: FloatArray
     weight: FloatArray
     start: IntArray
     bps_per_nat: float
+    limit: TimeLimit
 
     @classmethod
     def of(cls, method: Method, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> NormalForm:
@@ -94,10 +98,12 @@ class NormalForm:
             cap_w=cap_w,
             max_nats=cell.max_spectral_efficiency * math.log(2.0),
             promised_nats=promised / bps_per_nat,
+            promised_bps=promised,
             most_nats=most / bps_per_nat,
             weight=problem.weights_of(users),
             start=_starts(subcarriers, group),
             bps_per_nat=bps_per_nat,
+            limit=TimeLimit.in_force(),
         )
 
     def on(self, gain: FloatArray) -> NormalForm:

@@ -49,6 +49,7 @@ from wirelessagent.deciding.core.climb_point_kernel import (
 from wirelessagent.deciding.core.demand_kernel import level_bound
 from wirelessagent.deciding.core.newton_kernel import newton_step
 from wirelessagent.deciding.core.supply_kernel import Groups, worth_w
+from wirelessagent.deciding.core.work_kernel import is_over
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import FloatArray
 
@@ -154,6 +155,8 @@ def descend(groups: Groups, ask: Ask, rows: FloatArray, path: Path, here: State,
     """Fill in ``there``, a step away, where F is less; returns the share of the step, 0 if F is nowhere less."""
     scale = 1.0
     for trial in range(TRIALS):
+        if trial > 0 and is_over(ask.work):
+            break
         apart = trial == 1
         if apart and np.abs(path.step).max() <= 0.5 * longest:  # nothing was shortened
             continue
@@ -176,7 +179,7 @@ def settle_at(groups: Groups, ask: Ask, rows: FloatArray, path: Path, here: Stat
     longest = SHORT
     swapped = False
     steps = 0
-    while steps < STEPS:
+    while steps < STEPS and not is_over(ask.work):
         promised = solve_step(path, here, path.figures[RELATIVE] >= SHARED_AT)
         mu = np.exp(here.log_price[-1])
         enough = path.figures[FLATNESS] * path.figures[RELATIVE] * mu * abs(here.figures[SMOOTH] + budget_of(ask))
@@ -258,6 +261,8 @@ def climb(
         if found < best:
             best = found
             log_price[:] = here.log_price
+        if is_over(ask.work):
+            break
     return best, iterations
 
 

@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from wirelessagent.deciding.core.certificate import Figures, certified, nothing
+from wirelessagent.deciding.core.exact_powers import BUDGET_ROUNDING
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.rate_proof import RateProof, prove, shortage
 from wirelessagent.model.arrays import FloatArray, IntArray
@@ -19,7 +20,6 @@ from wirelessagent.model.units import human
 Allocate = Callable[[FloatArray], tuple[IntArray, FloatArray]]
 """From rates in nats (user,) to an owner and a power in W per subcarrier; the power is infinite where it cannot."""
 
-_BUDGET_ROUNDING = 1e-10
 _PROOF_ROUNDING = 1e-9
 _MOST_TOLD_W = 1e12
 _SCALING_ACCURACY = 1e-6
@@ -36,7 +36,7 @@ def least_power_decision(form: NormalForm, allocate: Allocate) -> Decision:
     if not form.promised_nats.any():
         return certified(form, owner, power_w, 0.0, **figures)
     reason, most = ("", np.inf) if np.isfinite(found) else shortage(form)
-    fits = found <= form.budget_w * (1.0 + _BUDGET_ROUNDING)
+    fits = found <= form.budget_w * (1.0 + BUDGET_ROUNDING)
     at_most = min(proof.max_scaling, most)
     figures["needed_power_w"] = _needed(proof, reason, found)
     figures["rate_scaling"] = Bracket(

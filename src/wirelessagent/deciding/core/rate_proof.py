@@ -25,6 +25,8 @@ from wirelessagent.model.units import human
 _ROUNDS = 4
 _SETTLED = 1e-2
 _ROUNDING = 1e-9
+_STEP = 4e-16
+"""Share of its terms, for each of them, that a sum may be off by."""
 _HIGHEST_LOG_PRICE = 500.0
 """That of the search. A lower price than the best proves less, but nothing wrong."""
 
@@ -71,7 +73,7 @@ def prove(form: NormalForm) -> RateProof:
             needed, best = power, found
         settled = factor != 1.0 and tighter > scaling * (1.0 - _SETTLED)
         scaling = min(scaling, tighter)
-        if settled or scaling <= 0.0:
+        if settled or scaling <= 0.0 or form.limit.is_over():
             break
         factor = scaling
     price[users] = np.exp(best)
@@ -85,7 +87,8 @@ def _judge(form: NormalForm, snr: FloatArray, nats: FloatArray, log_price: Float
     price = np.exp(log_price)  # of a few hundred at most, so that no product overflows
     worth_w = float(worth_of_groups(snr, form.cap_w, form.max_snr, form.start, price))
     paid_w = float(price @ nats)
-    return max(paid_w - worth_w, 0.0), (form.budget_w + worth_w) / paid_w
+    rounding_w = _STEP * (nats.size + form.cap_w.size) * (paid_w + worth_w)
+    return max(paid_w - worth_w - rounding_w, 0.0), (form.budget_w + worth_w + rounding_w) / paid_w
 
 
 def _prices_of(relaxed: Relaxations) -> FloatArray:
@@ -181,7 +184,8 @@ def _climb(form: NormalForm, snr: FloatArray, nats: FloatArray) -> tuple[FloatAr
 
     rows, log_price, no_share = promises(nats), np.empty(nats.size), np.zeros((nats.size, 3))
     ask = Ask(
-        LEAST_POWER, form.cap_w, float(form.max_nats), form.start, rows, no_share, 0.0, float(form.budget_w), 0.0
+        LEAST_POWER, form.cap_w, float(form.max_nats), form.start, rows, no_share, 0.0, float(form.budget_w), 0.0,
+        form.limit.work,
     )  # fmt: skip
     term = np.empty((form.start.size - 1, nats.size))
     _, _, steps = find_prices(snr, channel_of(snr, ask), ask, rows, log_price, 0.0, False, term)

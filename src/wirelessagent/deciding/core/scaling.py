@@ -33,6 +33,8 @@ def scaling_at_hand(form: NormalForm, least: Search) -> Bracket:
 
 def searched_scaling(form: NormalForm, least: Search, effort: Effort) -> Bracket:
     """The same by a search of its own: the highest level of the rates, each in units of what is promised."""
+    if form.limit.is_over():
+        return Bracket(at_least=0.0, at_most=np.inf)
     users = form.promised_nats.size
     levelled = dataclasses.replace(
         form,

@@ -10,16 +10,15 @@ from wirelessagent.deciding.core.certificate import Figures, certified
 from wirelessagent.deciding.core.closed_form import APPROACHED
 from wirelessagent.deciding.core.dual_bounds import bound_of
 from wirelessagent.deciding.core.dual_prices import figures_of
-from wirelessagent.deciding.core.dual_search import Effort, Search
+from wirelessagent.deciding.core.dual_search import Search
+from wirelessagent.deciding.core.exact_powers import BUDGET_ROUNDING
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import MOST_EFFICIENCY, Program
 from wirelessagent.deciding.core.promises import broken_decision
-from wirelessagent.deciding.core.scaling import searched_scaling
 from wirelessagent.model.arrays import FloatArray, IntArray
-from wirelessagent.model.decision import Decision
+from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.rates import user_rate_bps
 
-BUDGET_ROUNDING = 1e-10
 PROOF_ROUNDING = 1e-9
 _CURVATURE = 4
 """Column of a program's rows."""
@@ -63,29 +62,29 @@ def approached_decision(form: NormalForm, program: Program) -> Decision:
     return certified(form, owner, power_w, bound, reason=APPROACHED, price_of_power=0.0)
 
 
-def unkept_decision(form: NormalForm, least: Search, scaled_by: Effort) -> Decision:
+def unkept_decision(form: NormalForm, least: Search, scaling: Bracket) -> Decision:
     """The decision where the search for the least power of the promised rates found none within the budget.
 
-    What part of them it carries is what there is to ask for instead, so that is searched for.
+    What part of them it carries is what there is to ask for instead: ``scaling`` as searched for.
     """
     price = np.where(form.promised_nats > 0, np.exp(least.prices.log_rate), 0.0)
-    scaling = searched_scaling(form, least, scaled_by).at_least
     found_w = least.spent_w if least.kept else np.inf
-    decision = broken_decision(form, found_w, least.bound, price, scaling)
+    decision = broken_decision(form, found_w, least.bound, price, scaling.at_least)
     return dataclasses.replace(decision, restarts=least.restarts)
 
 
 def decision_of(
-    form: NormalForm, found: Search, least: Search | None, unserved: IntArray, scaled_by: Effort | None = None
+    form: NormalForm, found: Search, least: Search | None, unserved: IntArray, scaling: Bracket | None = None
 ) -> Decision:
     """The decision for what was found; ``least`` is the search for the least power of the promised rates, if any.
 
-    ``unserved`` are the users without whom the others are served (:mod:`.unserved`); for ``scaled_by`` see
-    :func:`.dual_prices.figures_of`.
+    ``unserved`` are the users without whom the others are served (:mod:`.unserved`); ``scaling`` is what a search for
+    the largest factor on the promised rates has found.
     """
-    figures = figures_of(form, found, least, scaled_by)
+    figures = figures_of(form, found, least, scaling)
     if unserved.size == 0:
-        return certified(form, found.owner, found.power_w, found.bound, **figures)
+        decision = certified(form, found.owner, found.power_w, found.bound, **figures)
+        return dataclasses.replace(decision, reason=found.open) if decision.status != "optimal" else decision
     return worthless_decision(form, found.owner, found.power_w, unserved, figures)
 
 

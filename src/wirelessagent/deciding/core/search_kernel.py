@@ -36,6 +36,7 @@ from wirelessagent.deciding.core.sets_kernel import (
     value_changed,
 )
 from wirelessagent.deciding.core.settle_kernel import set_level, settle
+from wirelessagent.deciding.core.work_kernel import is_over
 from wirelessagent.kernels import kernel
 from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 
@@ -131,6 +132,8 @@ def polish(ask: Ask, sets: Sets, candidates: IntArray, at: float, best_owner: In
     score, at, spent = settle(ask, sets, at)
     copy_owners(sets.group[OWNER], best_owner)
     for _ in range(ROUNDS):
+        if is_over(ask.work):
+            break
         if ask.goal == LEVEL:
             set_level(sets.user, ask.share, np.exp(at))
             if spent < ask.budget_w * (1.0 - SLACK_SHARE):  # no power lifts the level: somebody's subcarriers are full
@@ -180,7 +183,7 @@ def single_changes(ask: Ask, sets: Sets, candidates: IntArray, score: float, at:
     first = none()
     while True:
         g, new_owner, in_return = find_change(sets, candidates, first + 1)
-        if g <= first:  # none, or round again
+        if g <= first or is_over(ask.work):  # none, or round again
             return score, at
         k = int(sets.group[OWNER, g])
         change(sets, g, new_owner, in_return)
@@ -236,6 +239,8 @@ def restart(
     chains = empty_chains(sets.user.shape[0], base.size) if chained else empty_chains(0, 0)
     tries = restarts if chained else UNCHAINED * restarts
     for i in range(tries):
+        if is_over(ask.work):
+            break
         if i > 0 or not chained:
             kick(sets, candidates, contested, size, state)
         promising = -np.inf if i == 0 else here - PROMISING * leeway

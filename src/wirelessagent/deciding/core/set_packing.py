@@ -11,7 +11,6 @@ which is solved for a few μ; the choice found has a price of its own, which is 
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +22,8 @@ _UNIT = 1e-4
 """Values enter the programme in this part of what is at stake: its tolerances are 1e-6, so that 1e-10 remains."""
 _LARGEST = 1e7
 """Losses in units of that are held at this, lest they spoil the programme's scaling; its bound stays one."""
+LONGEST_S = 1e6
+"""Where there is no limit, since HiGHS takes no infinite one."""
 _CLOSE = 1e-10
 _ROUNDS = 40
 
@@ -51,18 +52,19 @@ def pack(
     *,
     scale: float,
     least: float = -np.inf,
-    deadline: float = np.inf,
+    share: float = 1.0,
 ) -> Packing:
     """The best choice among ``sets``.
 
     Args:
-        market: users, columns and power.
+        market: users, columns and power, and the time that there is.
         sets: the list.
         log_mu: ln of the first price of power to hold.
         scale: what is at stake; the answer is exact to 1e-10 of it.
         least: choices worth no more are of no use; the search ends where there is no better one.
-        deadline: in seconds on ``time.perf_counter``.
+        share: of the time that is left.
     """
+    spare_s = (1.0 - share) * min(market.limit.left_s, LONGEST_S)
     unit = _UNIT * scale
     best = Packing(sets=None, value=-np.inf, log_mu=log_mu, bound=np.inf)
     cuts = [log_mu]
@@ -70,7 +72,9 @@ def pack(
     for _ in range(_ROUNDS):
         worths = np.stack([market.worths(sets, cut)[0] for cut in cuts])
         left = np.array([market.left_w(cut) for cut in cuts])
-        chosen, most = _solve(market, sets, worths, left, unit, deadline)
+        if market.limit.is_over():
+            break
+        chosen, most = _solve(market, sets, worths, left, unit, spare_s)
         bound = min(bound, most)
         if chosen is None:
             break
@@ -79,16 +83,19 @@ def pack(
             best = Packing(sets=chosen, value=value, log_mu=own, bound=bound)
         if bound - max(best.value, least) <= _CLOSE * scale or np.isinf(market.budget_w):
             break
-        if time.perf_counter() >= deadline or any(abs(own - cut) <= 1e-13 * (1.0 + abs(cut)) for cut in cuts):
+        if any(abs(own - cut) <= 1e-13 * (1.0 + abs(cut)) for cut in cuts):
             break
         cuts.append(own)
     return Packing(sets=best.sets, value=best.value, log_mu=best.log_mu, bound=max(bound, best.value))
 
 
 def _solve(
-    market: Market, sets: Sets, worths: FloatArray, left: FloatArray, unit: float, deadline: float
+    market: Market, sets: Sets, worths: FloatArray, left: FloatArray, unit: float, spare_s: float
 ) -> tuple[Sets | None, float]:
-    """The best choice at some prices of power (price, set), and a bound on all, −∞ where there is none."""
+    """The best choice at some prices of power (price, set), and a bound on all, −∞ where there is none.
+
+    ``spare_s`` of the time that is left are for others.
+    """
     from scipy.optimize import Bounds, LinearConstraint, milp
     from scipy.sparse import block_array, coo_array, csc_array, csr_array
 
@@ -117,7 +124,7 @@ def _solve(
         constraints=LinearConstraint(matrix, lower, upper),
         integrality=np.concatenate([np.ones(count), [0.0]]),
         bounds=Bounds(np.zeros(count + 1), np.concatenate([np.ones(count), [np.inf]])),
-        options={"mip_rel_gap": 0.0, "time_limit": max(min(deadline - time.perf_counter(), 1e6), 0.01)},
+        options={"mip_rel_gap": 0.0, "time_limit": max(min(market.limit.left_s, LONGEST_S) - spare_s, 0.01)},
     )
     if result.status == 2:
         return None, -np.inf

@@ -78,6 +78,7 @@ class Sets(NamedTuple):
         group: the owner, −1 for nobody, when it was last seen to be the best, and the first subcarrier of each group,
             shape (3, group + 1); the time now is the second of the last.
         room: workspace for one set, shape (5, subcarrier).
+        work: steps done and to do; see :mod:`.work_kernel`.
     """
 
     pair: FloatArray
@@ -85,6 +86,7 @@ class Sets(NamedTuple):
     member: IntArray
     group: IntArray
     room: FloatArray
+    work: IntArray
 
 
 @kernel
@@ -94,7 +96,7 @@ def none() -> int:
 
 
 @kernel
-def empty_sets(channel: Channel, start: IntArray, rows: FloatArray) -> Sets:
+def empty_sets(channel: Channel, start: IntArray, rows: FloatArray, work: IntArray) -> Sets:
     """Sets that own nothing yet, their worth unknown."""
     groups, (users, subcarriers) = start.size - 1, channel.floor.shape
     user = np.empty((users, 20))
@@ -111,7 +113,7 @@ def empty_sets(channel: Channel, start: IntArray, rows: FloatArray) -> Sets:
         group[OWNER, g] = NONE
         group[CHECKED, g] = 0
         group[START, g] = start[g]
-    return Sets(channel.pair, user, member, group, np.empty((5, subcarriers)))
+    return Sets(channel.pair, user, member, group, np.empty((5, subcarriers)), work)
 
 
 @kernel

@@ -13,81 +13,118 @@ import numpy as np
 
 from wirelessagent.deciding.core.column_prices import column_prices, start_prices
 from wirelessagent.deciding.core.dual_search import Search, owners_with_power, tighter
+from wirelessagent.deciding.core.exact_powers import exact_powers
 from wirelessagent.deciding.core.exact_search import Optimum, search
 from wirelessagent.deciding.core.exact_start import carried_at_any_power, goal_of, is_met_everywhere, least_power, shown
 from wirelessagent.deciding.core.goals import Goal, Most
 from wirelessagent.deciding.core.market import Market, Sets
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program, promises
-from wirelessagent.model.arrays import IntArray
-from wirelessagent.model.decision import Prices
+from wirelessagent.deciding.core.time_limit import TimeLimit
+from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.rates import user_rate_bps
 
 _FARTHEST = 80.0
 """Of ln μ at the start; a price beyond is that of power to spare."""
+_ROUNDING = 1e-12
+"""Share of a bound by which it is widened, beside what levels, which are logarithms, are off by."""
 MOST_SETS = 2000
 """Sets listed for one user before a problem is divided."""
+OUT_OF_TIME = "the time allowed ended before this was proven to be the best"
+_ROUNDED = "what is better, if anything, is less than rounding: rates or gains lie too far apart"
+_NO_POWER_LAW = (
+    "the objective's utility is no power law of the rate, so that the bound is that of prices of rates, and sets were "
+    "searched for with the power law that is nearest at the rates found"
+)
+_APPROACHED = "without circuit power the best efficiency is only approached, and the bound is that of prices of rates"
+"""Why it is not known that nothing is better."""
 
 
 @functools.cache
 def make_ready() -> None:
-    """Have all that the search needs compiled, once in a process, so that its time is spent on searching."""
+    """Have all that a search needs compiled, once in a process, so that its time is spent on searching."""
+    from wirelessagent.deciding.core.ask_kernel import Ask
+    from wirelessagent.deciding.core.dual_kernel import solve
+
     rows, owner = promises(np.ones(2)), np.array([0, 1])
+    ask = Ask(
+        LEAST_POWER, np.full(2, np.inf), np.inf, np.arange(3), rows, np.zeros((2, 3)), 0.0, 1.0, 0.0, TimeLimit().work
+    )  # fmt: skip
+    solve(np.ones((2, 2)), ask, 2, 0, 0, False, np.zeros(2), 0.0, False, owner.copy(), np.empty(2))
     market = Market.of(rows, np.ones((2, 2)), np.ones((2, 2)), np.arange(3), cost_per_w=1.0, budget_w=np.inf)
     known = Sets.of_owner(owner, 2)
     priced = column_prices(market, start_prices(market, np.zeros(2), 0.0), 0.0, known, rounds=2)
     goal = Most(market=market)
-    search(goal, known, priced.price, 0.0, deadline=np.inf, most_sets=2).allocation(goal)
+    search(goal, known, priced.price, 0.0, most_sets=2).allocation(goal)
 
 
-def tightened(form: NormalForm, found: Search, deadline: float, most_sets: int = MOST_SETS) -> Search:
-    """``found``, or better sets, with the better bound; ``deadline`` in seconds on ``time.perf_counter``."""
+def tightened(form: NormalForm, found: Search, most_sets: int = MOST_SETS, enough: float = np.inf) -> Search:
+    """``found``, or better sets, with the better bound; nothing better than a score of ``enough`` is looked for."""
     program = found.program
-    if not found.kept or (program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0):
+    if not found.kept:
         return found
+    if program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0:
+        return dataclasses.replace(found, open=_APPROACHED)
+    if form.limit.is_over():
+        return dataclasses.replace(found, open=OUT_OF_TIME)
     goal = goal_of(form, program)
-    optimum = search_from(form, program, goal, found.owner, found.prices, deadline=deadline, most_sets=most_sets)
-    if is_met_everywhere(form, program):
-        found = dataclasses.replace(found, bound=tighter(form, found.bound, shown(form, program, optimum.bound)))
-    if optimum.x <= found.score:
-        return found
+    optimum = _search_from(form, goal, found, most_sets, enough)
+    if optimum.x == -np.inf:
+        return dataclasses.replace(found, open=OUT_OF_TIME if form.limit.is_over() else _ROUNDED)
     own, power_w = optimum.allocation(goal)
-    return dataclasses.replace(
-        found, owner=owners_with_power(form, own, power_w), power_w=power_w, score=float(optimum.x)
-    )  # fmt: skip
+    power_w = exact_powers(form, goal.reaching(optimum.x).users, own, power_w)
+    own, worth = owners_with_power(form, own, power_w), _worth(form, program, own, power_w)
+    why = OUT_OF_TIME if form.limit.is_over() else _ROUNDED
+    if is_met_everywhere(form, program):
+        # Levels are off by as much as they are for the allocation whose powers are known to the last bit.
+        reached = shown(form, program, optimum.x)
+        sign = -1.0 if program.goal == LEAST_POWER or form.objective.direction == "min" else 1.0
+        slack = 0.0 if reached == sign * worth else abs(reached - sign * worth) + _ROUNDING * abs(reached)
+        bound = shown(form, program, optimum.bound) + sign * slack
+        found = dataclasses.replace(found, bound=tighter(form, program, found.bound, bound))
+    else:
+        why = _NO_POWER_LAW
+    found = dataclasses.replace(found, open=why)
+    if not worth > _worth(form, program, found.owner, found.power_w):
+        return found
+    return dataclasses.replace(found, owner=own, power_w=power_w, score=float(optimum.x))
 
 
-def carried(form: NormalForm, least: Search, deadline: float, most_sets: int = MOST_SETS) -> Search:
+def carried(form: NormalForm, least: Search, most_sets: int = MOST_SETS, *, enough: float) -> Search:
     """The search for the least power of the promised rates, gone on with where it found nothing within the budget.
 
-    Where it found no sets at all, integer programming does; the bound is infinite if there are none.
+    Where it found no sets at all, integer programming does; the bound is infinite if there are none. It ends with a
+    power of at most −``enough``.
     """
     goal = least_power(form)
     if not least.kept:
-        possible, sets = carried_at_any_power(goal.market, form.promised_nats, deadline)
+        possible, sets = carried_at_any_power(goal.market, form.promised_nats)
         if sets is None:
             return least if possible else dataclasses.replace(least, bound=np.inf)
         columns = sets.owner(goal.market.columns)
-        least = dataclasses.replace(least, kept=True, owner=np.repeat(columns, np.diff(form.start)), score=-np.inf)
-    return tightened(form, least, deadline, most_sets)
-
-
-def search_from(
-    form: NormalForm,
-    program: Program,
-    goal: Goal,
-    owner: IntArray,
-    prices: Prices,
-    *,
-    deadline: float,
-    most_sets: int,
-) -> Optimum:
-    """The exact search from the owners (subcarrier,) and the prices of rates that the dual has found."""
-    fixed = program.goal in (LEAST_POWER, HIGHEST_LEVEL)
-    log_mu = 0.0 if fixed else min(max(float(prices.log_power), -_FARTHEST), _FARTHEST)
-    price = start_prices(goal.market, prices.log_rate, log_mu)
-    return search(goal, sets_of(form, owner), price, log_mu, deadline=deadline, most_sets=most_sets)
+        owner, power_w = np.repeat(columns, np.diff(form.start)), np.full(form.cap_w.size, np.inf)
+        least = dataclasses.replace(least, kept=True, owner=owner, power_w=power_w, score=-np.inf)
+    return tightened(form, least, most_sets, enough)
 
 
 def sets_of(form: NormalForm, owner: IntArray) -> Sets:
     """The users' sets of groups; a subcarrier without power may have no owner though its group has one."""
     return Sets.of_owner(np.maximum.reduceat(owner, form.start[:-1]), form.weight.size)
+
+
+def _search_from(form: NormalForm, goal: Goal, found: Search, most_sets: int, enough: float) -> Optimum:
+    """The exact search from the owners and the prices of rates that the dual has found."""
+    fixed = found.program.goal in (LEAST_POWER, HIGHEST_LEVEL)
+    log_mu = 0.0 if fixed else min(max(float(found.prices.log_power), -_FARTHEST), _FARTHEST)
+    price = start_prices(goal.market, found.prices.log_rate, log_mu)
+    return search(goal, sets_of(form, found.owner), price, log_mu, most_sets=most_sets, enough=enough)
+
+
+def _worth(form: NormalForm, program: Program, owner: IntArray, power_w: FloatArray) -> float:
+    """What ``program`` makes of an allocation; more is better."""
+    spent_w = float(power_w.sum())
+    if program.goal == LEAST_POWER:
+        return -spent_w
+    rate = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
+    value = form.objective.value(rate, spent_w, form.cell, form.weight)
+    return value if form.objective.direction == "max" else -value

@@ -2,30 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
-import sys
-import time
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-import numpy as np
-
-from wirelessagent.deciding.core.closed_form import closed_decision, nats_worth
-from wirelessagent.deciding.core.dual_search import Effort, Search, search, search_objective, search_promises, tighter
+from wirelessagent.deciding.core.dual_decision import Plan, dual_decision
 from wirelessagent.deciding.core.normal_form import NormalForm
-from wirelessagent.deciding.core.program import LEAST_POWER, Program
-from wirelessagent.deciding.core.search_decision import (
-    approached_decision,
-    decision_of,
-    fits,
-    is_approached,
-    is_proven_too_much,
-    unkept_decision,
-    unpowered_decision,
-    unservable_decision,
-)
-from wirelessagent.deciding.core.thorough import carried, make_ready, tightened
-from wirelessagent.deciding.core.unserved import without_unservable
 from wirelessagent.deciding.method import WHOLE_PROBLEM, Method
 from wirelessagent.model.arrays import positive, whole
 from wirelessagent.model.cell import Cell
@@ -34,12 +15,8 @@ from wirelessagent.model.errors import InputError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.problem import Problem
 
-_SMALL = 400
-"""Up to so many users × groups a search is restarted by default."""
-_RESTARTS, _ROUND = 10, 10
-"""Those of a small problem, and those of each round beyond them."""
-_SETTLED_S, _THOROUGH_S = 1.0, 5.0
-"""Time for promised rates that were not found within the budget, and for a thorough search, where none is given."""
+_THOROUGH_S = 5.0
+"""Time for a thorough search where none is given."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,12 +30,13 @@ class Dual(Method):
 
     Attributes:
         effort: "fast" for a scheduler's slot; "thorough" goes on with prices of subcarriers, which prove more and find
-            better sets, for some seconds at most, and often to the proven optimum.
-        deadline_ms: time until which a fast search is restarted, and after which a thorough one begins nothing new; the
-            first search is done in any case.
+            better sets, for 5 s if no deadline is given, and often to the proven optimum.
+        deadline_s: time in s by which it decides on the best found so far; a fast search is restarted until then.
+        deadline_ms: the same in ms, by its older name.
         restarts: number of restarts instead of that of the effort. Each is one kick, the first none, with a search
             for chains where that is promising, or three kicks without one where chains are not worth their time. A
-            fast decision under a deadline says how many it did, and so many without one make the same decision again.
+            fast decision under a deadline says how many it did, and so many without one make the same decision again
+            if the deadline left time for the first search.
         seed: of the restarts.
     """
 
@@ -72,97 +50,36 @@ class Dual(Method):
     seed: int = 0
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if self.effort not in ("fast", "thorough"):
             raise InputError(f"effort must be fast or thorough; got {self.effort!r}")
         if self.deadline_ms is not None:
             positive("deadline_ms", self.deadline_ms)
+            if self.deadline_s is not None:
+                raise InputError(
+                    "deadline_s and deadline_ms are two names of one limit; "
+                    f"got {self.deadline_s!r} s and {self.deadline_ms!r} ms: leave one out"
+                )
         for name in ("restarts", "seed"):
             if getattr(self, name) is not None:
                 whole(name, getattr(self, name), smallest=0)
 
+    @property
+    def allowed_s(self) -> float | None:
+        if self.deadline_ms is not None:
+            return self.deadline_ms / 1e3
+        return _THOROUGH_S if self.deadline_s is None and self.effort == "thorough" else self.deadline_s
+
+    @property
+    def plan(self) -> Plan:
+        """How far it goes."""
+        is_thorough = self.effort == "thorough"
+        is_open = not is_thorough and self.allowed_s is not None
+        return Plan(restarts=self.restarts, seed=self.seed, is_open=is_open, is_thorough=is_thorough)
+
     def solve(
         self, estimate: ChannelEstimate, problem: Problem, cell: Cell, *, after: Decision | None = None
     ) -> Decision:
-        started = time.perf_counter()
-        form = NormalForm.of(self, estimate, problem, cell)
-        worth = nats_worth(form)
-        if worth is not None:
-            return closed_decision(form, worth)
-        program = Program.of(form)
-        earlier = after.prices if after is not None else None
-        effort = self.effort_for(form)
-        scaled_by = effort if self.effort == "thorough" else None
-        promised = bool(form.promised_nats.any())
-        if program.goal == LEAST_POWER and not promised:
-            return unpowered_decision(form)
-        if is_approached(form, program):
-            return approached_decision(form, program)
-        least: Search | None = None
-        if promised:
-            if program.goal == LEAST_POWER:
-                least = search(form, program, effort, earlier)
-            else:
-                least = search_promises(form, Effort(restarts=0, seed=0))
-            if not fits(form, least) and not is_proven_too_much(form, least):
-                least = carried(form, least, self._until(started, _SETTLED_S))
-            if not fits(form, least):
-                return unkept_decision(form, least, effort)
-        if least is not None and program.goal == LEAST_POWER:
-            least = self._go_on(form, least, started)
-            return decision_of(form, least, least, np.empty(0, dtype=np.int64), scaled_by)
-        served, unserved = without_unservable(form, program)
-        if not served.weight.any():
-            return unservable_decision(form, least, unserved)
-        known = None if least is None else least.owner
-        found = search_objective(served, Program.of(served) if unserved.size else program, effort, earlier, known)
-        if found.kept:
-            found = self._go_on(served, found, started)
-        elif least is not None:  # the promised rates are kept, if nothing else
-            found = dataclasses.replace(found, owner=least.owner, power_w=least.power_w)
-        else:
-            nobody = np.full(form.cap_w.size, -1, dtype=np.int64)
-            found = dataclasses.replace(found, owner=nobody, power_w=np.zeros(form.cap_w.size))
-        return decision_of(form, found, least, unserved, scaled_by)
-
-    def effort_for(self, form: NormalForm) -> Effort:
-        """The first search for a problem of this size; restarts beyond it come in rounds."""
-        restarts = _RESTARTS if form.weight.size * (form.start.size - 1) <= _SMALL else 0
-        return Effort(restarts=restarts if self.restarts is None else min(self.restarts, restarts), seed=self.seed)
-
-    def _go_on(self, form: NormalForm, found: Search, started: float) -> Search:
-        """Restart in rounds; thoroughly, go on with prices of subcarriers."""
-        deadline = np.inf if self.deadline_ms is None else started + self.deadline_ms / 1e3
-        found = self._restarted(form, found, started, deadline)
-        if self.effort == "fast":
-            return found
-        return tightened(form, found, self._until(started, _THOROUGH_S))
-
-    def _until(self, started: float, otherwise_s: float) -> float:
-        """When nothing new begins any more, on ``time.perf_counter``."""
-        make_ready()
-        return time.perf_counter() + otherwise_s if self.deadline_ms is None else started + self.deadline_ms / 1e3
-
-    def _restarted(self, form: NormalForm, found: Search, started: float, deadline: float) -> Search:
-        """Rounds up to the restarts that were asked for, or while one as long as those before ends by the deadline.
-
-        A round depends on what was found and on its number alone, so that those of a deadline can be done again.
-        """
-        most = self.restarts
-        if most is None:
-            most = sys.maxsize if self.effort == "fast" and self.deadline_ms is not None else found.restarts
-        seed, now = self.seed, time.perf_counter()
-        longest = now - started
-        while found.restarts < most and now + longest <= deadline:
-            seed += 1
-            size = min(_ROUND, most - found.restarts)
-            again = search(form, found.program, Effort(restarts=size, seed=seed), found.prices, found.owner)
-            better = again if again.kept and again.score > found.score else found
-            found = dataclasses.replace(
-                better,
-                bound=tighter(form, found.bound, again.bound),
-                iterations=found.iterations + again.iterations,
-                restarts=found.restarts + size,
-            )
-            begun, now = now, time.perf_counter()
-            longest = max(longest, now - begun)
-        return found
+        with self.limited():
+            form = NormalForm.of(self, estimate, problem, cell)
+            return dual_decision(form, self.plan, after.prices if after is not None else None)

@@ -32,6 +32,7 @@ class EqualPower(Method):
     power_w: float | None = None
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if self.power_w is not None and not 0 < self.power_w < np.inf:
             raise InputError(f"power_w must be more than zero and finite; got {self.power_w!r}")
 

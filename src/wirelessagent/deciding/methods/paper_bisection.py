@@ -38,6 +38,7 @@ class PaperBisection(Method):
     max_iterations: int = 100
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if not self.tolerance >= 0 or self.max_iterations < 1:
             raise InputError(
                 "tolerance must be zero or more and max_iterations one or more; "

@@ -37,6 +37,7 @@ class PaperScan(Method):
     num_levels: int = 100
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if not 1 <= self.num_levels <= MAX_LEVELS:
             raise InputError(f"num_levels must be from 1 to {MAX_LEVELS:,}; got {self.num_levels!r}")
 
