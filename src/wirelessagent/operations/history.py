@@ -127,7 +127,7 @@ class ShowRecord(Record):
 
     turn: dict[str, Any]
     tampering: list[str]
-    paragraphs: list[str | Table] = Field(exclude=True)
+    paragraphs: list[Block] = Field(exclude=True)
 
     def blocks(self) -> list[Block]:
         return list(self.paragraphs)
@@ -149,7 +149,7 @@ def _said(turn: StoredTurn) -> Iterator[Block]:
     parts = (intent["kind"], intent["topic"], intent["objective"], canonical(intent["constraints"] or None))
     meant = ", ".join(part for part in parts if part not in (None, "null"))
     yield f"Understood by {turn.recogniser}, {intent['confidence']:.0%} sure: {meant}"
-    yield f"Replied: {turn.reply}"
+    yield tuple(f"Replied: {turn.reply}".split("\n"))
 
 
 def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
@@ -161,7 +161,7 @@ def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
     yield certificate_line(decision)
     yield from decision_tables(report(decision, outcome), estimate)
     yield from (f"Note: {note}" for note in turn.notes or ())
-    yield "\n".join(turn.explanation or ())
+    yield tuple(turn.explanation or ())
     if outcome is not None:
         pairs = ((outcome.owner, decision.owner), (outcome.power_w, decision.power_w))
         found = "as decided" if all(np.array_equal(*pair) for pair in pairs) else "other than decided"
@@ -174,8 +174,8 @@ def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
 def _kept(turn: StoredTurn, faults: list[str]) -> Iterator[Block]:
     """How the turn is kept, and whether it still is what it was."""
     yield (
-        f"Seed {turn.seed}, wirelessagent {turn.version}, {', '.join(f'{a} {b}' for a, b in turn.platform.items())}\n"
-        f"Hash {turn.hash}"
+        f"Seed {turn.seed}, wirelessagent {turn.version}, {', '.join(f'{a} {b}' for a, b in turn.platform.items())}",
+        f"Hash {turn.hash}",
     )
     yield "Checked: nothing in this session was changed or removed." if not faults else "WARNING: " + "; ".join(faults)
 
