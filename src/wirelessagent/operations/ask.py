@@ -71,8 +71,7 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
     check_allocation(request.out)
     check_picture(request.plot)
     session = request.session(progress, raises=True)
-    turn = session.say(request.text)
-    stored = request.remember(turn)
+    turn, stored = request.said(session, request.text)
     record = AskRecord(
         intent=IntentRecord.of(request.text, turn.intent),
         reply=turn.reply,
