@@ -5,12 +5,24 @@ Nothing is imported before :func:`main` runs, so that an interruption while load
 
 from __future__ import annotations
 
+import signal
 import sys
+
+
+class _Interrupted(KeyboardInterrupt):
+    """Ctrl-C. Python ends by the signal, whatever exit code we give, where a KeyboardInterrupt itself went through
+    ``exec``, with which compilers are made."""
+
+
+def _interrupt(*_: object) -> None:
+    raise _Interrupted
 
 
 def main() -> None:
     """Run the command line and exit."""
     try:
+        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            signal.signal(signal.SIGINT, _interrupt)
         from wirelessagent.interfaces.cli import run
 
         code = run(sys.argv[1:])

@@ -312,3 +312,15 @@ def test_an_interruption_while_loading_is_one_line(
         main()
     assert stopped.value.code == 130
     assert capsys.readouterr().err == "wirelessagent: interrupted\n"
+
+
+def test_an_interruption_of_a_compiler_exits_with_130() -> None:
+    """Compilers run what they write with ``exec``, after which Python would end by the signal instead."""
+    interrupted = (
+        "import os, signal, sys, types; from wirelessagent.__main__ import main; "
+        "signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "run = lambda _: exec('import os, signal; os.kill(os.getpid(), signal.SIGINT)'); "
+        "sys.modules['wirelessagent.interfaces.cli'] = types.SimpleNamespace(run=run); main()"
+    )
+    done = subprocess.run([sys.executable, "-c", interrupted], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (130, "wirelessagent: interrupted\n")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import cast
 
 import numpy as np
@@ -21,6 +22,8 @@ from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.model.rates import user_rate_bps
+from wirelessagent.operations.in_effect import followed
+from wirelessagent.store.store import Store
 
 YES, NO = means("command", topic="confirm"), means("command", topic="reject")
 UNDO, APPLY, STATUS = (means("command", topic=topic) for topic in ("undo", "apply", "status"))
@@ -338,3 +341,53 @@ def test_without_a_base_station_plans_are_made() -> None:
     assert (first.stage, second.stage) == ("planned", "nothing")
     assert "true channel is not known" in first.reply
     assert "true channel is not known" in second.reply
+
+
+class _Interrupted(wa.BaseStation):
+    """Applies what it is told, and is interrupted on the way from its third time on, or its reader is."""
+
+    name = "interrupted"
+
+    def __init__(self) -> None:
+        self.told = 0
+
+    def apply(self, decision: wa.Decision) -> wa.Outcome:
+        self.told += 1
+        outcome = wa.SimulatedBaseStation(SCENE).apply(decision)
+        if self.told > 2:
+            raise KeyboardInterrupt
+        return outcome
+
+
+@pytest.mark.parametrize("last", [asks("max_rate", max_power_w=1.0), means("command", topic="undo")])
+def test_after_an_interruption_it_is_not_known_what_is_in_effect(last: Intent, tmp_path: Path) -> None:
+    station, script = _Interrupted(), Knowing([last])
+    with Store.open(tmp_path / "audit.sqlite3", create=True) as store:
+        session = Session(SCENE, LOSS, seed=SEED, recogniser=script, base_station=station, confirm=False, store=store)
+        for script.next in (asks("max_rate", max_power_w=5.0), asks("max_rate", max_power_w=2.0)):
+            session.say("…")
+        before = session.request
+        script.next = last
+        with pytest.raises(KeyboardInterrupt):
+            session.say("…")
+        assert session.state.on_air is None
+        assert session.request == before
+        assert (session.turns[-1].stage, session.turns[-1].restored) == ("nothing", None)
+        assert [turn.stage for turn in store.turns()] == ["applied", "applied", "nothing"]
+        assert list(followed(store.turns()))[-1].after is None
+        script.next = STATUS
+        assert "What is in effect is not known" in session.say("…").reply
+
+
+def test_an_interruption_before_the_base_station_was_told_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    session, _ = talk(Moody(), asks("max_rate", max_power_w=5.0))
+
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("wirelessagent.chain.decide", interrupted)
+    state = session.state
+    with pytest.raises(KeyboardInterrupt):
+        session.say("…")
+    assert session.state.on_air is state.on_air
+    assert len(session.turns) == 1

@@ -204,7 +204,7 @@ OBSERVATION, ESTIMATE = (f"(SELECT {name} FROM audit_turn WHERE number = 3)" for
         ("DELETE FROM audit_turn WHERE number < 3", "turns 1 to 2 are missing"),
         ("UPDATE audit_turn SET number = 9 WHERE number = 3", "turn 9 was changed"),
         (f"UPDATE audit_content SET data = x'00' WHERE hash = {OBSERVATION}",
-         "turn 3: the content [0-9a-f]{12}… cannot be read"),
+         "turn 3: the content [0-9a-f]{12}… was changed: it can no longer be read"),
         (f"UPDATE audit_content SET data = (SELECT data FROM audit_content LIMIT 1) WHERE hash = {ESTIMATE}",
          "turn 3: the content [0-9a-f]{12}… was changed"),
         (f"DELETE FROM audit_content WHERE hash = {ESTIMATE}", "turn 3: the content [0-9a-f]{12}… is missing"),

@@ -132,9 +132,21 @@ class Session:
             sure = f"{intent.confidence:.0%}"
             message = say(intent.language, "understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure)
             self._progress(Event(stage="understand", message=message))
-        reply = waiting.naming_the_plan(self._reply(intent, text, context), self._state, intent)
-        self._take(reply, intent)
+        try:
+            reply = waiting.naming_the_plan(self._reply(intent, text, context), self._state, intent)
+            self._take(reply, intent)
+        except BaseException:  # an interruption too: the base station may have it, or a part of it
+            if self._site.telling is not None:
+                broken_off = self._broken_off(self._site.telling, intent)
+                self._take(broken_off, intent)
+                self._kept(text, intent, broken_off)
+            raise
         return self._kept(text, intent, reply)
+
+    def _broken_off(self, run: Run, intent: Intent) -> Reply:
+        """What holds where something ended a turn after the base station was told a run."""
+        unknown = dataclasses.replace(self._state.settled, on_air=None)
+        return Reply(text=say(intent.language, "broken_off"), stage="nothing", state=unknown, run=run)
 
     def _context(self) -> Context:
         state, request, supposed = self._state, self._state.request, self._state.supposed
@@ -236,6 +248,7 @@ class Session:
 
     def _take(self, reply: Reply, intent: Intent) -> None:
         """Let what the reply brought hold, and remember what held before another request."""
+        self._site.telling = None
         before, new = self._state, reply.state
         if new is None:
             new = dataclasses.replace(before, question=Question() if reply.stage == "asked" else None)

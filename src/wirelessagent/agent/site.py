@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 
 from wirelessagent import chain
 from wirelessagent.acting.base_station import BaseStation
@@ -17,7 +18,7 @@ from wirelessagent.agent.run import Sight, look, plan, station_of, with_outcome
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run
 from wirelessagent.language.intent import Intent
-from wirelessagent.model.errors import UnsupportedProblemError
+from wirelessagent.model.errors import InputError, UnsupportedProblemError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.sensing.loss import random
@@ -31,6 +32,7 @@ class Site:
     Attributes:
         touched: whether anything was tried at the base station.
         read_last: what was read back last; None where nothing was, or where that could not be read.
+        telling: the run that the base station is being told; until its turn is over, what is in effect is not known.
     """
 
     def __init__(
@@ -51,6 +53,7 @@ class Site:
         self._sight: Sight | None = None
         self.touched = False
         self.read_last: Outcome | None = None
+        self.telling: Run | None = None
 
     @property
     def user_names(self) -> tuple[str, ...]:
@@ -104,15 +107,27 @@ class Site:
 
     def carry_out(self, run: Run, station: BaseStation, last_good: Run | None) -> acting.Effect:
         """Apply a run, read back, and go back to the last good one where it is at fault."""
-        effect = acting.carry_out(run, station, last_good, self.tolerance)
-        self.touched, self.read_last = True, effect.restored or effect.run.outcome
+        with self._told(run):
+            effect = acting.carry_out(run, station, last_good, self.tolerance)
+            self.read_last = effect.restored or effect.run.outcome
         return effect
 
     def put_back(self, run: Run, station: BaseStation) -> tuple[Outcome | None, str]:
         """Apply again what was in effect before: what was read back, and what went wrong."""
-        outcome, trouble = acting.put_back(run, station, run.intent.language)
-        self.touched, self.read_last = True, outcome
+        with self._told(run):
+            outcome, trouble = acting.put_back(run, station, run.intent.language)
+            self.read_last = outcome
         return outcome, trouble
+
+    @contextlib.contextmanager
+    def _told(self, run: Run) -> Generator[None]:
+        before = self.touched, self.read_last
+        self.touched, self.read_last, self.telling = True, None, run
+        try:
+            yield
+        except InputError:  # nothing was touched
+            (self.touched, self.read_last), self.telling = before, None
+            raise
 
     def foreseen(self, run: Run) -> Run:
         """A run with what it would achieve, where the true channel is known; nothing is applied."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from wirelessagent.model.legible import legible
+
 _CHINESE: Mapping[str, str] = {
     "Users": "用户",
     "user": "用户",
@@ -85,9 +87,12 @@ _NUMBERED = re.compile(r"(?i)user\s*(\d+)")
 def called(language: str, name: str) -> str:
     """A user, a method or the like by name, in the operator's language where it has no name of its own.
 
+    A name stays within its line, so that none can add a line to what is said.
+
     >>> called("zh", "user 3"), called("zh", "Ada"), called("en", "user 3")
     ('用户3', 'Ada', 'user 3')
     """
+    name = legible(name, keep="")
     if language != "zh":
         return name
     number = _NUMBERED.fullmatch(name)

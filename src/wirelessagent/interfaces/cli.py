@@ -5,8 +5,6 @@ Errors are one line on stderr. Exit codes: 0 done, 1 failed, 2 bad input or a qu
 
 from __future__ import annotations
 
-import io
-import logging
 import os
 import sys
 from collections.abc import Callable
@@ -17,7 +15,7 @@ from pydantic import ValidationError
 
 from wirelessagent.interfaces.cli_chat import converse
 from wirelessagent.interfaces.cli_options import Parameters, as_flag, is_positional
-from wirelessagent.interfaces.cli_output import Listener, show
+from wirelessagent.interfaces.cli_output import Listener, complain, show, show_json, take_over, tell
 from wirelessagent.operations.catalogue import GROUPS, OPERATIONS
 from wirelessagent.operations.operation import AnyOperation, InputError, WirelessAgentError, installed_version, silent
 
@@ -26,10 +24,7 @@ _EPILOG = "Errors go to stderr; exit code 2 means bad input, 1 a failure."
 
 def run(arguments: list[str]) -> int:
     """Run the command line and return its exit code."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")  # a terminal without Chinese must not stop the work
-    _show_notes(wanted="--json" not in arguments)
+    take_over(notes="--json" not in arguments)
     if not {"-h", "--help"}.isdisjoint(arguments):
         _show_long_names_whole()
     command = typer.main.get_command(_app(arguments))
@@ -61,30 +56,13 @@ def run(arguments: list[str]) -> int:
     return code if isinstance(code, int) else 0
 
 
-class _Notes(logging.Handler):
-    """Prints log records to stderr, one line each."""
-
-    def emit(self, record: logging.LogRecord) -> None:
-        print(f"wirelessagent: {record.getMessage()}", file=sys.stderr)  # noqa: T201
-
-
-def _show_notes(*, wanted: bool) -> None:
-    """Have it told what is not recorded and, where somebody reads along, why a machine's first decision takes time."""
-    for name, shown in (("wirelessagent.kernels.compiling", wanted), ("wirelessagent.store", True)):
-        log = logging.getLogger(name)
-        log.setLevel(logging.INFO)
-        log.propagate = False
-        log.handlers = [_Notes()] if shown else [logging.NullHandler()]
-
-
 def _give_up_output() -> None:
     """Let what is still buffered go nowhere, so that the interpreter does not fail over it at its end."""
     sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115
 
 
 def _fail(message: str, code: int) -> int:
-    line = " ".join(message.split())
-    print(f"wirelessagent: {line}", file=sys.stderr)  # noqa: T201
+    complain(message)
     return code
 
 
@@ -132,7 +110,7 @@ def _app(arguments: list[str]) -> typer.Typer:
 
 def _version(asked: bool) -> None:
     if asked:
-        print(f"wirelessagent {installed_version()}")  # noqa: T201
+        tell(f"wirelessagent {installed_version()}")
         raise typer.Exit
 
 
@@ -154,11 +132,12 @@ def _command(operation: AnyOperation, parameters: Parameters | None) -> Callable
         with Listener() as listener:
             record = operation.run(request, silent if as_json else listener)
         for fault in record.faults:
-            _fail(fault, 2)
+            complain(fault)
         if record.lines is not None:
-            print(*record.lines, sep="\n", end="\n" if record.lines else "")  # noqa: T201
+            for line in record.lines:
+                show_json(line)
         elif as_json:
-            print(record.model_dump_json(indent=2))  # noqa: T201
+            show_json(record.model_dump_json(indent=2))
         else:
             show(record)
         return 2 if record.needs_answer else 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator
 
-from wirelessagent.interfaces.cli_output import show
+from wirelessagent.interfaces.cli_output import show, show_json, tell
 from wirelessagent.operations.operation import AnyOperation, Event, Request, silent
 
 _PROMPT = "> "
@@ -23,12 +23,12 @@ def converse(operation: AnyOperation, request: Request, *, as_json: bool) -> int
         if not line.strip():
             continue
         if not (typed or as_json):
-            print(f"{_PROMPT}{line}")  # noqa: T201
+            tell(f"{_PROMPT}{line}")
         record = conversation.answer(line)
         if record is None:
             break
         if as_json:
-            print(record.model_dump_json(), flush=True)  # noqa: T201
+            show_json(record.model_dump_json())
         else:
             show(record)
     return 0
@@ -37,7 +37,7 @@ def converse(operation: AnyOperation, request: Request, *, as_json: bool) -> int
 def _file_read(event: Event) -> None:
     """Tell what was understood of a file; of the rest the replies tell."""
     if event.stage == "read":
-        print(event.message)  # noqa: T201
+        tell(event.message)
 
 
 def _typed() -> Iterable[str]:
@@ -50,5 +50,5 @@ def _prompted() -> Iterator[str]:
         try:
             yield input(_PROMPT)
         except EOFError:
-            print()  # noqa: T201
+            tell("")
             return

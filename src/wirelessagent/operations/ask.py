@@ -58,8 +58,8 @@ class AskRecord(Record):
 
     def blocks(self) -> list[Block]:
         if self.decision is None:
-            return [self.reply]
-        said: list[Block] = [*self.tables, *(f"Note: {note}" for note in self.notes), "\n".join(self.explanation)]
+            return [tuple(self.reply.split("\n"))]
+        said: list[Block] = [*self.tables, *(f"Note: {note}" for note in self.notes), tuple(self.explanation)]
         if self.waits:
             said.append("Nothing was applied: --yes applies it.")
         if self.out is not None:
@@ -71,8 +71,7 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
     check_allocation(request.out)
     check_picture(request.plot)
     session = request.session(progress, raises=True)
-    turn = session.say(request.text)
-    stored = request.remember(turn)
+    turn, stored = request.said(session, request.text)
     record = AskRecord(
         intent=IntentRecord.of(request.text, turn.intent),
         reply=turn.reply,

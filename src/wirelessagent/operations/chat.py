@@ -61,8 +61,8 @@ def converse(request: ChatRequest, progress: Progress) -> Conversation:
     def answer(line: str) -> TurnRecord | None:
         if line.strip().casefold() in _LEAVE:
             return None
-        turn = session.say(line)
-        return TurnRecord.of(turn, session, request.remember(turn))
+        turn, stored = request.said(session, line)
+        return TurnRecord.of(turn, session, stored)
 
     return Conversation(answer=answer, lines=lines)
 

@@ -114,7 +114,7 @@ class _Chosen:
 
 def _numbered(store: Store, number: int) -> _Chosen:
     """The request of this number and what came of it in that turn."""
-    turn = store.turn(number)
+    turn = store.turn(number).whole()
     if not turn.decided:
         raise InputError(f"turn {number} decided nothing ({turn.stage}): export one that history lists a status for")
     (found,) = (one for one in followed(store.turns(turn.session)) if one.turn.number == number)

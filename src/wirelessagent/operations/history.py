@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,7 +16,7 @@ from wirelessagent.explain.report import report
 from wirelessagent.explain.tables import decision_tables
 from wirelessagent.model.arrays import whole
 from wirelessagent.model.atomic import writable_target, write_atomically
-from wirelessagent.model.errors import InputError, NothingRecordedError
+from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
 from wirelessagent.model.units import human, percent
 from wirelessagent.operations.answers import DecisionAnswer
 from wirelessagent.operations.fields import Positional
@@ -24,9 +25,9 @@ from wirelessagent.operations.record import Block, Record, Table
 from wirelessagent.operations.recording import StoreOptions, opened, place_of
 from wirelessagent.store.content import estimate_of
 from wirelessagent.store.export import exported
-from wirelessagent.store.plain import canonical, plain
+from wirelessagent.store.plain import canonical
 from wirelessagent.store.rebuilt import decision_of, outcome_of
-from wirelessagent.store.stored import StoredTurn
+from wirelessagent.store.stored import StoredTurn, number_of
 
 if TYPE_CHECKING:
     from wirelessagent.store.store import Store
@@ -45,38 +46,47 @@ class HistoryRequest(StoreOptions):
 
 
 class HistoryLine(Record):
-    """One turn in a list."""
+    """One turn in a list; of one that was changed since it was recorded only what its columns are good for."""
 
-    number: int
+    number: int | None
     at_utc: str
     session: str
-    turn: int
+    turn: int | None
     text: str
     stage: str
-    objective: str | None
-    status: str | None
-    value: float | None
-    gap: float | None
-    unit: str | None
-    applied: str | None
-    put_back: str | None
+    objective: str | None = None
+    status: str | None = None
+    value: float | None = None
+    gap: float | None = None
+    unit: str | None = None
+    applied: str | None = None
+    put_back: str | None = None
 
     @classmethod
     def of(cls, turn: StoredTurn) -> HistoryLine:
+        if not turn.is_whole:
+            return cls(
+                number=number_of(turn.number), at_utc=str(turn.at_utc), session=str(turn.session),
+                turn=number_of(turn.turn), text=str(turn.text), stage="changed",
+            )  # fmt: skip
         same = {name: getattr(turn, name) for name in cls.model_fields if name not in ("applied", "put_back")}
         applied, put_back = (None if one is None else one["base_station"] for one in (turn.applied, turn.restored))
         return cls(**same, applied=applied, put_back=put_back)
 
     def row(self) -> tuple[str, ...]:
         """What a list shows of it."""
-        text = self.text if len(self.text) <= _TEXT_SHOWN else self.text[: _TEXT_SHOWN - 1] + "…"
         value = "–" if self.value is None else human(self.value, self.unit or "")
         return (
-            str(self.number), self.at_utc[:16].replace("T", " "), f"{self.session[:_SESSION_SHOWN]} {self.turn}",
-            " ".join(text.split()), self.objective or "–", self.status or self.stage, value,
+            _counted(self.number), self.at_utc[:16].replace("T", " "),
+            f"{self.session[:_SESSION_SHOWN]} {_counted(self.turn)}",
+            " ".join(_clipped(self.text).split()), self.objective or "–", self.status or self.stage, value,
             "–" if self.gap is None else percent(self.gap),
             f"{self.put_back} (put back)" if self.put_back else self.applied or "–",
         )  # fmt: skip
+
+
+def _counted(number: int | None) -> str:
+    return "–" if number is None else str(number)
 
 
 class HistoryRecord(Record):
@@ -110,7 +120,7 @@ def list_turns(request: HistoryRequest, progress: Progress) -> HistoryRecord:
 
 def _check_session(store: Store, session: str | None) -> None:
     """Refuse a session that has no turns where others have."""
-    there = list(dict.fromkeys(turn.session for turn in store.turns(last=_SESSIONS_LOOKED_AT)))
+    there = list(dict.fromkeys(str(turn.session) for turn in store.turns(last=_SESSIONS_LOOKED_AT)))
     if session is not None and there:
         shown = ", ".join(there[-_SESSIONS_SHOWN:])
         raise InputError(f"there is no session {session!r} in {store.place}: the latest are {shown}")
@@ -127,7 +137,7 @@ class ShowRecord(Record):
 
     turn: dict[str, Any]
     tampering: list[str]
-    paragraphs: list[str | Table] = Field(exclude=True)
+    paragraphs: list[Block] = Field(exclude=True)
 
     def blocks(self) -> list[Block]:
         return list(self.paragraphs)
@@ -138,8 +148,21 @@ def show_turn(request: TurnRequest, progress: Progress) -> ShowRecord:
     with opened(request) as store:
         turn = store.turn(request.number)
         faults = store.faults(turn.session)
-        said = [*_said(turn), *_decided(store, turn), *_kept(turn, faults)]
-        return ShowRecord(turn=plain(vars(turn)), tampering=faults, paragraphs=said)
+        told = _there(turn)
+        if turn.is_whole:
+            with contextlib.suppress(StoreError):  # the channel that it saw was changed, which the faults tell
+                told = [*_said(turn), *_decided(store, turn)]
+        return ShowRecord(turn=turn.held(), tampering=faults, paragraphs=[*told, *_kept(turn, faults)])
+
+
+def _there(turn: StoredTurn) -> list[Block]:
+    """What the columns of a changed turn hold: it is no longer what was said and done."""
+    rows = tuple((name, _clipped(canonical(held))) for name, held in turn.held().items())
+    return [Table(title=f"Turn {turn.number} as it is now", columns=("column", "holds"), rows=rows)]
+
+
+def _clipped(text: str) -> str:
+    return text if len(text) <= _TEXT_SHOWN else text[: _TEXT_SHOWN - 1] + "…"
 
 
 def _said(turn: StoredTurn) -> Iterator[Block]:
@@ -149,7 +172,7 @@ def _said(turn: StoredTurn) -> Iterator[Block]:
     parts = (intent["kind"], intent["topic"], intent["objective"], canonical(intent["constraints"] or None))
     meant = ", ".join(part for part in parts if part not in (None, "null"))
     yield f"Understood by {turn.recogniser}, {intent['confidence']:.0%} sure: {meant}"
-    yield f"Replied: {turn.reply}"
+    yield tuple(f"Replied: {turn.reply}".split("\n"))
 
 
 def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
@@ -161,7 +184,7 @@ def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
     yield certificate_line(decision)
     yield from decision_tables(report(decision, outcome), estimate)
     yield from (f"Note: {note}" for note in turn.notes or ())
-    yield "\n".join(turn.explanation or ())
+    yield tuple(turn.explanation or ())
     if outcome is not None:
         pairs = ((outcome.owner, decision.owner), (outcome.power_w, decision.power_w))
         found = "as decided" if all(np.array_equal(*pair) for pair in pairs) else "other than decided"
@@ -173,11 +196,16 @@ def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
 
 def _kept(turn: StoredTurn, faults: list[str]) -> Iterator[Block]:
     """How the turn is kept, and whether it still is what it was."""
-    yield (
-        f"Seed {turn.seed}, wirelessagent {turn.version}, {', '.join(f'{a} {b}' for a, b in turn.platform.items())}\n"
-        f"Hash {turn.hash}"
-    )
+    if turn.is_whole:
+        yield _seal(turn)
     yield "Checked: nothing in this session was changed or removed." if not faults else "WARNING: " + "; ".join(faults)
+
+
+def _seal(turn: StoredTurn) -> Block:
+    return (
+        f"Seed {turn.seed}, wirelessagent {turn.version}, {', '.join(f'{a} {b}' for a, b in turn.platform.items())}",
+        f"Hash {turn.hash}",
+    )
 
 
 class ReplayRecord(Record):

@@ -49,11 +49,16 @@ class Followed:
 
 
 def followed(turns: Iterable[StoredTurn]) -> Iterator[Followed]:
-    """The turns of one session from its first on."""
+    """The turns of one session from its first on.
+
+    Raises:
+        StoreError: one was changed since it was recorded.
+    """
     done: list[StoredTurn] = []
     effects: list[Effect] = []
     effect: Effect | None = None
     for turn in turns:
+        turn.whole()
         after = _after(turn, effect, effects)
         yield Followed(turn=turn, asked=_asked(turn, done), before=effect, after=after)
         done.append(turn)

@@ -59,7 +59,8 @@ class IntentRecord(Record):
         rows = [("objective", self.objective or "–", self.evidence.get("objective", ""))]
         rows += [(name, shown(value), self.evidence.get(name, "")) for name, value in self.constraints.items()]
         table = Table(title="Understood", columns=("field", "value", "from the words"), rows=tuple(rows))
-        return [table, self.reply] if self.kind == "allocate" else [self.reply]
+        reply = tuple(self.reply.split("\n"))
+        return [table, reply] if self.kind == "allocate" else [reply]
 
 
 class IntentsRecord(Record):

@@ -86,8 +86,14 @@ def form_of(operation: AnyOperation) -> type[BaseModel]:
 
 def as_text(blocks: Sequence[Block]) -> str:
     """Paragraphs and tables as plain text, cut where it would be too long."""
-    text = "\n\n".join(_table(block) if isinstance(block, Table) else block for block in blocks)
+    text = "\n\n".join(_paragraph(block) for block in blocks)
     return text if len(text) <= _MOST_CHARACTERS else f"{text[:_MOST_CHARACTERS]}\n… (cut)"
+
+
+def _paragraph(block: Block) -> str:
+    if isinstance(block, Table):
+        return _table(block)
+    return block if isinstance(block, str) else "\n".join(block)
 
 
 def _table(table: Table) -> str:

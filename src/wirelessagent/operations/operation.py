@@ -15,11 +15,12 @@ from pydantic import BaseModel, ConfigDict, field_validator
 from wirelessagent import __version__
 from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.model.errors import InputError, WirelessAgentError
+from wirelessagent.model.legible import legible, written_out
 from wirelessagent.operations.record import Record
 
 __all__ = [
     "AnyOperation", "Conversation", "Event", "InputError", "Operation", "Progress", "Request", "WirelessAgentError",
-    "installed_version", "silent",
+    "installed_version", "legible", "silent", "written_out",
 ]  # fmt: skip
 
 

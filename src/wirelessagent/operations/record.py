@@ -9,7 +9,10 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from wirelessagent.explain.table import Table
 
-Block: TypeAlias = str | Table
+Lines: TypeAlias = tuple[str, ...]
+Block: TypeAlias = str | Lines | Table
+"""A paragraph on one line, several lines, or a table. A line break inside a line or a cell is no layout of ours: it
+came with a name or a sentence, and a surface writes it out."""
 
 
 class Record(BaseModel):

@@ -11,6 +11,7 @@ from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.operations.operation import Request
 
 if TYPE_CHECKING:
+    from wirelessagent.agent.session import Session
     from wirelessagent.agent.turn import Turn
     from wirelessagent.store.store import Store
 
@@ -31,6 +32,17 @@ class RecordingOptions(StoreOptions):
     """Whether turns are recorded, and where."""
 
     no_store: bool = Field(False, description="record nothing; WIRELESSAGENT_STORE=no does so for good")
+
+    def said(self, session: Session, text: str) -> tuple[Turn, int | None]:
+        """The turn of a line, recorded; so is one that was broken off after the base station was told."""
+        turns = len(session.turns)
+        try:
+            turn = session.say(text)
+        except BaseException:
+            for broken_off in session.turns[turns:]:
+                self.remember(broken_off)
+            raise
+        return turn, self.remember(turn)
 
     def remember(self, turn: Turn) -> int | None:
         """The turn's number in the store; None where it was not to be recorded, or could not be."""

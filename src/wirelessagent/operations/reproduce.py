@@ -37,7 +37,11 @@ class ReproduceRecord(Record):
     figures: list[ReproducedFigure]
 
     def blocks(self) -> list[Block]:
-        rows = tuple((one.name, one.summary, "\n".join(map(str, one.files))) for one in self.figures)
+        rows = tuple(
+            (one.name, one.summary, str(path)) if path is one.files[0] else ("", "", str(path))
+            for one in self.figures
+            for path in one.files
+        )
         return [Table(title="Reproduced", columns=("figure", "what it shows", "files"), rows=rows)]
 
 

@@ -60,7 +60,7 @@ class SimulateRecord(Record):
         lost = [f"{sum(np.isnan(row))} of {len(row)}" for row in self.gain]
         rows = tuple(zip(self.user_names, gains, lost, strict=True))
         said: list[Block] = [
-            "\n".join(f"{label}: {text}" for label, text in self.facts.items()),
+            tuple(f"{label}: {text}" for label, text in self.facts.items()),
             Table(title="Channel", columns=("user", "mean gain", "missing subcarriers"), rows=rows),
         ]
         return [*said, f"written to {self.out}"] if self.out else said

@@ -84,4 +84,4 @@ class TurnRecord(Record):
         return self.stage == "asked" or self.awaits == "confirmation"
 
     def blocks(self) -> list[Block]:
-        return [self.reply, *self.tables]
+        return [tuple(self.reply.split("\n")), *self.tables]

@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from wirelessagent.store.plain import plain
-
 if TYPE_CHECKING:
     from wirelessagent.store.store import Store
 
@@ -23,4 +21,4 @@ def exported(store: Store, session: str | None = None) -> Iterator[dict[str, Any
             if content is not None and content not in told:
                 told.add(content)
                 yield {"kind": "content", "hash": content, "arrays": store.content(content).exported()}
-        yield {"kind": "turn", **plain(vars(turn))}
+        yield {"kind": "turn", **turn.held()}

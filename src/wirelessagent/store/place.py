@@ -179,8 +179,17 @@ def _is_settled(path: Path) -> bool:
 def _set_up(connection: Any, _: object) -> None:
     """Leave transactions to us, and take no commit for done before it is on the disk."""
     connection.isolation_level = None
+    connection.text_factory = _text
     connection.execute("PRAGMA synchronous=FULL")
     connection.execute("PRAGMA foreign_keys=ON")
+
+
+def _text(held: bytes) -> str | bytes:
+    """Text as it is; bytes where a column was changed to something that is no text, for its reader to tell."""
+    try:
+        return held.decode()
+    except UnicodeDecodeError:
+        return held
 
 
 def _begin(connection: Connection) -> None:

@@ -66,8 +66,9 @@ def replay(store: Store, turn: StoredTurn) -> Replay:
 
     Raises:
         InputError: nothing was decided in the turn, or a plug-in that it used is not installed.
-        StoreError: the channel that it saw is not what was recorded.
+        StoreError: the turn or the channel that it saw is not what was recorded.
     """
+    turn = turn.whole()
     if turn.observation is None or turn.estimate is None:
         raise InputError(f"turn {turn.number} decided nothing ({turn.stage}), so there is nothing to replay")
     observation = observation_of(store.content(turn.observation))

@@ -27,6 +27,7 @@ from sqlalchemy import (
 )
 
 from wirelessagent.store.plain import canonical
+from wirelessagent.store.stored import Unreadable
 
 SCHEMA_VERSION = 1
 
@@ -41,7 +42,10 @@ class Json(TypeDecorator[Any]):
         return None if value is None else canonical(value)
 
     def process_result_value(self, value: Any, dialect: Dialect) -> Any:
-        return None if value is None else json.loads(value)
+        try:
+            return None if value is None else json.loads(value)
+        except (ValueError, TypeError, RecursionError):
+            return Unreadable(value)
 
 
 METADATA = MetaData()

@@ -23,7 +23,7 @@ from wirelessagent.store.content import Content
 from wirelessagent.store.place import opened, shown, told, url_of, writing
 from wirelessagent.store.record_of import record_of
 from wirelessagent.store.schema import CONTENT, TURN, triggers
-from wirelessagent.store.stored import StoredTurn, sealed
+from wirelessagent.store.stored import StoredTurn, number_of, sealed
 
 if TYPE_CHECKING:
     from wirelessagent.store.replay import Replay
@@ -71,7 +71,7 @@ class Store:
         """
         row, contents = record_of(turn)
         with told(self._url), writing(self._engine) as connection:
-            row["number"] = connection.execute(select(func.coalesce(func.max(TURN.c.number), 0) + 1)).scalar_one()
+            row["number"] = self._next_number(connection)
             row["previous"] = self._last_hash(connection, row["session"])
             row["hash"] = sealed(row)
             for content in contents:
@@ -103,13 +103,17 @@ class Store:
 
         Raises:
             NothingRecordedError: there is none.
+            StoreError: there was one.
         """
         with self._reading() as connection:
             storable = abs(number) < 1 << 63  # what a database can hold, and compare with
             row = connection.execute(select(TURN).where(TURN.c.number == number)).first() if storable else None
             if row is not None:
                 return _turn(row)
-            most = connection.execute(select(func.max(TURN.c.number))).scalar()
+            count, last = connection.execute(select(func.count(), func.max(TURN.c.number))).one()
+        most = max(count, number_of(last) or 0)
+        if 1 <= number <= most:
+            raise StoreError(f"turn {number} is missing in {self.place}, where turns up to {most} are: it was removed")
         known = f"turns 1 to {most} are" if most else "nothing is"
         raise NothingRecordedError(f"there is no turn {number}: {known} recorded in {self.place}")
 
@@ -140,11 +144,12 @@ class Store:
         found = self._missing_triggers()
         last: dict[str, StoredTurn] = {}
         checked: set[str] = set()
-        expected = 1
+        last_number = 0
         for turn in self.turns(session):
             name = f"turn {turn.number}"
-            if session is None and turn.number != expected:
-                found.append(f"{_named(expected, turn.number - 1)} missing")
+            number = number_of(turn.number) or last_number
+            if session is None and number > last_number + 1:
+                found.append(f"{_named(last_number + 1, number - 1)} missing")
             before = last.get(turn.session)
             if not turn.is_whole:
                 found.append(f"{name} was changed")
@@ -153,7 +158,7 @@ class Store:
             for content in {turn.observation, turn.estimate} - checked - {None}:
                 checked.add(str(content))
                 found += self._content_fault(name, str(content))
-            last[turn.session], expected = turn, turn.number + 1
+            last[turn.session], last_number = turn, number
         return found
 
     def _content_fault(self, name: str, hash: str) -> list[str]:
@@ -174,6 +179,13 @@ class Store:
     def _reading(self) -> Generator[Connection]:
         with told(self._url), self._engine.connect() as connection:
             yield connection
+
+    def _next_number(self, connection: Connection) -> int:
+        number = connection.execute(select(func.coalesce(func.max(TURN.c.number), 0) + 1)).scalar_one()
+        there = connection.execute(select(func.count()).select_from(TURN)).scalar_one()
+        if not isinstance(number, int) or number <= there:
+            raise StoreError(f"the numbers of the turns in {self.place} were changed, so none can follow")
+        return number
 
     @staticmethod
     def _last_hash(connection: Connection, session: str) -> str:

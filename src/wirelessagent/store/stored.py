@@ -6,7 +6,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from wirelessagent.store.plain import fingerprint
+from wirelessagent.model.errors import InputError, StoreError
+from wirelessagent.store.plain import fingerprint, plain
+
+
+class Unreadable:
+    """What a column holds that is none of the plain data that was put there."""
+
+    def __init__(self, held: object) -> None:
+        self._held = held
+
+    def __str__(self) -> str:
+        return str(self._held)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,8 +86,37 @@ class StoredTurn:
 
     @property
     def is_whole(self) -> bool:
-        """Whether the fields are those that were hashed."""
-        return sealed(vars(self)) == self.hash
+        """Whether the fields are those that were hashed; a database may hold anything by now."""
+        try:
+            return sealed(vars(self)) == self.hash
+        except (InputError, RecursionError):
+            return False
+
+    def whole(self) -> StoredTurn:
+        """The turn, where it can be relied on.
+
+        Raises:
+            StoreError: it was changed since it was recorded.
+        """
+        if not self.is_whole:
+            raise StoreError(f"turn {self.number} was changed since it was recorded; history show says what is there")
+        return self
+
+    def held(self) -> dict[str, Any]:
+        """The columns as plain data, whatever they hold."""
+        return {name: _held(value) for name, value in vars(self).items()}
+
+
+def number_of(held: object) -> int | None:
+    """The whole number in a column; None where it holds anything else by now."""
+    return held if isinstance(held, int) else None
+
+
+def _held(value: object) -> Any:
+    try:
+        return plain(value)
+    except (InputError, RecursionError):
+        return str(value)
 
 
 def sealed(row: Mapping[str, Any]) -> str:
