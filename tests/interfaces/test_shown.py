@@ -122,7 +122,7 @@ def test_text_of_strangers_is_shown_and_not_acted_on() -> None:
     for text in told:
         assert "\x1b" not in text
         assert "\u202e" not in text
-        assert r"\x1b[2J\n\u202e" in text
+        assert r"\u001b[2J\u000a\u202e" in text
     assert "<b>7" not in told[1]
     assert "&lt;b&gt;7" in told[1]
 

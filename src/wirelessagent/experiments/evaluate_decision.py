@@ -23,13 +23,13 @@ from typing import Any
 import numpy as np
 
 from wirelessagent import chain
-from wirelessagent.experiments.bootstrap import resampled_sums, with_interval
 from wirelessagent.experiments.draws import Seeds, run_draws
 from wirelessagent.experiments.evaluate_decision_pictures import promises_canvas, regret_canvas
 from wirelessagent.experiments.evaluated_channels import Drawn, EvaluatedChannel
 from wirelessagent.experiments.evaluated_methods import BASELINE, ORACLE, repaired
 from wirelessagent.experiments.evaluation import Evaluated, Evaluation
 from wirelessagent.experiments.experiment import Progress
+from wirelessagent.experiments.intervals import resampled_sums, with_interval
 from wirelessagent.experiments.table import Table, Value, table_of
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision

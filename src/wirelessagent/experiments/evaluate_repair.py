@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from wirelessagent.experiments.bootstrap import resampled_sums, with_interval
 from wirelessagent.experiments.draws import Seeds, run_draws
 from wirelessagent.experiments.evaluate_repair_pictures import calibration_canvas, error_canvas, recovery_canvas
 from wirelessagent.experiments.evaluated_channels import EvaluatedChannel
 from wirelessagent.experiments.evaluated_methods import BASELINE, ORACLE, repaired, states_uncertainty
 from wirelessagent.experiments.evaluation import Evaluated, Evaluation
 from wirelessagent.experiments.experiment import Progress
+from wirelessagent.experiments.intervals import resampled_sums, with_interval
 from wirelessagent.experiments.recovery import recovery_table
 from wirelessagent.experiments.repair_error import DEEPEST_FADE_DB
 from wirelessagent.experiments.table import Table, Value, table_of

@@ -19,6 +19,7 @@ from wirelessagent.experiments.sweep_pictures import (
 )
 from wirelessagent.experiments.table import Table
 from wirelessagent.pictures.canvas import PALETTE, Canvas, Panel
+from wirelessagent.pictures.method_names import readable
 
 _HEADROOM = 1.6
 """How far above the user mean's error the error's axis ends; whoever lies beyond is named instead."""
@@ -35,7 +36,7 @@ def recovery_canvas(table: Table, caption: str) -> Canvas:
         table.numbers("low_db"),
         table.numbers("high_db"),
         colour=PALETTE[0],
-        label=f"{names[0]}, 90 % of probability",
+        label=f"{readable(names[0])}, 90 % of probability",
     )
     panel.curve(n, table.numbers("truth_db"), label="true channel", style=BLACK, marked=False)
     panel.marks(
@@ -48,8 +49,8 @@ def recovery_canvas(table: Table, caption: str) -> Canvas:
     )
     for style, name in enumerate(names):
         panel.curve(
-            holes.numbers("subcarrier"), holes.numbers(f"{name}_db"), label=f"missing, by {name}", style=style,
-            joined=False,
+            holes.numbers("subcarrier"), holes.numbers(f"{name}_db"), label=f"missing, by {readable(name)}",
+            style=style, joined=False,
         )  # fmt: skip
     shown = np.concatenate([table.numbers(f"{name}_db") for name in ("truth", *names)])
     low = max(float(shown.min()), -30.0) - 3.0
@@ -94,7 +95,7 @@ def _draw_errors(panel: Panel, case: Table, style: dict[str, int]) -> None:
         logarithmic(panel, 0.7 * max(least_positive(errors, top), 1e-4 * top), top)
     beyond = [name for name in case.values("method") if case.where(method=name).numbers("rmse").min() > top]
     if beyond:
-        panel.corner(f"above: {', '.join(map(str, beyond))}")
+        panel.corner(f"above: {', '.join(map(readable, beyond))}")
 
 
 def calibration_canvas(table: Table, loss: str, probabilities: Sequence[float], caption: str) -> Canvas:
@@ -119,7 +120,7 @@ def calibration_canvas(table: Table, loss: str, probabilities: Sequence[float], 
             if not np.isnan(shares[0]).any():
                 panel.curve(
                     nominal, shares[0] - nominal, between=(shares[1] - nominal, shares[2] - nominal),
-                    label=str(method), style=style[str(method)],
+                    label=readable(method), style=style[str(method)],
                 )  # fmt: skip
         panel.guide((0.0, 100.0), (0.0, 0.0), label="as it should be")
         panel.describe(

@@ -1,4 +1,4 @@
-"""What an experiment is: it draws channels, fills a table, states findings and draws a picture from these alone."""
+"""What an experiment is: it draws channels, fills a table, measures what claims are judged by and draws a picture."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias
 
+from wirelessagent.experiments.intervals import Measure
 from wirelessagent.experiments.table import Table
 from wirelessagent.pictures.canvas import Canvas
 
@@ -22,12 +23,12 @@ class Result:
 
     Attributes:
         table: every figure that the picture shows.
-        findings: the conclusions in figures, by name with the unit at its end; None where there is none.
-        draws: the number of channel draws that the table rests on.
+        measures: the figures that claims are judged by; no two experiments have one of the same name.
+        draws: the number of channel draws that the measures rest on.
     """
 
     table: Table
-    findings: Mapping[str, Any]
+    measures: Mapping[str, Measure]
     draws: int
 
 

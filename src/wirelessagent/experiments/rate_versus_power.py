@@ -3,22 +3,25 @@
 Sum rate lets the link adapt ideally to the true channel after the allocation was made on the estimate, so it only
 feels wrong owners and powers. Goodput counts a user's rate as it was committed on the estimate, and only if the true
 channel carries it: all or nothing for each user. Where every subcarrier is coded and committed by itself, less is lost
-at a time; that is the third panel.
+at a time; that is the last panel.
+
+The paper's own repair and its traditional filling have no variance: decisions take their gains at face value, as the
+paper does. On the others the library decides as it always does, by the mean rate of an uncertain gain.
 """
 
 from __future__ import annotations
 
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from wirelessagent import chain
 from wirelessagent.experiments.draws import Seeds, run_draws
 from wirelessagent.experiments.experiment import Experiment, Progress, Result
-from wirelessagent.experiments.scenario import Scenario
-from wirelessagent.experiments.statistics import mean_interval, ratio_interval
+from wirelessagent.experiments.intervals import Measure, columns_of, resampled_means, with_interval
+from wirelessagent.experiments.scenario import Scenario, known
+from wirelessagent.experiments.sweep_pictures import styles
 from wirelessagent.experiments.table import Table, table_of
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
@@ -26,16 +29,19 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.metrics import kept, link_metrics
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.rates import owned_gain, subcarrier_rate_bps
-from wirelessagent.pictures.canvas import Canvas
+from wirelessagent.pictures.canvas import Canvas, Panel
+from wirelessagent.pictures.method_names import readable
 
 PERFECT = "perfect"
-QUANTITIES = {
-    "sum_rate": "Sum rate, ideal link adaptation",
-    "goodput": "Goodput, committed per user",
-    "goodput_by_subcarrier": "Goodput, committed per subcarrier",
-}
-"""What is measured, and how the panels call it."""
+QUANTITIES = ("sum_rate", "goodput", "goodput_by_subcarrier", "committed")
+"""What is measured of each decision: the last is the rate committed on the estimate."""
 
+_PANELS = (
+    ("sum_rate_mbps", "Sum rate, ideal link adaptation", "Achieved on the true channel (Mbit/s)"),
+    ("sum_rate_share", "The same, beside perfect CSI", "Share of perfect CSI (%)"),
+    ("goodput_mbps", "Goodput, committed per user", "Achieved on the true channel (Mbit/s)"),
+    ("goodput_by_subcarrier_mbps", "Goodput, committed per subcarrier", "Achieved on the true channel (Mbit/s)"),
+)
 _MEGABIT = 1e6
 
 
@@ -43,13 +49,12 @@ _MEGABIT = 1e6
 class RateVersusPower(Experiment):
     """Max-rate decisions made with perfect, repaired and mean-filled channel knowledge, all on the same draws.
 
-    Every rate has two intervals: ``ci95`` of its own mean, and ``paired_ci95`` of its difference from perfect
-    knowledge, draw by draw, which is much narrower because all share the draws. The picture shows the paired ones,
-    for by these the curves are compared; perfect knowledge then has none. A share is a ratio of means.
+    A share is a ratio of means to perfect knowledge on the same draws, whose interval is much narrower than that of a
+    rate. The picture's error bars are those of the shares, for by these the curves are compared.
 
     Attributes:
         scenario: the cell, channel and loss; the paper's Fig. 3 has 30 % loss.
-        repairers: who repairs; ``user_mean`` is the paper's traditional filling.
+        repairers: who repairs; ``user_mean`` is the paper's traditional filling, ``nncf_paper`` its own repair.
         max_powers_w: the power budgets.
     """
 
@@ -57,7 +62,7 @@ class RateVersusPower(Experiment):
     summary = "Achieved sum rate and goodput against the power budget at 30 % loss (the paper's Fig. 3)"
 
     scenario: Scenario = field(default_factory=lambda: Scenario(loss_rate=0.3))
-    repairers: tuple[str, ...] = ("nncf", "user_mean")
+    repairers: tuple[str, ...] = (chain.DEFAULT_REPAIRER, "nncf", "nncf_paper", "user_mean")
     max_powers_w: tuple[float, ...] = (1.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0)
 
     def run(
@@ -65,68 +70,70 @@ class RateVersusPower(Experiment):
     ) -> Result:
         draw = RateDraw(self.scenario, self.repairers, self.max_powers_w)
         rates = run_draws(draw, draws=draws, seed=seed, progress=progress, executor=executor) / _MEGABIT
-        table = self._table(rates)
-        return Result(table=table, findings=self._findings(table), draws=draws)
+        means = resampled_means(rates, seed=seed)
+        return Result(table=self._table(means), measures=self._measures(means), draws=draws)
 
-    def _table(self, rates: FloatArray) -> Table:
-        """The table of rates in Mbit/s of shape (draw, knowledge, power, quantity)."""
-        perfect = rates[:, :1]
-        mean, half = mean_interval(rates)
-        _, paired_half = mean_interval(rates - perfect)
-        share, share_half = ratio_interval(rates, np.broadcast_to(perfect, rates.shape))
-        figures = np.stack([mean, half, paired_half, share, share_half], axis=-1).reshape(*mean.shape[:2], -1)
-        columns = [
-            f"{quantity}_{name}"
-            for quantity in QUANTITIES
-            for name in ("mbps", "mbps_ci95", "mbps_paired_ci95", "share", "share_ci95")
-        ]
+    def _table(self, means: FloatArray) -> Table:
+        """The table of mean rates in Mbit/s of shape (1 + resample, knowledge, power, quantity)."""
+        figures = np.stack([with_interval(means), with_interval(means / means[:, :1])], axis=-2)
+        names = [f"{quantity}_{kind}" for quantity in QUANTITIES for kind in ("mbps", "share")]
         return table_of(
-            ("max_power_w", "csi", *columns),
+            ("max_power_w", "csi", *(column for name in names for column in columns_of(name))),
             [
-                (power, csi, *figures[i, j].tolist())
+                (power, csi, *figures[i, j].ravel().tolist())
                 for i, csi in enumerate((PERFECT, *self.repairers))
                 for j, power in enumerate(self.max_powers_w)
             ],
         )
 
-    def _findings(self, table: Table) -> dict[str, Any]:
-        at_full_power = table.where(max_power_w=self.max_powers_w[-1])
-        return {
-            f"{quantity}_share_of_perfect_at_{self.max_powers_w[-1]:g}_w": {
-                repairer: float(at_full_power.where(csi=repairer).numbers(f"{quantity}_share")[0])
-                for repairer in self.repairers
-            }
-            for quantity in QUANTITIES
-        }
+    def _measures(self, means: FloatArray) -> dict[str, Measure]:
+        """The extremes over the budgets; gains are the printed repair's over mean filling."""
+        share = 100.0 * means / means[:, :1]
+        found: dict[str, Measure] = {}
+        of_csi = {csi: share[:, i] for i, csi in enumerate((PERFECT, *self.repairers))}
+        for place, quantity in enumerate(QUANTITIES[:2]):
+            for csi in self.repairers:
+                found[f"least_{quantity}_share_of_{csi}"] = Measure.of(of_csi[csi][..., place].min(axis=1), "%")
+            filled, printed = of_csi["user_mean"][..., place], of_csi["nncf_paper"][..., place]
+            found[f"largest_{quantity}_loss"] = Measure.of((100.0 - filled).max(axis=1), "%")
+            found[f"largest_{quantity}_gain"] = Measure.of((100.0 * printed / filled - 100.0).max(axis=1), "%")
+        printed = means[:, 1 + self.repairers.index("nncf_paper"), -1]
+        carried = 100.0 * printed[:, QUANTITIES.index("committed")] / printed[:, QUANTITIES.index("sum_rate")]
+        return {**found, "committed_share_as_printed": Measure.of(carried, "%")}
 
     def picture(self, result: Result) -> Canvas:
-        canvas = Canvas(columns=3, width_in=15.0, height_in=5.0)
-        table = result.table
-        highest = float(np.max([table.numbers(f"{quantity}_mbps") for quantity in QUANTITIES]))
-        for panel, (quantity, title) in zip(canvas.panels, QUANTITIES.items(), strict=True):
-            for csi in table.values("csi"):
-                rows = table.where(csi=csi)
-                share = float(rows.numbers(f"{quantity}_share")[-1])
-                panel.curve(
-                    rows.numbers("max_power_w"),
-                    rows.numbers(f"{quantity}_mbps"),
-                    half_width=None if csi == PERFECT else rows.numbers(f"{quantity}_mbps_paired_ci95"),
-                    label="perfect CSI" if csi == PERFECT else f"{csi}: {100 * share:.2f} % of perfect at full power",
-                    style=_STYLES.get(str(csi), 3),
-                )
-            panel.describe(title, "Power budget (W)", "Achieved on the true channel (Mbit/s)")
+        canvas = Canvas(rows=2, columns=2, width_in=13.0, height_in=8.6)
+        for panel, (column, title, y_label) in zip(canvas.panels, _PANELS, strict=True):
+            self._draw(panel, result.table, column)
+            panel.describe(title, "Power budget (W)", y_label)
             panel.grid()
-            panel.limits(y=(0.0, 1.4 * highest))
-            panel.legend(place="upper left")
+            if column.endswith("_mbps"):
+                panel.limits(y=(0.0, 1.05 * float(result.table.numbers("sum_rate_mbps").max())))
+            panel.label_ends()
         canvas.title(
             f"Max rate on incomplete channel knowledge; {self.scenario.caption(result.draws)}",
-            "Error bars: 95 % confidence interval of the paired difference from perfect CSI",
+            "In brackets: share of perfect CSI at full power. Error bars: 95 % interval of the share, same draws",
         )
         return canvas
 
-
-_STYLES = {PERFECT: 6, "nncf": 1, "user_mean": 0}
-"""Black, red and blue, as in the paper's figure."""
+    def _draw(self, panel: Panel, table: Table, column: str) -> None:
+        """The curves of a column in %, or in Mbit/s with the interval of their share of perfect CSI."""
+        quantity, _, kind = column.rpartition("_")
+        style = styles(table.values("csi"))
+        for place, csi in enumerate(table.values("csi")):
+            rows = table.where(csi=csi)
+            shares = [rows.numbers(name) for name in columns_of(f"{quantity}_share")]
+            scale = 1.0 if kind == "share" else table.where(csi=PERFECT).numbers(column)
+            panel.curve(
+                rows.numbers("max_power_w"),
+                rows.numbers(column),
+                between=None if csi == PERFECT else (scale * shares[1], scale * shares[2]),
+                label=readable(csi) if csi == PERFECT else f"{readable(csi)} ({100.0 * shares[0][-1]:.4g} %)",
+                style=style[str(csi)],
+                dodge_pt=2.5 * (place - 2),
+            )
+        if kind == "share":
+            panel.percent("y")
 
 
 @dataclass(frozen=True)
@@ -141,7 +148,7 @@ class RateDraw:
         scene, observation = self.scenario.sense(seeds)
         cell = self.scenario.cell
         perfect = chain.perfect(scene)
-        estimates = [perfect, *(chain.repair(observation, name) for name in self.repairers)]
+        estimates = [perfect, *(known(observation, name) for name in self.repairers)]
         problems = [Problem("max_rate", max_power_w=power) for power in self.max_powers_w]
         return np.array(
             [[_rates(chain.decide(estimate, problem, cell), estimate, perfect) for problem in problems]
@@ -149,12 +156,12 @@ class RateDraw:
         )  # fmt: skip
 
 
-def _rates(decision: Decision, estimate: ChannelEstimate, perfect: ChannelEstimate) -> tuple[float, float, float]:
-    """Sum rate, goodput and goodput by subcarrier of a decision made on ``estimate``, in bit/s."""
+def _rates(decision: Decision, estimate: ChannelEstimate, perfect: ChannelEstimate) -> tuple[float, ...]:
+    """The ``QUANTITIES`` of a decision made on ``estimate``, in bit/s."""
     cell, owner, power_w = decision.cell, decision.owner, decision.power_w
     achieved = link_metrics(perfect.gain, owner, power_w, cell, committed_bps=decision.rate_bps)
     committed, carried = (
-        subcarrier_rate_bps(owned_gain(known.gain, owner), power_w, cell) for known in (estimate, perfect)
+        subcarrier_rate_bps(owned_gain(one.gain, owner), power_w, cell) for one in (estimate, perfect)
     )
     by_subcarrier = float(committed[kept(carried, committed)].sum())
-    return achieved.sum_rate_bps, achieved.goodput_bps, by_subcarrier
+    return achieved.sum_rate_bps, achieved.goodput_bps, by_subcarrier, float(decision.rate_bps.sum())

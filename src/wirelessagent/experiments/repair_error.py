@@ -23,18 +23,19 @@ def comparable_repairers() -> tuple[str, ...]:
 
 
 def squared_errors(scene: Scene, observation: ChannelObservation, repairers: Sequence[str]) -> FloatArray:
-    """Sums over the missing entries of one matrix, shape (repairer, 3).
+    """Sums over the missing entries of one matrix, shape (repairer, 4).
 
     The first is Σ ((ĝ − g)/ḡ)² with ḡ the mean of the user's true gains, the second Σ (ĝ_dB − g_dB)² in dB², both of
-    them floored at ``DEEPEST_FADE_DB`` below ḡ, the third the number of missing entries.
+    them floored at ``DEEPEST_FADE_DB`` below ḡ, the third Σ (ĝ − g)², the last the number of missing entries.
     """
     truth = chain.perfect(scene).gain
     missing = observation.missing
     level = np.broadcast_to(truth.mean(axis=1, keepdims=True), truth.shape)[missing]
     wanted = truth[missing] / level
-    sums = np.empty((len(repairers), 3))
+    sums = np.empty((len(repairers), 4))
     for row, repairer in zip(sums, repairers, strict=True):
         found = chain.repair(observation, repairer).gain[missing] / level
         error_db = db(found, floor_db=DEEPEST_FADE_DB) - db(wanted, floor_db=DEEPEST_FADE_DB)
-        row[:] = np.square(found - wanted).sum(), np.square(error_db).sum(), missing.sum()
+        absolute = np.square((found - wanted) * level).sum()
+        row[:] = np.square(found - wanted).sum(), np.square(error_db).sum(), absolute, missing.sum()
     return sums

@@ -6,13 +6,18 @@ import dataclasses
 from dataclasses import dataclass, field
 from typing import Literal
 
+from wirelessagent import chain
 from wirelessagent.experiments.draws import Seeds
 from wirelessagent.model.cell import Cell
+from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.units import human
 from wirelessagent.sensing import loss
 from wirelessagent.sensing.rayleigh import Rayleigh
+
+AT_FACE_VALUE = ("nncf_paper", "user_mean")
+"""The paper's own ways to repair, which know no variance."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +39,7 @@ class Scenario:
         scene = self.channel.observe(self.cell, seed=seeds.channel)
         return scene, scene.observe(loss.random(self.loss_rate), seed=seeds.loss)
 
-    def caption(self, draws: int, *, varied: Literal["", "loss", "delay spread"] = "") -> str:
+    def caption(self, draws: int, *, varied: Literal["", "loss", "delay spread", "correlation"] = "") -> str:
         """What a figure of so many draws rests on, in a line, but for what varies within the figure."""
         facts = {
             "size": f"K × N = {self.channel.num_users} × {self.channel.num_subcarriers}",
@@ -51,3 +56,9 @@ class Scenario:
         return dataclasses.replace(
             self, channel=dataclasses.replace(self.channel, rms_delay_spread_s=rms_delay_spread_s)
         )
+
+
+def known(observation: ChannelObservation, repairer: str) -> ChannelEstimate:
+    """What is decided on: the estimate, or of the paper's own repairs the gains as if they were certain."""
+    estimate = chain.repair(observation, repairer)
+    return chain.certain(estimate.gain, estimate.user_names) if repairer in AT_FACE_VALUE else estimate

@@ -9,18 +9,24 @@ import numpy as np
 
 from wirelessagent.experiments.table import Table, Value
 from wirelessagent.model.arrays import FloatArray
-from wirelessagent.pictures.canvas import Panel
+from wirelessagent.pictures.canvas import PALETTE, Panel
+from wirelessagent.pictures.method_names import readable
 
 BLACK = 6
 YARDSTICKS = ("oracle", "perfect")
 """Drawn in black."""
 
 
+_FIXED = {"user_mean": 0, "nncf_paper": 1, "nncf": 2, "kriging": 3, "linear": 4, **dict.fromkeys(YARDSTICKS, BLACK)}
+"""Those that are met in many pictures look the same in all; the paper's two are blue and red, as in its figures."""
+
+
 def styles(methods: Sequence[Value]) -> dict[str, int]:
     """A colour and marker for each method."""
-    rest = [str(name) for name in methods if name not in YARDSTICKS]
-    numbers = [number for number in range(2 * len(rest) + 1) if number != BLACK]
-    return {**dict(zip(rest, numbers, strict=False)), **dict.fromkeys(YARDSTICKS, BLACK)}
+    rest = [str(name) for name in methods if name not in _FIXED]
+    pale = len(PALETTE) - 1
+    free = [n for n in range(5, 5 + 2 * len(rest)) if n % len(PALETTE) not in (BLACK, pale)]
+    return {**_FIXED, **dict(zip(rest, free, strict=False))}
 
 
 def pattern(loss: Value) -> str:
@@ -55,12 +61,12 @@ def draw_sweep(panel: Panel, case: Table, column: str, style: dict[str, int], *,
             x,
             scale * rows.numbers(column),
             between=(scale * rows.numbers(f"{column}_low"), scale * rows.numbers(f"{column}_high")),
-            label=str(method),
+            label=readable(method),
             style=style[str(method)],
         )
     panel.grid()
     if alone:
-        panel.ticks("x", range(len(methods)), [str(method) for method in methods], slanted=True)
+        panel.ticks("x", range(len(methods)), [readable(method) for method in methods], slanted=True)
 
 
 def x_label(case: Table) -> str:

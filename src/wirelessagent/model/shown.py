@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from wirelessagent.model.doors import through
 from wirelessagent.model.errors import InputError, MissingDependencyError
 from wirelessagent.model.keywords import KnownKeywords
+from wirelessagent.model.legible import legible
 
 _MOST_LINES = 12
 _WIDEST_CELL, _WIDEST_LINE = 72, 100
@@ -211,19 +212,14 @@ def _wrapped(row: tuple[str, ...]) -> list[tuple[str, ...]]:
     """A row as lines: a label's text goes on below, a table's cells are cut."""
     if len(row) != 2:
         return [tuple(map(_short, row))]
-    first, *more = textwrap.wrap(_legible(row[1]), _WIDEST_CELL) or [""]
+    first, *more = textwrap.wrap(legible(row[1], keep=""), _WIDEST_CELL) or [""]
     return [(_short(row[0]), first), *(("", line) for line in more)]
 
 
 def _short(text: str, most: int = _WIDEST_CELL) -> str:
     """One legible line, cut where it is too long."""
-    shown = _legible(text)
+    shown = legible(text, keep="")
     return shown if len(shown) <= most else f"{shown[: most - 1].rstrip()}…"
-
-
-def _legible(text: str) -> str:
-    """Text on one line with everything written out that a terminal or a page would act on or hide."""
-    return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode() for sign in text)
 
 
 _CELL = "text-align:left;vertical-align:top;padding:1px 14px 1px 0;background:none;border:none;max-width:36em"
@@ -237,13 +233,13 @@ def _as_html(summary: Summary, picture: Picture | None) -> str:
     body = ["".join(_html_cell(cell, k) for k, cell in enumerate(row)) for row in summary.rows]
     rows = "".join(f'<tr style="background:none">{cells}</tr>' for cells in ([head] if head else []) + body)
     table = f'<table style="margin:0;border-collapse:collapse;font-size:90%">{rows}</table>'
-    title = html.escape(_legible(summary.title))
+    title = html.escape(legible(summary.title, keep=""))
     return f'<div><div style="{_TITLE}">{title}</div><div style="{_SIDE_BY_SIDE}">{table}{_small(picture)}</div></div>'
 
 
 def _html_cell(text: str, column: int, style: str = "") -> str:
     own = "opacity:0.7;white-space:nowrap" if column == 0 else ""
-    return f'<td style="{_CELL};{own};{style}">{html.escape(_legible(text))}</td>'
+    return f'<td style="{_CELL};{own};{style}">{html.escape(legible(text, keep=""))}</td>'
 
 
 def _small(picture: Picture | None) -> str:

@@ -1,14 +1,14 @@
-"""reproduce: the paper's figures, each as a picture, a table and a record of how it was made."""
+"""reproduce: the paper's figures, each as a picture, a table and a record, and the verdicts on its claims."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
-from wirelessagent.experiments.catalogue import EXPERIMENTS, reproduce
-from wirelessagent.model.errors import InputError, UnknownNameError
+from wirelessagent.experiments.catalogue import EXPERIMENTS, VERDICTS, reproduce
+from wirelessagent.model.errors import InputError
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Event, Operation, Progress, Request
 from wirelessagent.operations.record import Block, Record, Table
@@ -32,9 +32,11 @@ class ReproducedFigure(Record):
 
 
 class ReproduceRecord(Record):
-    """The files written."""
+    """The files written and the verdicts: each claim with its place, verdict, figures and reason."""
 
     figures: list[ReproducedFigure]
+    verdicts: list[dict[str, Any]]
+    verdict_files: list[Path]
 
     def blocks(self) -> list[Block]:
         rows = tuple(
@@ -42,30 +44,41 @@ class ReproduceRecord(Record):
             for one in self.figures
             for path in one.files
         )
-        return [Table(title="Reproduced", columns=("figure", "what it shows", "files"), rows=rows)]
+        files = Table(title="Reproduced", columns=("figure", "what it shows", "files"), rows=rows)
+        if not self.verdicts:
+            return [files]
+        claims = tuple(
+            (f"“{one['claim']}” ({one['place']})", "; ".join(one["measured"]), one["verdict"], one["reason"])
+            for one in self.verdicts
+        )
+        columns = ("the paper says", "measured (95 % interval)", "verdict", "why")
+        written = [f"verdicts written to {path}" for path in self.verdict_files]
+        return [files, Table(title="Verdicts", columns=columns, rows=claims), *written]
 
 
 def run(request: ReproduceRequest, progress: Progress) -> ReproduceRecord:
-    names = request.names or list(EXPERIMENTS)
-    for name in names:
-        if name not in EXPERIMENTS:
-            raise UnknownNameError("figure", name, EXPERIMENTS)
     if request.draws < 1:
         raise InputError(f"draws must be 1 or more; got {request.draws}")
-    return ReproduceRecord(figures=[_reproduce(name, request, progress) for name in names])
 
-
-def _reproduce(name: str, request: ReproduceRequest, progress: Progress) -> ReproducedFigure:
-    def told(done: int, total: int) -> None:
+    def told(name: str, done: int, total: int) -> None:
         progress(Event(stage=name, message=EXPERIMENTS[name].summary, done=done, total=total))
 
-    files = reproduce(name, out=request.out, draws=request.draws, seed=request.seed, progress=told)
-    return ReproducedFigure(name=name, summary=EXPERIMENTS[name].summary, files=files)
+    names = request.names or list(EXPERIMENTS)
+    made = reproduce(names, out=request.out, draws=request.draws, seed=request.seed, progress=told)
+    return ReproduceRecord(
+        figures=[
+            ReproducedFigure(name=name, summary=EXPERIMENTS[name].summary, files=list(files))
+            for name, files in made.files.items()
+            if name != VERDICTS
+        ],
+        verdicts=[one.to_dict() for one in made.verdicts],
+        verdict_files=list(made.files.get(VERDICTS, ())),
+    )
 
 
 REPRODUCE = Operation(
     name="reproduce",
-    summary="Reproduce the paper's figures: a picture, a CSV table and a JSON record each",
+    summary="Reproduce the paper's figures (picture, CSV table, JSON record) and judge its claims by them",
     request=ReproduceRequest,
     record=ReproduceRecord,
     run=run,

@@ -10,7 +10,7 @@ scale is needed.
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -38,6 +38,8 @@ _LINES = ("-", "--", "-.", ":", "--", "-.", "-", ":")
 _DOTS_PER_INCH = 150
 _PAGE_DOTS_PER_INCH = 80
 """Of a picture in a notebook, where it stands beside text."""
+_LINE_PT = 12.5
+"""Height of a line of labels at the ends of curves."""
 _PLAIN = {"boxstyle": "square,pad=0.03", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}
 """Ground for words that lines may cross."""
 
@@ -160,20 +162,24 @@ class Panel:
         *,
         label: str,
         style: int,
-        half_width: ArrayLike | None = None,
         between: tuple[FloatArray, FloatArray] | None = None,
         marked: bool = True,
         joined: bool = True,
+        dodge_pt: float = 0.0,
     ) -> None:
         """A curve in the palette's colour and marker number ``style``; beyond the palette, colours meet other markers.
 
-        Error bars reach ± ``half_width``, or are ``between`` a lower and an upper value of each point.
+        Error bars reach from a lower to an upper value of each point, ``between``. What would lie on other curves is
+        drawn ``dodge_pt`` beside its place.
         """
+        from matplotlib.transforms import ScaledTranslation
+
         turn = style // len(PALETTE)
-        error = None if half_width is None else np.asarray(half_width, dtype=float)
-        if between is not None:
-            error = np.stack([np.asarray(y, dtype=float) - between[0], between[1] - np.asarray(y, dtype=float)])
-        self.axes.errorbar(
+        error = None
+        if between is not None:  # percentiles of few draws may miss the figure itself
+            ends = np.asarray(y, dtype=float) - between[0], between[1] - np.asarray(y, dtype=float)
+            error = np.maximum(np.stack(ends), 0.0)
+        drawn = self.axes.errorbar(
             np.asarray(x, dtype=float),
             np.asarray(y, dtype=float),
             yerr=error,
@@ -183,8 +189,12 @@ class Panel:
             marker=_MARKERS[(style + 3 * turn) % len(_MARKERS)] if marked else "none",
             markersize=5,
             linewidth=1.6,
+            elinewidth=1.0,
             capsize=2.5,
         )
+        shift = ScaledTranslation(dodge_pt / 72.0, 0.0, self._figure().dpi_scale_trans)
+        for artist in drawn.get_children():
+            artist.set_transform(artist.get_transform() + shift)
 
     def bars(
         self,
@@ -194,15 +204,16 @@ class Panel:
         width: float,
         colour: str | Sequence[str],
         label: str | None = None,
-        half_width: ArrayLike | None = None,
+        between: tuple[FloatArray, FloatArray] | None = None,
     ) -> None:
+        tops = np.asarray(height, dtype=float)
         self.axes.bar(
             np.asarray(x, dtype=float),
-            np.asarray(height, dtype=float),
+            tops,
             width=width,
             color=colour,
             label=label,
-            yerr=None if half_width is None else np.asarray(half_width, dtype=float),
+            yerr=None if between is None else np.maximum(np.stack([tops - between[0], between[1] - tops]), 0.0),
             capsize=2.5,
             edgecolor="#333333" if width > 0.2 and np.size(x) <= 64 else "none",
             linewidth=0.4,
@@ -349,6 +360,44 @@ class Panel:
                 columnspacing=0.9, handlelength=1.4, handletextpad=0.5,
             )  # fmt: skip
 
+    def label_ends(self, texts: Mapping[str, str] | None = None) -> None:
+        """Each curve's label, or its text of these, beside its last point, apart from the others; when all is drawn.
+
+        A legend that covers nothing, and tells apart the curves that end in one place.
+        """
+        curves = [(one.lines[0], str(one.get_label())) for one in self.axes.containers if hasattr(one, "lines")]
+        curves += [(line, str(line.get_label())) for line in self.axes.lines if line.get_label()[0] != "_"]
+        curves = [(line, texts[label] if texts else label) for line, label in curves]
+        self.axes.autoscale_view()
+        ends = [self._end_of(line.get_xydata()) for line, _ in curves]
+        heights = [_LINE_PT * (1 + text.count("\n")) / self.size_pt()[1] for _, text in curves]
+        for (line, text), end, at in zip(curves, ends, apart([y for _, y in ends], heights), strict=True):
+            colour = line.get_color()
+            self.axes.annotate(
+                text, end, xytext=(1.07, at), xycoords="axes fraction", textcoords="axes fraction", va="center",
+                fontsize=9, annotation_clip=False, linespacing=1.1,
+                arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.9, "shrinkA": 3.0, "shrinkB": 3.0,
+                            "relpos": (0.0, 0.5)},
+            )  # fmt: skip
+            self.axes.plot(
+                [1.055], [at], marker=line.get_marker(), color=colour, markersize=5, transform=self.axes.transAxes,
+                clip_on=False,
+            )  # fmt: skip
+
+    def _end_of(self, points: ArrayLike) -> tuple[float, float]:
+        """The last known one of some points, in fractions of the panel."""
+        known = np.asarray(points, dtype=float)
+        known = known[np.isfinite(known).all(axis=1)]
+        x, y = self.axes.transAxes.inverted().transform(self.axes.transData.transform(known[-1:]))[0].tolist()
+        return float(x), min(max(float(y), 0.0), 1.0)
+
+    def percent(self, axis: Literal["x", "y"]) -> None:
+        """Shares written in percent."""
+        from matplotlib.ticker import PercentFormatter
+
+        chosen = self.axes.xaxis if axis == "x" else self.axes.yaxis
+        chosen.set_major_formatter(PercentFormatter(1.0, symbol=""))
+
     def plain_ticks(self, axis: Literal["x", "y"], at: Sequence[float]) -> None:
         """Ticks at these values, written out, on a logarithmic axis too."""
         self.ticks(axis, at, [f"{value:g}" for value in at])
@@ -367,6 +416,42 @@ class Panel:
         figure = self.axes.get_figure(root=True)
         assert figure is not None
         return figure
+
+
+def apart(centres: Sequence[float], heights: Sequence[float]) -> list[float]:
+    """Places on [0, 1] as near as can be to the centres, at which things of these heights do not overlap.
+
+    Least squares in the order of the centres: neighbours that would overlap move together, by as much (pool adjacent
+    violators).
+
+    >>> [round(place, 3) for place in apart([0.5, 0.5, 0.9], [0.1, 0.1, 0.1])]
+    [0.45, 0.55, 0.9]
+    """
+    order = sorted(range(len(centres)), key=lambda one: centres[one])
+    stacks: list[list[int]] = []
+
+    def start(stack: list[int]) -> float:
+        """Where a stack begins whose members stand on each other, within [0, 1] where it fits."""
+        below, wanted = 0.0, 0.0
+        for one in stack:
+            wanted += centres[one] - below - heights[one] / 2.0
+            below += heights[one]
+        return max(min(wanted / len(stack), 1.0 - below), 0.0)
+
+    def end(stack: list[int]) -> float:
+        return start(stack) + sum(heights[one] for one in stack)
+
+    for one in order:
+        stacks.append([one])
+        while len(stacks) > 1 and end(stacks[-2]) > start(stacks[-1]) + 1e-12:
+            stacks[-2:] = [stacks[-2] + stacks[-1]]
+    places = [0.0] * len(centres)
+    for stack in stacks:
+        edge = start(stack)
+        for one in stack:
+            places[one] = edge + heights[one] / 2.0
+            edge += heights[one]
+    return places
 
 
 def can_show(text: str) -> bool:
