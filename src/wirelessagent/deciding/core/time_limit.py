@@ -19,6 +19,8 @@ import numpy as np
 from wirelessagent.model.arrays import IntArray
 
 _EVER = np.iinfo(np.int64).max
+_LEAST_S = 0.025
+"""What a search that has begun is left at least, which suffices for most: nothing is begun after the deadline."""
 _DONE, _MOST, _STOP = 0, 1, 2
 """As in :mod:`.work_kernel`, which is not imported here: it would load the compiler."""
 
@@ -91,7 +93,7 @@ class TimeLimit:
         if deadline >= before:
             yield
             return
-        alarm = threading.Timer(min(seconds, threading.TIMEOUT_MAX), self._stop)
+        alarm = threading.Timer(min(max(seconds, _LEAST_S), threading.TIMEOUT_MAX), self._stop)
         alarm.daemon = True
         self.deadline = deadline
         alarm.start()
