@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
@@ -45,7 +45,7 @@ class TimeLimit:
 
     @classmethod
     @contextmanager
-    def of(cls, seconds: float | None, steps: int | None) -> Iterator[TimeLimit]:
+    def of(cls, seconds: float | None, steps: int | None) -> Generator[TimeLimit]:
         """The limit of all that is done inside, within that of what it is part of."""
         enclosing = _in_force.get()
         limit = cls(steps) if enclosing is None else enclosing
@@ -83,7 +83,7 @@ class TimeLimit:
         self.work[_DONE] = steps
 
     @contextmanager
-    def within(self, seconds: float) -> Iterator[None]:
+    def within(self, seconds: float) -> Generator[None]:
         """Stop in so many seconds unless all is done by then, for good; nothing new where it has to stop earlier.
 
         Steps that are given take the place of the clock.
