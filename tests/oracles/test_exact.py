@@ -24,6 +24,7 @@ from wirelessagent.deciding.objectives.proportional_fairness import Proportional
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.testing.channels import known, rayleigh_gain
 from wirelessagent.testing.exhaustive import best_allocation, least_power_w
+from wirelessagent.testing.random_problems import tiny_problem
 
 OBJECTIVES = {
     "max_rate": MaxRate(),
@@ -32,6 +33,7 @@ OBJECTIVES = {
     "proportional_fairness": ProportionalFairness(),
     "max_min_rate": MaxMinRate(),
 }
+TURNS = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
 UTILITIES = ("promise", "rate", "full", "fair")
 
 
@@ -197,3 +199,31 @@ def test_eight_users_to_the_optimum(rate_bps: float) -> None:
         assert fast.bound <= exact.value * (1 + 1e-9)
         assert exact.value <= fast.value * (1 + 1e-9)
         assert fast.value <= exact.value * 1.02
+
+
+FORMERLY_OPEN = (99, 190, 250, 354, 503, 549, 563, 619, 694)
+"""Tiny problems that once came back without a proof, some of them without a reason."""
+
+
+@pytest.mark.parametrize("number", [*FORMERLY_OPEN, *range(20)])
+def test_tiny_problems_are_proven_and_no_worse_than_thorough(number: int) -> None:
+    case = tiny_problem(number, tuple(OBJECTIVES[name] for name in TURNS))
+    exact = wa.decide(case.estimate, case.problem, case.cell, Exact())
+    thorough = wa.decide(case.estimate, case.problem, case.cell, Dual(effort="thorough"))
+    assert exact.status in ("optimal", "infeasible")
+    assert thorough.status != "feasible" or exact.status == "optimal"
+    if thorough.is_usable:
+        sign = 1.0 if OBJECTIVES[TURNS[number % 5]].direction == "max" else -1.0
+        assert sign * exact.value >= sign * thorough.value - 1e-12 * abs(thorough.value)
+        assert not sign * thorough.value > sign * exact.bound
+
+
+def test_what_is_not_proven_says_why() -> None:
+    estimate = known(rayleigh_gain(6, 14, seed=3)[0])
+    slowest, past = wa.Problem("max_min_rate"), (1e6, 0.0, 3e6, 1e5, 2e5, 1e6)
+    cut = wa.decide(estimate, slowest, wa.Cell(), Exact(steps=150))
+    assert cut.status == "feasible"
+    assert "time allowed ended" in cut.reason
+    fair = wa.decide(estimate, wa.Problem(ProportionalFairness(past_average_bps=past)), wa.Cell(), Exact())
+    assert fair.status == "optimal" or "no power law" in fair.reason
+    assert wa.decide(estimate, slowest, wa.Cell(), Exact()).reason == ""

@@ -35,13 +35,13 @@ def exact_powers(form: NormalForm, rows: FloatArray, owner: IntArray, power_w: F
 
 
 def to_the_last_bit(form: NormalForm, gain: FloatArray, owner: IntArray, power_w: FloatArray) -> FloatArray:
-    """The powers (…, subcarrier) with promises and budget kept, where nothing but rounding was in the way.
+    """The powers (…, subcarrier) with promises, budget and caps kept, where only rounding was in the way.
 
     ``gain`` is (…, user, subcarrier), ``owner`` (…, subcarrier). A promise that is short in the last digits gets more
     power on every subcarrier that may have more. What the sum of all powers then exceeds the budget by, users give who
     get more than they are promised.
     """
-    holder, owned = np.maximum(owner, 0), owner >= 0
+    holder, owned, power_w = np.maximum(owner, 0), owner >= 0, np.minimum(power_w, form.cap_w)
     if form.promised_bps.any():
         step = _STEP
         for _ in range(_TRIALS):
@@ -49,7 +49,7 @@ def to_the_last_bit(form: NormalForm, gain: FloatArray, owner: IntArray, power_w
             short = (rate < form.promised_bps) & kept(rate, form.promised_bps)
             if not short.any():
                 break
-            raised = np.maximum(np.minimum(power_w * (1.0 + step), form.cap_w), power_w)
+            raised = np.minimum(power_w * (1.0 + step), form.cap_w)
             power_w = np.where(owned & np.take_along_axis(short, holder, axis=-1), raised, power_w)
             step *= 2.0
     spent_w = power_w.sum(axis=-1, keepdims=True)

@@ -13,8 +13,10 @@ from wirelessagent.deciding.core.sets_kernel import (
     CHANGED,
     CHECKED,
     COUNT,
+    FLOOR,
     MEMBERS,
     OWNER,
+    START,
     TERM,
     WORTH,
     Sets,
@@ -149,23 +151,51 @@ def some_wanting(user: FloatArray) -> bool:
 
 @kernel
 def serve_all(sets: Sets) -> int:
-    """Give groups to users who lack a rate that they must have, whatever that costs others; how many still lack one."""
-    user, group = sets.user, sets.group
+    """Give groups to users who lack a rate that they must have, whatever that costs others; how many still lack one.
+
+    Where time is over each gets one group that others can spare: better a rate that is low than none.
+    """
+    user = sets.user
     missing = 0
     for k in range(user.shape[0]):
         while user[k, WORTH] <= -UNREACHABLE:
-            best, chosen = 0.0, none()
-            for g in range(0 if is_over(sets.work) else group.shape[1] - 1):
-                holder = group[OWNER, g]
-                if holder == k:
-                    continue
-                gain = gain_of(sets, k, none(), g)
-                if holder >= 0:
-                    gain += gain_of(sets, holder, g, none())
-                if gain > best:
-                    best, chosen = gain, g
-            if chosen < 0:
+            hurried = is_over(sets.work)
+            chosen = spare_group(sets, k) if hurried else best_to_take(sets, k)
+            if chosen >= 0:
+                change(sets, chosen, k, none())
+            if chosen < 0 or (hurried and user[k, WORTH] <= -UNREACHABLE):
                 missing += 1
                 break
-            change(sets, chosen, k, none())
     return missing
+
+
+@kernel
+def best_to_take(sets: Sets, k: int) -> int:
+    """The group by whose going to a user all gain most; −1 if none gain."""
+    group = sets.group
+    best, chosen = 0.0, none()
+    for g in range(group.shape[1] - 1):
+        holder = group[OWNER, g]
+        if holder == k:
+            continue
+        gain = gain_of(sets, k, none(), g)
+        if holder >= 0:
+            gain += gain_of(sets, holder, g, none())
+        if gain > best:
+            best, chosen = gain, g
+    return chosen
+
+
+@kernel
+def spare_group(sets: Sets, k: int) -> int:
+    """A user's best group among those that nobody has, or somebody who has several; −1 if there is none."""
+    pair, group = sets.pair, sets.group
+    lowest, chosen = np.inf, none()
+    for g in range(group.shape[1] - 1):
+        holder = group[OWNER, g]
+        if holder == k or (holder >= 0 and sets.member[holder, COUNT] < 2):
+            continue
+        for n in range(group[START, g], group[START, g + 1]):
+            if pair[FLOOR, k, n] < lowest:
+                lowest, chosen = pair[FLOOR, k, n], g
+    return chosen

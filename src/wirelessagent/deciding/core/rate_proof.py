@@ -66,6 +66,8 @@ def prove(form: NormalForm) -> RateProof:
     scaling = min(largest_scaling(form, snr, nats), 1e300)
     iterations, factor = 0, 1.0
     for _ in range(1 + _ROUNDS):  # at the promised rates; then at those scaled to the budget, until that settles
+        if form.limit.is_over():
+            break
         found, steps = _climb(form, snr, factor * nats)
         iterations += steps
         power, tighter = _judge(form, snr, nats, found)
@@ -73,7 +75,7 @@ def prove(form: NormalForm) -> RateProof:
             needed, best = power, found
         settled = factor != 1.0 and tighter > scaling * (1.0 - _SETTLED)
         scaling = min(scaling, tighter)
-        if settled or scaling <= 0.0 or form.limit.is_over():
+        if settled or scaling <= 0.0:
             break
         factor = scaling
     price[users] = np.exp(best)

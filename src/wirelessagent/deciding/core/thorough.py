@@ -96,6 +96,8 @@ def carried(form: NormalForm, least: Search, most_sets: int = MOST_SETS, *, enou
     Where it found no sets at all, integer programming does; the bound is infinite if there are none. It ends with a
     power of at most −``enough``.
     """
+    if form.limit.is_over():
+        return least
     goal = least_power(form)
     if not least.kept:
         possible, sets = carried_at_any_power(goal.market, form.promised_nats)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
@@ -19,6 +19,8 @@ import numpy as np
 from wirelessagent.model.arrays import IntArray
 
 _EVER = np.iinfo(np.int64).max
+_LEAST_S = 0.025
+"""What a search that has begun is left at least, which suffices for most: nothing is begun after the deadline."""
 _DONE, _MOST, _STOP = 0, 1, 2
 """As in :mod:`.work_kernel`, which is not imported here: it would load the compiler."""
 
@@ -43,7 +45,7 @@ class TimeLimit:
 
     @classmethod
     @contextmanager
-    def of(cls, seconds: float | None, steps: int | None) -> Iterator[TimeLimit]:
+    def of(cls, seconds: float | None, steps: int | None) -> Generator[TimeLimit]:
         """The limit of all that is done inside, within that of what it is part of."""
         enclosing = _in_force.get()
         limit = cls(steps) if enclosing is None else enclosing
@@ -81,7 +83,7 @@ class TimeLimit:
         self.work[_DONE] = steps
 
     @contextmanager
-    def within(self, seconds: float) -> Iterator[None]:
+    def within(self, seconds: float) -> Generator[None]:
         """Stop in so many seconds unless all is done by then, for good; nothing new where it has to stop earlier.
 
         Steps that are given take the place of the clock.
@@ -91,7 +93,7 @@ class TimeLimit:
         if deadline >= before:
             yield
             return
-        alarm = threading.Timer(min(seconds, threading.TIMEOUT_MAX), self._stop)
+        alarm = threading.Timer(min(max(seconds, _LEAST_S), threading.TIMEOUT_MAX), self._stop)
         alarm.daemon = True
         self.deadline = deadline
         alarm.start()
