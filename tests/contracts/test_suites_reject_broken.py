@@ -12,6 +12,7 @@ import wirelessagent as wa
 from wirelessagent.testing.broken import base_stations, methods, objectives, repairers, sources
 from wirelessagent.testing.channels import known_scene
 from wirelessagent.testing.contract import Contract
+from wirelessagent.testing.kinked import KinkedLogarithm
 
 SUITES: dict[str, tuple[type[Contract], Any, Any]] = {
     "source": (wa.testing.ChannelSourceContract, sources.BROKEN, sources.Fading()),
@@ -52,6 +53,11 @@ def test_a_broken_plugin_fails_the_check_it_names_and_no_other(kind: str, subjec
 def test_every_check_rejects_some_broken_plugin(kind: str) -> None:
     suite, subjects, _ = SUITES[kind]
     assert set(suite.checks()) == {plugin_of(kind, subject).caught_by for subject in subjects}
+
+
+def test_corners_are_sound_if_the_conjugate_has_them() -> None:
+    kinked = KinkedLogarithm(knots=(1e5, 3e5, 4e5, 1e7))
+    assert suite_of("objective", kinked).failures() == {}
 
 
 def test_a_source_that_does_not_draw_must_not_depend_on_the_seed() -> None:
