@@ -410,4 +410,4 @@ def test_what_is_not_honoured_is_refused() -> None:
     with pytest.raises(InputError, match="counted from 0"):
         wa.decide(estimate, wa.Problem("max_rate", users=(2,)))
     with pytest.raises(InputError, match="out of range"):
-        wa.decide(known(np.full((2, 4), 1e300)), wa.Problem("max_rate"))
+        wa.decide(known(np.full((2, 4), 1e99)), wa.Problem("max_rate"))

@@ -9,7 +9,7 @@ from dataclasses import KW_ONLY, dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen, per_user, positive, shown, whole
+from wirelessagent.model.arrays import BoolArray, FloatArray, amounts, frozen, per_user, positive, shown, whole, within
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.doors import through
 from wirelessagent.model.errors import InputError
@@ -56,14 +56,9 @@ class Problem(Plain):
         if isinstance(self.objective, str):
             through("check_objective")(self.objective)
         for name in ("weights", "min_rate_bps", "max_rate_bps", "subcarrier_max_power_w"):
-            value = getattr(self, name)
-            if value is None:
-                continue
-            array = float_array(name, value)
-            finite = np.all(np.isfinite(array)) or name in ("max_rate_bps", "subcarrier_max_power_w")
-            if np.isnan(array).any() or np.any(array < 0) or not finite:
-                raise InputError(f"{name} must be zero or more{'' if finite else ' and finite'}; got {shown(value)}")
-            object.__setattr__(self, name, array)
+            if getattr(self, name) is not None:
+                infinite = name in ("max_rate_bps", "subcarrier_max_power_w")
+                object.__setattr__(self, name, amounts(name, getattr(self, name), infinite=infinite))
         if self.max_power_w is not None:
             object.__setattr__(self, "max_power_w", positive("max_power_w", self.max_power_w))
         if self.forbidden is not None:
@@ -72,8 +67,8 @@ class Problem(Plain):
             object.__setattr__(self, "users", _different_users(self.users))
         group = whole("resource_block_group_size", self.resource_block_group_size)
         object.__setattr__(self, "resource_block_group_size", group)
-        if self.outage_probability is not None and positive("outage_probability", self.outage_probability) >= 1:
-            raise InputError(f"outage_probability must be between 0 and 1; got {self.outage_probability!r}")
+        if self.outage_probability is not None:
+            within("outage_probability", self.outage_probability, 0, 1, above=True, below=True)
         if self.weights is not None:
             self._check_weights(np.asarray(self.weights))
 
