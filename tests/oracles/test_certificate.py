@@ -77,7 +77,7 @@ def test_a_wrong_bound_of_a_method_is_the_methods() -> None:
     with pytest.raises(wa.WirelessAgentError, match="bound of 'bold' is wrong"):
         wa.decide(ESTIMATE, wa.Problem("max_rate"), method=Bold())
     with pytest.raises(PluginError, match=r"Either the conjugate .* or the bound of 'bold' is wrong"):
-        wa.decide(ESTIMATE, wa.Problem(Logarithm(short=0.0), users=(0,)), method=Bold())
+        wa.decide(ESTIMATE, wa.Problem(Logarithm(short=0.0), users=("user 1",)), method=Bold())
 
 
 def test_rounding_is_forgiven_on_both_sides() -> None:

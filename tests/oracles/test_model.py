@@ -228,7 +228,7 @@ def test_a_cell_that_cannot_be_is_refused_with_the_field_and_the_value(field: st
         {"max_power_w": math.inf},
         {"subcarrier_max_power_w": -1.0},
         {"users": ()},
-        {"users": (1, 1)},
+        {"users": ("user 2", "user 2")},
         {"users": (-1,)},
         {"resource_block_group_size": 0},
         {"outage_probability": 0.0},
@@ -263,8 +263,8 @@ def test_promised_rates_are_per_user_or_for_all() -> None:
 
 def test_constraints_are_those_that_are_set() -> None:
     assert wa.Problem("max_rate").constraints() == {}
-    problem = wa.Problem("max_rate", max_power_w=1.0, users=(0,), resource_block_group_size=2)
-    assert problem.constraints() == {"max_power_w": 1.0, "users": (0,), "resource_block_group_size": 2}
+    problem = wa.Problem("max_rate", max_power_w=1.0, users=("user 1",), resource_block_group_size=2)
+    assert problem.constraints() == {"max_power_w": 1.0, "users": ("user 1",), "resource_block_group_size": 2}
 
 
 # Observation, estimate, scene

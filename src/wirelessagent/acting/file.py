@@ -18,13 +18,16 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.outcome import Outcome
 
+OWNER_MEANS = "the user of each subcarrier, as an index from 0 into user_names; -1 for nobody"
+
 
 @dataclass(frozen=True)
 class FileBaseStation(BaseStation):
     """Writes the allocation as JSON, CSV or NPZ, by the file's suffix, atomically.
 
-    CSV has a line per subcarrier: ``subcarrier,owner,user_name,power_w`` with subcarriers and owners counted from 0 and
-    owner −1 for nobody. JSON and NPZ hold ``owner``, ``power_w``, ``promised_bps`` and ``user_names``.
+    JSON and NPZ hold ``owner``, ``owner_means``, ``power_w``, ``promised_bps`` and ``user_names``: people count users
+    from 1, so the file itself says that an owner is an index from 0, −1 for nobody. CSV has a line per subcarrier,
+    ``subcarrier_from_0,owner_from_0,user_name,power_w``.
 
     Attributes:
         path: the file to write, .json, .csv or .npz.
@@ -59,6 +62,7 @@ def allocation_writer(path: Path) -> Callable[[BinaryIO, Decision], None]:
 def _write_json(stream: BinaryIO, decision: Decision) -> None:
     content = {
         "owner": decision.owner.tolist(),
+        "owner_means": OWNER_MEANS,
         "power_w": decision.power_w.tolist(),
         "promised_bps": decision.committed_bps.tolist(),
         "user_names": list(decision.user_names),
@@ -69,7 +73,7 @@ def _write_json(stream: BinaryIO, decision: Decision) -> None:
 def _write_csv(stream: BinaryIO, decision: Decision) -> None:
     text = io.StringIO(newline="")
     rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(["subcarrier", "owner", "user_name", "power_w"])
+    rows.writerow(["subcarrier_from_0", "owner_from_0", "user_name", "power_w"])
     for n, (owner, power) in enumerate(zip(decision.owner.tolist(), decision.power_w.tolist(), strict=True)):
         rows.writerow([n, owner, decision.user_names[owner] if owner >= 0 else "", repr(power)])
     stream.write(text.getvalue().encode())
@@ -79,6 +83,7 @@ def _write_npz(stream: BinaryIO, decision: Decision) -> None:
     np.savez(
         stream,
         owner=decision.owner,
+        owner_means=np.array(OWNER_MEANS),
         power_w=decision.power_w,
         promised_bps=decision.committed_bps,
         user_names=np.array(decision.user_names),

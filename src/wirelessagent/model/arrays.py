@@ -136,12 +136,13 @@ def switches(name: str, value: ArrayLike, shape: tuple[int, ...]) -> BoolArray:
     return frozen(array)
 
 
-def names(name: str, value: Iterable[str], num_names: int) -> tuple[str, ...]:
+def names(name: str, value: object, num_names: int) -> tuple[str, ...]:
     """``value`` as so many different names, or an error that names it."""
-    found = (value,) if isinstance(value, str) or not isinstance(value, Iterable) else tuple(value)
-    are_names = all(isinstance(each, str) and each for each in found)
-    if not are_names or len(found) != num_names or len(set(found)) != num_names:
-        raise InputError(f"{name} must be {num_names} different names; got {shown(value)}")
+    is_row = not isinstance(value, str) and isinstance(value, Iterable)
+    given = tuple(cast("Iterable[object]", value)) if is_row else ()
+    found = tuple(each for each in given if isinstance(each, str) and each)
+    if len(given) != num_names or len(set(found)) != num_names:
+        raise InputError(f"{name} must be {num_names} different names; got {shown(cast('object', value))}")
     return found
 
 

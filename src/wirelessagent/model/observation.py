@@ -14,6 +14,7 @@ from wirelessagent.model.errors import InputError
 from wirelessagent.model.gain_views import entries, gains_picture, level
 from wirelessagent.model.shown import Picture, Shown, Summary, few
 from wirelessagent.model.units import percent
+from wirelessagent.model.user_names import numbered
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -59,7 +60,7 @@ class ChannelObservation(Shown):
             object.__setattr__(self, "noise_variance", variance)
         if self.estimated is not None:
             object.__setattr__(self, "estimated", switches("estimated", self.estimated, gain.shape))
-        called = self.user_names if len(self.user_names) else tuple(f"user {k + 1}" for k in range(self.num_users))
+        called = self.user_names if len(self.user_names) else numbered(self.num_users)
         object.__setattr__(self, "user_names", names("user_names", called, self.num_users))
         self._check_axis("subcarrier_frequencies_hz", self.num_subcarriers)
         self._check_axis("slot_times_s", self.num_slots)
