@@ -83,6 +83,7 @@ def outcome_of(turn: StoredTurn) -> Outcome | None:
         promised_bps=_floats(found["promised_bps"]),
         achieved=None if achieved is None else _metrics(achieved),
         written_to=None if found["written_to"] is None else Path(found["written_to"]),
+        slack_bps=None if found.get("slack_bps") is None else _floats(found["slack_bps"]),  # version 0.1 had none
     )
 
 
