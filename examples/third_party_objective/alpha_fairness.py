@@ -51,6 +51,10 @@ class AlphaFairness(wa.Objective):
         payment = np.multiply(price, rate, where=price > 0, out=np.zeros_like(rate))  # what is free costs nothing
         return self.utility(rate) - payment, rate
 
+    def power_law(self):
+        """Its own α: with this declared, the method exact proves optima; without, bounds rest on the conjugate."""
+        return float(self.alpha)
+
     def figure(self, utility, weight):
         """The rate that is worth as much if all get it, in bit/s: the weighted power mean of exponent 1 − α."""
         worth = np.float64(utility / weight)

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 import wirelessagent as wa
+from wirelessagent.acting.file import FileBaseStation
+from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.testing.broken import base_stations, methods, objectives, repairers, sources
 from wirelessagent.testing.channels import known_scene
 from wirelessagent.testing.contract import Contract
+from wirelessagent.testing.kinked import KinkedLogarithm
 
 SUITES: dict[str, tuple[type[Contract], Any, Any]] = {
     "source": (wa.testing.ChannelSourceContract, sources.BROKEN, sources.Fading()),
@@ -54,6 +58,11 @@ def test_every_check_rejects_some_broken_plugin(kind: str) -> None:
     assert set(suite.checks()) == {plugin_of(kind, subject).caught_by for subject in subjects}
 
 
+def test_corners_are_sound_if_the_conjugate_has_them() -> None:
+    kinked = KinkedLogarithm(knots=(1e5, 3e5, 4e5, 1e7))
+    assert suite_of("objective", kinked).failures() == {}
+
+
 def test_a_source_that_does_not_draw_must_not_depend_on_the_seed() -> None:
     class Suite(wa.testing.ChannelSourceContract):
         source = sources.Fading()
@@ -62,12 +71,14 @@ def test_a_source_that_does_not_draw_must_not_depend_on_the_seed() -> None:
     assert list(Suite().failures()) == ["test_the_seed_matters_if_it_draws"]
 
 
-def test_a_coarse_power_setting_is_sound_if_it_is_stated() -> None:
-    class Suite(wa.testing.BaseStationContract):
-        power_step_w = 0.1
+@pytest.mark.parametrize("step_w", [1e-4, 1e-3, 0.1, 0.7])
+@pytest.mark.parametrize("kind", [SimulatedBaseStation, FileBaseStation])
+def test_a_coarse_power_setting_is_sound_if_it_is_stated(kind: type[Any], step_w: float, tmp_path: Path) -> None:
+    options = {"path": tmp_path / "allocation.json"} if kind is FileBaseStation else {}
 
+    class Suite(wa.testing.BaseStationContract):
         def base_station(self, scene: wa.Scene) -> wa.BaseStation:
-            return base_stations.RoundsPower(scene)
+            return kind(scene, power_resolution_w=step_w, **options)
 
     assert Suite().failures() == {}
 

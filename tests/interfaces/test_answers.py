@@ -125,7 +125,9 @@ def test_one_more_user_is_the_best_of_those_left_out_or_not_known() -> None:
     )
     assert asked.run is not None
     values = {
-        user: wa.decide(asked.run.estimate, wa.Problem("max_rate", users=(user, 2, 3), max_power_w=10.0)).value
+        user: wa.decide(
+            asked.run.estimate, wa.Problem("max_rate", users=(f"user {user + 1}", "user 3", "user 4"), max_power_w=10.0)
+        ).value
         for user in (0, 1)
     }
     best = max(values, key=lambda user: values[user])

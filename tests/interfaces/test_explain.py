@@ -141,7 +141,7 @@ def test_rates_are_promised_where_some_were_asked_for_and_committed_elsewhere() 
 
 
 def test_fairness_is_among_those_to_be_served() -> None:
-    decision = decided("max_rate", users=(1, 3))
+    decision = decided("max_rate", users=("user 2", "user 4"))
     decision = replace(decision, rate_bps=np.array([0.0, 2e6, 0.0, 2e6]))
     report = wa.report(decision, wa.SimulatedBaseStation(SCENE).apply(decided("max_rate")))
     assert report.predicted.jain_index == 1.0
@@ -156,7 +156,9 @@ def test_who_cannot_be_served_is_said_once() -> None:
     said = " ".join(explain(crowd, wa.report(decision)))
     assert said.count("user 4") == 1
     assert "1 of 4 users cannot be served: there are only 3 subcarriers" in certificate_line(decision)
-    grouped = wa.decide(crowd, wa.Problem("max_min_rate", resource_block_group_size=2, users=(0, 1, 2)))
+    grouped = wa.decide(
+        crowd, wa.Problem("max_min_rate", resource_block_group_size=2, users=("user 1", "user 2", "user 3"))
+    )
     assert "1 of 3 users cannot be served: there are only 2 resource-block groups" in certificate_line(grouped)
 
 

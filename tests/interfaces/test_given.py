@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import Any
 
 import numpy as np
@@ -72,21 +73,37 @@ def test_an_earlier_decision_is_for_the_same_users() -> None:
         wa.decide(ESTIMATE, fair, after=earlier)
 
 
-def test_users_are_served_by_name_or_number() -> None:
-    by_name = wa.decide(ESTIMATE, wa.Problem("max_rate", users=("user 4", 1)))
-    by_number = wa.decide(ESTIMATE, wa.Problem("max_rate", users=(3, 1)))
-    assert by_name.problem.users == by_number.problem.users == (3, 1)
-    assert np.array_equal(by_name.owner, by_number.owner)
-    batch = wa.decide_batch(ESTIMATE.gain, wa.Problem("max_rate", users=("user 4", 1)))
-    assert np.array_equal(batch.owner, by_number.owner)
+def test_users_are_served_by_name_and_are_indices_in_what_comes_out() -> None:
+    decision = wa.decide(ESTIMATE, wa.Problem("max_rate", users=("user 4", "user 2")))
+    assert decision.problem.users == ("user 4", "user 2")
+    assert decision.problem.user_indices == (3, 1)
+    assert set(decision.owner.tolist()) <= {3, 1}
+    batch = wa.decide_batch(ESTIMATE.gain, wa.Problem("max_rate", users=("user 4", "user 2")))
+    assert np.array_equal(batch.owner, decision.owner)
     with pytest.raises(wa.InputError, match="no user is called 'Ann'; the channel has user 1, user 2"):
         wa.decide(ESTIMATE, wa.Problem("max_rate", users=("Ann",)))
+    with pytest.raises(wa.InputError, match="no user is called '3'; 'user 3' is the whole name of one"):
+        wa.decide(ESTIMATE, wa.Problem("max_rate", users=("3",)))
     with pytest.raises(wa.InputError, match="different users"):
-        wa.decide(ESTIMATE, wa.Problem("max_rate", users=("user 2", 1)))
-    with pytest.raises(wa.InputError, match="no user number 4: the channel has 4 users, counted from 0"):
-        wa.decide(ESTIMATE, wa.Problem("max_rate", users=(4,)))
-    with pytest.raises(wa.InputError, match=r"users=\('user 2',\)"):
+        wa.Problem("max_rate", users=("user 2", "user 2"))
+    with pytest.raises(wa.InputError, match=r"users=\('user 3',\)"):
         wa.Problem("max_rate", users="user 2")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("number", [3, np.int64(3)])
+def test_a_bare_number_for_a_user_is_refused_with_both_readings(number: Any) -> None:
+    """Whoever counts as people do means another user than whoever counts as arrays do."""
+    with pytest.raises(wa.InputError, match=r"'user 3', as people count, or .* index 3 .* from 0, .* 'user 4'"):
+        wa.Problem("max_rate", users=[number])
+
+
+def test_a_problem_posed_on_one_channel_is_another_one_elsewhere() -> None:
+    asked = wa.Problem("max_rate", users=("Bea",))
+    assert asked.for_users(("Ann", "Bea")).user_indices == (1,)
+    assert asked.for_users(("Ann", "Bea")).for_users(("Bea", "Ann")).user_indices == (0,)
+    assert dataclasses.replace(asked.for_users(("Ann", "Bea")), users=("Ann",)).user_indices == (0,)
+    with pytest.raises(wa.InputError, match=r"users are named \('Bea'\), and only the channel knows who that is"):
+        asked.serves(2)
 
 
 def test_messages_call_users_by_their_names() -> None:

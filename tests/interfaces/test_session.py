@@ -246,13 +246,13 @@ def test_users_are_found_by_name_and_place() -> None:
     found = posed(min_rate_bps={"all": 1e5, "3": 2e5}, weights={"User 1": 2}, leave_out=("2",), outage_probability=0.1)
     assert found.problem.min_rate_bps.tolist() == [1e5, 1e5, 2e5, 1e5, 1e5]
     assert found.problem.weights.tolist() == [2, 1, 1, 1, 1]
-    assert found.problem.users == (0, 2, 3, 4)
+    assert found.problem.user_indices == (0, 2, 3, 4)
     assert found.notes == ()
     others = posed(names=("7", "anna", "3"), max_rate_bps={"3": 1e6, "anna": 2e6, "1": 3e6})
     assert others.problem.max_rate_bps.tolist() == [3e6, 2e6, 1e6]
     assert len(others.notes) == 1
     assert "place 1" in others.notes[0]
-    assert posed(users=("1", "2", "3"), leave_out=("2",)).problem.users == (0, 2)
+    assert posed(users=("1", "2", "3"), leave_out=("2",)).problem.users == ("user 1", "user 3")
 
 
 def test_promises_are_made_with_a_probability_unless_it_is_said() -> None:

@@ -391,3 +391,27 @@ def test_an_interruption_before_the_base_station_was_told_changes_nothing(monkey
         session.say("…")
     assert session.state.on_air is state.on_air
     assert len(session.turns) == 1
+
+
+@dataclass(frozen=True)
+class Rounding(wa.BaseStation):
+    """Sets power in steps and does not say so."""
+
+    name = "rounding"
+
+    scene: wa.Scene | None = SCENE
+    step_w: float = 1.0
+
+    def apply(self, decision: wa.Decision) -> wa.Outcome:
+        rounded = np.ceil(decision.power_w / self.step_w) * self.step_w
+        return replace(self.read_back(decision), power_w=rounded)
+
+
+def test_steps_that_a_base_station_states_are_no_difference() -> None:
+    run = run_of("min_power", min_rate_bps=1e5)
+    step_w = 0.1 * float(np.median(run.decision.power_w[run.decision.power_w > 0]))
+    coarse = wa.SimulatedBaseStation(SCENE, power_resolution_w=step_w)
+    read = coarse.apply(run.decision).power_w
+    assert np.abs(read - run.decision.power_w).sum() > 1e-3 * run.decision.total_power_w
+    assert carry_out(run, coarse, None).as_decided
+    assert not carry_out(run, Rounding(step_w=step_w), None).as_decided

@@ -95,7 +95,7 @@ def test_a_turn_comes_back_as_it_went_in(store: Store) -> None:
         assert seen.user_names == turn.run.observation.user_names
         np.testing.assert_array_equal(estimate_of(store.content(found.estimate)).gain, turn.run.estimate.gain)
         assert cell_of(found) == turn.run.decision.cell
-        assert canonical(vars(problem_of(found))) == canonical(vars(turn.run.decision.problem))
+        assert canonical(vars(problem_of(found, seen.user_names))) == canonical(vars(turn.run.decision.problem))
         again = turn_of(
             dataclasses.replace(
                 turn.run, decision=decision_of(found, seen.user_names), outcome=outcome_of(found)

@@ -105,7 +105,7 @@ def test_the_weight_that_wins_one_subcarrier_is_that_of_equal_worths() -> None:
 
 
 def test_why_somebody_has_nothing() -> None:
-    assert account(case_of("max_rate", users=(0, 1, 2)), 3).standing == "left_out"
+    assert account(case_of("max_rate", users=("user 1", "user 2", "user 3")), 3).standing == "left_out"
     assert account(case_of("min_power", min_rate_bps=(1e5, 0, 0, 0)), 2).standing == "no_promise"
     assert account(case_of("max_rate", weights=(1, 1, 1, 0)), 3).standing == "no_weight"
     assert account(case_of("max_rate", min_rate_bps=1e9), 0).standing == "nothing_decided"
@@ -119,7 +119,7 @@ def test_why_somebody_has_nothing() -> None:
 
 
 def test_who_is_left_out_is_told_what_it_would_get() -> None:
-    told = account(case_of("max_min_rate", users=(0, 1, 2)), 3)
+    told = account(case_of("max_min_rate", users=("user 1", "user 2", "user 3")), 3)
     alone = wa.decide(ESTIMATE, wa.Problem("max_min_rate"), CELL)
     assert told.included is not None
     assert told.included.value == pytest.approx(alone.value, rel=1e-3)

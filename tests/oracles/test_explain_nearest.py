@@ -164,7 +164,7 @@ def test_no_power_helps_more_users_than_subcarriers() -> None:
 
 
 def test_who_is_not_to_be_served_is_not_taken_back() -> None:
-    _, case, answer = found(1, users=(0, 2))
+    _, case, answer = found(1, users=("user 1", "user 3"))
     assert answer.fewer_users is None or 1 not in answer.fewer_users.left_out
     for way in (answer.more_power, answer.lower_rates, answer.fewer_users):
         assert way is None or way.decision.rate_bps[1] == 0.0

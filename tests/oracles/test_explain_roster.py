@@ -54,7 +54,7 @@ def test_the_first_is_named_with_its_figure(rank: str, language: str) -> None:
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_those_who_get_nothing_are_named_apart_from_the_least(language: str) -> None:
-    case = case_of("max_rate", users=(0, 1, 2, 3))
+    case = case_of("max_rate", users=("user 1", "user 2", "user 3", "user 4"))
     rates = case.decision.rate_bps
     served = np.flatnonzero(rates > 0)
     assert 0 < served.size < 4

@@ -74,7 +74,7 @@ def test_a_user_who_gets_nothing_is_told_why_and_what_would_help(language: str) 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_standing_has_its_sentence(language: str) -> None:
     cases = {
-        "left_out": (case_of("max_rate", users=(0, 1, 2)), 3),
+        "left_out": (case_of("max_rate", users=("user 1", "user 2", "user 3")), 3),
         "no_promise": (case_of("min_power", min_rate_bps=(1e5, 0, 0, 0)), 2),
         "no_weight": (case_of("max_rate", weights=(1, 1, 1, 0)), 3),
         "nothing_decided": (case_of("max_rate", min_rate_bps=1e9), 0),

@@ -190,8 +190,15 @@ def test_the_nr_cell_has_the_standards_figures() -> None:
         ("circuit_power_w", -1.0),
         ("snr_gap_db", -3.0),
         ("max_spectral_efficiency_bps_per_hz", 0.0),
+        ("snr_gap_db", 1e308),
+        ("max_power_w", 1e308),
+        ("noise_psd_w_per_hz", 1e-320),
         ("overhead", 1.0),
         ("overhead", -0.1),
+        ("overhead", "little"),
+        ("overhead", None),
+        ("amplifier_efficiency", 1e-320),
+        ("amplifier_efficiency", "good"),
         ("amplifier_efficiency", 0.0),
         ("amplifier_efficiency", 1.1),
     ],
@@ -212,6 +219,8 @@ def test_a_cell_that_cannot_be_is_refused_with_the_field_and_the_value(field: st
         {"weights": math.inf},
         {"min_rate_bps": -1.0},
         {"min_rate_bps": math.inf},
+        {"min_rate_bps": 1e308},
+        {"max_power_w": 1e308},
         {"min_rate_bps": math.nan},
         {"min_rate_bps": "fast"},
         {"max_rate_bps": -1.0},
@@ -219,7 +228,7 @@ def test_a_cell_that_cannot_be_is_refused_with_the_field_and_the_value(field: st
         {"max_power_w": math.inf},
         {"subcarrier_max_power_w": -1.0},
         {"users": ()},
-        {"users": (1, 1)},
+        {"users": ("user 2", "user 2")},
         {"users": (-1,)},
         {"resource_block_group_size": 0},
         {"outage_probability": 0.0},
@@ -254,8 +263,8 @@ def test_promised_rates_are_per_user_or_for_all() -> None:
 
 def test_constraints_are_those_that_are_set() -> None:
     assert wa.Problem("max_rate").constraints() == {}
-    problem = wa.Problem("max_rate", max_power_w=1.0, users=(0,), resource_block_group_size=2)
-    assert problem.constraints() == {"max_power_w": 1.0, "users": (0,), "resource_block_group_size": 2}
+    problem = wa.Problem("max_rate", max_power_w=1.0, users=("user 1",), resource_block_group_size=2)
+    assert problem.constraints() == {"max_power_w": 1.0, "users": ("user 1",), "resource_block_group_size": 2}
 
 
 # Observation, estimate, scene
@@ -272,7 +281,20 @@ HOLES = np.array([[1.0, np.nan, 3.0], [np.nan, np.nan, np.nan]])
         ({"gain": [["a", "b"]]}, r"gain must be numbers"),
         ({"gain": [[1.0, -2.0]]}, r"got -2 at user 0, subcarrier 1 \(counted from 0\).*unit='db'"),
         ({"gain": [[[1.0], [2.0]], [[3.0], [np.inf]]]}, r"got inf at slot 1, user 1, subcarrier 0"),
-        ({"gain": HOLES, "noise_variance": -1.0}, r"noise_variance must be zero or more"),
+        ({"gain": [[1e307, 1.0]]}, r"a power gain must be 1e\+100 at most.*got 1e\+307 at user 0.*check its unit"),
+        ({"gain": HOLES, "noise_variance": -1.0}, r"noise_variance must be zero or more and finite; got -1 at user 0"),
+        ({"gain": HOLES, "noise_variance": np.inf}, r"noise_variance must be zero or more and finite; got inf"),
+        ({"gain": HOLES, "noise_variance": np.nan}, r"noise_variance must be zero or more and finite; got nan"),
+        (
+            {"gain": HOLES, "noise_variance": [[1, 1, np.inf], [1, 1, 1]]},
+            r"noise_variance .*inf at user 0, subcarrier 2",
+        ),
+        (
+            {"gain": HOLES, "noise_variance": [1, 2]},
+            r"noise_variance must be one value or of the gain's shape \(2, 3\)",
+        ),
+        ({"gain": HOLES, "user_names": "ab"}, r"user_names must be 2 different names; got 'ab'"),
+        ({"gain": HOLES, "user_names": (1, 2)}, r"user_names must be 2 different names; got \(1, 2\)"),
         ({"gain": HOLES, "user_names": ("a",)}, r"user_names must be 2 different names"),
         ({"gain": HOLES, "user_names": ("a", "a")}, r"user_names must be 2 different names"),
         ({"gain": HOLES, "subcarrier_frequencies_hz": [1.0, 2.0]}, r"must be 3 finite, increasing values"),
@@ -326,10 +348,20 @@ def test_completing_keeps_what_was_observed_and_flags_what_was_not() -> None:
     [
         ({"gain": np.array([[1.0, np.nan]])}, "complete"),
         ({"gain": np.array([[1.0, -1.0]])}, "zero or more"),
-        ({"gain_variance": np.array([[0.0, -1.0]])}, "variances of zero or more"),
-        ({"gain_variance": np.array([[0.0, np.nan]])}, "variances of zero or more"),
+        (
+            {"gain_variance": np.array([[0.0, -1.0]])},
+            "gain_variance must be zero or more and finite; got -1 at user 0, sub",
+        ),
+        ({"gain_variance": np.array([[0.0, np.nan]])}, "gain_variance .* got nan at user 0, subcarrier 1"),
+        ({"gain_variance": np.array([[np.inf, 0.0]])}, "gain_variance .* got inf at user 0, subcarrier 0"),
+        ({"gain": np.array([[1.0, 1e307]])}, r"1e\+100 at most.* got 1e\+307 at user 0, subcarrier 1"),
         ({"gain_variance": np.zeros((2, 1))}, "share one"),
-        ({"repaired": np.zeros((2, 2), dtype=bool)}, "share one"),
+        ({"repaired": np.zeros((2, 2), dtype=bool)}, r"repaired must be .* of shape \(1, 2\)"),
+        ({"repaired": np.zeros((1, 2))}, r"repaired must be switches \(bool\).*; got float64"),
+        ({"repaired": None}, "repaired must be switches"),
+        ({"unobserved_users": "x"}, "unobserved_users must be switches"),
+        ({"user_names": ("a", "a")}, r"user_names must be 1 different names; got \('a', 'a'\)"),
+        ({"user_names": (3,)}, r"user_names must be 1 different names; got \(3,\)"),
     ],
 )
 def test_an_estimate_that_cannot_be_is_refused(change: dict[str, Any], message: str) -> None:

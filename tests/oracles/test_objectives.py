@@ -18,6 +18,7 @@ from wirelessagent.model.errors import InputError
 
 RATES = np.array([1e6, 4e6, 2e6])
 WEIGHTS = np.array([1.0, 2.0, 0.0])
+NAMES = ("user 1", "user 2", "user 3")
 CELL = wa.Cell(circuit_power_w=5.0, amplifier_efficiency=0.5)
 
 
@@ -93,12 +94,16 @@ def test_aliases(alias: str, name: str) -> None:
 
 def test_weights_are_per_user_and_zero_for_whoever_is_not_served() -> None:
     assert wa.Problem("max_rate").weights_of(3).tolist() == [1.0, 1.0, 1.0]
-    assert wa.Problem("max_rate", weights=2.0, users=(2, 0)).weights_of(3).tolist() == [2.0, 0.0, 2.0]
+    assert wa.Problem("max_rate", weights=2.0, users=("user 3", "user 1")).for_users(NAMES).weights_of(3).tolist() == [
+        2.0,
+        0.0,
+        2.0,
+    ]
     assert wa.Problem("max_rate", weights=[1, 0, 3]).weights_of(3).tolist() == [1.0, 0.0, 3.0]
     with pytest.raises(InputError, match="weights are 0 for every user to serve"):
-        wa.Problem("max_rate", weights=[1, 0, 3], users=(1,)).weights_of(3)
-    with pytest.raises(InputError, match="no user number 3: the channel has 3 users, counted from 0"):
-        wa.Problem("max_rate", users=(3,)).weights_of(3)
+        wa.Problem("max_rate", weights=[1, 0, 3], users=("user 2",)).for_users(NAMES).weights_of(3)
+    with pytest.raises(InputError, match="no user is called 'user 4'; the channel has user 1, user 2, user 3"):
+        wa.Problem("max_rate", users=("user 4",)).for_users(NAMES)
 
 
 @pytest.mark.parametrize("weights", [0.0, [0.0, 0.0]])
@@ -115,9 +120,9 @@ def test_weights_mean_nothing_to_power() -> None:
 def test_highest_rates_are_per_user_and_not_below_the_promised_ones() -> None:
     assert wa.Problem("max_rate").max_rates_bps(2).tolist() == [np.inf, np.inf]
     assert wa.Problem("max_rate", max_rate_bps=[1.0, np.inf]).max_rates_bps(2).tolist() == [1.0, np.inf]
-    crossed = wa.Problem("max_rate", min_rate_bps=2e6, max_rate_bps=[3e6, 1e6, 1e6], users=(0, 1))
+    crossed = wa.Problem("max_rate", min_rate_bps=2e6, max_rate_bps=[3e6, 1e6, 1e6], users=("user 1", "user 2"))
     with pytest.raises(InputError, match=r"1 of 3 users \(user 2: 2 Mbit/s above 1 Mbit/s\)"):
-        crossed.max_rates_bps(3)
+        crossed.for_users(NAMES)
 
 
 @pytest.mark.parametrize(

@@ -174,7 +174,7 @@ def only_the_last_user() -> np.ndarray:
     "limits",
     [
         {"max_power_w": 5.0},
-        {"users": (2, 3)},
+        {"users": ("user 3", "user 4")},
         {"min_rate_bps": 5e5},
         {"max_rate_bps": 1e5},
         {"forbidden": only_the_last_user()},
@@ -368,7 +368,8 @@ def test_what_the_standard_has_no_name_for_is_named():
     forbidden = np.zeros((4, 8), dtype=bool)
     forbidden[1, 3] = True
     run = subject(
-        weights=[1.0, 2.0, 1.0, 1.0], max_rate_bps=[np.inf, 5e6, np.inf, np.inf], users=(0, 1, 2), forbidden=forbidden,
+        weights=[1.0, 2.0, 1.0, 1.0], max_rate_bps=[np.inf, 5e6, np.inf, np.inf], users=("user 1", "user 2", "user 3"),
+        forbidden=forbidden,
         subcarrier_max_power_w=3.0, resource_block_group_size=2,
     )  # fmt: skip
     said = contexts(intent_of(run), "intentContexts")

@@ -24,7 +24,7 @@ PROBLEMS = {
     "efficiency": wa.Problem("max_energy_efficiency"),
     "efficiency, promised": wa.Problem("max_energy_efficiency", min_rate_bps=5e5, max_rate_bps=3e6),
     "fair": wa.Problem("proportional_fairness", max_power_w=1.0),
-    "fair, some users": wa.Problem("proportional_fairness", users=(0, 3), min_rate_bps=4e5),
+    "fair, some users": wa.Problem("proportional_fairness", users=("user 1", "user 4"), min_rate_bps=4e5),
     "fair, after a past": wa.Problem(ProportionalFairness(past_average_bps=(1e6, 0.0, 3e6, 1e5))),
     "fair, more users than groups": wa.Problem("proportional_fairness", resource_block_group_size=3),
     "lowest": wa.Problem("max_min_rate"),

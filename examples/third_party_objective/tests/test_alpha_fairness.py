@@ -85,6 +85,12 @@ def test_the_default_method_solves_it_with_a_certificate(
     assert turns.value < decision.value
 
 
+def test_what_it_declares_lets_optima_be_proven(channel: tuple[wa.ChannelEstimate, wa.Cell]) -> None:
+    estimate, cell = channel
+    decision = wa.decide(estimate, wa.Problem(AlphaFairness(alpha=2)), cell, method="exact")
+    assert decision.status == "optimal"
+
+
 def test_with_alpha_one_it_is_proportional_fairness(channel: tuple[wa.ChannelEstimate, wa.Cell]) -> None:
     estimate, cell = channel
     limits = {"weights": (1.0, 3.0, 1.0, 2.0), "min_rate_bps": (0.0, 0.0, 3e5, 0.0)}

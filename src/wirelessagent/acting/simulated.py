@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from wirelessagent.acting.base_station import BaseStation, check_applicable
+from wirelessagent.model.arrays import positive
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.metrics import link_metrics
@@ -13,9 +14,18 @@ from wirelessagent.model.outcome import Outcome
 
 @dataclass(frozen=True)
 class SimulatedBaseStation(BaseStation):
-    """Applies a decision to the scene's true channel and reads back rates, misses and power."""
+    """Applies a decision to the scene's true channel and reads back rates, misses and power.
+
+    Attributes:
+        power_resolution_w: the finest step of the power on a subcarrier; 0 for any power.
+    """
 
     name = "simulated"
+
+    power_resolution_w: float = field(default=0.0, kw_only=True)
+
+    def __post_init__(self) -> None:
+        positive("power_resolution_w", self.power_resolution_w, zero=True)
 
     def apply(self, decision: Decision) -> Outcome:
         if self.scene is None:
@@ -32,14 +42,13 @@ class SimulatedBaseStation(BaseStation):
                 f"the scene has {truth.shape[0]} and {truth.shape[1]}"
             )
         check_applicable(decision, self.scene.cell)
+        told = self.read_back(decision)
         achieved = link_metrics(
-            truth, decision.owner, decision.power_w, self.scene.cell, committed_bps=decision.committed_bps
+            truth,
+            decision.owner,
+            told.power_w,
+            self.scene.cell,
+            committed_bps=decision.committed_bps,
+            slack_bps=told.slack_bps,
         )
-        return Outcome(
-            base_station=self.name,
-            owner=decision.owner,
-            power_w=decision.power_w,
-            promised_bps=decision.committed_bps,
-            achieved=achieved,
-            true_gain=truth,
-        )
+        return self.read_back(decision, achieved=achieved, true_gain=truth)

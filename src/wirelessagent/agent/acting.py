@@ -37,7 +37,7 @@ TOLERANCE = 0.1
 """Share by which what is achieved may fall short of what was promised or of what there was before."""
 
 _SAME_POWER = 1e-3
-"""Share of the power by which two allocations may differ and be the same: what radios round."""
+"""Share of the power by which two allocations may differ and be the same: what radios round that do not say how far."""
 
 _ROUNDING = 1e-9
 
@@ -78,7 +78,7 @@ def carry_out(run: Run, station: BaseStation, last_good: Run | None, tolerance: 
             done = with_outcome(run, outcome)
         except Exception:  # noqa: BLE001  # figures of any kind may be read back
             outcome, failure = None, say(language, "misread", station=station.name)
-    amiss = [failure] if outcome is None else _differences(run.decision, outcome, language)
+    amiss = [failure] if outcome is None else _differences(run.decision, outcome, station, language)
     faults = list(amiss)
     if outcome is not None and not amiss:
         faults = [*_broken_promises(run.decision, outcome, tolerance, language), *_worse(done, last_good, tolerance)]
@@ -96,7 +96,7 @@ def put_back(good: Run, station: BaseStation, language: str) -> tuple[Outcome | 
     outcome, failure = _applied(station, good.decision, language)
     if outcome is None:
         return None, failure
-    return outcome, " ".join(_differences(good.decision, outcome, language))
+    return outcome, " ".join(_differences(good.decision, outcome, station, language))
 
 
 def same_allocation(one: Decision, other: Decision) -> bool:
@@ -160,13 +160,14 @@ def _in_use(allocation: Decision | Outcome) -> np.ndarray[tuple[int], np.dtype[n
     return np.where(allocation.power_w > 0, allocation.owner, -1)
 
 
-def _differences(decision: Decision, outcome: Outcome, language: str) -> list[str]:
-    """How what was read back differs from what was decided."""
+def _differences(decision: Decision, outcome: Outcome, station: BaseStation, language: str) -> list[str]:
+    """How what was read back differs from what was decided, beyond the steps in which the base station sets power."""
     count = decision.owner.size
     if outcome.owner.shape != decision.owner.shape or outcome.power_w.shape != decision.power_w.shape:
         return [say(language, "other_shape", read=outcome.owner.size, planned=count)]
     found: list[str] = []
-    off = np.abs(outcome.power_w - decision.power_w)
+    away = np.abs(outcome.power_w - decision.power_w)
+    off = np.where(away <= station.power_resolution_w, 0.0, away)
     if not off.sum() <= _SAME_POWER * decision.total_power_w:  # NaN is a difference too
         read, planned = float(outcome.power_w.sum()), decision.total_power_w
         found.append(say(language, "other_power", read=human(read, "W"), planned=human(planned, "W")))
@@ -232,11 +233,11 @@ def _keeps(run: Run, good: Run) -> bool:
     earlier = good.scene.current_truth
     if run.outcome is None or run.outcome.achieved is None or earlier is None or not np.array_equal(truth, earlier):
         return False
-    users = len(truth)
+    users, slack = len(truth), 0.0 if outcome.slack_bps is None else outcome.slack_bps
     least = np.where(problem.serves(users), problem.min_rates_bps(users), 0.0)
     return bool(
         _within_limits(outcome, run.decision)
-        and np.all(outcome.achieved.user_rate_bps >= least * (1 - RATE_TOLERANCE))
+        and np.all(outcome.achieved.user_rate_bps >= least * (1 - RATE_TOLERANCE) - slack)
         and problem.resource_block_group_size in (1, good.decision.problem.resource_block_group_size)
     )
 

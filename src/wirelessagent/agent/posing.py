@@ -78,13 +78,15 @@ class _Posing:
         self._check_power()
         self._check_rates()
         self._check_outage()
-        fields: dict[str, Any] = {"users": self._served()}
-        self._check_promised(fields["users"])
+        served = self._served()
+        users = None if served is None else tuple(self._names[user] for user in served)
+        fields: dict[str, Any] = {"users": users}
+        self._check_promised(served)
         for name, value in self._given.items():
             fields[name] = self._by_user(name, value) if name in FIGURES_OF_USERS else value
-        self._check_order(fields)
+        self._check_order(fields, served)
         self._check_group(fields)
-        self._check_weights(fields)
+        self._check_weights(fields, served)
         try:
             problem = Problem(self._objective, **fields).for_users(self._names)
             problem.weights_of(len(self._names))
@@ -120,7 +122,7 @@ class _Posing:
             self._note("assumed_outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))
 
     def _served(self) -> tuple[int, ...] | None:
-        """Numbers of the users to serve; None for all."""
+        """The users to serve, as indices; None for all."""
         wanted, unwanted = self._given.pop("users", None), self._given.pop("leave_out", None)
         if wanted is None and unwanted is None:
             return None
@@ -148,12 +150,11 @@ class _Posing:
                 figures[self._number(reference)] = figure
         return figures
 
-    def _check_order(self, fields: Mapping[str, Any]) -> None:
+    def _check_order(self, fields: Mapping[str, Any], served: tuple[int, ...] | None) -> None:
         """Refuse rates of which the least is above the most, for a user who is served."""
         count = len(self._names)
         least = np.broadcast_to(fields.get("min_rate_bps", 0.0), count)
         most = np.broadcast_to(fields.get("max_rate_bps", np.inf), count)
-        served = fields["users"]
         crossed = [user for user in (range(count) if served is None else served) if least[user] > most[user]]
         if crossed:
             user = crossed[0]
@@ -180,11 +181,11 @@ class _Posing:
             raise UnclearRequestError(self._say("whole_groups", size=f"{size:g}"))
         fields["resource_block_group_size"] = int(size)
 
-    def _check_weights(self, fields: Mapping[str, Any]) -> None:
+    def _check_weights(self, fields: Mapping[str, Any], served: tuple[int, ...] | None) -> None:
         """Refuse weights that leave nobody to count."""
         if "weights" not in fields:
             return
-        count, served = len(self._names), fields["users"]
+        count = len(self._names)
         weights = np.broadcast_to(fields["weights"], count)[list(range(count) if served is None else served)]
         if not weights.any():
             raise UnclearRequestError(self._say("no_weight"))

@@ -35,6 +35,7 @@ from wirelessagent.model.given import given_gains
 from wirelessagent.model.observation import check_gain
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.rates import user_rate_bps
+from wirelessagent.model.user_names import numbered
 
 _LARGEST_CHUNK = 256
 _CHUNKS_PER_WORKER = 4
@@ -49,7 +50,7 @@ def decide_all(
         UnsupportedProblemError, InputError: as for one problem.
     """
     gain = given_gains(gain)
-    problem = problem.for_users(_names(gain.shape[-2]))
+    problem = problem.for_users(numbered(gain.shape[-2]))
     leading = gain.shape[:-2]
     flat = np.ascontiguousarray(gain.reshape(math.prod(leading), *gain.shape[-2:]))
     check_gain(flat)
@@ -167,11 +168,6 @@ def _estimate(gain: FloatArray) -> ChannelEstimate:
         gain_variance=np.zeros(gain.shape),
         repaired=np.zeros(gain.shape, dtype=bool),
         unobserved_users=np.zeros(users, dtype=bool),
-        user_names=_names(users),
+        user_names=numbered(users),
         method="none",
     )
-
-
-def _names(num_users: int) -> tuple[str, ...]:
-    """What users are called who have no names."""
-    return tuple(f"user {user + 1}" for user in range(num_users))

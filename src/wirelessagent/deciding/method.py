@@ -93,6 +93,8 @@ class Method(KnownKeywords, ABC):
                 f"method {cls.name!r} does not solve {objective.name!r} but only {', '.join(cls.objectives)}: "
                 "name another method"
             )
+        if reason := objective.unsolvable():
+            raise UnsupportedProblemError(reason)
         surplus = problem.constraints().keys() - cls.constraints - {"max_power_w"}
         if surplus:
             them = "it" if len(surplus) == 1 else "them"

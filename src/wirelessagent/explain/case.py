@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -61,6 +61,10 @@ class Case:
     def served(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
         """True for the users to serve, shape (user,)."""
         return self.problem.serves(self.num_users)
+
+    def named(self, users: Iterable[int]) -> tuple[str, ...]:
+        """Users, given as indices, as a request names them."""
+        return tuple(self.estimate.user_names[user] for user in users)
 
     @functools.cached_property
     def promised_bps(self) -> FloatArray:

@@ -228,7 +228,7 @@ def _dearest(case: Case, rest: list[int], left: list[int]) -> int:
     """Who of ``rest`` costs most at the prices without those who are ``left`` out already."""
     price = _without(case, left).price_of_rate if left else case.decision.price_of_rate
     if not price.size:
-        remaining = tuple(int(user) for user in np.flatnonzero(case.served) if user not in left)
+        remaining = case.named(user for user in np.flatnonzero(case.served).tolist() if user not in left)
         least = dataclasses.replace(
             case.problem, objective="min_power", weights=None, max_power_w=None, users=remaining
         )
@@ -239,7 +239,7 @@ def _dearest(case: Case, rest: list[int], left: list[int]) -> int:
 
 
 def _without(case: Case, left: list[int] | tuple[int, ...]) -> Decision:
-    rest = tuple(int(user) for user in np.flatnonzero(case.served) if user not in left)
+    rest = case.named(user for user in np.flatnonzero(case.served).tolist() if user not in left)
     return case.otherwise(dataclasses.replace(case.problem, users=rest))
 
 

@@ -11,9 +11,14 @@ from wirelessagent import chain
 from wirelessagent.deciding.core.closed_form import nats_worth
 from wirelessagent.explain.case import Case
 from wirelessagent.model.decision import OPTIMAL_GAP
+from wirelessagent.model.objective import Objective
 
 Proof: TypeAlias = Literal["closed_form", "bound", "nothing", "infeasible", "undecided"]
 """By a closed form that the bound equals, by a bound alone, not at all, or as something that cannot be, or may be."""
+
+Basis: TypeAlias = Literal["promises", "levels", "law", "conjugate"]
+"""What of the objective a bound rests on: nothing but promised rates, that more rate is worth no less, the power law
+that the objective declares, or its conjugate. Never on values of its utility that somebody asked for."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,6 +38,15 @@ class Certificate:
     left: float
     gap: float
     by: str
+
+
+def basis(objective: Objective) -> Basis:
+    """What of ``objective`` the bound of a decision rests on."""
+    if objective.measure == "power":
+        return "promises"
+    if objective.joined == "min":
+        return "levels"
+    return "conjugate" if objective.power_law() is None else "law"
 
 
 def certificate(case: Case) -> Certificate:

@@ -10,9 +10,10 @@ from wirelessagent.explain.contested import Contested
 from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import Lexicon, listed, paragraph, place, value_name
 from wirelessagent.explain.prices import MarginalPrices, marginal_prices
-from wirelessagent.explain.proof import Certificate, certificate
+from wirelessagent.explain.proof import Certificate, basis, certificate
 from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.table import Table
+from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human, percent, reliability
 
 _STEP_BPS = 100e3
@@ -51,6 +52,10 @@ WORDS = Lexicon(
         "is better than any that such promises may count on.",
         "bound_outage_least": "No allocation keeps these promises with {sure} for less than {bound}: it is proven "
         "on a channel that is better than any that such promises may count on.",
+        "rests_on_levels": "It rests on this alone: a higher rate is worth no less to {objective}.",
+        "rests_on_law": "It rests on what {objective} declares a rate r to be worth, {law}, at every rate.",
+        "rests_on_conjugate": "It rests on the conjugate that {objective} states, which speaks of all rates at once; "
+        "no values of its utility were tried out.",
         "by_dual": "The method {method} proves nothing itself; the bound is that of the method dual.",
         "value": "This decision is worth {value}, so at most {left} ({gap}) could still be gained.",
         "value_least": "This decision takes {value}, so at most {left} ({gap}) could still be saved.",
@@ -111,6 +116,9 @@ WORDS = Lexicon(
         "证明的。",
         "bound_outage_least": "任何分配以 {sure} 兑现这些承诺都不会少于 {bound}：这是在一个比此类承诺所能依据的都好"
         "的信道上证明的。",
+        "rests_on_levels": "它只依据一点：对{objective}而言，更高的速率价值不会更低。",
+        "rests_on_law": "它依据{objective}所声明的速率 r 的价值：{law}，对任何速率都成立。",
+        "rests_on_conjugate": "它依据{objective}给出的共轭函数，该函数涵盖所有速率；没有对其效用取样。",
         "by_dual": "{method}本身不作证明；此界来自对偶法。",
         "value": "本方案的价值为 {value}，因此最多还能增加 {left}（{gap}）。",
         "value_least": "本方案需要 {value}，因此最多还能节省 {left}（{gap}）。",
@@ -211,9 +219,20 @@ def _bound(case: Case, found: Certificate, language: str) -> str:
     unsure = "_outage" if outage is not None and case.decision.expected_rate_bps.size else ""
     least = "_least" if case.objective.direction == "min" else ""
     said = [WORDS.say(language, f"bound{unsure}{least}", bound=bound, sure=reliability(outage or 0.0))]
+    said.append(rests_on(case.objective, language))
     if found.by != case.decision.method:
         said.append(WORDS.say(language, "by_dual", method=called(language, case.decision.method)))
     return paragraph(said, language)
+
+
+def rests_on(objective: Objective, language: str) -> str:
+    """What of the objective the bound rests on; empty where it is the promised rates alone."""
+    on = basis(objective)
+    if on == "promises":
+        return ""
+    alpha = objective.power_law() or 0.0
+    law = {0.0: "r", 1.0: "ln r"}.get(alpha, f"r^(1 − α)/(1 − α) with α = {alpha:g}")
+    return WORDS.say(language, f"rests_on_{on}", objective=called(language, objective.name), law=law)
 
 
 def _left(case: Case, found: Certificate, language: str) -> str:

@@ -132,8 +132,9 @@ def share(case: Case, user: int) -> Account:
 
 def _included(case: Case, user: int) -> Decision:
     """The decision for the same users and this one."""
-    users = (*(int(one) for one in np.flatnonzero(case.served)), user)
-    return case.solved(dataclasses.replace(case.problem, users=users))
+    return case.solved(
+        dataclasses.replace(case.problem, users=case.named([*np.flatnonzero(case.served).tolist(), user]))
+    )
 
 
 def _standing(case: Case, user: int, has_power: bool) -> Standing:

@@ -9,6 +9,7 @@ import numpy as np
 
 from wirelessagent import chain
 from wirelessagent.explain.labels import called
+from wirelessagent.explain.proof_words import rests_on
 from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.report import Report, cannot_be_served, name_of_figure
 from wirelessagent.explain.sentences import sentences
@@ -39,6 +40,8 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
         return [words["no_promise"]]
     figure = name_of_figure(decision, language)
     said = [_allocation(words, decision), *_goal(words, decision, objective, figure), _certificate(words, decision)]
+    if not objective.is_built_in and not np.isnan(decision.gap):
+        said.append(rests_on(objective, language))
     said += _promised_at(words, decision)
     said += _forecast(words, decision)
     said += _groups(words, decision, estimate, figure)

@@ -10,10 +10,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.model.arrays import positive
+from wirelessagent.model.arrays import LARGEST, positive, within
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.shown import Plain
 from wirelessagent.model.units import from_db
+
+_LARGEST_GAP_DB = 300.0
+"""Far beyond any link, and still a ratio that can be multiplied."""
+_LEAST_EFFICIENCY = 1e-6
+"""Far below any amplifier, and what it draws is still a number."""
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -44,14 +49,18 @@ class Cell(Plain):
     def __post_init__(self) -> None:
         for name in ("subcarrier_bandwidth_hz", "noise_psd_w_per_hz", "max_power_w"):
             object.__setattr__(self, name, positive(name, getattr(self, name)))
-        for name in ("circuit_power_w", "snr_gap_db"):
-            object.__setattr__(self, name, positive(name, getattr(self, name), zero=True))
+        object.__setattr__(self, "circuit_power_w", positive("circuit_power_w", self.circuit_power_w, zero=True))
+        object.__setattr__(self, "snr_gap_db", within("snr_gap_db", self.snr_gap_db, 0, _LARGEST_GAP_DB))
         if self.max_spectral_efficiency_bps_per_hz is not None:
             positive("max_spectral_efficiency_bps_per_hz", self.max_spectral_efficiency_bps_per_hz)
-        if not 0 <= self.overhead < 1:
-            raise InputError(f"overhead must be in [0, 1); got {self.overhead!r}")
-        if not 0 < self.amplifier_efficiency <= 1:
-            raise InputError(f"amplifier_efficiency must be in (0, 1]; got {self.amplifier_efficiency!r}")
+        object.__setattr__(self, "overhead", within("overhead", self.overhead, 0, 1, below=True))
+        efficiency = within("amplifier_efficiency", self.amplifier_efficiency, _LEAST_EFFICIENCY, 1)
+        object.__setattr__(self, "amplifier_efficiency", efficiency)
+        if self.noise_power_w < 1 / LARGEST:
+            raise InputError(
+                f"noise_psd_w_per_hz = {self.noise_psd_w_per_hz!r} on subcarriers of {self.subcarrier_bandwidth_hz!r} "
+                "Hz is no noise at all: give it in W/Hz (-174 dBm/Hz are 4e-21)"
+            )
 
     @classmethod
     def nr(cls, *, max_power_w: float = 20.0, circuit_power_w: float = 5.0) -> Cell:

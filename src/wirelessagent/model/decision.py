@@ -121,6 +121,7 @@ class Decision(Shown):
     kernels: Literal["", "compiled", "interpreted"] = field(default="", compare=False)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "problem", self.problem.for_users(self.user_names))
         for name in ("owner", "power_w", "rate_bps", "price_of_rate", "expected_rate_bps", "outage"):
             object.__setattr__(self, name, frozen(getattr(self, name)))
 

@@ -8,10 +8,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen
+from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, names, switches
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.gain_views import Matrix, entries, level
-from wirelessagent.model.observation import ChannelObservation, check_gain
+from wirelessagent.model.observation import ChannelObservation, check_gain, check_variance
 from wirelessagent.model.posterior import GammaPosterior, Posterior
 from wirelessagent.model.shown import Picture, Shown, Summary, few
 from wirelessagent.model.units import percent
@@ -46,18 +46,20 @@ class ChannelEstimate(Shown):
     def __post_init__(self) -> None:
         gain = float_array("gain", self.gain)
         variance = float_array("gain_variance", self.gain_variance)
-        if gain.ndim != 2 or variance.shape != gain.shape or self.repaired.shape != gain.shape:
+        if gain.ndim != 2 or variance.shape != gain.shape:
             raise InputError(
-                "gain, gain_variance and repaired must share one (user, subcarrier) shape; "
-                f"got {gain.shape}, {variance.shape} and {self.repaired.shape}"
+                f"gain and gain_variance must share one (user, subcarrier) shape; got {gain.shape} and {variance.shape}"
             )
         check_gain(gain)
-        if np.isnan(gain).any() or not np.all(variance >= 0):
-            raise InputError("an estimate must be complete, with variances of zero or more")
+        if np.isnan(gain).any():
+            raise InputError(f"an estimate must be complete; {np.isnan(gain).sum()} of {gain.size} gains are NaN")
+        check_variance("gain_variance", variance, np.ones(gain.shape, dtype=bool))
         object.__setattr__(self, "gain", gain)
         object.__setattr__(self, "gain_variance", variance)
-        object.__setattr__(self, "repaired", frozen(self.repaired))
-        object.__setattr__(self, "unobserved_users", frozen(self.unobserved_users))
+        object.__setattr__(self, "repaired", switches("repaired", self.repaired, gain.shape))
+        unobserved = switches("unobserved_users", self.unobserved_users, gain.shape[:1])
+        object.__setattr__(self, "unobserved_users", unobserved)
+        object.__setattr__(self, "user_names", names("user_names", self.user_names, gain.shape[0]))
 
     @classmethod
     def completing(

@@ -76,16 +76,20 @@ def link_metrics(
     cell: Cell,
     *,
     committed_bps: FloatArray | None = None,
+    slack_bps: FloatArray | None = None,
 ) -> LinkMetrics:
     """Metrics on ``gain`` (user, subcarrier) of an owner and a power per subcarrier.
 
-    ``committed_bps`` (user,) are the rates that were promised; None takes the rates that ``gain`` carries.
+    ``committed_bps`` (user,) are the rates that were promised; None takes the rates that ``gain`` carries. One that is
+    short by ``slack_bps`` (user,) still arrives.
     """
     rate = user_rate_bps(gain, owner, power_w, cell)
     committed = rate if committed_bps is None else committed_bps
+    least = committed if slack_bps is None else committed - slack_bps
+    arrives = kept(rate, least, READ_BACK_TOLERANCE)
     return metrics_of_rates(
         rate,
-        goodput_bps=float(np.where(kept(rate, committed, READ_BACK_TOLERANCE), committed, 0.0).sum()),
+        goodput_bps=float(np.where(arrives, committed, 0.0).sum()),
         power_w=float(power_w.sum()),
         num_subcarriers=gain.shape[-1],
         cell=cell,

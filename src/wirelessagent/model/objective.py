@@ -64,6 +64,15 @@ class Objective(KnownKeywords, ABC):
         more. Where the maximum is not bounded the value is inf.
         """
 
+    def power_law(self) -> float | None:
+        """α where u(r) is r^(1 − α)/(1 − α), or ln r for α = 1, at every rate; None where it is anything else.
+
+        A declaration: 0 is the rate itself, 1 its logarithm (Mo and Walrand, 2000). Closed forms and the exact search
+        are for utilities that declare one, and rest on it; every other bound rests on the conjugate. Nothing finds out
+        what a utility is by asking for some of its values.
+        """
+        return None
+
     def figure(self, utility: float, weight: float) -> float:
         """The figure shown for a joint utility of users of total ``weight``, in ``unit``: increasing in the utility.
 
@@ -71,6 +80,22 @@ class Objective(KnownKeywords, ABC):
         """
         del weight
         return utility
+
+    @property
+    @final
+    def is_built_in(self) -> bool:
+        """Whether it comes with this package, not from a plug-in of somebody else's."""
+        return type(self).__module__.split(".")[0] == __name__.split(".")[0]
+
+    @final
+    def unsolvable(self) -> str:
+        """Why no bound is known for an objective that is made like this one, empty where there is one.
+
+        An efficiency divides the sum of the utilities themselves: its bound knows no other figure.
+        """
+        if self.measure != "efficiency" or (self.joined == "sum" and type(self).figure is Objective.figure):
+            return ""
+        return f"{self.name!r} is an efficiency, so joined must be 'sum' and figure be left as it is"
 
     @final
     def value(self, rate: FloatArray, power_w: float, cell: Cell, weight: FloatArray | None = None) -> float:

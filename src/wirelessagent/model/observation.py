@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen
+from wirelessagent.model.arrays import LARGEST, BoolArray, FloatArray, float_array, frozen, names, real_array, switches
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.gain_views import entries, gains_picture, level
 from wirelessagent.model.shown import Picture, Shown, Summary, few
 from wirelessagent.model.units import percent
+from wirelessagent.model.user_names import numbered
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -49,22 +50,18 @@ class ChannelObservation(Shown):
         check_gain(gain)
         object.__setattr__(self, "gain", gain)
         if self.noise_variance is not None:
-            variance = float_array("noise_variance", np.broadcast_to(self.noise_variance, gain.shape))
-            if not np.all(variance[~np.isnan(gain)] >= 0):
-                raise InputError("noise_variance must be zero or more wherever a gain was observed")
+            variance = real_array("noise_variance", self.noise_variance)
+            if variance.shape not in ((), gain.shape):
+                raise InputError(
+                    f"noise_variance must be one value or of the gain's shape {gain.shape}; got shape {variance.shape}"
+                )
+            variance = frozen(np.broadcast_to(variance, gain.shape))
+            check_variance("noise_variance", variance, ~np.isnan(gain))
             object.__setattr__(self, "noise_variance", variance)
         if self.estimated is not None:
-            estimated = np.asarray(self.estimated)
-            if estimated.shape != gain.shape or estimated.dtype != np.bool_:
-                raise InputError(
-                    f"estimated must be switches (bool) of the gain's shape {gain.shape}; "
-                    f"got {estimated.dtype} of shape {estimated.shape}"
-                )
-            object.__setattr__(self, "estimated", frozen(estimated))
-        names = tuple(self.user_names) or tuple(f"user {k + 1}" for k in range(self.num_users))
-        if len(names) != self.num_users or len(set(names)) != len(names):
-            raise InputError(f"user_names must be {self.num_users} different names; got {names}")
-        object.__setattr__(self, "user_names", names)
+            object.__setattr__(self, "estimated", switches("estimated", self.estimated, gain.shape))
+        called = self.user_names if len(self.user_names) else numbered(self.num_users)
+        object.__setattr__(self, "user_names", names("user_names", called, self.num_users))
         self._check_axis("subcarrier_frequencies_hz", self.num_subcarriers)
         self._check_axis("slot_times_s", self.num_slots)
 
@@ -143,15 +140,32 @@ class ChannelObservation(Shown):
 
 
 def check_gain(gain: FloatArray) -> None:
-    """Raise an :class:`InputError` that names the first negative or infinite entry."""
+    """Raise an :class:`InputError` that names the first entry that is negative, infinite or far too large."""
     with np.errstate(invalid="ignore"):
-        bad = np.argwhere(np.isinf(gain) | (gain < 0))
-    if len(bad):
-        index = tuple(int(i) for i in bad[0])
-        where = ", ".join(
-            f"{axis} {i}" for axis, i in zip(("slot", "user", "subcarrier")[-gain.ndim :], index, strict=True)
-        )
+        bad, far = np.isinf(gain) | (gain < 0), gain > LARGEST
+    if bad.any():
         raise InputError(
-            f"a power gain must be finite and zero or more; got {gain[index]:g} at {where} (counted from 0). "
+            f"a power gain must be finite and zero or more; got {_first(gain, bad)}. "
             "Mark missing entries with NaN; give dB values as unit='db'"
         )
+    if far.any():
+        raise InputError(
+            f"a power gain must be {LARGEST:g} at most, since its variance is its square; got {_first(gain, far)}. "
+            "A power gain is about 1 at most: check its unit"
+        )
+
+
+def check_variance(name: str, variance: FloatArray, needed: BoolArray) -> None:
+    """Raise an :class:`InputError` that names the first variance that is no number where it is ``needed``."""
+    with np.errstate(invalid="ignore"):
+        bad = ~(variance >= 0) & needed | (variance < 0) | (variance > LARGEST**2)
+    if bad.any():
+        raise InputError(f"{name} must be zero or more and finite; got {_first(variance, bad)}")
+
+
+def _first(array: FloatArray, bad: BoolArray) -> str:
+    """The first bad entry and its place."""
+    index = tuple(int(i) for i in np.argwhere(bad)[0])
+    axes = ("slot", "user", "subcarrier")[-array.ndim :]
+    where = ", ".join(f"{axis} {i}" for axis, i in zip(axes, index, strict=True))
+    return f"{array[index]:g} at {where} (counted from 0)"

@@ -27,6 +27,8 @@ class Outcome(Shown):
         achieved: metrics on the true channel; None where the base station cannot measure them.
         true_gain: the true channel where the base station knows it, shape (user, subcarrier).
         written_to: the file written, for base stations that write one.
+        slack_bps: what each user's rate may be short of its promise without being missed, shape (user,): what a step of
+            the base station's power setting is worth; None where it can set any power.
     """
 
     base_station: str
@@ -36,14 +38,17 @@ class Outcome(Shown):
     achieved: LinkMetrics | None = None
     true_gain: FloatArray | None = None
     written_to: Path | None = None
+    slack_bps: FloatArray | None = None
     missed: BoolArray = field(init=False)
-    """True for users whose true rate fell short of the commitment by more than 0.01 %, shape (user,); all False where
+    """True for users whose true rate fell short of the commitment by more than the slack and 0.01 %, shape (user,); all
+    False where
     it is not known."""
 
     def __post_init__(self) -> None:
         short = np.zeros(self.promised_bps.shape, dtype=bool)
         if self.achieved is not None:
-            short = ~kept(self.achieved.user_rate_bps, self.promised_bps, READ_BACK_TOLERANCE)
+            slack = 0.0 if self.slack_bps is None else self.slack_bps
+            short = ~kept(self.achieved.user_rate_bps, self.promised_bps - slack, READ_BACK_TOLERANCE)
         object.__setattr__(self, "missed", short)
 
     def summary(self) -> Summary:

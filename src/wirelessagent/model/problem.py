@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wirelessagent.model.arrays import BoolArray, FloatArray, float_array, frozen, per_user, positive, shown, whole
+from wirelessagent.model.arrays import BoolArray, FloatArray, amounts, frozen, per_user, positive, shown, whole, within
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.doors import through
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.shown import Plain
 from wirelessagent.model.units import human
+from wirelessagent.model.user_names import by_name, index_of, numbered
 
 _WIDEST = 1e12
 """How far apart weights may lie; sums of rates so weighted would lose the digits of the smaller ones."""
@@ -35,7 +35,8 @@ class Problem(Plain):
         subcarrier_max_power_w: power cap per subcarrier in W, one value or (subcarrier,).
         forbidden: True where a user may not use a subcarrier, bool, shape (user, subcarrier); that bars it from the
             subcarrier's whole group.
-        users: the users to serve, by name ("user 3") or number from 0; None serves all.
+        users: the users to serve, by name as in ("user 3",); None serves all.
+        user_names: the names of the channel's users, which :meth:`for_users` puts here; None before.
         resource_block_group_size: number of adjacent subcarriers that are assigned together.
         outage_probability: accepted probability that a user's true rate stays below the promised one.
     """
@@ -48,7 +49,8 @@ class Problem(Plain):
     max_power_w: float | None = None
     subcarrier_max_power_w: ArrayLike | None = None
     forbidden: BoolArray | None = None
-    users: tuple[int | str, ...] | None = None
+    users: tuple[str, ...] | None = None
+    user_names: tuple[str, ...] | None = field(default=None, repr=False, compare=False)
     resource_block_group_size: int = 1
     outage_probability: float | None = None
 
@@ -56,24 +58,21 @@ class Problem(Plain):
         if isinstance(self.objective, str):
             through("check_objective")(self.objective)
         for name in ("weights", "min_rate_bps", "max_rate_bps", "subcarrier_max_power_w"):
-            value = getattr(self, name)
-            if value is None:
-                continue
-            array = float_array(name, value)
-            finite = np.all(np.isfinite(array)) or name in ("max_rate_bps", "subcarrier_max_power_w")
-            if np.isnan(array).any() or np.any(array < 0) or not finite:
-                raise InputError(f"{name} must be zero or more{'' if finite else ' and finite'}; got {shown(value)}")
-            object.__setattr__(self, name, array)
+            if getattr(self, name) is not None:
+                infinite = name in ("max_rate_bps", "subcarrier_max_power_w")
+                object.__setattr__(self, name, amounts(name, getattr(self, name), infinite=infinite))
         if self.max_power_w is not None:
             object.__setattr__(self, "max_power_w", positive("max_power_w", self.max_power_w))
         if self.forbidden is not None:
             object.__setattr__(self, "forbidden", _switches(self.forbidden))
         if self.users is not None:
-            object.__setattr__(self, "users", _different_users(self.users))
+            object.__setattr__(self, "users", by_name("users", self.users))
+            if self.user_names is not None:
+                _ = self.user_indices  # who is not there is named
         group = whole("resource_block_group_size", self.resource_block_group_size)
         object.__setattr__(self, "resource_block_group_size", group)
-        if self.outage_probability is not None and positive("outage_probability", self.outage_probability) >= 1:
-            raise InputError(f"outage_probability must be between 0 and 1; got {self.outage_probability!r}")
+        if self.outage_probability is not None:
+            within("outage_probability", self.outage_probability, 0, 1, above=True, below=True)
         if self.weights is not None:
             self._check_weights(np.asarray(self.weights))
 
@@ -81,9 +80,7 @@ class Problem(Plain):
         """The same problem with its objective looked up; the rest has been validated before."""
         if self.weights is not None:
             return dataclasses.replace(self, objective=objective)  # which must take weights
-        found = object.__new__(type(self))
-        found.__dict__.update(self.__dict__, objective=objective)
-        return found
+        return self._with(objective=objective)
 
     @property
     def promises_rates(self) -> bool:
@@ -91,21 +88,34 @@ class Problem(Plain):
         return self.min_rate_bps is not None and bool(np.any(np.asarray(self.min_rate_bps) > 0))
 
     def for_users(self, names: tuple[str, ...]) -> Problem:
-        """The same problem on a channel whose users have these names, with ``users`` as numbers.
+        """The same problem on a channel whose users have these names: now it has ``user_indices``.
 
         Raises:
-            InputError: nobody has a name in ``users``, one is meant twice, or a user must get more than it can use.
+            InputError: nobody has a name in ``users``, or a user must get more than it can use.
         """
-        problem = self
-        if self.users is not None and any(isinstance(user, str) for user in self.users):
-            unknown = [user for user in self.users if isinstance(user, str) and user not in names]
-            if unknown:
-                raise InputError(f"no user is called {unknown[0]!r}; the channel has {', '.join(names)}")
-            numbers = tuple(names.index(user) if isinstance(user, str) else user for user in self.users)
-            problem = dataclasses.replace(self, users=numbers)
+        if self.user_names == names:
+            return self
+        problem = self._with(user_names=names)
+        _ = problem.user_indices
         if self.max_rate_bps is not None:
-            problem.max_rates_bps(len(names), names)
+            problem.max_rates_bps(len(names))
         return problem
+
+    @property
+    def user_indices(self) -> tuple[int, ...] | None:
+        """The users to serve as indices from 0 into the channel's names and every array of users; None serves all.
+
+        Raises:
+            InputError: the channel is not known yet, or nobody there has a name in ``users``.
+        """
+        if self.users is None:
+            return None
+        if self.user_names is None:
+            raise InputError(
+                f"users are named ({self.users[0]!r}), and only the channel knows who that is: call "
+                "wirelessagent.decide(), or Problem.for_users(names)"
+            )
+        return tuple(index_of(user, self.user_names) for user in self.users)
 
     def budget_w(self, cell: Cell) -> float:
         """The power budget in W; an error where the problem asks for more than the cell may radiate."""
@@ -120,21 +130,10 @@ class Problem(Plain):
 
     def serves(self, num_users: int) -> BoolArray:
         """True for the users to serve, shape (user,)."""
-        if self.users is None:
+        indices = self.user_indices
+        if indices is None:
             return np.ones(num_users, dtype=bool)
-        names = [user for user in self.users if isinstance(user, str)]
-        if names:
-            raise InputError(
-                f"users are named ({names[0]!r}), and only the channel knows who that is: call wirelessagent.decide(), "
-                "or Problem.for_users(names), or give numbers from 0"
-            )
-        numbers = np.array(self.users, dtype=np.int64)
-        if numbers.max() >= num_users:
-            raise InputError(
-                f"there is no user number {numbers.max()}: the channel has {num_users} users, counted from 0; "
-                "give numbers or names of those"
-            )
-        return np.isin(np.arange(num_users), numbers)
+        return np.isin(np.arange(num_users), indices)
 
     def allows(self, shape: tuple[int, int]) -> BoolArray:
         """True where a user may use a subcarrier, ``shape`` (user, subcarrier).
@@ -172,10 +171,8 @@ class Problem(Plain):
         """The rate each user must get, shape (user,), 0 where there is no promise."""
         return per_user("min_rate_bps", 0.0 if self.min_rate_bps is None else self.min_rate_bps, num_users)
 
-    def max_rates_bps(self, num_users: int, names: tuple[str, ...] = ()) -> FloatArray:
+    def max_rates_bps(self, num_users: int) -> FloatArray:
         """The rate beyond which each user has nothing to send, shape (user,), inf where there is none.
-
-        ``names`` are the users' in messages; "user 1" … if not given.
 
         Raises:
             InputError: a user must get more than it can use.
@@ -186,7 +183,7 @@ class Problem(Plain):
         least = self.min_rates_bps(num_users)
         crossed = np.flatnonzero((least > most) & self.serves(num_users))
         if crossed.size:
-            called = names or tuple(f"user {user + 1}" for user in range(num_users))
+            called = self.user_names or numbered(num_users)
             pairs = ", ".join(
                 f"{called[user]}: {human(float(least[user]), 'bit/s')} above {human(float(most[user]), 'bit/s')}"
                 for user in crossed[:5]
@@ -209,6 +206,12 @@ class Problem(Plain):
             found["resource_block_group_size"] = self.resource_block_group_size
         return found
 
+    def _with(self, **fields: object) -> Problem:
+        """The same problem with other fields that are known to fit; the rest has been validated before."""
+        found = object.__new__(type(self))
+        found.__dict__.update(self.__dict__, **fields)
+        return found
+
     def _check_weights(self, weights: FloatArray) -> None:
         if not weights.any():
             raise InputError(f"weights are all 0; got {shown(self.weights)}: give a user one above 0")
@@ -222,15 +225,6 @@ class Problem(Plain):
                 f"weights mean nothing to {self.objective.name!r}, which counts power alone; "
                 f"got {shown(self.weights)}: leave them out"
             )
-
-
-def _different_users(users: Iterable[int | str]) -> tuple[int | str, ...]:
-    if isinstance(users, str):
-        raise InputError(f"users must be several, as in users=({users!r},); got {users!r}")
-    found = tuple(user if isinstance(user, str) else whole("a number in users", user, smallest=0) for user in users)
-    if not found or len(set(found)) != len(found):
-        raise InputError(f"users must be different users, by name or by number from 0; got {users!r}")
-    return found
 
 
 def _switches(forbidden: ArrayLike) -> BoolArray:

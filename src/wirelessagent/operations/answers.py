@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from wirelessagent.acting.file import OWNER_MEANS
 from wirelessagent.explain.report import Report, predicted_metrics
 from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.estimate import ChannelEstimate
@@ -45,7 +46,7 @@ class BracketAnswer(Record):
 
 
 class DecisionAnswer(Record):
-    """An allocation with its certificate; users and subcarriers counted from 0, owner −1 = nobody."""
+    """An allocation with its certificate; its arrays have users and subcarriers by index, from 0."""
 
     objective: str
     method: str
@@ -56,6 +57,7 @@ class DecisionAnswer(Record):
     gap: float
     unit: str
     owner: Integers
+    owner_means: str = OWNER_MEANS
     power_w: Vector
     rate_bps: Vector
     outage_probability: float | None

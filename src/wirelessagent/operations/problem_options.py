@@ -13,6 +13,7 @@ from wirelessagent import plugins
 from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.problem import Problem
+from wirelessagent.model.user_names import index_of
 from wirelessagent.operations.fields import OptionsOf, PerEntry, PluginName, PluginOptions
 from wirelessagent.operations.operation import Request
 
@@ -86,12 +87,11 @@ def _forbidden(pairs: Iterable[str], user_names: tuple[str, ...], num_subcarrier
         found = re.fullmatch(r"(\d+)(?:-(\d+))?", where.strip())
         if not name or found is None:
             raise InputError(f"forbidden must be of the form 'user 2:5-9' or 'user 2:5'; got {text!r}")
-        if name not in user_names:
-            raise InputError(f"forbidden: no user is called {name!r}; the channel has {', '.join(user_names)}")
+        user = index_of(name, user_names, "forbidden")
         first, last = int(found[1]), int(found[2] or found[1])
         if not first <= last < num_subcarriers:
             raise InputError(
                 f"forbidden: subcarriers go from 0 to {num_subcarriers - 1}, the first before the last; got {text!r}"
             )
-        mask[user_names.index(name), first : last + 1] = True
+        mask[user, first : last + 1] = True
     return mask

@@ -25,8 +25,8 @@ def cell_of(turn: StoredTurn) -> Cell:
     return Cell(**turn.cell)
 
 
-def problem_of(turn: StoredTurn) -> Problem:
-    """The problem that was decided on, every figure as it was.
+def problem_of(turn: StoredTurn, user_names: tuple[str, ...]) -> Problem:
+    """The problem that was decided on, every figure as it was, for a channel of these users.
 
     Raises:
         InputError: its objective is not installed, or has other options by now.
@@ -37,8 +37,9 @@ def problem_of(turn: StoredTurn) -> Problem:
         if name in stated:
             stated[name] = _floats(stated[name])
     if "users" in stated:
-        stated["users"] = tuple(stated["users"])
-    return Problem(plugins.objective(named["name"], named["options"]), **stated)
+        recorded: list[int | str] = stated["users"]  # version 0.1 recorded indices
+        stated["users"] = tuple(user if isinstance(user, str) else user_names[user] for user in recorded)
+    return Problem(plugins.objective(named["name"], named["options"]), **stated).for_users(user_names)
 
 
 def decision_of(turn: StoredTurn, user_names: tuple[str, ...]) -> Decision:
@@ -55,7 +56,7 @@ def decision_of(turn: StoredTurn, user_names: tuple[str, ...]) -> Decision:
         status=turn.status,  # pyright: ignore[reportArgumentType]  # as it came from a decision
         unit=turn.unit or "",
         method=turn.method["name"],
-        problem=problem_of(turn),
+        problem=problem_of(turn, user_names),
         cell=cell_of(turn),
         user_names=user_names,
         price_of_power=float(certificate.pop("price_of_power")),
@@ -82,6 +83,7 @@ def outcome_of(turn: StoredTurn) -> Outcome | None:
         promised_bps=_floats(found["promised_bps"]),
         achieved=None if achieved is None else _metrics(achieved),
         written_to=None if found["written_to"] is None else Path(found["written_to"]),
+        slack_bps=None if found.get("slack_bps") is None else _floats(found["slack_bps"]),  # version 0.1 had none
     )
 
 

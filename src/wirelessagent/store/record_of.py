@@ -116,7 +116,7 @@ def _outcome(outcome: Outcome | None) -> dict[str, Any] | None:
     """What the base station did, as it was read back."""
     if outcome is None:
         return None
-    names = ("base_station", "owner", "power_w", "promised_bps", "achieved", "written_to")
+    names = ("base_station", "owner", "power_w", "promised_bps", "achieved", "written_to", "slack_bps")
     return {name: getattr(outcome, name) for name in names}
 
 

@@ -73,7 +73,9 @@ def replay(store: Store, turn: StoredTurn) -> Replay:
         raise InputError(f"turn {turn.number} decided nothing ({turn.stage}), so there is nothing to replay")
     observation = observation_of(store.content(turn.observation))
     estimate = chain.repair(observation, turn.repairer["name"], **turn.repairer["options"])
-    decision = chain.decide(estimate, problem_of(turn), cell_of(turn), turn.method["name"], **_options(turn))
+    decision = chain.decide(
+        estimate, problem_of(turn, estimate.user_names), cell_of(turn), turn.method["name"], **_options(turn)
+    )
     found: list[_Difference] = []
     if estimate_content(estimate).hash != turn.estimate:
         before = estimate_of(store.content(turn.estimate))

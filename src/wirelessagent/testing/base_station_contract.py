@@ -13,16 +13,15 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.metrics import link_metrics
 from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.rates import user_rate_bps
 from wirelessagent.model.scene import Scene
 from wirelessagent.testing.allocations import equal_power_decision
-from wirelessagent.testing.channels import known_scene
+from wirelessagent.testing.channels import known, known_scene
 from wirelessagent.testing.contract import TOLERANCE, PluginContract, as_returned, skip
 
 
 class BaseStationContract(PluginContract):
-    """Inherit this and define ``base_station(scene)``; ``power_step_w`` is the finest step of its power setting."""
-
-    power_step_w: float = 0.0
+    """Inherit this and define ``base_station(scene)``; its class says its finest step in ``power_resolution_w``."""
 
     def base_station(self, scene: Scene) -> BaseStation:
         """A base station in ``scene``."""
@@ -49,12 +48,49 @@ class BaseStationContract(PluginContract):
         assert np.array_equal(outcome.owner, wanted), f"owners read back are {outcome.owner}, decided were {wanted}"
 
     def test_reads_back_the_power(self) -> None:
-        scene = known_scene()
+        scene, step_w = known_scene(), self.subject().power_resolution_w
         wanted, outcome = _decision(scene).power_w, self._applied(scene)
         assert outcome.power_w.shape == wanted.shape, f"power read back has shape {outcome.power_w.shape}"
         away = np.abs(outcome.power_w - wanted)
-        assert np.all(away <= self.power_step_w + TOLERANCE * wanted), (
-            f"power read back differs from the decided one by up to {away.max():g} W; state power_step_w if it is so"
+        assert np.all(away <= step_w + TOLERANCE * wanted), (
+            f"power read back differs from the decided one by up to {away.max():g} W; state power_resolution_w if it "
+            "is set in steps"
+        )
+
+    def test_rounds_power_up_where_there_is_room(self) -> None:
+        """Half of the limit is decided on, so every power may go up to the next step, and no promise falls short."""
+        self._skip_without_steps()
+        scene = known_scene()
+        decision, outcome = _decision(scene), self._applied(scene)
+        less = outcome.power_w < decision.power_w * (1 - TOLERANCE)
+        assert not less.any(), (
+            f"{less.sum()} of {less.size} subcarriers get less power than decided, such as "
+            f"{outcome.power_w[less].min(initial=np.inf):g} W: set settable_power_w(decision), which rounds up"
+        )
+
+    def test_rounding_keeps_the_power_budget(self) -> None:
+        self._skip_without_steps()
+        scene = known_scene()
+        decision = _decision(scene)
+        full = dataclasses.replace(decision, power_w=decision.power_w * 2)  # all that the cell may radiate
+        outcome = _checked(self.base_station(scene).apply(full))
+        assert outcome.power_w.sum() <= scene.cell.max_power_w * (1 + TOLERANCE), (
+            f"{outcome.power_w.sum():g} W are radiated in a cell limited to {scene.cell.max_power_w:g} W: "
+            "set settable_power_w(decision), which rounds no further than the budget"
+        )
+
+    def test_a_step_of_power_is_no_missed_promise(self) -> None:
+        """At the full budget some powers are rounded down, which takes less than a step is worth."""
+        self._skip_without_steps()
+        scene = known_scene()
+        decision = _decision(scene)
+        power_w = decision.power_w * 2
+        rate = user_rate_bps(scene.sensed.current, decision.owner, power_w, scene.cell)
+        full = dataclasses.replace(decision, power_w=power_w, rate_bps=rate).knowing(known(scene.sensed.current))
+        outcome = _checked(self.base_station(scene).apply(full))
+        assert not outcome.missed.any(), (
+            f"{outcome.missed.sum()} promises count as missed though power was set to the nearest steps: give the "
+            "outcome its slack_bps, as read_back(decision, …) does"
         )
 
     def test_remembers_what_was_promised(self) -> None:
@@ -111,6 +147,10 @@ class BaseStationContract(PluginContract):
             f"{hot.total_power_w:g} W were applied in a cell limited to {scene.cell.max_power_w:g} W: "
             "call check_applicable() first"
         )
+
+    def _skip_without_steps(self) -> None:
+        if not self.subject().power_resolution_w:
+            skip("it can set any power, and another check sees that it does")
 
     def _must_refuse(self, status: Literal["infeasible", "undecided"]) -> None:
         scene = known_scene()

@@ -9,6 +9,7 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.scene import Scene
+from wirelessagent.model.user_names import numbered
 
 SPACING_HZ = 180e3
 _TAPS = 12
@@ -38,7 +39,7 @@ def known(gain: FloatArray) -> ChannelEstimate:
         gain_variance=np.zeros(gain.shape),
         repaired=np.zeros(gain.shape, dtype=bool),
         unobserved_users=np.zeros(len(gain), dtype=bool),
-        user_names=tuple(f"user {k + 1}" for k in range(len(gain))),
+        user_names=numbered(len(gain)),
         method="known",
     )
 

@@ -11,6 +11,7 @@ import numpy as np
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.problem import Problem
+from wirelessagent.model.user_names import numbered
 from wirelessagent.testing.contract import TOLERANCE
 
 NUM_USERS = 4
@@ -21,6 +22,7 @@ _MAX_RATE_BPS = np.array([1e5, 2e5, np.inf, 3e5])
 _CAP_W = 0.3
 _FORBIDDEN = np.arange(NUM_USERS * NUM_SUBCARRIERS).reshape(NUM_USERS, NUM_SUBCARRIERS) % 3 == 0
 _USERS = (1, 3)
+"""Indices of the users who are served."""
 _GROUP = 3
 
 
@@ -34,7 +36,9 @@ class Constraint:
 
     def problem(self, field: str, objective: Objective) -> Problem | None:
         """A problem with this constraint alone; None for objectives to which it means nothing."""
-        return Problem(objective, **{field: self.value}) if self.suits(objective) else None
+        if not self.suits(objective):
+            return None
+        return Problem(objective, **{field: self.value}).for_users(numbered(NUM_USERS))
 
 
 def _only_allowed_pairs(decision: Decision) -> bool:
@@ -62,7 +66,7 @@ CONSTRAINTS = {
     ),
     "forbidden": Constraint(value=_FORBIDDEN, is_kept=_only_allowed_pairs),
     "users": Constraint(
-        value=_USERS,
+        value=tuple(numbered(NUM_USERS)[user] for user in _USERS),
         is_kept=lambda decision: bool(np.isin(decision.owner, (-1, *_USERS)).all()),
     ),
     "resource_block_group_size": Constraint(

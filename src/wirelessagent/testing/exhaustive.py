@@ -131,6 +131,7 @@ class _Search:
                 f"exhaustive search needs an Objective and no outage probability; got {objective!r:.80} and "
                 f"{problem.outage_probability!r}"
             )
+        problem = problem.for_users(estimate.user_names)
         users, subcarriers = estimate.gain.shape
         size = problem.resource_block_group_size
         groups = -(-subcarriers // size)

@@ -18,6 +18,10 @@ from wirelessagent.testing.contract import TOLERANCE, ValueContract, as_returned
 _DRAWS = 60
 _USERS = 3
 _ROWS = 2
+_FINE, _DECADES = 1000, 3.0
+"""Rates per user between which no corner is missed, and how far they reach on both sides of the typical one."""
+_HALVINGS, _WIDENINGS, _WIDER = 80, 20, 1e3
+"""Steps of a search for a price: to halve a bracket, and to widen it by this factor first."""
 
 
 class _Case(NamedTuple):
@@ -60,6 +64,8 @@ class ObjectiveContract(ValueContract):
         for name, values in known.items():
             value: object = getattr(self.objective, name)
             assert value in values, f"{name} must be one of {', '.join(values)}; got {value!r}"
+        reason = self.objective.unsolvable()
+        assert not reason, reason
 
     def test_utility_is_elementwise(self) -> None:
         rates = self._rates(np.random.default_rng(12), (_ROWS, _USERS))
@@ -152,6 +158,37 @@ class ObjectiveContract(ValueContract):
             assert not np.isnan(value).any(), f"conjugate is NaN at the prices {case.price} without a highest rate"
             assert not np.isnan(rate).any(), f"conjugate returned the rates {rate} without a highest rate"
             self._try_to_beat(value, endless._replace(max_rate=np.maximum(case.max_rate, 1e3 * case.min_rate)), rng)
+
+    def test_no_corner_is_missed(self) -> None:
+        """u(r) is the least of u*(p) + p r over the prices p, so that no corner of either is missing in the other.
+
+        The prices at which the conjugate's rates pass each of many rates are searched for: where they jump over one,
+        the search ends at the jump, and the straight line that the conjugate means there must be the utility's.
+        """
+        self._skip_if_others_say_more("test_utility_", "test_conjugate_")
+        rate = self._fine_rates()
+        utility, (price, allowed) = _array(self.objective.utility(rate.copy())), self._least_allowed(rate)
+        slack = TOLERANCE * (abs(utility) + _payment(price, rate))
+        wrong = np.unravel_index(np.argmax(abs(utility - allowed) - slack), rate.shape)
+        much = "too small" if utility[wrong] > allowed[wrong] else "too large"
+        assert np.all(abs(utility - allowed) <= slack), (
+            f"conjugate is {much}: at the price {price[wrong]:.6g} it means that the rate {rate[wrong]:.6g} is worth "
+            f"{allowed[wrong]:.12g}, but its utility is {utility[wrong]:.12g}. Does one of them miss a corner?"
+        )
+
+    def test_declared_power_law_is_its_utility(self) -> None:
+        law: object = as_returned(self.objective.power_law())
+        if law is None:
+            skip("it declares none, and its bounds rest on the conjugate")
+        assert isinstance(law, float), f"power_law must return a float or None; got {law!r}"
+        rate = self._fine_rates()
+        utility = _array(self.objective.utility(rate.copy()))
+        declared = np.log(rate) if law == 1.0 else rate ** (1.0 - law) / (1.0 - law)
+        wrong = np.unravel_index(np.argmax(abs(utility - declared) / abs(declared)), rate.shape)
+        assert _equal(utility, declared), (
+            f"power_law declares {law:g}, so the rate {rate[wrong]:.6g} is worth {declared[wrong]:.12g}; its utility "
+            f"is {utility[wrong]:.12g}. Leave power_law out unless it is r^(1 − α)/(1 − α) or ln r everywhere"
+        )
 
     def test_conjugate_does_not_rise_with_price(self) -> None:
         rng = np.random.default_rng(7)
@@ -247,6 +284,46 @@ class ObjectiveContract(ValueContract):
             assert np.all(utility - payment <= value + slack), (
                 f"conjugate says {value} at the prices {case.price}, but the rates {rate} give {utility - payment}"
             )
+
+    def _fine_rates(self) -> FloatArray:
+        """Rates (row, user) that lie close to each other, over more decades than the other checks try."""
+        position = np.arange(_FINE)[:, np.newaxis] + np.random.default_rng(15).uniform(size=(_FINE, _USERS))
+        return self.typical_rate_bps * 10.0 ** (_DECADES * (2.0 * position / _FINE - 1.0))
+
+    def _least_allowed(self, rate: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """For each rate (row, user) how much u*(p) + p r is at least, and the price p of that; tried at all prices."""
+        price = self._prices_of(rate)
+        low, high = np.full(price.shape, rate.min() / 10), np.full(price.shape, rate.max() * 10)
+        value = _array(self.objective.conjugate(price.copy(), low, high)[0])
+        allowed = value[:, np.newaxis] + price[:, np.newaxis] * rate
+        least = allowed.argmin(axis=0)
+        return np.take_along_axis(price, least, axis=0), allowed.min(axis=0)
+
+    def _prices_of(self, rate: FloatArray) -> FloatArray:
+        """Next to those at which the conjugate's rates pass each rate (row, user), and 0; shape (price, user)."""
+        low, high = np.full(rate.shape, rate.min() / 10), np.full(rate.shape, rate.max() * 10)
+
+        def bought(price: FloatArray) -> FloatArray:
+            return _array(self.objective.conjugate(price.copy(), low.copy(), high.copy())[1])
+
+        cheap = dear = np.full(rate.shape, next(self._cases(seed=16)).price.max())
+        for _ in range(_WIDENINGS):
+            cheap = np.where(bought(cheap) < rate, cheap / _WIDER, cheap)
+            dear = np.where(bought(dear) > rate, dear * _WIDER, dear)
+        for _ in range(_HALVINGS):
+            middle = np.sqrt(cheap) * np.sqrt(dear)
+            more = bought(middle) > rate
+            cheap, dear = np.where(more, middle, cheap), np.where(more, dear, middle)
+        return np.vstack([np.zeros(rate.shape[1:]), cheap, dear])
+
+    def _skip_if_others_say_more(self, *checks: str) -> None:
+        """Leave a check out where one of the others, by how its name begins, already says what is wrong."""
+        for name in self.checks():
+            if name.startswith(checks):
+                try:
+                    getattr(self, name)()
+                except AssertionError:
+                    skip(f"{name} says what is wrong")
 
     def _utility(self, rate: FloatArray) -> FloatArray:
         """Of rates (user,); another check reports it where that is not what utility returns."""

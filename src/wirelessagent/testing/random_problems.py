@@ -16,6 +16,7 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.rates import subcarrier_rate_bps, user_rate_bps
+from wirelessagent.model.user_names import numbered
 from wirelessagent.testing.channels import known
 
 LINKS = ("shannon", "practical", "capped", "gap")
@@ -53,17 +54,18 @@ def random_problem(seed: int, objective: Objective, *, num_users: int = 3, num_s
         limits["subcarrier_max_power_w"] = budget_w * 10.0 ** rng.uniform(-1.5, 0.3, num_subcarriers)
     if rng.uniform() < 0.3:
         limits["forbidden"] = rng.uniform(size=shape) < 0.3
+    served = np.arange(num_users)
     if rng.uniform() < 0.3:
-        limits["users"] = tuple(np.sort(rng.permutation(num_users)[: rng.integers(1, num_users + 1)]).tolist())
+        served = np.sort(rng.permutation(num_users)[: rng.integers(1, num_users + 1)])
+        limits["users"] = tuple(numbered(num_users)[int(user)] for user in served)
     if rng.uniform() < 0.3:
         limits["resource_block_group_size"] = int(rng.integers(2, 4))
     weights = np.round(rng.exponential(size=num_users) + 0.1, 3)
-    served = limits.get("users", tuple(range(num_users)))
     if len(served) > 1 and rng.uniform() < 0.2:
         weights[served[0]] = 0.0
     if rng.uniform() < 0.3 and objective.measure != "power":
         limits["weights"] = weights
-    rate = _carried(rng, known(gain), cell, Problem(objective, **limits))
+    rate = _carried(rng, known(gain), cell, Problem(objective, **limits).for_users(numbered(num_users)))
     promised = rng.uniform(size=num_users) < rng.choice([0.0, 0.5, 1.0])
     least = np.where(promised, rate * 10.0 ** rng.uniform(-0.5, 0.7, num_users), 0.0)
     if promised.any():

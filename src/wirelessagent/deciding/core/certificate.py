@@ -93,7 +93,7 @@ def _beaten(objective: Objective, value: float, bound: float, method: str) -> Wi
         f"with the objective {objective.name!r} an allocation has the value {value:.6g}, {side} the bound "
         f"{bound:.6g} of the method {method!r}, which nothing can be"
     )
-    if type(objective).__module__.split(".")[0] == __name__.split(".")[0]:
+    if objective.is_built_in:
         return WirelessAgentError(f"{told}. The bound of {method!r} is wrong: please report it, with the input")
     shown = _wrong_conjugate(objective)
     blamed = (

@@ -6,7 +6,6 @@ Each subcarrier then goes to its best user, whatever the price of power, and one
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -19,10 +18,6 @@ from wirelessagent.model.decision import Decision
 
 _ROUNDING = 1e-12
 """Share of the budget that a sum of powers may miss it by."""
-_LOW = 1e-6
-"""Part of the highest rate at which a utility is asked for."""
-_STRAIGHT = 1e-9
-_LEAST_NATS = 1e-9
 APPROACHED = (
     "without circuit power less power is always more efficient: the best efficiency is only approached "
     "as the power goes to 0, here to 1e-12 of it"
@@ -32,10 +27,11 @@ APPROACHED = (
 def nats_worth(form: NormalForm) -> float | None:
     """What a nat is worth to every user alike, in the objective's utility, where :func:`closed_decision` solves it.
 
-    None elsewhere. A concave utility that is worth the same per bit/s at two rates, the higher one beyond all that the
-    budget carries, is straight in between.
+    None elsewhere; that a utility is the rate itself is the objective's word (:meth:`.Objective.power_law`).
     """
-    if form.objective.measure == "power" or form.objective.joined == "min" or form.start.size <= form.cap_w.size:
+    if form.objective.power_law() != 0.0 or form.objective.measure == "power" or form.objective.joined == "min":
+        return None
+    if form.start.size <= form.cap_w.size:
         return None
     counts = form.weight > 0
     weight = form.weight[counts]
@@ -43,14 +39,7 @@ def nats_worth(form: NormalForm) -> float | None:
         return None
     if form.problem.max_rate_bps is not None and np.isfinite(form.most_nats[counts]).any():
         return None
-    size = form.cap_w.size
-    nats = max(size * math.log1p(form.budget_w / size * float(form.snr_per_w.max())), _LEAST_NATS)
-    rate = np.empty((2, counts.size))
-    rate[0], rate[1] = nats * form.bps_per_nat * _LOW, nats * form.bps_per_nat
-    each = (form.objective.utility(rate) / rate)[:, counts]
-    least, most = float(each.min()), float(each.max())
-    straight = most > 0.0 and most - least <= _STRAIGHT * most
-    return most * form.bps_per_nat * float(weight[0]) if straight else None
+    return form.bps_per_nat * float(weight[0])
 
 
 def closed_decision(form: NormalForm, worth: float) -> Decision:

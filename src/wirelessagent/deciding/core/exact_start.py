@@ -12,9 +12,6 @@ from wirelessagent.deciding.core.rate_proof import ceilings
 from wirelessagent.deciding.core.set_packing import LONGEST_S
 from wirelessagent.model.arrays import FloatArray
 
-_RATES = (1e-6, 1e-3, 0.1, 0.5, 2.0, 10.0)
-"""Parts of the reference rate at which rows are compared with the objective's utility."""
-
 
 def goal_of(form: NormalForm, program: Program) -> Goal:
     """What ``program`` wants to be largest."""
@@ -46,12 +43,6 @@ def shown(form: NormalForm, program: Program, x: float) -> float:
     if program.goal == MOST_UTILITY:
         return form.objective.figure(x * program.scale, weight)
     return x * program.scale * form.cell.amplifier_efficiency
-
-
-def is_met_everywhere(form: NormalForm, program: Program) -> bool:
-    """Whether the program's rows are the objective's utility at every rate, so that their bound is the objective's."""
-    low, high, reference = program.rows[:, 0], program.rows[:, 1], program.rows[:, 2]
-    return all(program.meets(form, np.clip(part * reference, low, high)) for part in _RATES)
 
 
 def carried_at_any_power(market: Market, nats: FloatArray) -> tuple[bool, Sets | None]:

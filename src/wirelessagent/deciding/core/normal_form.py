@@ -78,7 +78,7 @@ class NormalForm:
             UnsupportedProblemError: it does not.
             InputError: a constraint does not fit the estimate's shape, or the gains leave the range of numbers.
         """
-        objective = method.objective_of(problem)
+        objective, problem = method.objective_of(problem), problem.for_users(estimate.user_names)
         users, subcarriers = estimate.num_users, estimate.num_subcarriers
         cap_w = _caps_w(problem, subcarriers)
         bps_per_nat = cell.data_bandwidth_hz / math.log(2.0)

@@ -1,13 +1,14 @@
 """A problem as the kernels read it: a goal, and a row of six numbers for each user.
 
-The rows stand for power laws (:mod:`.bundle_kernel`). An objective's utility is asked for three rates around a
-reference and answers with the power law that has its slope and curvature there. Utilities that are power laws, as those
-of all built-in objectives without past averages, are met exactly at every rate; others near the reference, so they are
-asked again where the search ended until nothing changes.
+The rows stand for power laws (:mod:`.bundle_kernel`). An objective that declares one, as all built-in objectives
+without past averages do, has exactly its rows at every rate. Any other utility is asked for three rates around a
+reference and gets the power law that has its slope and curvature there, and is asked again where the search ended until
+nothing changes. Such rows serve to search for allocations and prove nothing: what they miss may lie between any rates.
 """
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,6 +36,7 @@ class Program:
         share: for the highest level, each user's share and its limits in nats, shape (user, 3).
         most_level: the level beyond which nothing is gained.
         scale: what a unit of utility in the rows is worth in the objective's.
+        exact: whether the rows are the objective at every rate, so that what is proven of them is proven of it.
     """
 
     goal: int
@@ -42,6 +44,7 @@ class Program:
     share: FloatArray
     most_level: float
     scale: float
+    exact: bool
 
     @classmethod
     def of(cls, form: NormalForm, reference: FloatArray | None = None) -> Program:
@@ -50,19 +53,20 @@ class Program:
             return cls.of_promises(form)
         asked = Programs.of(form, reference)
         most_level, scale = float(asked.most_level), float(asked.scale)
-        return cls(goal=asked.goal, rows=asked.rows, share=asked.share, most_level=most_level, scale=scale)
+        return cls(
+            goal=asked.goal, rows=asked.rows, share=asked.share, most_level=most_level, scale=scale, exact=asked.exact
+        )  # fmt: skip
 
     @classmethod
     def of_promises(cls, form: NormalForm) -> Program:
         """The least power that carries the promised rates, whatever the objective is."""
         share = np.zeros((form.promised_nats.size, 3))
-        return cls(goal=LEAST_POWER, rows=promises(form.promised_nats), share=share, most_level=0.0, scale=1.0)
+        rows = promises(form.promised_nats)
+        return cls(goal=LEAST_POWER, rows=rows, share=share, most_level=0.0, scale=1.0, exact=True)
 
     def meets(self, form: NormalForm, nats: FloatArray) -> bool:
         """Whether the rows are the objective's utility at the rates ``nats`` (user,), too."""
-        scale, most_level = np.asarray(self.scale), np.asarray(self.most_level)
-        asked = Programs(goal=self.goal, rows=self.rows, share=self.share, most_level=most_level, scale=scale)
-        return bool(asked.meet(form, nats))
+        return self.exact or bool(_met(form, self.rows, np.asarray(self.scale), nats))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -77,6 +81,7 @@ class Programs:
     share: FloatArray
     most_level: FloatArray
     scale: FloatArray
+    exact: bool
 
     @classmethod
     def of(cls, form: NormalForm, reference: FloatArray | None = None) -> Programs:
@@ -87,44 +92,39 @@ class Programs:
         if form.objective.joined == "min" and form.objective.measure == "utility":
             counts = form.weight > 0
             most = np.asarray(np.min(high[..., counts] / form.weight[counts], axis=-1))
-            return cls(goal=HIGHEST_LEVEL, rows=promises(low), share=share, most_level=most, scale=one)
+            return cls(goal=HIGHEST_LEVEL, rows=promises(low), share=share, most_level=most, scale=one, exact=True)
         if form.objective.measure == "power":
-            return cls(goal=LEAST_POWER, rows=promises(low), share=share, most_level=zero, scale=one)
+            return cls(goal=LEAST_POWER, rows=promises(low), share=share, most_level=zero, scale=one, exact=True)
         if reference is None:
             reference = reach / form.weight.size  # of users who each get their share of subcarriers and power
         reference = np.clip(reference, np.maximum(low, _LEAST_REFERENCE), np.maximum(high, _LEAST_REFERENCE))
-        slope, curvature, base = _power_law(form, reference)
+        slope, curvature, base = _rows_at(form, reference)
         scale = slope.max(axis=-1)
         scale = np.where((scale > 0.0) & (scale < np.inf), scale, one)
         unit = scale[..., np.newaxis]
         rows = _columns(low, high, reference, slope / unit, curvature, base / unit)
         goal = MOST_EFFICIENCY if form.objective.measure == "efficiency" else MOST_UTILITY
-        return cls(goal=goal, rows=rows, share=share, most_level=zero, scale=scale)
+        exact = form.objective.power_law() is not None
+        return cls(goal=goal, rows=rows, share=share, most_level=zero, scale=scale, exact=exact)
 
     @classmethod
     def of_promises(cls, form: NormalForm) -> Programs:
         """The least power that carries the promised rates, as :meth:`Program.of_promises`."""
         one = Program.of_promises(form)
         zero = np.zeros(form.snr_per_w.shape[:-2])
-        return cls(goal=one.goal, rows=one.rows, share=one.share, most_level=zero, scale=zero + 1.0)
+        return cls(goal=one.goal, rows=one.rows, share=one.share, most_level=zero, scale=zero + 1.0, exact=True)
 
     def at(self, chosen: IntArray | BoolArray) -> Programs:
         """Those of the ``chosen`` problems of a batch."""
         rows = self.rows[chosen] if self.rows.ndim == self.share.ndim else self.rows
         most_level, scale = self.most_level[chosen], self.scale[chosen]
-        return Programs(goal=self.goal, rows=rows, share=self.share[chosen], most_level=most_level, scale=scale)
+        return dataclasses.replace(self, rows=rows, share=self.share[chosen], most_level=most_level, scale=scale)
 
     def meet(self, form: NormalForm, nats: FloatArray) -> BoolArray:
         """:meth:`Program.meets` for each problem, shape (…)."""
-        if self.goal in (LEAST_POWER, HIGHEST_LEVEL):
+        if self.exact:
             return np.ones(nats.shape[:-1], dtype=bool)
-        found = np.maximum(nats, _LEAST_REFERENCE)
-        slope, curvature, _ = _power_law(form, found)
-        reference, here, bend = self.rows[..., 2], self.rows[..., 3], self.rows[..., 4]
-        with np.errstate(over="ignore"):
-            expected = here * self.scale[..., np.newaxis] * (found / reference) ** -bend
-        met = (np.abs(slope - expected) <= 1e-7 * expected) & (np.abs(curvature - bend) <= 1e-3)
-        return np.asarray(met.all(axis=-1))
+        return _met(form, self.rows, self.scale, nats)
 
 
 def promises(nats: FloatArray) -> FloatArray:
@@ -150,8 +150,31 @@ def _reach(form: NormalForm) -> FloatArray:
     return size * np.log1p(form.budget_w / size * form.snr_per_w.max(axis=-1))
 
 
-def _power_law(form: NormalForm, reference: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Slope per nat, curvature and value of the weighted utilities at ``reference`` (…, user) in nats.
+def _rows_at(form: NormalForm, reference: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Slope per nat, curvature and value of the weighted utilities at ``reference`` (…, user) in nats."""
+    law = form.objective.power_law()
+    if law is None:
+        return _fitted(form, reference)
+    weight = np.where(form.weight > 0, form.weight, 0.0)
+    rate = reference * form.bps_per_nat
+    slope = weight * rate**-law * form.bps_per_nat
+    value = np.log(rate) if law == 1.0 else rate ** (1.0 - law) / (1.0 - law)
+    return slope, np.full(reference.shape, law), np.where(weight > 0, weight * value, 0.0)
+
+
+def _met(form: NormalForm, rows: FloatArray, scale: FloatArray, nats: FloatArray) -> BoolArray:
+    """Whether rows (…, user, 6) have the utilities' slopes and curvatures at ``nats`` (…, user), too; shape (…)."""
+    found = np.maximum(nats, _LEAST_REFERENCE)
+    slope, curvature, _ = _fitted(form, found)
+    reference, here, bend = rows[..., 2], rows[..., 3], rows[..., 4]
+    with np.errstate(over="ignore"):
+        expected = here * scale[..., np.newaxis] * (found / reference) ** -bend
+    met = (np.abs(slope - expected) <= 1e-7 * expected) & (np.abs(curvature - bend) <= 1e-3)
+    return np.asarray(met.all(axis=-1))
+
+
+def _fitted(form: NormalForm, reference: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """:func:`_rows_at` of the power law that is nearest around ``reference``.
 
     With u₋, u₀, u₊ at r e^∓h a power law has (u₊ − u₀)/(u₀ − u₋) = e^((1 − α) h).
     """

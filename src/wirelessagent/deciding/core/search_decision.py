@@ -20,8 +20,6 @@ from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.rates import user_rate_bps
 
 PROOF_ROUNDING = 1e-9
-_CURVATURE = 4
-"""Column of a program's rows."""
 _FIRST_NATS = 1e-12
 """So few that they cost as little as the first."""
 
@@ -44,7 +42,7 @@ def unpowered_decision(form: NormalForm) -> Decision:
 
 def is_approached(form: NormalForm, program: Program) -> bool:
     """Whether less power is always more efficient, so that the best efficiency is only approached."""
-    straight = not program.rows[:, _CURVATURE].any()
+    straight = form.objective.power_law() == 0.0
     return program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0 and straight and not form.promised_nats.any()
 
 

@@ -15,7 +15,7 @@ from wirelessagent.deciding.core.column_prices import column_prices, start_price
 from wirelessagent.deciding.core.dual_search import Search, owners_with_power, tighter
 from wirelessagent.deciding.core.exact_powers import exact_powers
 from wirelessagent.deciding.core.exact_search import Optimum, search
-from wirelessagent.deciding.core.exact_start import carried_at_any_power, goal_of, is_met_everywhere, least_power, shown
+from wirelessagent.deciding.core.exact_start import carried_at_any_power, goal_of, least_power, shown
 from wirelessagent.deciding.core.goals import Goal, Most
 from wirelessagent.deciding.core.market import Market, Sets
 from wirelessagent.deciding.core.normal_form import NormalForm
@@ -75,7 +75,7 @@ def tightened(form: NormalForm, found: Search, most_sets: int = MOST_SETS, enoug
     power_w = exact_powers(form, goal.reaching(optimum.x).users, own, power_w)
     own, worth = owners_with_power(form, own, power_w), _worth(form, program, own, power_w)
     why = OUT_OF_TIME if form.limit.is_over() else _ROUNDED
-    if is_met_everywhere(form, program):
+    if program.exact:
         # Levels are off by as much as they are for the allocation whose powers are known to the last bit.
         reached = shown(form, program, optimum.x)
         sign = -1.0 if program.goal == LEAST_POWER or form.objective.direction == "min" else 1.0

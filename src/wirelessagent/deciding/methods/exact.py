@@ -24,9 +24,9 @@ class Exact(Method):
     allocation can reach and leave few sets of subcarriers that a user may hold at the optimum; an integer programme
     (HiGHS) chooses among them, and where they are many the problem is divided.
 
-    An objective whose utility is no power law of the rate, such as proportional fairness with past averages, is solved
+    An objective that declares no power law of the rate, such as proportional fairness with past averages, is solved
     with the power law that is nearest at the rates found: the decision is then no worse than the dual's, and its bound
-    is the dual's.
+    is the dual's, which rests on the conjugate.
 
     Attributes:
         deadline_s: time in s by which it decides on the best found so far, with its bound.

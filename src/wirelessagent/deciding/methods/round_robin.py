@@ -28,5 +28,5 @@ class RoundRobin(Method):
 
     def solve(self, estimate: ChannelEstimate, problem: Problem, cell: Cell) -> Decision:
         form = NormalForm.of(self, estimate, problem, cell)
-        users = np.arange(estimate.num_users) if problem.users is None else np.sort(problem.users)
+        users = np.flatnonzero(form.problem.serves(estimate.num_users))
         return equal_shares(form, users[np.arange(estimate.num_subcarriers) % users.size], form.budget_w)

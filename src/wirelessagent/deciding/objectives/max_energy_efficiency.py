@@ -28,3 +28,6 @@ class MaxEnergyEfficiency(Objective):
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[FloatArray, FloatArray]:
         return rate_conjugate(price, min_rate, max_rate)
+
+    def power_law(self) -> float:
+        return 0.0

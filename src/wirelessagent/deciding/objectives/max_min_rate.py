@@ -33,3 +33,6 @@ class MaxMinRate(Objective):
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[FloatArray, FloatArray]:
         return rate_conjugate(price, min_rate, max_rate)
+
+    def power_law(self) -> float:
+        return 0.0

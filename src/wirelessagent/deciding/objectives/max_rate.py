@@ -27,3 +27,6 @@ class MaxRate(Objective):
 
     def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> tuple[FloatArray, FloatArray]:
         return rate_conjugate(price, min_rate, max_rate)
+
+    def power_law(self) -> float:
+        return 0.0

@@ -70,6 +70,10 @@ class ProportionalFairness(Objective):
         payment = np.where(free, 0.0, price) * np.where(free, 0.0, rate)
         return self.utility(rate) - payment, rate
 
+    def power_law(self) -> float | None:
+        """1, the logarithm, where nobody has had anything."""
+        return None if np.any(self.past_average_bps) else 1.0
+
     def figure(self, utility: float, weight: float) -> float:
         """The weighted geometric mean, exp(U / Σ ω)."""
         with np.errstate(over="ignore"):

@@ -127,6 +127,46 @@ class RoundsPower(Obedient):
 
 
 @dataclass(frozen=True)
+class RoundsDown(Obedient):
+    """Sets power in steps that it states, the next lower ones."""
+
+    power_resolution_w = 0.1
+    caught_by = "test_rounds_power_up_where_there_is_room"
+
+    def apply(self, decision: Decision) -> Outcome:
+        check_applicable(decision, self._scene().cell)
+        power_w = np.floor(decision.power_w / self.power_resolution_w) * self.power_resolution_w
+        return dataclasses.replace(self.read_back(decision), power_w=power_w)
+
+
+@dataclass(frozen=True)
+class RoundsBeyondTheBudget(Obedient):
+    """Rounds every power up, come what may."""
+
+    power_resolution_w = 0.1
+    caught_by = "test_rounding_keeps_the_power_budget"
+
+    def apply(self, decision: Decision) -> Outcome:
+        check_applicable(decision, self._scene().cell)
+        steps = np.ceil(decision.power_w / self.power_resolution_w - 1e-9)
+        return dataclasses.replace(self.read_back(decision), power_w=steps * self.power_resolution_w)
+
+
+@dataclass(frozen=True)
+class AlarmsForAStep(Obedient):
+    """Rounds as it should, and compares as if any power could be set."""
+
+    power_resolution_w = 0.1
+    caught_by = "test_a_step_of_power_is_no_missed_promise"
+
+    def apply(self, decision: Decision) -> Outcome:
+        check_applicable(decision, self._scene().cell)
+        set_to = dataclasses.replace(decision, power_w=self.settable_power_w(decision))
+        outcome = self._carry_out(set_to)
+        return dataclasses.replace(outcome, promised_bps=decision.committed_bps)
+
+
+@dataclass(frozen=True)
 class LowersThePromise(Obedient):
     """Nobody misses a promise that is lowered afterwards."""
 
@@ -225,6 +265,9 @@ BROKEN: tuple[Callable[[Scene], Obedient], ...] = (
     SignsAsAnother,
     SwapsOwners,
     RoundsPower,
+    RoundsDown,
+    RoundsBeyondTheBudget,
+    AlarmsForAStep,
     LowersThePromise,
     MeasuresOnTheEstimate,
     NeedsSomebodyToServe,

@@ -12,6 +12,7 @@ from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
+from wirelessagent.testing.kinked import KinkedLogarithm
 
 Conjugate = tuple[FloatArray, FloatArray]
 
@@ -240,6 +241,58 @@ class LostWithoutAHighestRate(SumRate):
 
 
 @dataclass(frozen=True, kw_only=True)
+class MissesACorner(SumRate):
+    """ln r with a corner where two tangents meet, so close to the logarithm that its conjugate was left as it was."""
+
+    corner = KinkedLogarithm(knots=(7e5, 7.8e5))
+    caught_by = "test_no_corner_is_missed"
+
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return self.corner.utility(rate)
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        with np.errstate(divide="ignore"):
+            rate = np.clip(1 / price, min_rate, max_rate)
+        return self.utility(rate) - np.where(price > 0, price * rate, 0), rate
+
+
+@dataclass(frozen=True, kw_only=True)
+class StraightAsFarAsItWasTried(SumRate):
+    """Saturates at 500 Mbit/s, which its conjugate has never heard of."""
+
+    caught_by = "test_no_corner_is_missed"
+
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return np.minimum(rate, 5e8)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeclaresItselfStraight(SumRate):
+    """Says that it is the rate, and flattens out where nobody looks; its conjugate is right."""
+
+    caught_by = "test_declared_power_law_is_its_utility"
+
+    def utility(self, rate: FloatArray) -> FloatArray:
+        return np.minimum(rate, 5e8)
+
+    def conjugate(self, price: FloatArray, min_rate: FloatArray, max_rate: FloatArray) -> Conjugate:
+        rate = np.where(price < 1, np.clip(5e8, min_rate, max_rate), min_rate)
+        return np.minimum(rate, 5e8) - price * rate, rate
+
+    def power_law(self) -> float:
+        return 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class EfficiencyOfTheSmallest(SumRate):
+    """The lowest rate per joule, for which no bound is known."""
+
+    measure = "efficiency"
+    joined = "min"
+    caught_by = "test_direction_measure_and_joining_are_known"
+
+
+@dataclass(frozen=True, kw_only=True)
 class ForgetsWhatIsFree(SumRate):
     """A guard against a division by a price of zero that drops the user."""
 
@@ -339,6 +392,10 @@ BROKEN: tuple[SumRate, ...] = (
     OverstatesConjugate(),
     StopsAtTheLowestRate(),
     LostWithoutAHighestRate(),
+    MissesACorner(),
+    StraightAsFarAsItWasTried(),
+    DeclaresItselfStraight(),
+    EfficiencyOfTheSmallest(),
     ForgetsWhatIsFree(),
     MispricesTheDear(),
     WritesToItsArguments(),
