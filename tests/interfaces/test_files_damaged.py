@@ -23,17 +23,11 @@ from wirelessagent.sensing.formats.hdf5_process import Hdf5Process
 GAIN = np.arange(1.0, 7.0).reshape(2, 3)
 
 
-@pytest.fixture(scope="module")
-def _one_process_for_every_file() -> Iterator[None]:
-    with LastingProcess.for_every_file():
-        yield
-
-
-@pytest.mark.usefixtures("_one_process_for_every_file")
 @pytest.mark.parametrize("form", FORMATS)
 def test_damaged_files_are_refused_in_one_line_or_read(form: str, tmp_path: Path) -> None:
     """A part of ``benchmarks/bars_files.py``."""
-    found = [(number, *outcome(write_damaged(tmp_path, form, number))) for number in range(50)]
+    with LastingProcess.for_every_file():
+        found = [(number, *outcome(write_damaged(tmp_path, form, number))) for number in range(50)]
     assert [each for each in found if each[1] == "fault"] == []
     assert sum(end == "refused" for _, end, _ in found) > 20
 
@@ -97,6 +91,9 @@ def test_a_child_that_does_not_start_says_what_to_check(tmp_path: Path, monkeypa
     path = hdf5(tmp_path)
     monkeypatch.setattr(hdf5_process, "_ADAPTER", tmp_path / "none.py")
     with pytest.raises(WirelessAgentError, match=r"does not start: check that .* -c 'import h5py' works"):
+        wa.read(path)
+    (tmp_path / "none.py").write_text("def serve(max_bytes):\n    print('hello', flush=True)\n")
+    with pytest.raises(WirelessAgentError, match=r"does not start"):
         wa.read(path)
     monkeypatch.setattr(sys, "executable", str(tmp_path / "none"))
     with pytest.raises(WirelessAgentError, match="cannot be started"):

@@ -79,7 +79,10 @@ WRITERS: dict[str, tuple[str, Writer]] = {
 }
 COMPLEX = [name for name in WRITERS if name not in ("json", "netcdf4")]
 
-GAINS = st.one_of(st.just(np.nan), st.floats(0.0, 1e100), st.floats(1e-20, 1e-5))
+NETCDF_FILL = float(np.float32(9.9692099683868690e36))  # which means missing in netCDF; Hypothesis finds it in our code
+GAINS = st.one_of(
+    st.just(np.nan), st.floats(0.0, 1e100).filter(lambda gain: gain != NETCDF_FILL), st.floats(1e-20, 1e-5)
+)
 
 
 @pytest.mark.parametrize("name", WRITERS)

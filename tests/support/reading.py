@@ -30,8 +30,10 @@ class LastingProcess(Hdf5Process):
         kept: list[LastingProcess] = []
 
         def process(max_bytes: int, **options: Any) -> LastingProcess:
-            if not kept or kept[0]._child.poll() is not None:
-                kept[:] = [cls(max_bytes, **options)]
+            if kept and kept[0]._child.poll() is not None:
+                Hdf5Process.close(kept.pop())
+            if not kept:
+                kept.append(cls(max_bytes, **options))
             return kept[0]
 
         with patch.object(hdf5_format, "Hdf5Process", process):

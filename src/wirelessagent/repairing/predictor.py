@@ -78,7 +78,7 @@ def is_new(seen: History, observation: ChannelObservation) -> bool:
     if seen.place.size < 2 or seen.place[-1] != observation.num_slots - 1 or heard[-1][heard[-1] > 0].min() <= FEW:
         return False
     both = ~np.isnan(seen.gain[-2:]).any(axis=0)
-    if 2 * both.any(axis=1).sum() < (heard[-1] > 0).sum():
+    if 2 * np.any(both, axis=1).sum() < (heard[-1] > 0).sum():
         return False
     now, before = np.where(both, seen.gain[-2:] - 1.0, 0.0)
     return float((now * before).sum()) <= learned.NEW * float(np.sqrt((now**2).sum() * (before**2).sum()))

@@ -10,6 +10,9 @@
 Of several arrays the one called ``gain`` is taken. Beside it may stand ``truth``, ``noise_variance`` (or, from a
 repair, ``gain_variance`` and ``repaired``), ``user_names``, ``subcarrier_frequencies_hz``, ``slot_times_s``, and the
 metadata of :mod:`~wirelessagent.sensing.file_metadata`. What was understood is in the scene's facts.
+
+No file, whatever its bytes, ends or hangs the process: sizes are judged before memory is taken, HDF5 is read by a child
+(:mod:`~wirelessagent.sensing.formats.hdf5_process`), and what is no ordinary file is not opened.
 """
 
 from __future__ import annotations
@@ -61,7 +64,7 @@ class File(ChannelSource):
     """Channel gains from a file: CSV, JSON, NPZ, NPY, MATLAB, HDF5 or netCDF-4.
 
     Attributes:
-        path: the file with the gains.
+        path: the file with the gains; an ordinary one.
         unit: what its numbers are: "linear" power gain, power gain in "db", or "complex" for coefficients h whose
             squared magnitude is taken; if not set what the file states, else linear. Complex numbers are always
             coefficients.

@@ -41,7 +41,7 @@ class History:
     @property
     def reported(self) -> BoolArray:
         """Where a user told anything, shape (user, slot); reports get lost, and users join late."""
-        return ~np.isnan(self.gain).all(axis=2).T
+        return np.any(~np.isnan(self.gain), axis=2).T
 
 
 def history(observation: ChannelObservation) -> History | None:

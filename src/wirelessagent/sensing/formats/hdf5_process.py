@@ -33,6 +33,8 @@ import json, runpy, sys
 sys.path[:], adapter, *limits = json.loads(sys.argv[1])
 runpy.run_path(adapter)["serve"](*limits)
 """
+_READY = b'{"ready": true}\n'
+_LINE_BYTES = 2**20  # a list of datasets may be this much longer than what is in them
 _ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 """NumPy's linear algebra, which is not needed here, else reserves memory for every core."""
 
@@ -104,12 +106,16 @@ class Hdf5Process:
             raise WirelessAgentError(
                 f"HDF5 is read by a second Python process, and {sys.executable!r} cannot be started: {error}"
             ) from error
-        with self._limited():
-            is_ready = self._line() == {"ready": True}
+        try:
+            with self._limited():
+                is_ready = self._line() == _READY
+        except BaseException:
+            self.close()
+            raise
         if not is_ready:
             self.close()
             raise WirelessAgentError(
-                f"HDF5 is read by a second Python process, which does not start: check that "
+                "HDF5 is read by a second Python process, which does not start: check that "
                 f"{sys.executable} -c 'import h5py' works"
             )
 
@@ -148,7 +154,8 @@ class Hdf5Process:
                 sink.flush()
             except OSError:  # the child has gone, and the answer will say so
                 pass
-            answer = self._line()
+            line = self._line()
+            answer: dict[str, Any] | None = json.loads(line) if line else None
             if answer is not None and "dtype" in answer:
                 answer["array"] = self._array(_dtype(answer["dtype"]), _shape(answer["shape"]))
         if answer is None or answer.get("array", answer) is None:
@@ -157,12 +164,12 @@ class Hdf5Process:
             raise damaged("HDF5", str(answer["error"]))
         return answer
 
-    def _line(self) -> dict[str, Any] | None:
-        """The next line of the child; None if it has gone."""
+    def _line(self) -> bytes:
+        """The next line of the child; nothing if it has gone."""
         source = self._child.stdout
         assert source is not None
-        line = source.readline(self._max_bytes)
-        return json.loads(line) if line.endswith(b"\n") else None
+        line = source.readline(_LINE_BYTES + self._max_bytes)
+        return line if line.endswith(b"\n") else b""
 
     def _array(self, dtype: np.dtype[Any], shape: tuple[int, ...]) -> NDArray[Any] | None:
         """The array that follows a line; None if the child has gone."""
