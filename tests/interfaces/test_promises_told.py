@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import wirelessagent as wa
+from wirelessagent.explain.case import Case
+from wirelessagent.explain.tables import decision_tables
+from wirelessagent.explain.user_words import share_answer
+from wirelessagent.explain.words import explain
 from wirelessagent.interfaces.cli import run
 
 
@@ -46,8 +51,38 @@ def test_solve_says_what_is_promised_at_which_probability(capsys: pytest.Capture
 
 def test_without_an_outage_probability_nothing_is_said_of_one(capsys: pytest.CaptureFixture[str], holed: Path) -> None:
     told = shown(capsys, "solve", holed, "--objective", "min_power", "--min-rate-bps", "5e5")
-    assert "promised at" not in told
     assert "joint posterior" not in told
+    assert "romise" not in told.replace("makes promises of them", "")
+    assert "asked for (kept with)" in told
+    assert re.search(r"the least sure one, 500 kbit/s for user \d, is kept with [\d.]+ %", told)
+
+
+@pytest.mark.parametrize(
+    ("language", "kept", "asked", "promised"),
+    [("en", "asked for (kept with)", "asked for", "romise"), ("zh", "要求的速率（兑现概率）", "要求", "承诺")],
+)
+def test_what_was_asked_for_without_a_probability_is_not_called_promised(
+    language: str, kept: str, asked: str, promised: str
+) -> None:
+    """Nowhere: in tables, explanations, what the base station did, accounts of users, and why something can't be."""
+    scene = wa.simulate("rayleigh", num_users=4, num_subcarriers=8, seed=3)
+    estimate = wa.repair(scene.observe(wa.loss.random(0.3), seed=1))
+    for rate, usable in ((1e6, True), (1e8, False)):
+        decision = wa.decide(estimate, wa.Problem("min_power", min_rate_bps=rate), scene.cell)
+        outcome = wa.SimulatedBaseStation(scene).apply(decision) if usable else None
+        made = wa.report(decision, outcome)
+        told = [*explain(estimate, made, language=language)]
+        for table in decision_tables(made, estimate, language):
+            told += [table.title, *table.columns, *(cell for row in table.rows for cell in row)]
+        assert decision.problem.firmness == "asked"
+        assert any(asked in each for each in told)
+        offered = ("makes promises of them", "即成为承诺")
+        assert not [each for each in told if promised in each and not any(offer in each for offer in offered)]
+        if usable:
+            assert kept in told
+            case = Case(estimate=estimate, decision=decision)
+            said = [share_answer(case, user, language) for user in range(4)]
+            assert not [each for each in said if promised in each]
 
 
 @pytest.mark.parametrize(

@@ -198,7 +198,7 @@ def test_what_cannot_be_done_leaves_what_is_in_effect() -> None:
 def test_why_it_cannot_be_done_is_told_in_chinese_too() -> None:
     _, (turn,) = talk(asks("min_power", language="zh", max_power_w=0.5, min_rate_bps=1e6))
     assert turn.stage == "nothing"
-    assert re.search(r"不可行：承诺的速率至少需要 1\.4\d W，超过允许的 500 mW", turn.reply), turn.reply
+    assert re.search(r"不可行：所要求的速率至少需要 1\.4\d W，超过允许的 500 mW", turn.reply), turn.reply
 
 
 def test_a_question_about_a_user_is_answered_with_the_user() -> None:

@@ -228,7 +228,11 @@ def test_impossible_rates_are_proven_so(
 @pytest.mark.parametrize(
     ("gain", "limits", "words"),
     [
-        (np.array([[0.0, 0.0], [1e-8, 1e-8]]), {"min_rate_bps": [1e3, 0.0]}, "user 1 is promised a rate, but no sub"),
+        (
+            np.array([[0.0, 0.0], [1e-8, 1e-8]]),
+            {"min_rate_bps": [1e3, 0.0]},
+            "user 1 is asked to get a rate, but no sub",
+        ),
         (np.array([[0.0, 1e-8], [0.0, 1e-8]]), {"min_rate_bps": 1e3}, "with 1 usable subcarrier only 1 of them"),
         (np.zeros((2, 2)), {"min_rate_bps": 1e3}, "with 0 usable subcarriers none of them"),
         (np.full((2, 3), 1e-8), {"min_rate_bps": 1e6, "subcarrier_max_power_w": 1e-3}, "add up to 2 Mbit/s, but"),

@@ -103,5 +103,5 @@ def applied_line(run: Run) -> str:
         return say(language, "applied", station=outcome.base_station)
     promised = outcome.promised_bps > 0
     kept, served = int(np.count_nonzero(promised & ~outcome.missed)), int(np.count_nonzero(promised))
-    key = "applied_promised" if run.decision.problem.promises_rates else "applied_committed"
+    key = f"applied_{run.decision.problem.firmness}"
     return say(language, key, station=outcome.base_station, kept=kept, served=served)

@@ -193,11 +193,11 @@ class Session:
             if self._raises:
                 raise
             if isinstance(error, RefusedError):
-                return Reply(
-                    text=joined(intent.language, [str(error), say(intent.language, "nothing_changed")]), stage="nothing"
-                )
-            key = "unsupported" if isinstance(error, UnsupportedProblemError) else "failed"
-            return Reply(text=say(intent.language, key, why=error), stage="nothing")
+                text = joined(intent.language, [str(error), say(intent.language, "nothing_changed")])
+            else:
+                key = "unsupported" if isinstance(error, UnsupportedProblemError) else "failed"
+                text = say(intent.language, key, why=error)
+            return Reply(text=text, stage="nothing", error=error)
 
     def _handled(self, intent: Intent, text: str, context: Context) -> Reply:
         site, state, topic = self._site, self._state, intent.topic or ""
@@ -281,6 +281,7 @@ class Session:
             recogniser=intent.recogniser,
             tables=reply.tables,
             restored=reply.restored,
+            error=reply.error,
         )
         if self._store is not None:
             try:

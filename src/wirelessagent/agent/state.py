@@ -11,6 +11,7 @@ from wirelessagent.agent.turn import Run, Stage
 from wirelessagent.explain.table import Table
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.language.recogniser import Awaited
+from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Plain
 
@@ -95,6 +96,7 @@ class Reply:
         tables: figures that belong to the text.
         restored: what was read back after the last good allocation was put back.
         undone: how many requests were taken back; that can't itself be undone.
+        error: what the reply tells of, where something could not be done.
     """
 
     text: str
@@ -104,3 +106,4 @@ class Reply:
     tables: tuple[Table, ...] = ()
     restored: Outcome | None = None
     undone: int = 0
+    error: WirelessAgentError | None = None

@@ -12,6 +12,7 @@ from wirelessagent.explain.report import Report
 from wirelessagent.explain.table import Table
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.decision import Decision
+from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
@@ -94,6 +95,7 @@ class Turn(Shown):
         recogniser: which recogniser understood it.
         tables: figures that belong to the reply.
         restored: what the base station read back after the last good allocation was put back; None where none was.
+        error: what the reply tells of, where something could not be done.
     """
 
     number: int
@@ -109,6 +111,7 @@ class Turn(Shown):
     recogniser: str
     tables: tuple[Table, ...] = ()
     restored: Outcome | None = None
+    error: WirelessAgentError | None = None
 
     def summary(self) -> Summary:
         reply = [("reply", line) for line in self.reply.split("\n") if line.strip()]

@@ -32,6 +32,7 @@ _ENGLISH: Mapping[str, str] = {
     "written": "allocation written to {path}",
     "applied": "{station}: applied and read back; what the users get is not measured there",
     "applied_promised": "{station}: applied and read back; {kept} of {served} promised rates kept",
+    "applied_asked": "{station}: applied and read back; {kept} of {served} rates asked for are reached",
     "applied_committed": "{station}: applied and read back; {kept} of {served} committed rates kept",
     # what was assumed
     "above_the_limit": "{asked} is above the cell's limit of {limit}, which holds",
@@ -165,6 +166,7 @@ _CHINESE: Mapping[str, str] = {
     "written": "分配已写入 {path}",
     "applied": "{station}：已应用并回读；那里不测量用户所得",
     "applied_promised": "{station}：已应用并回读；{served} 个承诺速率中兑现 {kept} 个",
+    "applied_asked": "{station}：已应用并回读；所要求的 {served} 个速率中达到 {kept} 个",
     "applied_committed": "{station}：已应用并回读；{served} 个预定速率中兑现 {kept} 个",
     "above_the_limit": "{asked} 超过小区上限 {limit}，以上限为准",
     "assumed_rate": "未指定速率，假定每个用户 {rate}；例如说“每用户 500 kbit/s”即可更改",

@@ -70,16 +70,16 @@ WORDS = Lexicon(
         "noisy": "Every gain was measured, {noisy} of {entries} of them not exactly.",
         "repaired": "{repaired} of {entries} gains were not measured ({share}); {method} filled them. {resting} of "
         "the {used} subcarriers in use rest on such a gain.",
-        "rests_on_none": "So nothing that was promised is uncertain.",
+        "rests_on_none": "So nothing that was decided is uncertain.",
         "unseen": "Nothing was measured of {names}: the level is a guess.",
         "band": "With a probability of 90 % the true channel carries {low} to {high} in all.",
         "promise": "Each promise is to be kept with {sure}; by draws that the decision did not see the least sure "
         "one, to {user}, is kept with {kept}.",
         "commitment": "Rates are committed so that most is expected to arrive; the least sure one, of {user}, is "
         "kept with {kept}. {missed:.2g} of {served} are expected to fail.",
-        "estimated_promise": "Rates are promised on the estimate as it stands: the least sure one, to {user}, is "
-        "kept with {kept}, and {missed:.2g} of {served} are expected to fail. An accepted "
-        "outage, as in 'kept with 95 %', makes surer promises.",
+        "asked": "Rates are asked for without a probability: the least sure one, for {user}, is kept with {kept}, and "
+        "{missed:.2g} of {served} are expected to fail. An accepted outage, as in 'kept with 95 %', makes promises of "
+        "them.",
         "widest": "The gain in use that is known least is that of {user} on {place}: within {low:+.2f} to "
         "{high:+.2f} dB of what was counted on (90 %).",
         # contests
@@ -131,14 +131,14 @@ WORDS = Lexicon(
         "noisy": "所有增益都已测得，但 {entries} 个中有 {noisy} 个不精确。",
         "repaired": "{entries} 个增益中有 {repaired} 个没有测得（{share}），由{method}填补。使用的 {used} 个子载"
         "波中有 {resting} 个依赖这样的增益。",
-        "rests_on_none": "因此所承诺的都没有不确定性。",
+        "rests_on_none": "因此所决定的都没有不确定性。",
         "unseen": "没有测得{names}的任何增益：其水平只是猜测。",
         "band": "真实信道以 90 % 的概率总共承载 {low} 至 {high}。",
         "promise": "每个承诺应以 {sure} 兑现；按决策时未用的抽样，最没有把握的是对{user}的承诺，以 {kept} 兑现。",
         "commitment": "预定速率使预期到达的最多；最没有把握的是{user}的，以 {kept} 兑现。预计 {served} 个中有 "
         "{missed:.2g} 个落空。",
-        "estimated_promise": "速率按估计值承诺：最没有把握的是对{user}的，以 {kept} 兑现，预计 {served} 个中有 "
-        "{missed:.2g} 个落空。给定可靠性（如“以 95 % 兑现”）可使承诺更有把握。",
+        "asked": "所要求的速率未指定概率：最没有把握的是{user}的，以 {kept} 兑现，预计 {served} 个中有 "
+        "{missed:.2g} 个落空。给定可靠性（如“以 95 % 兑现”）即成为承诺。",
         "widest": "使用中最不确定的增益是{user}在{place}上的：在所计数值的 {low:+.2f} 至 {high:+.2f} dB 之内（90 %）。",
         "contests": "竞争最激烈的子载波",
         "subcarrier": "子载波",
@@ -274,7 +274,7 @@ def _sure(case: Case, found: Certainty, language: str) -> list[str]:
     low, high = human(found.low_bps, "bit/s"), human(found.high_bps, "bit/s")
     kept, least_sure = f"{100 * found.least_kept:.3g} %", called(language, names[found.least_sure])
     served = int((case.decision.committed_bps > 0).sum())
-    firm = "estimated_promise" if case.problem.promises_rates else "commitment"
+    firm = "asked" if case.problem.promises_rates else "commitment"
     key = firm if outage is None else "promise"
     return [
         WORDS.say(language, "band", low=low, high=high) if low != high else "",

@@ -19,21 +19,21 @@ WORDS = Lexicon(
     english={
         "no_power": "no power is enough",
         "beyond": "more than {beyond}",
-        "needs": "the promised rates need at least {least}, more than the {budget} allowed",
-        "needs_found": "the promised rates need at least {least}, more than the {budget} allowed, and an "
+        "needs": "the rates asked for need at least {least}, more than the {budget} allowed",
+        "needs_found": "the rates asked for need at least {least}, more than the {budget} allowed, and an "
         "allocation with {most} was found",
-        "needs_beyond": "the promised rates need more than {beyond}, which no cell has; {budget} is allowed",
-        "needs_nothing": "no power is enough for the promised rates",
-        "capped": "{limits} no more than {total} can be radiated in all, and the promised rates need more, whatever "
+        "needs_beyond": "the rates asked for need more than {beyond}, which no cell has; {budget} is allowed",
+        "needs_nothing": "no power is enough for the rates asked for",
+        "capped": "{limits} no more than {total} can be radiated in all, and the rates asked for need more, whatever "
         "the budget",
-        "no_subcarrier": "{name} is promised a rate, but no subcarrier is of use to it",
-        "too_few": "{users} users are promised a rate, but the {kind} that can be used ({places}) are enough for "
+        "no_subcarrier": "a rate is asked for {name}, but no subcarrier is of use to it",
+        "too_few": "{users} users are to get a rate, but the {kind} that can be used ({places}) are enough for "
         "only {served} of them",
-        "one_user": "{name} is promised {promised}, but {limits} its subcarriers carry no more than {most} in all, "
+        "one_user": "{promised} is asked for {name}, but {limits} its subcarriers carry no more than {most} in all, "
         "whatever the power",
-        "together": "the promised rates add up to {promised}, but {limits} the subcarriers carry no more than {most} "
+        "together": "the rates asked for add up to {promised}, but {limits} the subcarriers carry no more than {most} "
         "in all, whatever the power",
-        "places": "{limits} the promised rates take at least {needed} {kind}, whatever the power, and {places} can be "
+        "places": "{limits} the rates asked for take at least {needed} {kind}, whatever the power, and {places} can be "
         "used",
         "subcarrier": "subcarriers",
         "group": "groups of {size} subcarriers",
@@ -41,7 +41,7 @@ WORDS = Lexicon(
         "caps": "with the limits on each subcarrier",
         "link": "with a link of {link} at most",
         "both": "{cap} and {link}",
-        "open": "no allocation was found that carries the promised rates{sure} within {budget}{found}; they need at "
+        "open": "no allocation was found that carries the rates asked for{sure} within {budget}{found}; they need at "
         "least {least}, and whether that is enough is not known",
         "sure": " with a probability of {sure}",
         "found_power": " (one was found with {most})",
@@ -52,23 +52,23 @@ WORDS = Lexicon(
     chinese={
         "no_power": "多大功率都不够",
         "beyond": "超过 {beyond}",
-        "needs": "承诺的速率至少需要 {least}，超过允许的 {budget}",
-        "needs_found": "承诺的速率至少需要 {least}，超过允许的 {budget}；已找到一个用 {most} 的分配",
-        "needs_beyond": "承诺的速率需要超过 {beyond} 的功率，没有小区做得到，允许的是 {budget}",
-        "needs_nothing": "多大功率都不足以兑现承诺的速率",
-        "capped": "{limits}总共最多只能发射 {total}，而承诺的速率需要更多，与功率预算无关",
-        "no_subcarrier": "承诺了{name}速率，但没有它可用的子载波",
-        "too_few": "向 {users} 个用户承诺了速率，但只有 {places} 个可用的{kind}，只够其中 {served} 个用户",
-        "one_user": "对{name}的承诺为 {promised}，但{limits}无论功率多大，它的子载波总共最多承载 {most}",
-        "together": "承诺的速率共 {promised}，但{limits}无论功率多大，所有子载波总共最多承载 {most}",
-        "places": "{limits}无论功率多大，承诺的速率至少需要 {needed} 个{kind}，而可用的只有 {places} 个",
+        "needs": "所要求的速率至少需要 {least}，超过允许的 {budget}",
+        "needs_found": "所要求的速率至少需要 {least}，超过允许的 {budget}；已找到一个用 {most} 的分配",
+        "needs_beyond": "所要求的速率需要超过 {beyond} 的功率，没有小区做得到，允许的是 {budget}",
+        "needs_nothing": "多大功率都不足以达到所要求的速率",
+        "capped": "{limits}总共最多只能发射 {total}，而所要求的速率需要更多，与功率预算无关",
+        "no_subcarrier": "为{name}要求了速率，但没有它可用的子载波",
+        "too_few": "为 {users} 个用户要求了速率，但只有 {places} 个可用的{kind}，只够其中 {served} 个用户",
+        "one_user": "对{name}要求的是 {promised}，但{limits}无论功率多大，它的子载波总共最多承载 {most}",
+        "together": "所要求的速率共 {promised}，但{limits}无论功率多大，所有子载波总共最多承载 {most}",
+        "places": "{limits}无论功率多大，所要求的速率至少需要 {needed} 个{kind}，而可用的只有 {places} 个",
         "subcarrier": "子载波",
         "group": "子载波组（每组 {size} 个子载波）",
         "cap": "每个子载波不超过 {cap} 时，",
         "caps": "有各子载波的功率上限时，",
         "link": "链路不超过 {link} 时，",
         "both": "{cap}{link}",
-        "open": "在 {budget} 之内没有找到{sure}兑现承诺速率的分配{found}；至少需要 {least}，能否做到尚不清楚",
+        "open": "在 {budget} 之内没有找到{sure}达到所要求速率的分配{found}；至少需要 {least}，能否做到尚不清楚",
         "sure": "以 {sure} 的概率",
         "found_power": "（找到一个用 {most} 的）",
         "found_share": "（有一个能承载其 {share}）",

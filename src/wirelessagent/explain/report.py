@@ -153,8 +153,9 @@ class Report(Shown):
         if self.achieved is None:
             return ""
         served = int(np.count_nonzero(self.decision.committed_bps > 0))
-        rate = "promised" if self.decision.problem.promises_rates else "committed"
-        return f"{len(self.missed_users)} of {served} served users missed their {rate} rate"
+        firmness = self.decision.problem.firmness
+        rate = "the rate asked for" if firmness == "asked" else f"their {firmness} rate"
+        return f"{len(self.missed_users)} of {served} served users missed {rate}"
 
     def __str__(self) -> str:
         head = ("", "predicted", "achieved", *([] if self.perfect is None else ["all gains known"]))

@@ -19,7 +19,7 @@ WORDS = Lexicon(
     english={
         "power": "A budget of {level} instead of {before}, solved anew, would {change}.",
         "power_idle": "With {level} instead of {before} nothing changes: only {spent} is used as it is.",
-        "power_least": "With {level} instead of {before} nothing changes: the promised rates take {spent} either way.",
+        "power_least": "With {level} instead of {before} nothing changes: the rates asked for take {spent} either way.",
         "rate": "Promising {who} {level}, solved anew, would {change}.",
         "everybody": "every user",
         "everybody_more": "every user {step} more, at least",
@@ -53,7 +53,7 @@ WORDS = Lexicon(
     chinese={
         "power": "功率由 {before} 改为 {level}，重新求解，{change}。",
         "power_idle": "功率由 {before} 改为 {level} 不会有任何变化：现在只用了 {spent}。",
-        "power_least": "功率由 {before} 改为 {level} 不会有任何变化：承诺的速率本来就只需 {spent}。",
+        "power_least": "功率由 {before} 改为 {level} 不会有任何变化：所要求的速率本来就只需 {spent}。",
         "rate": "向{who}承诺 {level}，重新求解，{change}。",
         "everybody": "每个用户",
         "everybody_more": "每个用户多 {step}，至少",

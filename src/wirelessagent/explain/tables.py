@@ -28,10 +28,10 @@ def figures_of_infeasibility(decision: Decision, language: str = "en") -> Table:
     """What the request would need and what could be had, each from both sides."""
     rows: list[tuple[str, ...]] = []
     if decision.needed_power_w is not None:
-        need, label = decision.needed_power_w, worded(language, "power that the promised rates need")
+        need, label = decision.needed_power_w, worded(language, "power that the rates asked for need")
         rows.append((label, *(power_in_words(one, language) for one in (need.at_least, need.at_most))))
     if decision.rate_scaling is not None:
-        scale, label = decision.rate_scaling, worded(language, "largest common scaling of the promised rates")
+        scale, label = decision.rate_scaling, worded(language, "largest common scaling of the rates asked for")
         rows.append((label, f"{scale.at_least:.3g}", f"{scale.at_most:.3g}"))
     return _table(language, "What it would take", ("figure", "at least", "at most"), rows)
 
@@ -51,7 +51,7 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None, language
     """Each user's subcarriers, power and rates: predicted, how sure, committed and achieved."""
     decision = report.decision
     unsure, judged = decision.forecast is not None, decision.expected_rate_bps.size > 0
-    kind = "promised (kept with)" if decision.problem.promises_rates else "committed (kept with)"
+    kind = "asked for (kept with)" if decision.problem.promises_rates else "committed (kept with)"
     columns = [
         "user",
         "subcarriers",

@@ -24,10 +24,12 @@ WORDS = Lexicon(
     english={
         "served": "{name} gets {rate} with {power} ({share} of all power) on {count} of {total} subcarriers.",
         "band": "With a probability of 90 % the true channel carries {low} to {high}.",
-        "binds": "It is promised {promised}, and no more is given; 100 kbit/s more would cost {price} at the margin.",
-        "above": "It is promised {promised}, and gets more because subcarriers go as a whole; 100 kbit/s more "
+        "binds": "{due}, and no more is given; 100 kbit/s more would cost {price} at the margin.",
+        "above": "{due}, and gets more because subcarriers go as a whole; 100 kbit/s more "
         "would cost {price} at the margin.",
-        "beyond": "It is promised {promised}, which costs nothing, since it gets more anyway.",
+        "due_promised": "It is promised {promised}",
+        "due_asked": "{promised} is asked for it",
+        "beyond": "{due}, which costs nothing, since it gets more anyway.",
         "resting": "{repaired} of its {entries} gains were not measured, among them those of {resting} of the {count} "
         "subcarriers that it uses.",
         "resting_none": "{repaired} of its {entries} gains were not measured, but it uses no subcarrier that rests on "
@@ -69,9 +71,11 @@ WORDS = Lexicon(
     chinese={
         "served": "{name}得到 {rate}，功率 {power}（占总功率 {share}），占 {total} 个子载波中的 {count} 个。",
         "band": "真实信道以 90 % 的概率承载 {low} 至 {high}。",
-        "binds": "对它的承诺为 {promised}，不多给；边际上再多 100 kbit/s 的代价为 {price}。",
-        "above": "对它的承诺为 {promised}，因子载波只能整个分配而得到更多；边际上再多 100 kbit/s 的代价为 {price}。",
-        "beyond": "对它的承诺为 {promised}，没有代价，因为它本来就得到更多。",
+        "binds": "{due}，不多给；边际上再多 100 kbit/s 的代价为 {price}。",
+        "above": "{due}，因子载波只能整个分配而得到更多；边际上再多 100 kbit/s 的代价为 {price}。",
+        "due_promised": "对它的承诺为 {promised}",
+        "due_asked": "对它要求的是 {promised}",
+        "beyond": "{due}，没有代价，因为它本来就得到更多。",
         "resting": "它的 {entries} 个增益中有 {repaired} 个没有测得；它所用的 {count} 个子载波中有 {resting} 个依赖"
         "这样的增益。",
         "resting_none": "它的 {entries} 个增益中有 {repaired} 个没有测得，但它所用的子载波都不依赖这样的增益。",
@@ -188,7 +192,8 @@ def _served(case: Case, found: Account, language: str) -> list[str]:
         exactly = not found.rate_bps > found.promised_bps * _FACTOR
         key = ("binds" if exactly else "above") if price > 0 else "beyond"
         promised, cost = human(found.promised_bps, "bit/s"), human(price, case.decision.unit)
-        said.append(WORDS.say(language, key, promised=promised, price=cost))
+        due = WORDS.say(language, f"due_{case.problem.firmness}", promised=promised)
+        said.append(WORDS.say(language, key, due=due, price=cost))
     key = "resting" if found.resting else "resting_none" if found.repaired else "measured"
     rest = {
         "repaired": found.repaired, "entries": found.entries, "resting": found.resting,

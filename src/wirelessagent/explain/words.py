@@ -113,9 +113,9 @@ def _forecast(words: Mapping[str, str], decision: Decision) -> list[str]:
     if not decision.problem.promises_rates:
         committed = human(float(decision.committed_bps.sum()), "bit/s")
         return [*said, words["commitment"].format(committed=committed, sure=sure)]
-    if forecast.carried[least] >= _SURE:
-        return said
-    return [*said, words["unsure"].format(name=_user(words, decision, least), sure=sure)]
+    rate = human(float(decision.committed_bps[least]), "bit/s")
+    key = "asked" if forecast.carried[least] >= _SURE else "asked_unsure"
+    return [*said, words[key].format(name=_user(words, decision, least), sure=sure, rate=rate)]
 
 
 def _groups(words: Mapping[str, str], decision: Decision, estimate: ChannelEstimate, figure: str) -> list[str]:
@@ -230,16 +230,15 @@ def _guesses(words: Mapping[str, str], decision: Decision, estimate: ChannelEsti
 def _outcome(words: Mapping[str, str], report: Report) -> list[str]:
     if report.achieved is None:
         return []
-    rate = words["promised" if report.decision.problem.promises_rates else "committed"]
+    firmness = report.decision.problem.firmness
     if not report.missed_users:
-        return [words["kept"].format(rate=rate)]
+        return [words[f"kept_{firmness}"]]
     missed = list(report.missed_users)
     promised, carried = report.decision.committed_bps[missed], report.achieved.user_rate_bps[missed]
     return [
-        words["missed"].format(
+        words[f"missed_{firmness}"].format(
             names=_users(words, report.decision, np.array(missed)),
             short=percent(float(np.max(1 - carried / promised))),
-            rate=rate,
         )
     ]
 

@@ -1,6 +1,7 @@
 """The command line: one command per operation, its options the fields of the request.
 
-Errors are one line on stderr. Exit codes: 0 done, 1 failed, 2 bad input or a question back, 130 interrupted.
+Errors are one line on stderr. Exit codes: 0 done, 1 failure, 2 bad input or a question back, 3 infeasible or undecided,
+130 interrupted.
 """
 
 from __future__ import annotations
@@ -15,11 +16,14 @@ from pydantic import ValidationError
 
 from wirelessagent.interfaces.cli_chat import converse
 from wirelessagent.interfaces.cli_options import Parameters, as_flag, is_positional
-from wirelessagent.interfaces.cli_output import Listener, complain, show, show_json, take_over, tell
+from wirelessagent.interfaces.cli_output import Listener, complain, exit_code, show, show_json, take_over, tell
 from wirelessagent.operations.catalogue import GROUPS, OPERATIONS
 from wirelessagent.operations.operation import AnyOperation, InputError, WirelessAgentError, installed_version, silent
 
-_EPILOG = "Errors go to stderr; exit code 2 means bad input, 1 a failure."
+_EPILOG = (
+    "Errors go to stderr. Exit codes: 0 done, 1 failure, 2 bad input or a question back, 3 infeasible or undecided, "
+    "130 interrupted."
+)
 
 
 def run(arguments: list[str]) -> int:
@@ -140,7 +144,7 @@ def _command(operation: AnyOperation, parameters: Parameters | None) -> Callable
             show_json(record.model_dump_json(indent=2))
         else:
             show(record)
-        return 2 if record.needs_answer else 0
+        return exit_code(record)
 
     if parameters is not None:
         command.__signature__ = parameters.signature()  # type: ignore[attr-defined]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator
 
-from wirelessagent.interfaces.cli_output import show, show_json, tell
+from wirelessagent.interfaces.cli_output import exit_code, show, show_json, tell
 from wirelessagent.operations.operation import AnyOperation, Event, Request, silent
 
 _PROMPT = "> "
@@ -14,11 +14,13 @@ _PROMPT = "> "
 def converse(operation: AnyOperation, request: Request, *, as_json: bool) -> int:
     """Hand lines over as they come and show what becomes of each; with ``as_json`` one line of JSON per turn.
 
-    Lines come from the request, else from the terminal or from a pipe. Returns the exit code.
+    Lines come from the request, else from the terminal or from a pipe. Returns the exit code: that of the last line,
+    and 0 where somebody typed, who has read what it came to.
     """
     assert operation.converse is not None
     conversation = operation.converse(request, silent if as_json else _file_read)
     typed = conversation.lines is None and sys.stdin.isatty()
+    code = 0
     for line in _typed() if conversation.lines is None else conversation.lines:
         if not line.strip():
             continue
@@ -27,11 +29,12 @@ def converse(operation: AnyOperation, request: Request, *, as_json: bool) -> int
         record = conversation.answer(line)
         if record is None:
             break
+        code = exit_code(record)
         if as_json:
             show_json(record.model_dump_json())
         else:
             show(record)
-    return 0
+    return 0 if typed else code
 
 
 def _file_read(event: Event) -> None:

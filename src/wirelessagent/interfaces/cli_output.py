@@ -109,6 +109,11 @@ def show_json(text: str) -> None:
     print(legible(text), flush=True)  # noqa: T201
 
 
+def exit_code(record: Record) -> int:
+    """How a program that runs us learns what a record came to."""
+    return {"done": 0, "failed": 1, "unclear": 2, "unmet": 3}[record.conclusion]
+
+
 def tell(line: str) -> None:
     """Print a line."""
     print(legible(line, keep=""))  # noqa: T201

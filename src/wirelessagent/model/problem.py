@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import KW_ONLY, dataclass, field
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -86,6 +87,13 @@ class Problem(Plain):
     def promises_rates(self) -> bool:
         """Whether anybody must get a rate; else the rates of a decision are only what it commits itself to."""
         return self.min_rate_bps is not None and bool(np.any(np.asarray(self.min_rate_bps) > 0))
+
+    @property
+    def firmness(self) -> Literal["promised", "asked", "committed"]:
+        """What rates are: promised with a probability, only asked for, or committed by the decision alone."""
+        if not self.promises_rates:
+            return "committed"
+        return "asked" if self.outage_probability is None else "promised"
 
     def for_users(self, names: tuple[str, ...]) -> Problem:
         """The same problem on a channel whose users have these names: now it has ``user_indices``.

@@ -16,7 +16,7 @@ from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.intent import IntentRecord
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.outputs import check_allocation, check_picture, draw_run
-from wirelessagent.operations.record import Block, Matrix, Record, Table
+from wirelessagent.operations.record import Block, Conclusion, Matrix, Record, Table, of_decision
 from wirelessagent.operations.recording import RecordingOptions
 from wirelessagent.operations.site_options import SiteOptions
 from wirelessagent.operations.turn_record import OutcomeAnswer
@@ -53,8 +53,10 @@ class AskRecord(Record):
     tables: list[Table] = Field(default_factory=list[Table], exclude=True)
 
     @property
-    def needs_answer(self) -> bool:
-        return self.decision is None or self.waits
+    def conclusion(self) -> Conclusion:
+        if self.decision is None or self.waits:
+            return "unclear"
+        return "failed" if self.stage == "reverted" else of_decision(self.decision.status)
 
     def blocks(self) -> list[Block]:
         if self.decision is None:

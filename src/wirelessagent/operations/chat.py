@@ -8,7 +8,7 @@ from pydantic import Field
 
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.operation import Conversation, Operation, Progress
-from wirelessagent.operations.record import Block, Record
+from wirelessagent.operations.record import Block, Conclusion, Record
 from wirelessagent.operations.recording import RecordingOptions
 from wirelessagent.operations.site_options import SiteOptions
 from wirelessagent.operations.turn_record import TurnRecord
@@ -49,8 +49,9 @@ class ChatRecord(Record):
         return [block for turn in self.turns for block in (f"> {turn.text}", *turn.blocks())]
 
     @property
-    def needs_answer(self) -> bool:
-        return bool(self.turns) and self.turns[-1].needs_answer
+    def conclusion(self) -> Conclusion:
+        """That of the last turn."""
+        return self.turns[-1].conclusion if self.turns else "done"
 
 
 def converse(request: ChatRequest, progress: Progress) -> Conversation:

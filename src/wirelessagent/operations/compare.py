@@ -16,7 +16,7 @@ from wirelessagent.operations.answers import DecisionAnswer
 from wirelessagent.operations.fields import Names, OptionsOf, PluginOptions
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.outputs import check_picture, draw_comparison
-from wirelessagent.operations.record import Block, Record, Table
+from wirelessagent.operations.record import Block, Conclusion, Record, Table, of_decision
 from wirelessagent.operations.solve import ProblemOnFile
 
 
@@ -47,6 +47,12 @@ class CompareRecord(Record):
     answers: list[MethodAnswer]
     plot: Path | None
 
+    @property
+    def conclusion(self) -> Conclusion:
+        """Done where a method has an allocation; unmet where some tried and none has; unclear where all refused."""
+        tried = [of_decision(answer.decision.status) for answer in self.answers if answer.decision is not None]
+        return "unclear" if not tried else "done" if "done" in tried else "unmet"
+
     def blocks(self) -> list[Block]:
         rows = tuple(_row(answer) for answer in self.answers)
         columns = ("method", "status", "value", "bound", "gap", "power", "time")
@@ -65,7 +71,7 @@ class CompareRecord(Record):
 
 
 def _is_usable(decision: DecisionAnswer | None) -> bool:
-    return decision is not None and decision.status in ("optimal", "feasible")
+    return decision is not None and of_decision(decision.status) == "done"
 
 
 def _row(answer: MethodAnswer) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ from wirelessagent.model.units import human, percent
 from wirelessagent.operations.answers import DecisionAnswer
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Operation, Progress
-from wirelessagent.operations.record import Block, Record, Table
+from wirelessagent.operations.record import Block, Conclusion, Record, Table
 from wirelessagent.operations.recording import StoreOptions, opened, place_of
 from wirelessagent.store.content import estimate_of
 from wirelessagent.store.export import exported
@@ -139,6 +139,10 @@ class ShowRecord(Record):
     tampering: list[str]
     paragraphs: list[Block] = Field(exclude=True)
 
+    @property
+    def conclusion(self) -> Conclusion:
+        return "failed" if self.tampering else "done"
+
     def blocks(self) -> list[Block]:
         return list(self.paragraphs)
 
@@ -218,6 +222,10 @@ class ReplayRecord(Record):
     differences: list[str]
     decision: DecisionAnswer
     certificate: str = Field(exclude=True)
+
+    @property
+    def conclusion(self) -> Conclusion:
+        return "failed" if self.verdict == "different" else "done"
 
     def blocks(self) -> list[Block]:
         said: list[Block] = [f"Turn {self.number}: {self.summary}", *self.differences]

@@ -15,7 +15,7 @@ from wirelessagent.model.errors import InputError
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.recognisers import RecogniserOption
-from wirelessagent.operations.record import Block, Record, Table
+from wirelessagent.operations.record import Block, Conclusion, Record, Table
 
 
 class IntentRequest(RecogniserOption):
@@ -52,8 +52,8 @@ class IntentRecord(Record):
         return cls(text=text, **values)
 
     @property
-    def needs_answer(self) -> bool:
-        return self.kind == "clarify"
+    def conclusion(self) -> Conclusion:
+        return "unclear" if self.kind == "clarify" else "done"
 
     def blocks(self) -> list[Block]:
         rows = [("objective", self.objective or "–", self.evidence.get("objective", ""))]
@@ -73,8 +73,8 @@ class IntentsRecord(Record):
         return tuple(str(each["error"]) for each in self.intents if isinstance(each, dict))
 
     @property
-    def needs_answer(self) -> bool:
-        return bool(self.faults)
+    def conclusion(self) -> Conclusion:
+        return "unclear" if self.faults else "done"
 
     @property
     def lines(self) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, TypeAlias, cast
+from typing import Annotated, Any, Literal, TypeAlias, cast
 
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict
@@ -15,6 +15,17 @@ Block: TypeAlias = str | Lines | Table
 came with a name or a sentence, and a surface writes it out."""
 
 
+Conclusion: TypeAlias = Literal["done", "failed", "unclear", "unmet"]
+"""What an operation came to, for a surface to tell in its own way, as by an exit code: done; failed; unclear (a
+question back, a plan that waits for a yes, input of which a part could not be read); unmet (infeasible, or undecided).
+What could not be tried at all is an error instead."""
+
+
+def of_decision(status: str) -> Conclusion:
+    """What a decision of this status comes to."""
+    return "done" if status in ("optimal", "feasible") else "unmet"
+
+
 class Record(BaseModel):
     """The base of all records. NaN and infinity become null in JSON."""
 
@@ -25,9 +36,9 @@ class Record(BaseModel):
         return []
 
     @property
-    def needs_answer(self) -> bool:
-        """Whether nothing was done and the user has to say more."""
-        return False
+    def conclusion(self) -> Conclusion:
+        """What the operation came to."""
+        return "done"
 
     @property
     def lines(self) -> list[str] | None:

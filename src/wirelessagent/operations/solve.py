@@ -20,7 +20,7 @@ from wirelessagent.operations.channel_file import ChannelFile
 from wirelessagent.operations.operation import Event, Operation, Progress
 from wirelessagent.operations.outputs import check_allocation, check_picture, draw_run
 from wirelessagent.operations.problem_options import ProblemOptions
-from wirelessagent.operations.record import Block, Table
+from wirelessagent.operations.record import Block, Conclusion, Table, of_decision
 from wirelessagent.operations.tool_options import MethodOptions, RepairerOptions
 
 
@@ -57,6 +57,10 @@ class SolveRecord(DecisionAnswer):
     plot: Path | None
     summary: str = Field(exclude=True)
     tables: list[Table] = Field(exclude=True)
+
+    @property
+    def conclusion(self) -> Conclusion:
+        return of_decision(self.status)
 
     def blocks(self) -> list[Block]:
         said: list[Block] = [self.summary, *self.tables, " ".join(self.explanation)]

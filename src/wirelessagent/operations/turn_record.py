@@ -5,12 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from pydantic import Field
+
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
 from wirelessagent.explain.table import Table
+from wirelessagent.model.errors import InputError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.operations.answers import DecisionAnswer, ReportAnswer
-from wirelessagent.operations.record import Block, Integers, Record, Vector
+from wirelessagent.operations.record import Block, Conclusion, Integers, Record, Vector, of_decision
 from wirelessagent.store.plain import plain
 
 
@@ -59,6 +62,7 @@ class TurnRecord(Record):
     seed: int
     version: str
     stored: int | None
+    came_to: Conclusion = Field(exclude=True)
 
     @classmethod
     def of(cls, turn: Turn, session: Session, stored: int | None) -> TurnRecord:
@@ -77,11 +81,23 @@ class TurnRecord(Record):
             explanation=[] if run is None else list(run.explanation),
             tables=list(turn.tables),
             stored=stored,
+            came_to=_came_to(turn, session),
         )
 
     @property
-    def needs_answer(self) -> bool:
-        return self.stage == "asked" or self.awaits == "confirmation"
+    def conclusion(self) -> Conclusion:
+        return self.came_to
 
     def blocks(self) -> list[Block]:
         return [tuple(self.reply.split("\n")), *self.tables]
+
+
+def _came_to(turn: Turn, session: Session) -> Conclusion:
+    if turn.stage == "asked" or session.state.awaits == "confirmation" or isinstance(turn.error, InputError):
+        return "unclear"
+    if turn.error is not None or turn.stage == "reverted":
+        return "failed"
+    if turn.stage != "nothing" or turn.run is None:
+        return "done"
+    tried = of_decision(turn.run.decision.status)
+    return "failed" if tried == "done" and turn.run.outcome is None else tried  # the base station failed

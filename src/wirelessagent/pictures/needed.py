@@ -19,7 +19,7 @@ def needed_lines(decisions: Iterable[Decision]) -> list[str]:
     lines: list[str] = []
     if math.isfinite(power.at_least):
         most = f", at most {human(power.at_most, 'W')}" if math.isfinite(power.at_most) else ""
-        lines.append(f"The promised rates need at least {human(power.at_least, 'W')}{most}.")
+        lines.append(f"The rates asked for need at least {human(power.at_least, 'W')}{most}.")
     if math.isfinite(scaling.at_most):
         lines.append(f"The budget carries {scaling.at_least:.3g} to {scaling.at_most:.3g} times these rates.")
     return lines

@@ -112,14 +112,14 @@ def _not_kept(
         figures["reason"] = shortage
         return nothing(form, "infeasible", bound, **figures)
     if np.isinf(least):
-        figures["reason"] = "no assignment of the subcarriers carries the promised rates at any power"
+        figures["reason"] = "no assignment of the subcarriers carries the rates asked for at any power"
         return nothing(form, "infeasible", bound, **figures)
     if least > form.budget_w * (1.0 + _PROOF_ROUNDING):
         needed = _told(least) if least > _MOST_TOLD_W else f"at least {_told(least)}"
-        figures["reason"] = f"the promised rates need {needed} on this channel, more than the budget of {budget}"
+        figures["reason"] = f"the rates asked for need {needed} on this channel, more than the budget of {budget}"
         return nothing(form, "infeasible", bound, **figures)
     figures["reason"] = (
-        f"the promised rates were not reached within {budget}: {tried}, at least {_told(least)} is needed, "
+        f"the rates asked for were not reached within {budget}: {tried}, at least {_told(least)} is needed, "
         "and whether they can be reached is not known; another method may tell"
     )
     return nothing(form, "undecided", bound, **figures)

@@ -144,19 +144,19 @@ def shortage(form: NormalForm) -> tuple[str, float]:
         name = form.estimate.user_names[int(users[worst])]
         promised = human(float(nats[worst]) * form.bps_per_nat, "bit/s")
         best = human(float(most[worst].sum()) * form.bps_per_nat, "bit/s")
-        reason = f"{name} is promised {promised}, but its subcarriers carry at most {best} at any power"
+        reason = f"{promised} is asked for {name}, but its subcarriers carry at most {best} at any power"
         return reason, float(carried[worst])
     together = float(most.max(axis=0).sum() / nats.sum())
     if together < 1.0 - _ROUNDING:
         promised = human(float(nats.sum()) * form.bps_per_nat, "bit/s")
         best = human(float(most.max(axis=0).sum()) * form.bps_per_nat, "bit/s")
-        reason = f"the promised rates add up to {promised}, but the subcarriers carry at most {best} at any power"
+        reason = f"the rates asked for add up to {promised}, but the subcarriers carry at most {best} at any power"
         return reason, together
     needed = int(np.ceil(nats / most.max(axis=1) * (1.0 - _ROUNDING)).sum())
     usable = int(np.count_nonzero(usable_groups(form)[users].any(axis=0)))
     if needed > usable:
         what = "subcarriers" if form.start.size - 1 == form.cap_w.size else "resource-block groups"
-        return f"the promised rates take at least {needed} {what} at any power, but {usable} can be used", np.inf
+        return f"the rates asked for take at least {needed} {what} at any power, but {usable} can be used", np.inf
     return "", np.inf
 
 
@@ -168,13 +168,13 @@ def usable_groups(form: NormalForm) -> BoolArray:
 def _too_few(form: NormalForm, users: IntArray, served: int) -> str:
     """That of ``users`` no more than ``served`` can have a subcarrier of their own."""
     if users.size == 1:
-        return f"{form.estimate.user_names[int(users[0])]} is promised a rate, but no subcarrier is of use to it"
+        return f"{form.estimate.user_names[int(users[0])]} is asked to get a rate, but no subcarrier is of use to it"
     count = int(np.count_nonzero(usable_groups(form)[users].any(axis=0)))
     what = "subcarrier" if form.start.size - 1 == form.cap_w.size else "resource-block group"
     subcarriers = f"{count} usable {what}{'' if count == 1 else 's'}"
     those = f"only {served}" if served else "none"
     return (
-        f"{users.size} users are promised a rate, but with {subcarriers} {those} of them can have one of their own"
+        f"{users.size} users are to get a rate, but with {subcarriers} {those} of them can have one of their own"
     )  # fmt: skip
 
 
