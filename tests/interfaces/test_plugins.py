@@ -378,7 +378,37 @@ def test_every_public_name_is_listed_and_resolves() -> None:
     assert sorted(wa.__all__) == wa.__all__
     for name in wa.__all__:
         assert getattr(wa, name) is not None
-    assert set(dir(wa)) >= set(wa.__all__)
+    assert dir(wa) == sorted([*wa.__all__, "__version__"])
+
+
+def test_an_objective_is_checked_by_name_without_being_loaded() -> None:
+    script = (
+        "import wirelessagent as wa, sys\n"
+        "wa.Problem('max_rate', max_power_w=10)\n"
+        "print([name for name in sys.modules if name.startswith('wirelessagent.deciding')])"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_an_objective_may_go_by_its_alias() -> None:
+    assert wa.Problem("P1").objective == "P1"
+    with pytest.raises(UnknownNameError, match="unknown objective 'P9'"):
+        wa.Problem("P9")
+
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize(
+    "path",
+    [ROOT / "docs" / "plugins.md", *(ROOT / "examples" / "third_party_objective").rglob("*.py")],
+    ids=lambda path: path.name,
+)
+def test_who_writes_a_plugin_imports_from_one_public_place(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert "import wirelessagent as wa\n" in text
+    assert re.findall(r"(?:from|import) wirelessagent\.[\w.]+", text) == []
 
 
 def test_type_checkers_see_the_names_that_resolve() -> None:

@@ -15,6 +15,7 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
+from wirelessagent.model.legible import legible
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
@@ -55,7 +56,7 @@ class Run(Shown):
 
     def __str__(self) -> str:
         line = certificate_line(self.decision, self.intent.language)
-        return "\n".join([line, *self.notes, *self.explanation, str(self.report)])
+        return legible("\n".join([line, *self.notes, *self.explanation, str(self.report)]))
 
     def summary(self) -> Summary:
         seen, lost = self.observation, int(self.observation.missing.sum())
