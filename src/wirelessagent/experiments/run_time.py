@@ -151,7 +151,7 @@ class RunTime(Experiment):
         """The curves of a sweep, from the least time up to the upper quartile; their exponents by their names."""
         symbol, label = _SWEEPS[sweep]
         ends: dict[str, str] = {}
-        for style, stage in enumerate(table.values("stage")):
+        for style, stage in enumerate(table.values("stage"), start=1):
             rows = table.where(sweep=sweep, stage=stage)
             if rows.rows:
                 action, _, method = str(stage).partition("_by_")
