@@ -15,13 +15,13 @@ import pytest
 
 import wirelessagent as wa
 from wirelessagent.experiments import evaluated_methods
-from wirelessagent.experiments.intervals import resampled_sums, with_interval
 from wirelessagent.experiments.competitors import COMPETITORS, Competitor
 from wirelessagent.experiments.evaluate_decision import AVOID, PERFECT, EvaluateDecision
 from wirelessagent.experiments.evaluate_repair import EvaluateRepair
 from wirelessagent.experiments.evaluated_channels import EvaluatedChannel, FileChannel, parse_channel
 from wirelessagent.experiments.evaluated_methods import all_methods, check_methods
 from wirelessagent.experiments.evaluation import Evaluated, write
+from wirelessagent.experiments.intervals import resampled_sums, with_interval
 from wirelessagent.experiments.oracle import Oracle
 from wirelessagent.experiments.soft_impute import soft_impute
 from wirelessagent.experiments.table import Table

@@ -32,8 +32,8 @@ from wirelessagent.experiments.intervals import (
     with_interval,
 )
 from wirelessagent.experiments.modes import Modes
-from wirelessagent.experiments.repair_error import squared_errors
 from wirelessagent.experiments.rate_versus_power import RateVersusPower
+from wirelessagent.experiments.repair_error import squared_errors
 from wirelessagent.experiments.run_time import RunTime
 from wirelessagent.experiments.scenario import Scenario
 from wirelessagent.experiments.table import Table, table_of
@@ -242,7 +242,7 @@ def test_the_error_bars_drawn_are_those_of_the_share_of_perfect_knowledge():
     assert "interval of that share" in canvas.figure.get_suptitle()
     panels = zip(canvas.panels, ("sum_rate", None, "goodput", "goodput_by_subcarrier"), strict=True)
     for panel, quantity in panels:
-        drawn = {one.get_label().partition(" (")[0]: one for one in panel.axes.containers}
+        drawn = {one.get_label().partition(":")[0]: one for one in panel.axes.containers}
         assert not drawn["perfect CSI"].has_yerr
         if quantity is not None:
             ends = np.array([segment[:, 1] for segment in drawn["NNCF with relative gains"].lines[2][0].get_segments()])

@@ -86,7 +86,7 @@ class ErrorSweep(Experiment):
 
     def picture(self, result: Result) -> Canvas:
         table = result.table
-        canvas = Canvas(columns=2, width_in=13.0, height_in=5.0)
+        canvas = Canvas(columns=2, width_in=11.5, height_in=4.8)
         groups = _alike(table)
         style = styles(table.values("repairer"))
         for panel, column in zip(canvas.panels, _FIGURES, strict=False):

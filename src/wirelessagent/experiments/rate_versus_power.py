@@ -101,7 +101,7 @@ class RateVersusPower(Experiment):
         return found
 
     def picture(self, result: Result) -> Canvas:
-        canvas = Canvas(rows=2, columns=2, width_in=13.0, height_in=8.6)
+        canvas = Canvas(rows=2, columns=2, width_in=11.0, height_in=8.2)
         for panel, (column, title, y_label) in zip(canvas.panels, _PANELS, strict=True):
             self._draw(panel, result.table, column)
             panel.describe(title, "Power budget (W)", y_label)
@@ -111,7 +111,7 @@ class RateVersusPower(Experiment):
             panel.label_ends()
         canvas.title(
             f"Max rate on incomplete channel knowledge; {self.scenario.caption(result.draws)}",
-            "In brackets: share of perfect CSI at full power. Error bars: 95 % interval of that share",
+            "In %: share of perfect CSI at full power. Error bars: 95 % interval of that share",
         )
         return canvas
 
@@ -127,7 +127,7 @@ class RateVersusPower(Experiment):
                 rows.numbers("max_power_w"),
                 rows.numbers(column),
                 between=None if csi == PERFECT else (scale * shares[1], scale * shares[2]),
-                label=readable(csi) if csi == PERFECT else f"{readable(csi)} ({100.0 * shares[0][-1]:.4g} %)",
+                label=readable(csi) if csi == PERFECT else f"{readable(csi)}:\n{100.0 * shares[0][-1]:.4g} %",
                 style=style[str(csi)],
                 dodge_pt=2.5 * (place - 2),
             )

@@ -357,7 +357,7 @@ class Panel:
         """
         curves = [(line, texts[label] if texts else label) for line, label in self._curves]
         self.axes.autoscale_view()
-        ends = [self._end_of(line.get_xydata()) for line, _ in curves]
+        ends = [self._end_of(line) for line, _ in curves]
         heights = [_LINE_PT * (1 + text.count("\n")) / self.size_pt()[1] for _, text in curves]
         for (line, text), end, at in zip(curves, ends, apart([y for _, y in ends], heights), strict=True):
             colour = line.get_color()
@@ -372,11 +372,11 @@ class Panel:
                 clip_on=False,
             )  # fmt: skip
 
-    def _end_of(self, points: ArrayLike) -> tuple[float, float]:
-        """The last known one of some points, in fractions of the panel."""
-        known = np.asarray(points, dtype=float)
-        known = known[np.isfinite(known).all(axis=1)]
-        x, y = self.axes.transAxes.inverted().transform(self.axes.transData.transform(known[-1:]))[0].tolist()
+    def _end_of(self, line: Line2D) -> tuple[float, float]:
+        """The last known point of a curve, in fractions of the panel."""
+        points = np.asarray(line.get_xydata(), dtype=float)
+        last = points[np.isfinite(points).all(axis=1)][-1:]
+        x, y = self.axes.transAxes.inverted().transform(line.get_transform().transform(last))[0].tolist()
         return float(x), min(max(float(y), 0.0), 1.0)
 
     def percent(self, axis: Literal["x", "y"]) -> None:
