@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
@@ -86,7 +86,7 @@ class ErrorSweep(Experiment):
 
     def picture(self, result: Result) -> Canvas:
         table = result.table
-        canvas = Canvas(columns=2, width_in=13.0, height_in=5.0)
+        canvas = Canvas(columns=2, width_in=11.5, height_in=4.8)
         groups = _alike(table)
         style = styles(table.values("repairer"))
         for panel, column in zip(canvas.panels, _FIGURES, strict=False):
@@ -264,7 +264,7 @@ class Errors:
                 np.sqrt(decibels / count),
                 *(1.0 - np.sqrt(one / one[:, :, base]) for one in (relative, absolute)),
             )
-        resampled = dict(zip(_FIGURES, figures, strict=True))
+        resampled: dict[str, FloatArray] = dict(zip(_FIGURES, figures, strict=True))
         return cls(points=points, repairers=repairers, seed=seed, relative=sums[..., 0], resampled=resampled)
 
     def of_repairer(self, figure: str, repairer: str) -> FloatArray:
@@ -287,7 +287,7 @@ class Errors:
         return table_of((axis, "repairer", *(column for name in _FIGURES for column in columns_of(name))), rows)
 
 
-def _alike(table: Table) -> dict[str, Sequence[str]]:
+def _alike(table: Table) -> dict[str, list[str]]:
     """Repairers with one and the same error everywhere, by the first of them: one curve shows them all."""
     found: dict[str, list[str]] = {}
     for repairer in map(str, table.values("repairer")):

@@ -42,7 +42,7 @@ class Measure:
         return cls(value=value, low=value, high=value, unit=unit)
 
     def __str__(self) -> str:
-        """The figure and its interval, to the digits that the interval leaves certain.
+        """The figure and its interval, to the digits that the interval leaves certain, four at most.
 
         >>> str(Measure(value=79.34, low=78.01, high=80.52, unit="%")), str(Measure.exact(100.0, "ns"))
         ('79.3 % (78.0 to 80.5)', '100 ns')
@@ -50,9 +50,10 @@ class Measure:
         width = self.high - self.low
         if not width > 0.0:  # exact, or not known
             return _signed(f"{self.value:.4g} {self.unit}".strip()) if math.isfinite(self.value) else "–"
-        decimals = min(max(1 - math.floor(math.log10(width / 2.0)), 0), 6)
+        most = 3 - math.floor(math.log10(max(abs(self.low), abs(self.high))))
+        decimals = max(min(1 - math.floor(math.log10(width / 2.0)), most), 0)
         value, low, high = (_signed(f"{figure:,.{decimals}f}") for figure in (self.value, self.low, self.high))
-        return f"{f'{value} {self.unit}'.strip()} ({low} to {high})"
+        return f"{value} {self.unit}".strip() + (f" ({low} to {high})" if low != high else "")
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON: what is not known is None."""
@@ -84,10 +85,12 @@ def resampled_means(samples: FloatArray, *, seed: int) -> FloatArray:
 
 def resampled_medians(samples: FloatArray, *, seed: int) -> FloatArray:
     """Medians of samples (draw,), shape (1 + resample,); NaN samples do not count."""
-    if len(samples) == 1:
-        return np.array([samples[0], *[np.nan] * RESAMPLES])
-    counts = _counts(len(samples), seed, RESAMPLES).astype(int)
-    return np.array([np.nanmedian(samples), *(np.nanmedian(np.repeat(samples, count)) for count in counts)])
+    known = np.sort(samples[~np.isnan(samples)])
+    if known.size < 2:
+        return np.array([known.item() if known.size else np.nan, *[np.nan] * RESAMPLES])
+    up_to = np.cumsum(_counts(known.size, seed, RESAMPLES), axis=1)
+    middle = [known[(up_to >= rank).argmax(axis=1)] for rank in ((known.size + 1) // 2, known.size // 2 + 1)]
+    return np.concatenate([[np.median(known)], (middle[0] + middle[1]) / 2.0])
 
 
 def _counts(draws: int, seed: int, resamples: int) -> FloatArray:

@@ -126,14 +126,13 @@ class Modes(Experiment):
         """What minimum power's bars count: found is decided on the estimate, what users get on the true channel."""
         least = table.where(strategy="min power", who=OURS)
         found, got = (float(least.numbers(column)[0]) for column in (_SERVED, "users_at_min_rate_share"))
-        sure = f"{PROMISED}: with {reliability(self.outage_probability)}"
-        asked = f"min power ({human(self.min_rate_bps, 'bit/s')} each, {sure})"
+        sure = reliability(self.outage_probability)
+        asked = f"min power: {human(self.min_rate_bps, 'bit/s')} each, promised with {sure} where so named"
         if found == 0:
-            return [f"{asked}: no allocation was found in any draw, so min power and fixed power have no bars"]
-        found_text = f"{asked}: an allocation was found in {100 * found:.0f} % of the draws"
+            return [asked, "no allocation was found in any draw, so min power and fixed power have no bars"]
         return [
-            f"{found_text}, {100 * got:.0f} % of its users got the rate",
-            "min power and fixed power: means over those draws only",
+            f"{asked}; an allocation was found in {100 * found:.0f} % of the draws, over which its bars are means",
+            f"by default and without a promise, {100 * got:.0f} % of its users got the rate",
         ]
 
 
@@ -182,12 +181,10 @@ class ModesDraw:
     def __call__(self, seeds: Seeds) -> FloatArray:
         scene, observation = self.scenario.sense(seeds)
         truth = chain.perfect(scene).gain
-        least = Problem("min_power", min_rate_bps=self.min_rate_bps)
         sure = Problem("min_power", min_rate_bps=self.min_rate_bps, outage_probability=self.outage_probability)
         problems = {
             "max rate": Problem("max_rate"),
-            "min power": least,
-            "fixed power": least,
+            "min power": Problem("min_power", min_rate_bps=self.min_rate_bps),
             "max energy efficiency": Problem("max_energy_efficiency"),
             "equal power": Problem("max_rate"),
             "round robin": Problem("max_rate"),
@@ -195,13 +192,15 @@ class ModesDraw:
         methods = {"equal power": "equal_power", "round robin": "round_robin"}
         estimates = {who: known(observation, self.repairer) for who in (OURS, PROMISED)}
         estimates[AS_PRINTED] = known(observation, "nncf_paper")
-        rows: list[FloatArray] = []
+        decisions: dict[tuple[str, str], Decision] = {}
         for mode, who in STRATEGIES:
-            problem = sure if who == PROMISED else problems[mode]
-            method = "paper" if who == AS_PRINTED else methods.get(mode)
-            decision = chain.decide(estimates[who], problem, self.scenario.cell, method)
-            rows.append(self._measure(mode, decision, truth))
-        return np.stack(rows)
+            if mode == "fixed power":
+                decisions[mode, who] = decisions["min power", who]
+            else:
+                problem = sure if who == PROMISED else problems[mode]
+                method = "paper" if who == AS_PRINTED else methods.get(mode)
+                decisions[mode, who] = chain.decide(estimates[who], problem, self.scenario.cell, method)
+        return np.stack([self._measure(mode, decision, truth) for (mode, _), decision in decisions.items()])
 
     def _measure(self, mode: str, decision: Decision, truth: FloatArray) -> FloatArray:
         status = [float(decision.status == name) for name in _STATUSES]

@@ -33,8 +33,8 @@ from wirelessagent.pictures.canvas import Canvas, Panel
 from wirelessagent.pictures.method_names import readable
 
 PERFECT = "perfect"
-QUANTITIES = ("sum_rate", "goodput", "goodput_by_subcarrier", "committed")
-"""What is measured of each decision: the last is the rate committed on the estimate."""
+QUANTITIES = ("sum_rate", "goodput", "goodput_by_subcarrier")
+"""What is measured of each decision."""
 
 _PANELS = (
     ("sum_rate_mbps", "Sum rate, ideal link adaptation", "Achieved on the true channel (Mbit/s)"),
@@ -96,13 +96,12 @@ class RateVersusPower(Experiment):
                 found[f"least_{quantity}_share_of_{csi}"] = Measure.of(of_csi[csi][..., place].min(axis=1), "%")
             filled, printed = of_csi["user_mean"][..., place], of_csi["nncf_paper"][..., place]
             found[f"largest_{quantity}_loss"] = Measure.of((100.0 - filled).max(axis=1), "%")
-            found[f"largest_{quantity}_gain"] = Measure.of((100.0 * printed / filled - 100.0).max(axis=1), "%")
-        printed = means[:, 1 + self.repairers.index("nncf_paper"), -1]
-        carried = 100.0 * printed[:, QUANTITIES.index("committed")] / printed[:, QUANTITIES.index("sum_rate")]
-        return {**found, "committed_share_as_printed": Measure.of(carried, "%")}
+            gain = 100.0 * printed / np.where(filled > 0.0, filled, np.nan) - 100.0
+            found[f"largest_{quantity}_gain"] = Measure.of(gain.max(axis=1), "%")
+        return found
 
     def picture(self, result: Result) -> Canvas:
-        canvas = Canvas(rows=2, columns=2, width_in=13.0, height_in=8.6)
+        canvas = Canvas(rows=2, columns=2, width_in=11.0, height_in=8.2)
         for panel, (column, title, y_label) in zip(canvas.panels, _PANELS, strict=True):
             self._draw(panel, result.table, column)
             panel.describe(title, "Power budget (W)", y_label)
@@ -112,7 +111,7 @@ class RateVersusPower(Experiment):
             panel.label_ends()
         canvas.title(
             f"Max rate on incomplete channel knowledge; {self.scenario.caption(result.draws)}",
-            "In brackets: share of perfect CSI at full power. Error bars: 95 % interval of the share, same draws",
+            "In %: share of perfect CSI at full power. Error bars: 95 % interval of that share",
         )
         return canvas
 
@@ -128,7 +127,7 @@ class RateVersusPower(Experiment):
                 rows.numbers("max_power_w"),
                 rows.numbers(column),
                 between=None if csi == PERFECT else (scale * shares[1], scale * shares[2]),
-                label=readable(csi) if csi == PERFECT else f"{readable(csi)} ({100.0 * shares[0][-1]:.4g} %)",
+                label=readable(csi) if csi == PERFECT else f"{readable(csi)}:\n{100.0 * shares[0][-1]:.4g} %",
                 style=style[str(csi)],
                 dodge_pt=2.5 * (place - 2),
             )
@@ -156,7 +155,7 @@ class RateDraw:
         )  # fmt: skip
 
 
-def _rates(decision: Decision, estimate: ChannelEstimate, perfect: ChannelEstimate) -> tuple[float, ...]:
+def _rates(decision: Decision, estimate: ChannelEstimate, perfect: ChannelEstimate) -> tuple[float, float, float]:
     """The ``QUANTITIES`` of a decision made on ``estimate``, in bit/s."""
     cell, owner, power_w = decision.cell, decision.owner, decision.power_w
     achieved = link_metrics(perfect.gain, owner, power_w, cell, committed_bps=decision.rate_bps)
@@ -164,4 +163,4 @@ def _rates(decision: Decision, estimate: ChannelEstimate, perfect: ChannelEstima
         subcarrier_rate_bps(owned_gain(one.gain, owner), power_w, cell) for one in (estimate, perfect)
     )
     by_subcarrier = float(committed[kept(carried, committed)].sum())
-    return achieved.sum_rate_bps, achieved.goodput_bps, by_subcarrier, float(decision.rate_bps.sum())
+    return achieved.sum_rate_bps, achieved.goodput_bps, by_subcarrier

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import functools
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -131,7 +131,7 @@ class RunTime(Experiment):
         return stages
 
     def picture(self, result: Result) -> Canvas:
-        canvas = Canvas(columns=3, width_in=15.0, height_in=5.6)
+        canvas = Canvas(columns=3, width_in=13.0, height_in=5.4)
         table = result.table
         exponents = [self._draw(panel, table, sweep) for panel, sweep in zip(canvas.panels, _SWEEPS, strict=True)]
         lowest, highest = table.numbers("time_least_ms").min(), table.numbers("time_upper_quartile_ms").max()
@@ -151,7 +151,7 @@ class RunTime(Experiment):
         """The curves of a sweep, from the least time up to the upper quartile; their exponents by their names."""
         symbol, label = _SWEEPS[sweep]
         ends: dict[str, str] = {}
-        for style, stage in enumerate(table.values("stage")):
+        for style, stage in enumerate(table.values("stage"), start=1):
             rows = table.where(sweep=sweep, stage=stage)
             if rows.rows:
                 action, _, method = str(stage).partition("_by_")
@@ -166,9 +166,18 @@ class RunTime(Experiment):
         told = ", ".join(f"{one} = {size}" for one, size in held.items() if one != symbol)
         panel.describe(told, label, "Least time of a call and upper quartile (ms)")
         panel.scales(x="log", y="log")
-        panel.plain_ticks("x", getattr(self, f"num_{sweep}")[::2])
+        panel.plain_ticks("x", _far_apart(getattr(self, f"num_{sweep}")))
         panel.grid()
         return ends
+
+
+def _far_apart(sizes: Sequence[int]) -> list[int]:
+    """The first size and every one at least four times the last one taken."""
+    taken: list[int] = []
+    for size in sizes:
+        if not taken or size >= 4 * taken[-1]:
+            taken.append(size)
+    return taken
 
 
 def scaling(table: Table) -> dict[str, Measure]:

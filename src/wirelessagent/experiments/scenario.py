@@ -41,13 +41,15 @@ class Scenario:
 
     def caption(self, draws: int, *, varied: Literal["", "loss", "delay spread", "correlation"] = "") -> str:
         """What a figure of so many draws rests on, in a line, but for what varies within the figure."""
+        alike = not self.channel.shadowing_std_db and self.channel.inner_radius_m == self.channel.outer_radius_m
         facts = {
             "size": f"K × N = {self.channel.num_users} × {self.channel.num_subcarriers}",
             "loss": f"{100 * self.loss_rate:g} % random loss",
             "delay spread": f"{human(self.channel.rms_delay_spread_s, 's')} RMS delay spread",
+            "users": "the same path loss for all users" if alike else "",
             "draws": "1 draw" if draws == 1 else f"{draws} draws",
         }
-        return ", ".join(text for fact, text in facts.items() if fact != varied)
+        return ", ".join(text for fact, text in facts.items() if text and fact != varied)
 
     def with_loss(self, loss_rate: float) -> Scenario:
         return dataclasses.replace(self, loss_rate=loss_rate)

@@ -108,7 +108,7 @@ def judge(claim: Claim, measures: Mapping[str, Measure], *, draws: int) -> Judge
     """The verdict on a claim from measured figures by name, and the fewest draws that one of them rests on."""
     said = {name: str(one) for name, one in measures.items()}
     readings = (Reading(condition="", bars=claim.printed), *claim.otherwise)
-    states = [_state(reading.bars, measures) for reading in readings]
+    states: list[State] = [_state(reading.bars, measures) for reading in readings]
     verdict, reason = _verdict(readings, states, measures, draws)
     reasons = [text.format_map(said) for text in (reason, claim.comment) if text]
     return Judged(

@@ -25,6 +25,7 @@ from wirelessagent.model.errors import InputError, MissingDependencyError
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
 FORMATS: dict[str, dict[str, None]] = {".png": {}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 """Known suffixes and the metadata that is left out, so that a picture does not depend on the day it was drawn."""
@@ -115,6 +116,7 @@ class Panel:
 
     def __init__(self, axes: Axes) -> None:
         self.axes = axes
+        self._curves: list[tuple[Line2D, str]] = []
         axes.tick_params(labelsize=9)
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
@@ -195,6 +197,7 @@ class Panel:
         shift = ScaledTranslation(dodge_pt / 72.0, 0.0, self._figure().dpi_scale_trans)
         for artist in drawn.get_children():
             artist.set_transform(artist.get_transform() + shift)
+        self._curves.append((drawn.lines[0], label))
 
     def bars(
         self,
@@ -300,10 +303,11 @@ class Panel:
 
     def guide(self, x: ArrayLike, y: ArrayLike, *, label: str) -> None:
         """A thin dashed curve to compare others with."""
-        self.axes.plot(
+        drawn = self.axes.plot(
             np.asarray(x, dtype=float), np.asarray(y, dtype=float),
             color="black", linestyle="--", linewidth=1.0, label=label,
         )  # fmt: skip
+        self._curves.append((drawn[0], label))
 
     def segments(self, x_from: ArrayLike, x_to: ArrayLike, y: ArrayLike, *, label: str) -> None:
         self.axes.hlines(np.asarray(y), np.asarray(x_from), np.asarray(x_to), color="black", linewidth=1.8, label=label)
@@ -365,16 +369,14 @@ class Panel:
 
         A legend that covers nothing, and tells apart the curves that end in one place.
         """
-        curves = [(one.lines[0], str(one.get_label())) for one in self.axes.containers if hasattr(one, "lines")]
-        curves += [(line, str(line.get_label())) for line in self.axes.lines if line.get_label()[0] != "_"]
-        curves = [(line, texts[label] if texts else label) for line, label in curves]
+        curves = [(line, texts[label] if texts else label) for line, label in self._curves]
         self.axes.autoscale_view()
-        ends = [self._end_of(line.get_xydata()) for line, _ in curves]
+        ends = [self._end_of(line) for line, _ in curves]
         heights = [_LINE_PT * (1 + text.count("\n")) / self.size_pt()[1] for _, text in curves]
         for (line, text), end, at in zip(curves, ends, apart([y for _, y in ends], heights), strict=True):
             colour = line.get_color()
             self.axes.annotate(
-                text, end, xytext=(1.07, at), xycoords="axes fraction", textcoords="axes fraction", va="center",
+                text, end, xytext=(1.075, at), xycoords="axes fraction", textcoords="axes fraction", va="center",
                 fontsize=9, annotation_clip=False, linespacing=1.1,
                 arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.9, "shrinkA": 3.0, "shrinkB": 3.0,
                             "relpos": (0.0, 0.5)},
@@ -384,11 +386,11 @@ class Panel:
                 clip_on=False,
             )  # fmt: skip
 
-    def _end_of(self, points: ArrayLike) -> tuple[float, float]:
-        """The last known one of some points, in fractions of the panel."""
-        known = np.asarray(points, dtype=float)
-        known = known[np.isfinite(known).all(axis=1)]
-        x, y = self.axes.transAxes.inverted().transform(self.axes.transData.transform(known[-1:]))[0].tolist()
+    def _end_of(self, line: Line2D) -> tuple[float, float]:
+        """The last known point of a curve, in fractions of the panel."""
+        points = np.asarray(line.get_xydata(), dtype=float)
+        last = points[np.isfinite(points).all(axis=1)][-1:]
+        x, y = self.axes.transAxes.inverted().transform(line.get_transform().transform(last))[0].tolist()
         return float(x), min(max(float(y), 0.0), 1.0)
 
     def percent(self, axis: Literal["x", "y"]) -> None:

@@ -6,7 +6,7 @@ _NAMES = {
     "perfect": "perfect CSI",
     "user_mean": "mean filling",
     "nncf_paper": "NNCF as printed",
-    "nncf": "NNCF, relative gains",
+    "nncf": "NNCF with relative gains",
     "linear": "linear interpolation",
     "cubic": "cubic spline",
     "knn": "nearest neighbours",
