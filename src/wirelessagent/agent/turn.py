@@ -14,8 +14,8 @@ from wirelessagent.language.intent import Intent
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.estimate import ChannelEstimate
-from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.legible import legible
+from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
