@@ -124,7 +124,7 @@ def test_the_older_name_of_a_deadline_means_the_same() -> None:
 
 def test_a_round_begins_only_where_one_like_those_before_ends_in_time(ticking: None) -> None:
     problem = PROBLEMS["lowest"]
-    done = [wa.decide(estimate(), problem, CELL, "dual", deadline_ms=ms).restarts for ms in (0.5, 2.9, 3.1, 4.1, 10.1)]
+    done = [wa.decide(estimate(), problem, CELL, "dual", deadline_ms=ms).restarts for ms in (0.5, 3.9, 4.1, 5.1, 11.1)]
     assert done == [10, 10, 20, 30, 90]
 
 

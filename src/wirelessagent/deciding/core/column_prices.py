@@ -289,6 +289,8 @@ def _priced(market: Market, price: FloatArray, log_mu: float) -> tuple[float, Se
     from wirelessagent.deciding.core.column_search_kernel import bundles_within
 
     bound, best = priced_bounds(market, price, log_mu)
+    if not np.isfinite(bound).all():  # time ran out
+        return np.inf, best
     typical = (float(np.abs(bound).sum()) + float(price.sum())) / bound.size
     _, user, first, member = bundles_within(
         market.users, market.floor, market.inverse, market.ceiling, market.start, price, log_mu,
