@@ -54,6 +54,11 @@ def new_channels(filled: FloatArray) -> IntArray:
     return np.array(chosen)
 
 
+def is_new_each_slot(over: OverFrequency) -> bool:
+    """Whether more than half of the slots that anybody reported in are new channels."""
+    return 2 * new_channels(over.filled).size > int(over.told.any(axis=0).sum())
+
+
 def empirical(filled: FloatArray, noise: FloatArray, place: IntArray) -> tuple[FloatArray, IntArray]:
     """Correlation at each distance on the raster for each user, (user, distance), and of how many slots, (user,).
 
