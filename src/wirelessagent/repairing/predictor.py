@@ -46,7 +46,8 @@ class Predictor(Repairer):
             return dataclasses.replace(Kriging().repair(observation), method=self.name)
         if at_s is None and is_new(seen, observation):
             return dataclasses.replace(LearnedCovariance().repair(observation), method=self.name)
-        over = learned.refined(over_frequency(seen, observation), seen)
+        over = over_frequency(seen, observation)
+        over = learned.refined(over, seen) if learned.is_new_each_slot(over) else over
         found = estimated(seen, over, doppler(observation), steps(observation, at_s))
         level = seen.level[:, np.newaxis]
         slot, learnt = fit.relative(observation), known_parameters(over)
@@ -73,13 +74,11 @@ class Predictor(Repairer):
 
 
 def is_new(seen: History, observation: ChannelObservation) -> bool:
-    """Whether the current slot was observed and has nothing to do with the one before, by the users heard in both."""
-    heard = (~np.isnan(seen.gain)).sum(axis=2)
-    if seen.place.size < 2 or seen.place[-1] != observation.num_slots - 1 or heard[-1][heard[-1] > 0].min() <= FEW:
+    """Whether the current slot was observed of all users and has nothing to do with the one before."""
+    last = observation.num_slots - 1
+    if seen.place.size < 2 or seen.place[-1] != last or not (~np.isnan(seen.gain[-1])).sum(axis=1).min() > FEW:
         return False
     both = ~np.isnan(seen.gain[-2:]).any(axis=0)
-    if 2 * np.any(both, axis=1).sum() < (heard[-1] > 0).sum():
-        return False
     now, before = np.where(both, seen.gain[-2:] - 1.0, 0.0)
     return float((now * before).sum()) <= learned.NEW * float(np.sqrt((now**2).sum() * (before**2).sum()))
 

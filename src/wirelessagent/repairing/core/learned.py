@@ -42,16 +42,23 @@ def deviations(filled: FloatArray) -> tuple[FloatArray, BoolArray]:
 def new_channels(filled: FloatArray) -> IntArray:
     """Slots, from the last one backwards, each hardly correlated with the one before; ``filled`` (user, slot, …).
 
-    Two slots are compared by the users who reported in both.
+    Each user who reported in a slot is compared with its own report before, in the last slot chosen that has one.
     """
     deviation, told = deviations(filled)
-    chosen = [filled.shape[1] - 1]
-    for slot in range(filled.shape[1] - 2, -1, -1):
-        both = told[:, slot] & told[:, chosen[-1]]
-        now, before = deviation[both, slot], deviation[both, chosen[-1]]
-        if both.any() and float((now * before).sum()) <= NEW * float(np.sqrt((now**2).sum() * (before**2).sum())):
+    before = np.full(len(told), -1)
+    chosen: list[int] = []
+    for slot in range(filled.shape[1] - 1, -1, -1):
+        who = np.flatnonzero(told[:, slot] & (before >= 0))
+        one, other = deviation[who, slot], deviation[who, before[who]]
+        if float((one * other).sum()) <= NEW * float(np.sqrt((one**2).sum() * (other**2).sum())):
             chosen.append(slot)
+            before[told[:, slot]] = slot
     return np.array(chosen)
+
+
+def is_new_each_slot(over: OverFrequency) -> bool:
+    """Whether more than half of the slots that anybody reported in are new channels."""
+    return 2 * new_channels(over.filled).size > int(over.told.any(axis=0).sum())
 
 
 def empirical(filled: FloatArray, noise: FloatArray, place: IntArray) -> tuple[FloatArray, IntArray]:
