@@ -14,8 +14,6 @@ from numbers import Real
 from pathlib import Path
 from typing import Any, Literal, cast, get_args
 
-import numpy as np
-
 from wirelessagent.model.errors import InputError
 
 _SIMPLE_TYPES: tuple[type, ...] = (bool, int, float, str, Path)
@@ -74,7 +72,9 @@ def converted(option: Option, value: Any) -> Any:
     """An option's value in its field's type; text from a command line is read."""
     if option.several and isinstance(value, str) and "," in value:
         value = [part.strip() for part in value.split(",")]
-    if option.several and isinstance(value, list | tuple | np.ndarray):
+    elif option.several:
+        value = getattr(value, "tolist", lambda: value)()  # of an array
+    if option.several and isinstance(value, list | tuple):
         return tuple(_converted(option, part) for part in cast("Iterable[Any]", value))
     return _converted(option, value)
 

@@ -17,11 +17,13 @@ import inspect
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib import metadata
-from typing import Any, Literal, TypeAlias, cast, get_args
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
 from wirelessagent.model.errors import InputError, PluginError, UnknownNameError
-from wirelessagent.model.objective import Objective
 from wirelessagent.plugin_options import Option, converted, options_of
+
+if TYPE_CHECKING:
+    from wirelessagent.model.objective import Objective
 
 Kind: TypeAlias = Literal["channel_source", "repairer", "objective", "method", "base_station"]
 
@@ -158,8 +160,8 @@ def _objective(name: str, options: Mapping[str, Any] | None) -> Objective:
             owners = " and ".join(f"{item.name!r} of {item.package}" for item in found)
             raise PluginError(f"two objectives have the alias {name!r}: {owners}; ask for one by its name")
         if found:
-            return cast(Objective, create("objective", found[0].name, options))
-    return cast(Objective, create("objective", name, options))
+            return cast("Objective", create("objective", found[0].name, options))
+    return cast("Objective", create("objective", name, options))
 
 
 def package_of(entry: metadata.EntryPoint) -> str:
@@ -169,18 +171,25 @@ def package_of(entry: metadata.EntryPoint) -> str:
 
 def refresh() -> None:
     """Forget what was found, so that packages installed since are seen."""
+    _installed.cache_clear()
     _entry_points.cache_clear()
     _load.cache_clear()
     _plain_objective.cache_clear()
 
 
 @functools.cache
+def _installed() -> metadata.EntryPoints:
+    """The entry points of all packages, whose folders are looked through once for all kinds."""
+    return cast("metadata.EntryPoints", metadata.entry_points())
+
+
+@functools.cache
 def _entry_points(kind: Kind) -> dict[str, list[metadata.EntryPoint]]:
     found: dict[str, list[metadata.EntryPoint]] = {}
-    for entry in metadata.entry_points(group=f"wirelessagent.{kind}"):
+    for entry in _installed().select(group=f"wirelessagent.{kind}"):
         same = found.setdefault(entry.name, [])
-        known = {(other.value, package_of(other)) for other in same}
-        if (entry.value, package_of(entry)) not in known:  # one package found twice on the path is one plug-in
+        # one package found twice on the path is one plug-in
+        if not any((other.value, package_of(other)) == (entry.value, package_of(entry)) for other in same):
             same.append(entry)
     return found
 

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
+import os
 from typing import ClassVar, Self
 
-from pydantic import ValidationError
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from wirelessagent.model.errors import InputError
 
 
-class EnvironmentSettings(BaseSettings):
-    """Fields that environment variables of one prefix set; subclass it with a prefix of its own.
+class EnvironmentSettings(BaseModel):
+    """Fields that environment variables of one prefix set, in any capitals; empty ones count as not set.
 
     Attributes:
+        prefix: what the names of the variables begin with.
         trouble: what to say where a variable cannot be used.
         example: how to set them, at the end of that.
     """
 
-    model_config = SettingsConfigDict(env_ignore_empty=True, extra="ignore", frozen=True)
+    model_config = ConfigDict(frozen=True)
 
+    prefix: ClassVar[str] = "WIRELESSAGENT_"
     trouble: ClassVar[str] = "the environment cannot be used"
     example: ClassVar[str] = ""
 
@@ -30,8 +32,10 @@ class EnvironmentSettings(BaseSettings):
         Raises:
             InputError: one is missing or cannot be used; values are shown unless the class hides its input.
         """
+        there = {name.upper(): value for name, value in os.environ.items() if value}
+        names = {field: f"{cls.prefix}{field.upper()}" for field in cls.model_fields}
         try:
-            return cls()
+            return cls.model_validate({field: there[name] for field, name in names.items() if name in there})
         except ValidationError as error:
             wrong = [cls._told(str(item["loc"][0]), item["msg"], item["input"]) for item in error.errors()]
         example = f" ({cls.example})" if cls.example else ""
@@ -42,7 +46,7 @@ class EnvironmentSettings(BaseSettings):
         """What is wrong with one variable."""
         said = message.removeprefix("Value error, ").removeprefix("Input ")
         got = "" if cls.model_config.get("hide_input_in_errors") else f"; got {value!r}"
-        return f"{cls.model_config.get('env_prefix', '')}{field.upper()}: {said}{got}"
+        return f"{cls.prefix}{field.upper()}: {said}{got}"
 
 
 class Settings(EnvironmentSettings):
@@ -52,8 +56,6 @@ class Settings(EnvironmentSettings):
         store: whether what is asked for is recorded.
         store_url: where: a SQLAlchemy URL or an SQLite file; a file in the user's data folder if not given.
     """
-
-    model_config = SettingsConfigDict(env_prefix="WIRELESSAGENT_")
 
     store: bool = True
     store_url: str | None = None

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import json
+import os
+import re
 import sys
 from pathlib import Path
 
@@ -12,6 +15,7 @@ import pytest
 from wirelessagent.acting.file import FileBaseStation
 from wirelessagent.interfaces.cli import run
 from wirelessagent.operations.chat import ChatRequest
+from wirelessagent.operations.chat import converse as begun
 from wirelessagent.operations.chat import run as chat
 from wirelessagent.operations.operation import InputError, silent
 
@@ -74,7 +78,48 @@ def test_an_interrupt_is_no_traceback(capsys: pytest.CaptureFixture[str], monkey
     monkeypatch.setattr(sys, "stdin", Terminal())
     monkeypatch.setattr("builtins.input", interrupted)
     assert run(["chat", *CELL]) == 130
-    assert "Traceback" not in capsys.readouterr().err
+    streams = capsys.readouterr()
+    assert streams.err == ""
+    assert streams.out.endswith("\n")  # the shell's prompt gets a line of its own
+
+
+def test_what_can_be_said_is_told_to_those_who_type(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for stdin, options, told in ((Terminal("quit\n"), [], True), (io.StringIO("quit\n"), [], False),
+                                 (Terminal("quit\n"), ["--json"], False)):  # fmt: skip
+        monkeypatch.setattr(sys, "stdin", stdin)
+        assert run(["chat", *CELL, *options]) == 0
+        assert ("Say what the cell should do" in capsys.readouterr().out) == told
+
+
+def test_every_line_that_the_opening_names_is_understood() -> None:
+    opening = begun(ChatRequest(source_options={"num_users": 3}), silent).opening
+    lines = re.findall(r'"([^"]+)"', opening)
+    assert lines[-1] == "quit"
+    record = chat(ChatRequest(say=lines, source_options={"num_users": 3}), silent)
+    assert [turn.stage for turn in record.turns] == ["applied", "applied", "answered", "answered", "undone"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no pseudo-terminals")
+@pytest.mark.parametrize(("keys", "code"), [(b"\x04", 0), (b"\x03", 130), (b"quot\x7f\x7fit\r", 0)])
+def test_a_terminal_has_a_prompt_and_editing_and_lets_people_leave(keys: bytes, code: int) -> None:
+    import pty
+
+    child, terminal = pty.fork()
+    if child == 0:
+        os.execv(sys.executable, [sys.executable, "-m", "wirelessagent", "chat", *CELL])
+    shown = b""
+    while not shown.endswith(b"> "):
+        shown += os.read(terminal, 1024)
+    os.write(terminal, keys)
+    with contextlib.suppress(OSError):  # how Linux tells the end
+        while more := os.read(terminal, 1024):
+            shown += more
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == code
+    assert b"Traceback" not in shown
+    assert shown.endswith(b"\n")
+    assert b"Say what the cell should do" in shown
 
 
 def test_a_base_station_asks_unless_it_is_told_yes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

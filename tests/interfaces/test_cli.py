@@ -46,24 +46,24 @@ def refusal(capsys: pytest.CaptureFixture[str], *arguments: object, code: int = 
     return err
 
 
-@pytest.mark.parametrize("operation", OPERATIONS, ids=lambda operation: operation.name)
-def test_every_operation_is_a_command_with_help_and_json(operation: Any, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run([*operation.name.split(), "--help"]) == 0
+@pytest.mark.parametrize("name", OPERATIONS)
+def test_every_operation_is_a_command_with_help_and_json(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([*name.split(), "--help"]) == 0
     shown = capsys.readouterr().out
     assert "--json" in shown
-    assert operation.summary.split()[0] in shown
+    assert OPERATIONS[name].split()[0] in shown
 
 
 def test_every_operation_is_documented() -> None:
     page = (Path(__file__).parents[2] / "docs" / "cli.md").read_text(encoding="utf-8")
-    for operation in OPERATIONS:
-        assert f"| `{operation.name}" in page
+    for name in OPERATIONS:
+        assert f"| `{name}" in page
 
 
 def test_help_lists_the_options_of_the_plugins(capsys: pytest.CaptureFixture[str]) -> None:
-    run(["simulate", "--help"])
+    run(["simulate", "--help-all"])
     assert "--rms-delay-spread-s" in capsys.readouterr().out
-    run(["compare", "--help"])
+    run(["compare", "--help-all"])
     assert "--frequency-weight" not in capsys.readouterr().err
 
 
@@ -212,7 +212,7 @@ def test_an_unclear_sentence_gets_a_question_back(capsys: pytest.CaptureFixture[
     ("arguments", "said"),
     [
         (["solve", "nowhere.csv"], "nowhere.csv"),
-        (["solve"], "path"),
+        (["solve"], "PATH"),
         (["solve", EXAMPLE, "--objective", "max_rat"], "did you mean 'max_rate'"),
         (["solve", EXAMPLE, "--method", "nothing"], "unknown method 'nothing'"),
         (["solve", EXAMPLE, "--max-power-w", "-3"], "-3"),

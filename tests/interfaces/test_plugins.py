@@ -240,7 +240,7 @@ def test_every_option_of_a_built_in_plugin_is_explained(kind: Any) -> None:
 def test_help_shows_what_an_option_is_whose_and_its_choices(site: Site, capsys: pytest.CaptureFixture[str]) -> None:
     code = ALPHA.replace("Objective", "Repairer").replace("def utility(self", "def repair(self, observation")
     site.install("paper-play", "paper_play", code, {"alpha": "paper_play:Alpha"}, "repairer")
-    assert run(["repair", "--help"]) == 0
+    assert run(["repair", "--help-all"]) == 0
     shown = " ".join(capsys.readouterr().out.replace("│", " ").split())
     assert "how fair, e.g. 1 for proportional fairness [of alpha; default 2.0]" in shown
     assert "[of nncf_paper; default 2.0]" in shown

@@ -9,7 +9,6 @@ import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from wirelessagent import chain
 from wirelessagent.explain.case import Case
@@ -60,6 +59,8 @@ def reach(case: Case, target: float, problem: Problem | None = None) -> Reach:
             decision = _with_budget(case, problem, float(np.exp(log_power)))
             found[log_power] = (decision.value if decision.is_usable else 0.0) / target - 1.0
         return found[log_power]
+
+    from scipy.optimize import brentq  # a quarter of a second, and few ask for this
 
     low = high = float(np.log(budget))
     farthest, stride = float(np.log(_FARTHEST)), float(np.log(_STRIDE))

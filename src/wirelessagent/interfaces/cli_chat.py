@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
-from wirelessagent.interfaces.cli_output import exit_code, show, show_json, tell
+from click.exceptions import Exit
+
+from wirelessagent.interfaces.cli_output import exit_code, show, show_json, tell, tell_paragraph
 from wirelessagent.operations.operation import AnyOperation, Event, Request, silent
 
 _PROMPT = "> "
@@ -19,9 +22,13 @@ def converse(operation: AnyOperation, request: Request, *, as_json: bool) -> int
     """
     assert operation.converse is not None
     conversation = operation.converse(request, silent if as_json else _file_read)
-    typed = conversation.lines is None and sys.stdin.isatty()
-    code = 0
-    for line in _typed() if conversation.lines is None else conversation.lines:
+    code, lines = 0, conversation.lines
+    typed = lines is None and sys.stdin.isatty() and not as_json
+    if typed:
+        tell_paragraph(conversation.opening)
+    if lines is None:
+        lines = _typed() if typed else (line.rstrip("\r\n") for line in sys.stdin)
+    for line in lines:
         if not line.strip():
             continue
         if not (typed or as_json):
@@ -40,18 +47,19 @@ def converse(operation: AnyOperation, request: Request, *, as_json: bool) -> int
 def _file_read(event: Event) -> None:
     """Tell what was understood of a file; of the rest the replies tell."""
     if event.stage == "read":
-        tell(event.message)
+        tell_paragraph(event.message)
 
 
-def _typed() -> Iterable[str]:
-    return _prompted() if sys.stdin.isatty() else (line.rstrip("\r\n") for line in sys.stdin)
-
-
-def _prompted() -> Iterator[str]:
-    """Lines from the terminal, until its end is signalled."""
+def _typed() -> Iterator[str]:
+    """Lines from the terminal, until its end is signalled or the waiting for one is interrupted."""
+    with contextlib.suppress(ImportError):  # Windows has none, and its terminals edit lines by themselves
+        import readline  # noqa: F401  # pyright: ignore[reportUnusedImport]  # input() edits and remembers lines
     while True:
         try:
             yield input(_PROMPT)
         except EOFError:
             tell("")
             return
+        except KeyboardInterrupt:
+            tell("")
+            raise Exit(130) from None

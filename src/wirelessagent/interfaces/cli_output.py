@@ -9,34 +9,29 @@ from __future__ import annotations
 import codecs
 import io
 import logging
+import os
 import sys
 import warnings
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rich import box
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
-from rich.table import Table as RichTable
-from rich.text import Text
-
+from wirelessagent.interfaces.cli_layout import output_width, tabled, wrapped
 from wirelessagent.operations.operation import Event, legible, written_out
-from wirelessagent.operations.record import Record, Table
+from wirelessagent.operations.record import Block, Files, Record, Table
+
+if TYPE_CHECKING:
+    from rich.progress import Progress, TaskID
+
+_BOLD, _STAGE_STYLE = "1", "1;36"
+_STAGE = 10
+"""Columns for the names of stages."""
 
 
 class Listener:
     """Shows the stages of an operation as they happen, and a bar for counted work."""
 
     def __init__(self) -> None:
-        self._console = _console()
-        self._bar = Progress(
-            TextColumn("{task.description}", markup=False),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TimeRemainingColumn(),
-            console=_Screen(stderr=True),
-            transient=False,
-        )
+        self._bar: Any = None
         self._tasks: dict[str, TaskID] = {}
 
     def __enter__(self) -> Listener:
@@ -45,20 +40,39 @@ class Listener:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._tasks:
+        if self._bar is not None:
             self._bar.stop()
 
     def __call__(self, event: Event) -> None:
         stage = legible(event.stage, keep="")
         if not event.total:
-            said = (f"{stage:>10}", "bold cyan"), f"  {legible(event.message, keep='')}"
-            self._console.print(Text.assemble(*said))
+            first, *more = wrapped(legible(event.message, keep=""), output_width() - _STAGE - 2)
+            print(f"{_styled(f'{stage:>{_STAGE}}', _STAGE_STYLE)}  {first}")  # noqa: T201
+            for line in more:
+                print(f"{'':{_STAGE}}  {line}")  # noqa: T201
             return
-        if not self._tasks:
-            self._bar.start()
+        if self._bar is None:
+            self._bar = _started_bar()
         if stage not in self._tasks:
             self._tasks[stage] = self._bar.add_task(stage, total=event.total)
         self._bar.update(self._tasks[stage], completed=event.done, total=event.total)
+
+
+def _started_bar() -> Progress:
+    """A progress bar on stderr; Rich is loaded only here."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    bar = Progress(
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(),
+        console=Console(stderr=True, highlight=False, markup=False, emoji=False),
+        transient=False,
+    )
+    bar.start()
+    return bar
 
 
 class _Notes(logging.Handler):
@@ -97,11 +111,32 @@ def _warn(message: Warning | str, category: type[Warning], *_: object) -> None:
 
 
 def show(record: Record) -> None:
-    """Print a record's paragraphs and tables."""
-    console = _console()
+    """Print a record's paragraphs, tables and files, within the width of the output."""
+    width = output_width()
     for block in record.blocks():
-        for part in block if isinstance(block, tuple) else (block,):
-            console.print(_renderable(part))
+        for line in _lines(block, width):
+            print(line)  # noqa: T201
+
+
+def _lines(block: Block, width: int) -> list[str]:
+    if isinstance(block, Files):
+        return _file_lines(block, width)
+    if isinstance(block, Table):
+        title = [_styled(line, _BOLD) for line in wrapped(legible(block.title, keep=""), width)]
+        columns, *rows = ([legible(cell, keep="") for cell in row] for row in (block.columns, *block.rows))
+        return [*title, "", *tabled(columns, rows, width), ""]
+    return [
+        line
+        for part in ((block,) if isinstance(block, str) else block)
+        for line in wrapped(legible(part, keep=""), width)
+    ]
+
+
+def _file_lines(files: Files, width: int) -> list[str]:
+    """One path beside what was done with it where that fits, else each on a line of its own, whole."""
+    paths = [legible(str(path), keep="") for path in files.paths]
+    together = f"{files.done} {paths[0]}"
+    return [together] if len(paths) == 1 and len(together) <= width else [files.done, *paths]
 
 
 def show_json(text: str) -> None:
@@ -119,38 +154,24 @@ def tell(line: str) -> None:
     print(legible(line, keep=""))  # noqa: T201
 
 
+def tell_paragraph(text: str) -> None:
+    """Print a paragraph within the width of the output."""
+    for line in _lines(text, output_width()):
+        print(line)  # noqa: T201
+
+
+def tell_page(text: str) -> None:
+    """Print lines as they are laid out."""
+    print(legible(text))  # noqa: T201
+
+
 def complain(message: str) -> None:
     """Print a message to stderr, on one line."""
     print(f"wirelessagent: {legible(' '.join(message.split()))}", file=sys.stderr)  # noqa: T201
 
 
-class _Screen(Console):
-    """A console that shows text as it is: no markup, no emoji codes, and nothing that a terminal would act on."""
-
-    def __init__(self, **options: Any) -> None:
-        super().__init__(highlight=False, markup=False, emoji=False, **options)
-
-    def render_str(self, text: str, **how: Any) -> Text:
-        return super().render_str(legible(text, keep=""), **how)
-
-
-def _console() -> Console:
-    """A terminal, or plain text of a fixed width where the output goes elsewhere."""
-    console = _Screen(soft_wrap=False)
-    return console if console.is_terminal else _Screen(width=120)
-
-
-def _renderable(block: str | Table) -> RichTable | str:
-    if isinstance(block, str):
-        return block
-    table = RichTable(title=block.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
-    for number, column in enumerate(block.columns):
-        figures = number > 0 and all(_is_figure(row[number]) for row in block.rows)
-        table.add_column(column, justify="right" if figures else "left")
-    for row in block.rows:
-        table.add_row(*row)
-    return table
-
-
-def _is_figure(cell: str) -> bool:
-    return cell in ("–", "") or cell.lstrip("-−")[:1].isdigit()
+def _styled(text: str, style: str) -> str:
+    """Text in a style, where the output is a terminal that is to have one."""
+    wanted = sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    understood = os.name != "nt" or "WT_SESSION" in os.environ
+    return f"\x1b[{style}m{text}\x1b[0m" if wanted and understood else text

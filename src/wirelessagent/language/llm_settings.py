@@ -6,8 +6,7 @@ import re
 from typing import ClassVar, Literal
 from urllib.parse import urlsplit
 
-from pydantic import Field, SecretStr, field_validator
-from pydantic_settings import SettingsConfigDict
+from pydantic import ConfigDict, Field, SecretStr, field_validator
 
 from wirelessagent.settings import EnvironmentSettings
 
@@ -26,8 +25,9 @@ class LlmSettings(EnvironmentSettings):
         output: how the typed answer is asked for: by a tool call, by a JSON schema, or in words.
     """
 
-    model_config = SettingsConfigDict(env_prefix=_PREFIX, hide_input_in_errors=True)
+    model_config = ConfigDict(hide_input_in_errors=True)
 
+    prefix: ClassVar[str] = _PREFIX
     trouble: ClassVar[str] = "the LLM is not set up"
     example: ClassVar[str] = f"an example: {_PREFIX}BASE_URL=http://localhost:11434/v1 {_PREFIX}MODEL=qwen3"
 

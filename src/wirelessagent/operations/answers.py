@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+import math
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
+from pydantic import Field
 
-from wirelessagent.acting.file import OWNER_MEANS
-from wirelessagent.explain.report import Report, predicted_metrics
-from wirelessagent.model.decision import Bracket, Decision
-from wirelessagent.model.estimate import ChannelEstimate
-from wirelessagent.model.forecast import Forecast
-from wirelessagent.model.metrics import LinkMetrics
 from wirelessagent.operations.record import Integers, Matrix, Record, SwitchMatrix, Vector
+
+if TYPE_CHECKING:
+    from wirelessagent.explain.report import Report
+    from wirelessagent.model.decision import Bracket, Decision
+    from wirelessagent.model.estimate import ChannelEstimate
+    from wirelessagent.model.forecast import Forecast
+    from wirelessagent.model.metrics import LinkMetrics
 
 
 class EstimateAnswer(Record):
@@ -27,14 +29,14 @@ class EstimateAnswer(Record):
 
     @classmethod
     def of(cls, estimate: ChannelEstimate) -> EstimateAnswer:
-        flagged = np.flatnonzero(estimate.unobserved_users)
+        flagged = [name for name, alone in zip(estimate.user_names, estimate.unobserved_users, strict=True) if alone]
         return cls(
             method=estimate.method,
             user_names=list(estimate.user_names),
             gain=estimate.gain,  # pyright: ignore[reportArgumentType]  # the field's validator takes arrays
             gain_variance=estimate.gain_variance,  # pyright: ignore[reportArgumentType]
             repaired=estimate.repaired,  # pyright: ignore[reportArgumentType]
-            unobserved_users=[estimate.user_names[user] for user in flagged],
+            unobserved_users=flagged,
         )
 
 
@@ -43,6 +45,12 @@ class BracketAnswer(Record):
 
     at_least: float
     at_most: float
+
+
+def _owner_means() -> str:
+    from wirelessagent.acting.file import OWNER_MEANS
+
+    return OWNER_MEANS
 
 
 class DecisionAnswer(Record):
@@ -57,7 +65,7 @@ class DecisionAnswer(Record):
     gap: float
     unit: str
     owner: Integers
-    owner_means: str = OWNER_MEANS
+    owner_means: str = Field(default_factory=_owner_means)
     power_w: Vector
     rate_bps: Vector
     outage_probability: float | None
@@ -147,6 +155,8 @@ class ReportAnswer(Record):
 
     @classmethod
     def of(cls, report: Report) -> ReportAnswer:
+        from wirelessagent.explain.report import predicted_metrics
+
         return cls(
             predicted=MetricsAnswer.of(report.predicted),
             achieved=None if report.achieved is None else MetricsAnswer.of(report.achieved),
@@ -159,7 +169,7 @@ class ReportAnswer(Record):
 
 
 def _known(figure: float) -> float | None:
-    return None if np.isnan(figure) else figure
+    return None if math.isnan(figure) else figure
 
 
 def _bracket(bracket: Bracket | None) -> BracketAnswer | None:

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
 from wirelessagent import __version__
-from wirelessagent.acting.file import FileBaseStation
-from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.operations.answers import DecisionAnswer, EstimateAnswer, ReportAnswer
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.intent import IntentRecord
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.outputs import check_allocation, check_picture, draw_run
-from wirelessagent.operations.record import Block, Conclusion, Matrix, Record, Table, of_decision
+from wirelessagent.operations.record import Block, Conclusion, Files, Matrix, Record, Table, of_decision
 from wirelessagent.operations.recording import RecordingOptions
 from wirelessagent.operations.site_options import SiteOptions
 from wirelessagent.operations.turn_record import OutcomeAnswer
+
+if TYPE_CHECKING:
+    from wirelessagent.agent.turn import Run, Turn
 
 
 class AskRequest(RecordingOptions, SiteOptions):
@@ -65,8 +66,8 @@ class AskRecord(Record):
         if self.waits:
             said.append("Nothing was applied: --yes applies it.")
         if self.out is not None:
-            said.append(f"allocation written to {self.out}")
-        return [*said, f"picture written to {self.plot}"] if self.plot else said
+            said.append(Files("allocation written to", (self.out,)))
+        return [*said, Files("picture written to", (self.plot,))] if self.plot else said
 
 
 def run(request: AskRequest, progress: Progress) -> AskRecord:
@@ -92,6 +93,8 @@ def _with_run(record: AskRecord, request: AskRequest, turn: Turn, run: Run) -> A
         raise WirelessAgentError(turn.reply)
     out = request.out if run.decision.is_usable else None
     if out is not None:
+        from wirelessagent.acting.file import FileBaseStation
+
         FileBaseStation(run.scene, path=out).apply(run.decision)
     if request.plot is not None:
         draw_run(request.plot, run.observation, run.estimate, run.decision, run.outcome)
@@ -113,8 +116,12 @@ def _with_run(record: AskRecord, request: AskRequest, turn: Turn, run: Run) -> A
 
 ASK = Operation(
     name="ask",
-    summary="Say what the cell should do: understand, sense, repair, decide, act, read back, explain",
     request=AskRequest,
     record=AskRecord,
     run=run,
+    examples=(
+        'ask "Higher speed for video streaming"',
+        'ask "At least 1 Mbit/s each, at most 10 W" --num-users 6',
+        'ask "能效最高" --csi gains.csv --unit db --plot run.png',
+    ),
 )

@@ -5,18 +5,18 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, cast
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, cast
 
 from pydantic import Field
 
 from wirelessagent import plugins
-from wirelessagent.model.scene import Scene
-from wirelessagent.model.units import human
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.fields import OptionsOf, PluginOptions, Positional
 from wirelessagent.operations.operation import Event, Progress
-from wirelessagent.sensing.file_metadata import FROM_FILE
-from wirelessagent.sensing.source import ChannelSource
+
+if TYPE_CHECKING:
+    from wirelessagent.model.scene import Scene
+    from wirelessagent.sensing.source import ChannelSource
 
 
 class ChannelFile(CellOptions):
@@ -49,7 +49,9 @@ def file_scene(
     wanted_power_w: float | None = None,
 ) -> Scene:
     """The scene in a file; options of the cell that were given win over what the file states, and the facts say so."""
-    source = cast(ChannelSource, plugins.create("channel_source", "file", {**options, "path": path}))
+    from wirelessagent.model.units import human
+
+    source = cast("ChannelSource", plugins.create("channel_source", "file", {**options, "path": path}))
     scene = source.observe(cell_options.cell())
     cell = cell_options.cell(scene.cell, wanted_power_w=wanted_power_w)
     facts = {**scene.facts, **_given(cell_options, scene)}
@@ -63,6 +65,9 @@ def file_scene(
 
 def _given(options: CellOptions, scene: Scene) -> dict[str, str]:
     """The facts on bandwidth and noise that were given as options, beside what the file says of them."""
+    from wirelessagent.model.units import human
+    from wirelessagent.sensing.file_metadata import FROM_FILE
+
     facts: dict[str, str] = {}
     fields: tuple[tuple[str, str, Callable[[float], str]], ...] = (
         ("bandwidth", "subcarrier_bandwidth_hz", lambda value: human(value, "Hz")),

@@ -13,6 +13,10 @@ from wirelessagent.operations.recording import RecordingOptions
 from wirelessagent.operations.site_options import SiteOptions
 from wirelessagent.operations.turn_record import TurnRecord
 
+_OPENING = (
+    'Say what the cell should do, such as "Highest total rate, at most 10 W"; go on with "at least 1 Mbit/s for '
+    'user 2", "how sure is this?", "what if we had 20 W?" or "undo". "quit" leaves.'
+)
 _LEAVE = frozenset({"quit", "exit", "bye", "q", "退出", "再见"})
 
 
@@ -65,7 +69,7 @@ def converse(request: ChatRequest, progress: Progress) -> Conversation:
         turn, stored = request.said(session, line)
         return TurnRecord.of(turn, session, stored)
 
-    return Conversation(answer=answer, lines=lines)
+    return Conversation(answer=answer, lines=lines, opening=_OPENING)
 
 
 def run(request: ChatRequest, progress: Progress) -> ChatRecord:
@@ -84,9 +88,9 @@ def run(request: ChatRequest, progress: Progress) -> ChatRecord:
 
 CHAT = Operation(
     name="chat",
-    summary="Talk about a cell: ask, change, confirm, undo, and ask why, line by line",
     request=ChatRequest,
     record=ChatRecord,
     run=run,
     converse=converse,
+    examples=("chat", "chat --csi gains.csv", 'chat --say "maximum rate" --say "why user 3?"'),
 )

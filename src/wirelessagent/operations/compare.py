@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
-from wirelessagent.comparison import Compared, compare
 from wirelessagent.model.errors import UnsupportedProblemError
-from wirelessagent.model.objective import Objective
-from wirelessagent.model.units import human, percent
 from wirelessagent.operations.answers import DecisionAnswer
 from wirelessagent.operations.fields import Names, OptionsOf, PluginOptions
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.outputs import check_picture, draw_comparison
-from wirelessagent.operations.record import Block, Conclusion, Record, Table, of_decision
+from wirelessagent.operations.record import Block, Conclusion, Files, Record, Table, of_decision
 from wirelessagent.operations.solve import ProblemOnFile
+
+if TYPE_CHECKING:
+    from wirelessagent.comparison import Compared
 
 
 class CompareRequest(ProblemOnFile):
@@ -60,7 +60,7 @@ class CompareRecord(Record):
         title = f"Methods for {self.objective}{', the best first' if usable else ': none has an allocation'}"
         table = Table(title=title, columns=columns, rows=rows)
         refusals = [f"{answer.method}: {answer.refusal}" for answer in self.answers if answer.refusal]
-        return [table, *self._why(), *refusals, *([f"written to {self.plot}"] if self.plot else [])]
+        return [table, *self._why(), *refusals, *([Files("written to", (self.plot,))] if self.plot else [])]
 
     def _why(self) -> list[str]:
         """Why there is no allocation, in the words of the first method that has none, if no method has one."""
@@ -75,6 +75,8 @@ def _is_usable(decision: DecisionAnswer | None) -> bool:
 
 
 def _row(answer: MethodAnswer) -> tuple[str, ...]:
+    from wirelessagent.model.units import human, percent
+
     decision = answer.decision
     if decision is None:
         return (answer.method, "refused", *["–"] * 5)
@@ -93,6 +95,8 @@ def _place(one: Compared) -> tuple[int, float, float, float]:
     """Where a method stands: the best value first, of equal ones what proves the most, then the fastest; then those
     without an allocation, then those that refuse.
     """
+    from wirelessagent.model.objective import Objective
+
     decision = one.decision
     if decision is None:
         return 3, 0.0, 0.0, 0.0
@@ -106,6 +110,8 @@ def _place(one: Compared) -> tuple[int, float, float, float]:
 
 
 def run(request: CompareRequest, progress: Progress) -> CompareRecord:
+    from wirelessagent.comparison import compare
+
     check_picture(request.plot)
     scene, estimate, problem = request.posed(progress)
     found = sorted(compare(estimate, problem, scene.cell, request.methods, **request.method_options), key=_place)
@@ -127,8 +133,11 @@ def run(request: CompareRequest, progress: Progress) -> CompareRecord:
 
 COMPARE = Operation(
     name="compare",
-    summary="Show several methods on one problem side by side: value, bound, gap, time",
     request=CompareRequest,
     record=CompareRecord,
     run=run,
+    examples=(
+        "compare gains.csv --objective max_energy_efficiency --plot compared.png",
+        "compare repaired.npz --objective PF --methods dual,greedy",
+    ),
 )

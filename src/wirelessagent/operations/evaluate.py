@@ -17,7 +17,7 @@ from pydantic import Field
 
 from wirelessagent import plugins
 from wirelessagent.experiments.competitors import COMPETITORS
-from wirelessagent.experiments.evaluate_decision import AVOID, PERFECT, EvaluateDecision
+from wirelessagent.experiments.evaluate_decision import EvaluateDecision
 from wirelessagent.experiments.evaluate_repair import EvaluateRepair
 from wirelessagent.experiments.evaluated_channels import SIMULATED, EvaluatedChannel, parse_channel
 from wirelessagent.experiments.evaluated_methods import ORACLE, all_methods, check_methods, installed_methods
@@ -28,10 +28,10 @@ from wirelessagent.model.arrays import whole
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.evaluate_tables import decision_tables, repair_tables
-from wirelessagent.operations.fields import OptionsOf, PluginOptions, Positional
+from wirelessagent.operations.fields import Advanced, Known, OptionsOf, PluginOptions, Positional
 from wirelessagent.operations.operation import Event, Operation, Progress, Request
-from wirelessagent.operations.record import Block, Record, Table
-from wirelessagent.operations.simulate import LOSS_USAGE
+from wirelessagent.operations.record import Block, Files, Record, Table
+from wirelessagent.operations.simulate import loss_patterns
 from wirelessagent.sensing.loss import parse as parse_loss
 from wirelessagent.sensing.rayleigh import Rayleigh
 
@@ -62,19 +62,21 @@ class ChannelsRequest(EvaluateRequest, CellOptions):
         default_factory=list,
         description="channels: rayleigh:NANOSECONDS of delay spread, rayleigh:mixed, or files with complete gains",
     )
-    loss: list[str] = Field(
-        default_factory=list, description=f"what gets lost; give several to compare them: {LOSS_USAGE}"
+    loss: Annotated[list[str], Known(loss_patterns)] = Field(
+        default_factory=list, description="what gets lost, such as random:0.2; give several to compare them"
     )
     methods: list[str] = Field(
         default_factory=list,
         description=f"methods; if none are named, those that are installed: registered repairers, "
         f"{', '.join((*COMPETITORS, ORACLE))}",
     )
-    snr_db: float | None = Field(
+    snr_db: Annotated[float | None, Advanced()] = Field(
         30.0, description="SNR of the measurements of simulated channels, dB; inf for exact ones"
     )
-    file_snr_db: float | None = Field(None, description="SNR of noise added to files, dB; none if not given")
-    history: int = Field(1, description="slots observed, the last one the current one")
+    file_snr_db: Annotated[float | None, Advanced()] = Field(
+        None, description="SNR of noise added to files, dB; none if not given"
+    )
+    history: Annotated[int, Advanced()] = Field(1, description="slots observed, the last one the current one")
     simulation_options: Annotated[
         PluginOptions, OptionsOf("channel_source", only="rayleigh", but=("rms_delay_spread_s", "snr_db", "num_slots"))
     ] = Field(default_factory=dict, description="options of the simulated channels")
@@ -163,16 +165,16 @@ class EvaluateRecord(Record):
             said.append(
                 f"left out, as scikit-learn is not installed (pip install 'wirelessagent[evaluate]'): {missing}"
             )
-        return [*said, *(["written: " + ", ".join(map(str, self.files))] if self.files else [])]
+        return [*said, *([Files("written:", tuple(self.files))] if self.files else [])]
 
 
 Asked = TypeVar("Asked", bound=EvaluateRequest)
 
 
 def evaluation_operation(
-    name: str, summary: str, request: type[Asked], tables: Callable[[Figures], list[Table]]
+    name: str, request: type[Asked], tables: Callable[[Figures], list[Table]], examples: tuple[str, ...]
 ) -> Operation[Asked, EvaluateRecord]:
-    """The operation ``evaluate`` ``name``; ``tables`` shows its figures to people."""
+    """The operation ``evaluate`` ``name``; ``tables`` shows its figures to people, ``examples`` what they type."""
 
     def run(asked: Asked, progress: Progress) -> EvaluateRecord:
         whole("draws", asked.draws)
@@ -190,7 +192,10 @@ def evaluation_operation(
         files = [] if asked.out is None else write(evaluation, result, asked.out)
         return _record(asked, evaluation, result, files, tables(result.table))
 
-    return Operation(name=f"evaluate {name}", summary=summary, request=request, record=EvaluateRecord, run=run)
+    return Operation(
+        name=f"evaluate {name}", request=request, record=EvaluateRecord, run=run,
+        examples=tuple(f"evaluate {name} {typed}" for typed in examples),
+    )  # fmt: skip
 
 
 def _check_out(out: Path) -> None:
@@ -232,14 +237,11 @@ def _record(
 
 EVALUATE_REPAIR = evaluation_operation(
     "repair",
-    "Compare repairers and their competitors: error, calibration and time on many channels and losses",
     EvaluateRepairRequest,
     repair_tables,
+    ("rayleigh:100 --draws 50", "gains.npz --loss random:0.2 --out found"),
 )
 
 EVALUATE_DECISION = evaluation_operation(
-    "decision",
-    f"Compare what decisions on repaired channels reach on the true one, beside {PERFECT} knowledge and {AVOID}",
-    EvaluateDecisionRequest,
-    decision_tables,
+    "decision", EvaluateDecisionRequest, decision_tables, ("rayleigh:100 --draws 50 --methods kriging,user_mean",)
 )

@@ -24,7 +24,7 @@ from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.intent import plain, shown
 from wirelessagent.operations.operation import Event, Operation, Progress
 from wirelessagent.operations.recognisers import RecogniserOption
-from wirelessagent.operations.record import Block, Record, Table
+from wirelessagent.operations.record import Block, Files, Record, Table
 
 _LOAD = (
     "import time; start = time.perf_counter(); from wirelessagent.language.offline import recognise; "
@@ -70,7 +70,7 @@ class IntentsFigures(Record):
             columns = ("line", "sentence", "meant", "understood", "reply")
             rows = tuple((str(e["line"]), e["text"], e["meant"], e["understood"], e["reply"]) for e in self.errors)
             said.append(Table(title="Not as meant", columns=columns, rows=rows))
-        return [*said, *(["written: " + ", ".join(map(str, self.files))] if self.files else [])]
+        return [*said, *([Files("written:", tuple(self.files))] if self.files else [])]
 
     def _figures(self) -> Table:
         rows = [
@@ -188,8 +188,8 @@ def _write(out: Path, record: IntentsFigures, found: Sequence[Understood]) -> li
 
 EVALUATE_INTENTS = Operation(
     name="evaluate intents",
-    summary="Measure how well sentences are understood, against a file of sentences with their meanings",
     request=EvaluateIntentsRequest,
     record=IntentsFigures,
     run=run,
+    examples=("evaluate intents sentences.jsonl --errors",),
 )

@@ -14,10 +14,10 @@ from pydantic import Field, model_serializer
 from wirelessagent.model.atomic import writable_target, write_atomically
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.outcome import Outcome
-from wirelessagent.operations.fields import Positional
+from wirelessagent.operations.fields import Advanced, Positional
 from wirelessagent.operations.in_effect import Followed, followed, is_request
 from wirelessagent.operations.operation import Operation, Progress
-from wirelessagent.operations.record import Block, Record, Table
+from wirelessagent.operations.record import Block, Files, Record, Table
 from wirelessagent.operations.recording import StoreOptions, opened
 from wirelessagent.standards import tmf921, ts28312
 from wirelessagent.standards.expectations import Expectation, expectations
@@ -39,7 +39,7 @@ class ExportRequest(StoreOptions):
         None, description="number of the turn, as history lists it; the one that is in effect if not given"
     )
     format: Format = Field("ts28312", description="3GPP TS 28.312, or TM Forum's TMF921 v5: ts28312, tmf921")
-    observation_period_s: int = Field(
+    observation_period_s: Annotated[int, Advanced()] = Field(
         OBSERVATION_PERIOD_S, description="for how long the allocation is taken to hold, where energy is counted, s"
     )
     out: Path | None = Field(None, description="file to write the document to, JSON; --json prints it")
@@ -61,7 +61,8 @@ class ExportRecord(Record):
     def blocks(self) -> list[Block]:
         columns = ("expectation", "target", "wanted", "promised", "achieved", "status")
         rows = tuple(_row(one) for one in self.found)
-        told = f"written to {self.out}" if self.out else "--json prints the document, --out FILE writes it"
+        how = "--json prints the document, --out FILE writes it"
+        told = Files("written to", (self.out,)) if self.out else how
         return [Table(title=f"Turn {self.number} as {_TITLES[self.format]}", columns=columns, rows=rows), told]
 
 
@@ -175,8 +176,8 @@ def _subject(store: Store, chosen: _Chosen, observation_period_s: int) -> Subjec
 
 EXPORT = Operation(
     name="export",
-    summary="Hand a request and what came of it on as a document of 3GPP TS 28.312 or TMF921",
     request=ExportRequest,
     record=ExportRecord,
     run=run,
+    examples=("export --json", "export 3 --format tmf921 --out intent.json"),
 )

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Annotated, Any, TypeAlias, cast
+from typing import Annotated, Any, TypeAlias, TypeVar, cast
 
 from pydantic import BeforeValidator
+from pydantic.fields import FieldInfo
 
 from wirelessagent.plugins import Kind, Option, plugin, plugins
 from wirelessagent.plugins import names as plugin_names
 
 __all__ = [
-    "Kind", "Names", "Option", "OptionsOf", "PerEntry", "PluginName", "PluginOptions", "Positional", "plugin_names",
-    "plugin_options",
+    "Advanced", "Kind", "Known", "Names", "Option", "OptionsOf", "PerEntry", "PluginName", "PluginOptions",
+    "Positional", "described", "mark_of", "plugin_names", "plugin_options",
 ]  # fmt: skip
 
 
@@ -22,10 +24,22 @@ class Positional:
 
 
 @dataclass(frozen=True)
+class Advanced:
+    """The field is one that few people set: a surface shows it to those who ask for everything."""
+
+
+@dataclass(frozen=True)
 class PluginName:
     """The field names a plug-in of a kind."""
 
     kind: Kind
+
+
+@dataclass(frozen=True)
+class Known:
+    """What may stand in the field is known, but looking it up takes time."""
+
+    listed: Callable[[], Iterable[str]]
 
 
 @dataclass(frozen=True)
@@ -39,6 +53,21 @@ class OptionsOf:
 
 PluginOptions: TypeAlias = dict[str, Any]
 """Options of a plug-in by name, as in {"alpha": 2.0}."""
+
+
+Mark = TypeVar("Mark")
+
+
+def mark_of(info: FieldInfo, mark: type[Mark]) -> Mark | None:
+    """The mark of this type that a field has."""
+    return next((item for item in info.metadata if isinstance(item, mark)), None)
+
+
+def described(info: FieldInfo, *, briefly: bool = False) -> str:
+    """What is said of a field, with what may stand in it; ``briefly`` only what is known without a look at it."""
+    known, plugin = mark_of(info, Known), mark_of(info, PluginName)
+    listed = plugin_names(plugin.kind) if plugin else known.listed() if known and not briefly else ()
+    return ": ".join(filter(None, (info.description, ", ".join(listed))))
 
 
 def plugin_options(mark: OptionsOf) -> list[tuple[str, Option]]:

@@ -21,7 +21,7 @@ from wirelessagent.model.units import human, percent
 from wirelessagent.operations.answers import DecisionAnswer
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Operation, Progress
-from wirelessagent.operations.record import Block, Conclusion, Record, Table
+from wirelessagent.operations.record import Block, Conclusion, Files, Record, Table
 from wirelessagent.operations.recording import StoreOptions, opened, place_of
 from wirelessagent.store.content import estimate_of
 from wirelessagent.store.export import exported
@@ -97,10 +97,11 @@ class HistoryRecord(Record):
 
     def blocks(self) -> list[Block]:
         if not self.turns:
-            return [f"nothing is recorded yet in {self.store}"]
+            return [Files("nothing is recorded yet in", (self.store,))]
         columns = ("turn", "time (UTC)", "session", "said", "objective", "status", "value", "gap", "applied by")
         return [
-            Table(title=f"Recorded in {self.store}", columns=columns, rows=tuple(line.row() for line in self.turns)),
+            Files("Recorded in", (self.store,)),
+            Table(title="Turns", columns=columns, rows=tuple(line.row() for line in self.turns)),
             "history show N tells all of a turn, history replay N does its work again.",
         ]
 
@@ -262,7 +263,8 @@ class ExportRecord(Record):
     contents: int
 
     def blocks(self) -> list[Block]:
-        return [f"{self.turns} turns and the {self.contents} channels that they speak of written to {self.out}"]
+        written = f"{self.turns} turns and the {self.contents} channels that they speak of written to"
+        return [Files(written, (self.out,))]
 
 
 def export_turns(request: ExportRequest, progress: Progress) -> ExportRecord:
@@ -285,32 +287,32 @@ def export_turns(request: ExportRequest, progress: Progress) -> ExportRecord:
 
 HISTORY = Operation(
     name="history",
-    summary="List what was asked, decided and applied, from the audit store",
     request=HistoryRequest,
     record=HistoryRecord,
     run=list_turns,
+    examples=("history", "history --last 5", "history show 3"),
 )
 
 HISTORY_SHOW = Operation(
     name="history show",
-    summary="Show all that is recorded of a turn, and check that it was not changed",
     request=TurnRequest,
     record=ShowRecord,
     run=show_turn,
+    examples=("history show 3",),
 )
 
 HISTORY_REPLAY = Operation(
     name="history replay",
-    summary="Repair and decide again as a turn did, and say whether the decision is the same",
     request=TurnRequest,
     record=ReplayRecord,
     run=replay_turn,
+    examples=("history replay 3",),
 )
 
 HISTORY_EXPORT = Operation(
     name="history export",
-    summary="Write turns with the channels that they saw as JSON lines",
     request=ExportRequest,
     record=ExportRecord,
     run=export_turns,
+    examples=("history export turns.jsonl",),
 )

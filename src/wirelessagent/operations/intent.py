@@ -5,17 +5,19 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 from pydantic import Field
 
-from wirelessagent.language.intent import Constraint, Detail, Intent
-from wirelessagent.language.recogniser import Recogniser
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.recognisers import RecogniserOption
 from wirelessagent.operations.record import Block, Conclusion, Record, Table
+
+if TYPE_CHECKING:
+    from wirelessagent.language.intent import Constraint, Detail, Intent
+    from wirelessagent.language.recogniser import Recogniser
 
 
 class IntentRequest(RecogniserOption):
@@ -150,8 +152,11 @@ def _understood(line: str, number: int, recogniser: Recogniser) -> IntentRecord 
 
 INTENT = Operation[IntentRequest, Record](
     name="intent",
-    summary="Show what a sentence is understood to mean, without doing anything",
     request=IntentRequest,
     record=IntentRecord,
     run=run,
+    examples=(
+        'intent "At least 500 kbps for everyone with as little power as possible"',
+        "intent --batch wishes.jsonl",
+    ),
 )

@@ -102,8 +102,8 @@ def run(request: PluginsRequest, progress: Progress) -> PluginsRecord:
 
 PLUGINS = Operation(
     name="plugins",
-    summary="List what is installed: channel sources, repairers, objectives, methods, base stations",
     request=PluginsRequest,
     record=PluginsRecord,
     run=run,
+    examples=("plugins", "plugins --kind method"),
 )

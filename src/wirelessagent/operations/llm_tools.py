@@ -18,10 +18,10 @@ from pydantic.fields import FieldInfo
 
 from wirelessagent.language.llm_tool import LlmTool
 from wirelessagent.operations.compare import COMPARE
-from wirelessagent.operations.fields import OptionsOf, PluginName, plugin_options
+from wirelessagent.operations.fields import OptionsOf, PluginName, described, mark_of, plugin_options
 from wirelessagent.operations.list_plugins import PLUGINS
 from wirelessagent.operations.operation import AnyOperation, InputError, silent
-from wirelessagent.operations.record import Block, Table
+from wirelessagent.operations.record import Block, Files, Table
 from wirelessagent.operations.repair import REPAIR
 from wirelessagent.operations.simulate import SIMULATE
 from wirelessagent.operations.solve import SOLVE
@@ -93,6 +93,8 @@ def as_text(blocks: Sequence[Block]) -> str:
 def _paragraph(block: Block) -> str:
     if isinstance(block, Table):
         return _table(block)
+    if isinstance(block, Files):
+        return " ".join([block.done, *map(str, block.paths)])
     return block if isinstance(block, str) else "\n".join(block)
 
 
@@ -113,11 +115,12 @@ def _kind(info: FieldInfo) -> Any:
 
 
 def _described(info: FieldInfo) -> Any:
+    said = described(info) if mark_of(info, PluginName) is None else info.description  # a form has them as choices
     if info.is_required():
-        return Field(description=info.description)
+        return Field(description=said)
     if info.default_factory is not None:
-        return Field(default_factory=dict, description=info.description)
-    return Field(info.default, description=info.description)
+        return Field(default_factory=dict, description=said)
+    return Field(info.default, description=said)
 
 
 def _holds_path(annotation: Any) -> bool:

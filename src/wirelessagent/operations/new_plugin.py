@@ -15,7 +15,7 @@ from wirelessagent import plugins
 from wirelessagent.model.errors import InputError, UnknownNameError
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Operation, Progress, Request
-from wirelessagent.operations.record import Block, Record
+from wirelessagent.operations.record import Block, Files, Record
 
 _TEMPLATES = Path(__file__).parent / "plugin_templates"
 _NAME = "[a-z][a-z0-9_]*"
@@ -47,7 +47,8 @@ class NewPluginRecord(Record):
 
     def blocks(self) -> list[Block]:
         return [
-            f"written to {self.folder}: {', '.join(self.files)}",
+            Files("written to", (self.folder,)),
+            ", ".join(self.files),
             f"next: cd {self.folder} && pip install -e '.[test]' && pytest",
         ]
 
@@ -123,8 +124,8 @@ def _write(folder: Path, files: Mapping[str, str]) -> None:
 
 NEW_PLUGIN = Operation(
     name="new-plugin",
-    summary="Write a package for a plug-in of your own, with its contract test, to start from",
     request=NewPluginRequest,
     record=NewPluginRecord,
     run=run,
+    examples=("new-plugin objective log_rate",),
 )

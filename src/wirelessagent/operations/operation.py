@@ -16,6 +16,7 @@ from wirelessagent import __version__
 from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.model.errors import InputError, WirelessAgentError
 from wirelessagent.model.legible import legible, written_out
+from wirelessagent.operations.catalogue import OPERATIONS
 from wirelessagent.operations.record import Record
 
 __all__ = [
@@ -32,7 +33,7 @@ def installed_version() -> str:
 class Request(BaseModel):
     """The base of all requests. ``panel`` is the heading under which its own fields are listed."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, defer_build=True)
 
     panel: ClassVar[str] = "Options"
 
@@ -52,10 +53,12 @@ class Conversation:
     Attributes:
         answer: the record of a line; None where the line ends the conversation.
         lines: those that the request holds; None where they are still to come.
+        opening: what can be said, for people who type it.
     """
 
     answer: Callable[[str], Record | None]
     lines: Sequence[str] | None = None
+    opening: str = ""
 
 
 Req = TypeVar("Req", bound=Request)
@@ -67,21 +70,26 @@ class Operation(Generic[Req, Rec]):
     """One thing that can be asked for.
 
     Attributes:
-        name: as typed on the command line.
-        summary: one sentence.
+        name: as the catalogue lists it, with its summary.
         request: the type of its request.
         record: the type of its record.
         run: the function.
         converse: of an operation that goes on line by line: opens it, so that each line gets a record, and None ends
             it. Where a surface can, it hands the lines over as they come; ``run`` takes those of the request.
+        examples: what people type after the program's name.
     """
 
     name: str
-    summary: str
     request: type[Req]
     record: type[Rec]
     run: Callable[[Req, Progress], Rec]
     converse: Callable[[Req, Progress], Conversation] | None = None
+    examples: tuple[str, ...] = ()
+
+    @property
+    def summary(self) -> str:
+        """One sentence."""
+        return OPERATIONS[self.name]
 
 
 AnyOperation: TypeAlias = Operation[Any, Any]

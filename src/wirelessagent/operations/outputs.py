@@ -7,24 +7,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from wirelessagent import __version__
-from wirelessagent.acting.file import allocation_writer
-from wirelessagent.comparison import Compared
 from wirelessagent.model.atomic import writable_target
-from wirelessagent.model.cell import Cell
-from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
-from wirelessagent.model.estimate import ChannelEstimate
-from wirelessagent.model.observation import ChannelObservation
-from wirelessagent.model.outcome import Outcome
-from wirelessagent.sensing.npz import check_npz
+
+if TYPE_CHECKING:
+    from wirelessagent.comparison import Compared
+    from wirelessagent.model.cell import Cell
+    from wirelessagent.model.decision import Decision
+    from wirelessagent.model.estimate import ChannelEstimate
+    from wirelessagent.model.observation import ChannelObservation
+    from wirelessagent.model.outcome import Outcome
 
 
 def check_allocation(path: Path | None) -> None:
     """Raise an error where an allocation cannot be written to ``path``; None is fine."""
     if path is not None:
+        from wirelessagent.acting.file import allocation_writer
+
         allocation_writer(path)
         writable_target(path)
 
@@ -35,6 +37,8 @@ def check_gains(path: Path | None, *, csv: bool = False) -> None:
         if csv and path.suffix.lower() not in (".csv", ".npz"):
             raise InputError(f"gains are written as NPZ or CSV; end the name in .npz or .csv instead of {path.name!r}")
         if not csv:
+            from wirelessagent.sensing.npz import check_npz
+
             check_npz(path)
         writable_target(path)
 

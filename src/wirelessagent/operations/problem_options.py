@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
-import numpy as np
 from pydantic import Field
 
 from wirelessagent import plugins
-from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.errors import InputError
-from wirelessagent.model.problem import Problem
-from wirelessagent.model.user_names import index_of
-from wirelessagent.operations.fields import OptionsOf, PerEntry, PluginName, PluginOptions
+from wirelessagent.operations.fields import Advanced, OptionsOf, PerEntry, PluginName, PluginOptions
 from wirelessagent.operations.operation import Request
+
+if TYPE_CHECKING:
+    from wirelessagent.model.arrays import BoolArray
+    from wirelessagent.model.problem import Problem
 
 
 class ProblemOptions(Request):
@@ -29,31 +29,41 @@ class ProblemOptions(Request):
     objective_options: Annotated[PluginOptions, OptionsOf("objective")] = Field(
         default_factory=dict, description="options of the objective"
     )
-    weights: PerEntry | None = Field(None, description="worth of each user's rate, one value or one per user")
+    weights: Annotated[PerEntry | None, Advanced()] = Field(
+        None, description="worth of each user's rate, one value or one per user"
+    )
     min_rate_bps: PerEntry | None = Field(
         None, description="rate each user must get, bit/s, one value or one per user as 1e6,0,2e6"
     )
-    max_rate_bps: PerEntry | None = Field(None, description="rate each user can use, bit/s, one value or one per user")
+    max_rate_bps: Annotated[PerEntry | None, Advanced()] = Field(
+        None, description="rate each user can use, bit/s, one value or one per user"
+    )
     max_power_w: float | None = Field(
         None,
         description="radiated power budget, W; the cell's limit if not given. A larger one is the cell's "
         "limit as well, unless --cell-max-power-w is given",
     )
-    subcarrier_max_power_w: PerEntry | None = Field(None, description="power cap per subcarrier, W")
+    subcarrier_max_power_w: Annotated[PerEntry | None, Advanced()] = Field(
+        None, description="power cap per subcarrier, W"
+    )
     users: list[str] | None = Field(
         None, description="names of the users to serve, as 'user 1,user 3' or one by one; all if not given"
     )
-    forbidden: list[str] | None = Field(
+    forbidden: Annotated[list[str] | None, Advanced()] = Field(
         None,
         description="subcarriers that a user may not use, counted from 0, as 'user 2:5-9,user 3:0' or one by one",
     )
-    resource_block_group_size: int = Field(1, description="adjacent subcarriers that are assigned together")
+    resource_block_group_size: Annotated[int, Advanced()] = Field(
+        1, description="adjacent subcarriers that are assigned together"
+    )
     outage_probability: float | None = Field(
         None, description="accepted probability that a user's true rate stays below the promised one"
     )
 
     def problem(self, user_names: tuple[str, ...], num_subcarriers: int) -> Problem:
         """The problem for a channel with these users and so many subcarriers, with its objective looked up."""
+        from wirelessagent.model.problem import Problem
+
         users = None if self.users is None else tuple(_split(self.users, lambda text: text in user_names))
         problem = Problem(
             plugins.objective(self.objective, self.objective_options),
@@ -81,6 +91,10 @@ def _forbidden(pairs: Iterable[str], user_names: tuple[str, ...], num_subcarrier
     Raises:
         InputError: a text is not of this form, or names a user or a subcarrier that there is not.
     """
+    import numpy as np
+
+    from wirelessagent.model.user_names import index_of
+
     mask = np.zeros((len(user_names), num_subcarriers), dtype=bool)
     for text in _split(pairs, lambda text: text.rpartition(":")[0] in user_names):
         name, _, where = text.rpartition(":")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
 
-from wirelessagent.language.offline import OfflineRecogniser
-from wirelessagent.language.recogniser import Recogniser
 from wirelessagent.operations.operation import Request
+
+if TYPE_CHECKING:
+    from wirelessagent.language.recogniser import Recogniser
 
 
 class RecogniserOption(Request):
@@ -19,8 +20,10 @@ class RecogniserOption(Request):
     )
 
     def chosen_recogniser(self) -> Recogniser:
-        """Who understands; pydantic-ai is loaded only here."""
+        """Who understands; the models, or pydantic-ai, are loaded only here."""
         if self.recogniser == "offline":
+            from wirelessagent.language.offline import OfflineRecogniser
+
             return OfflineRecogniser()
         from wirelessagent.language.llm import LlmRecogniser
 

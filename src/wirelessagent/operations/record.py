@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias, cast
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeAlias
 
-import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from wirelessagent.explain.table import Table
 
 Lines: TypeAlias = tuple[str, ...]
-Block: TypeAlias = str | Lines | Table
-"""A paragraph on one line, several lines, or a table. A line break inside a line or a cell is no layout of ours: it
-came with a name or a sentence, and a surface writes it out."""
+
+
+@dataclass(frozen=True)
+class Files:
+    """Files or other places, and what was done with them; a surface breaks no path, so that it can be copied."""
+
+    done: str
+    paths: tuple[Path | str, ...]
+
+
+Block: TypeAlias = str | Lines | Table | Files
+"""A paragraph on one line, several lines, a table, or files. A line break inside a line or a cell is no layout of ours:
+it came with a name or a sentence, and a surface writes it out."""
 
 
 Conclusion: TypeAlias = Literal["done", "failed", "unclear", "unmet"]
@@ -29,7 +40,7 @@ def of_decision(status: str) -> Conclusion:
 class Record(BaseModel):
     """The base of all records. NaN and infinity become null in JSON."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, ser_json_inf_nan="null")
+    model_config = ConfigDict(extra="forbid", frozen=True, ser_json_inf_nan="null", defer_build=True)
 
     def blocks(self) -> list[Block]:
         """The record as paragraphs and tables, in the order in which people read them."""
@@ -52,7 +63,7 @@ class Record(BaseModel):
 
 
 def _as_list(value: Any) -> Any:
-    return cast("Any", value).tolist() if isinstance(value, np.ndarray | np.generic) else value
+    return value.tolist() if hasattr(value, "tolist") else value  # an array; numpy is not loaded for the asking
 
 
 Vector: TypeAlias = Annotated[list[float], BeforeValidator(_as_list)]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import logging
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
 from wirelessagent.model.errors import WirelessAgentError
+from wirelessagent.operations.fields import Advanced
 from wirelessagent.operations.operation import Request
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ _log = logging.getLogger("wirelessagent.store")
 class StoreOptions(Request):
     """Which audit store."""
 
-    store: str | None = Field(
+    store: Annotated[str | None, Advanced()] = Field(
         None,
         description="audit store, an SQLite file or a SQLAlchemy URL; that of WIRELESSAGENT_STORE_URL, or a file in "
         "the user's data folder, if not given",
@@ -31,7 +32,9 @@ class StoreOptions(Request):
 class RecordingOptions(StoreOptions):
     """Whether turns are recorded, and where."""
 
-    no_store: bool = Field(False, description="record nothing; WIRELESSAGENT_STORE=no does so for good")
+    no_store: Annotated[bool, Advanced()] = Field(
+        False, description="record nothing; WIRELESSAGENT_STORE=no does so for good"
+    )
 
     def said(self, session: Session, text: str) -> tuple[Turn, int | None]:
         """The turn of a line, recorded; so is one that was broken off after the base station was told."""

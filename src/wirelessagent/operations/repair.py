@@ -18,8 +18,7 @@ from wirelessagent.operations.channel_file import ChannelFile
 from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
 from wirelessagent.operations.outputs import channel_meta, check_gains, check_picture, draw_repair, is_csv
-from wirelessagent.operations.record import Block, Record, Table
-from wirelessagent.operations.simulate import describe
+from wirelessagent.operations.record import Block, Files, Record, Table
 from wirelessagent.sensing.csv_gains import write_csv
 from wirelessagent.sensing.npz import write_npz
 
@@ -55,8 +54,9 @@ class RepairRecord(Record):
         if self.normalised_rmse is not None:
             said.append(f"error of the repaired entries: {self.normalised_rmse:.3g} of the user's mean gain (RMSE)")
         if self.out is not None:
-            said.append(f"written to {self.out}{_GAINS_ALONE if is_csv(self.out) else ''}")
-        return [*said, f"written to {self.plot}"] if self.plot else said
+            said.append(Files("written to", (self.out,)))
+            said += [_GAINS_ALONE] * is_csv(self.out)
+        return [*said, Files("written to", (self.plot,))] if self.plot else said
 
     def _summary(self) -> str:
         if not self.missing:
@@ -79,10 +79,12 @@ class RepairRecord(Record):
         )
 
 
-_GAINS_ALONE = ": the gains alone; which of them are repaired, how sure they are, noise and bandwidth need NPZ"
+_GAINS_ALONE = "CSV holds the gains alone; which of them are repaired, how sure they are, noise and bandwidth need NPZ"
 
 
 def run(request: RepairRequest, progress: Progress) -> RepairRecord:
+    from wirelessagent.agent.run import describe
+
     check_gains(request.out, csv=True)
     check_picture(request.plot)
     scene = request.scene(progress)
@@ -127,8 +129,8 @@ def _error(gain: FloatArray, truth: FloatArray | None, repaired: BoolArray) -> f
 
 REPAIR = Operation(
     name="repair",
-    summary="Fill the holes of a gain matrix, with how sure each filled entry is",
     request=RepairRequest,
     record=RepairRecord,
     run=run,
+    examples=("repair gains.csv --out repaired.npz", "repair seen.npz --method nncf --out repaired.npz"),
 )

@@ -11,7 +11,7 @@ from wirelessagent.experiments.catalogue import EXPERIMENTS, VERDICTS, reproduce
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Event, Operation, Progress, Request
-from wirelessagent.operations.record import Block, Record, Table
+from wirelessagent.operations.record import Block, Files, Record, Table
 
 
 class ReproduceRequest(Request):
@@ -39,21 +39,20 @@ class ReproduceRecord(Record):
     verdict_files: list[Path]
 
     def blocks(self) -> list[Block]:
-        rows = tuple(
-            (one.name, one.summary, str(path)) if path is one.files[0] else ("", "", str(path))
-            for one in self.figures
-            for path in one.files
-        )
-        files = Table(title="Reproduced", columns=("figure", "what it shows", "files"), rows=rows)
+        rows = tuple((one.name, one.summary) for one in self.figures)
+        said: list[Block] = [
+            Table(title="Reproduced", columns=("figure", "what it shows"), rows=rows),
+            Files("written to", tuple(path for one in self.figures for path in one.files)),
+        ]
         if not self.verdicts:
-            return [files]
+            return said
         claims = tuple(
             (f"“{one['claim']}” ({one['place']})", "; ".join(one["measured"]), one["verdict"], one["reason"])
             for one in self.verdicts
         )
         columns = ("the paper says", "measured (95 % interval)", "verdict", "why")
-        written = [f"verdicts written to {path}" for path in self.verdict_files]
-        return [files, Table(title="Verdicts", columns=columns, rows=claims), *written]
+        table = Table(title="Verdicts", columns=columns, rows=claims)
+        return [*said, table, Files("verdicts written to", tuple(self.verdict_files))]
 
 
 def run(request: ReproduceRequest, progress: Progress) -> ReproduceRecord:
@@ -78,8 +77,8 @@ def run(request: ReproduceRequest, progress: Progress) -> ReproduceRecord:
 
 REPRODUCE = Operation(
     name="reproduce",
-    summary="Reproduce the paper's figures (picture, CSV table, JSON record) and judge its claims by them",
     request=ReproduceRequest,
     record=ReproduceRecord,
     run=run,
+    examples=("reproduce --draws 200", "reproduce rate_versus_power --out figures"),
 )

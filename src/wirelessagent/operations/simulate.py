@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 from pydantic import Field
 
-from wirelessagent import chain
-from wirelessagent.agent.run import describe
-from wirelessagent.model.observation import ChannelObservation
-from wirelessagent.model.scene import Scene
-from wirelessagent.model.units import db
 from wirelessagent.operations.cell_options import CellOptions
-from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
+from wirelessagent.operations.fields import Known, OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Event, Operation, Progress
 from wirelessagent.operations.outputs import channel_meta, check_gains
-from wirelessagent.operations.record import Block, Matrix, Record, Table, Vector
-from wirelessagent.sensing.loss import PATTERNS
-from wirelessagent.sensing.loss import parse as parse_loss
-from wirelessagent.sensing.npz import write_npz
+from wirelessagent.operations.record import Block, Files, Matrix, Record, Table, Vector
 
-LOSS_USAGE = ", ".join(pattern.usage for pattern in PATTERNS.values())
+if TYPE_CHECKING:
+    from wirelessagent.model.observation import ChannelObservation
+    from wirelessagent.model.scene import Scene
+
+
+def loss_patterns() -> list[str]:
+    """How each pattern of what gets lost is written."""
+    from wirelessagent.sensing.loss import PATTERNS
+
+    return [pattern.usage for pattern in PATTERNS.values()]
 
 
 class SimulateRequest(CellOptions):
@@ -32,9 +32,8 @@ class SimulateRequest(CellOptions):
     source_options: Annotated[PluginOptions, OptionsOf("channel_source")] = Field(
         default_factory=dict, description="options of the channel source"
     )
-    loss: list[str] = Field(
-        default_factory=list,
-        description=f"what gets lost, several joined by +: {LOSS_USAGE}",
+    loss: Annotated[list[str], Known(loss_patterns)] = Field(
+        default_factory=list, description="what gets lost, such as random:0.2 or bursts:0.2+users:1"
     )
     seed: int = Field(1, description="seed of every draw")
     out: Path | None = Field(None, description="NPZ file to write the observed and the true gains to")
@@ -56,6 +55,10 @@ class SimulateRecord(Record):
     out: Path | None
 
     def blocks(self) -> list[Block]:
+        import numpy as np
+
+        from wirelessagent.model.units import db
+
         gains = [f"{float(db(gain, floor_db=-400.0)):.1f} dB" for gain in self.user_mean_gain]
         lost = [f"{sum(np.isnan(row))} of {len(row)}" for row in self.gain]
         rows = tuple(zip(self.user_names, gains, lost, strict=True))
@@ -63,12 +66,17 @@ class SimulateRecord(Record):
             tuple(f"{label}: {text}" for label, text in self.facts.items()),
             Table(title="Channel", columns=("user", "mean gain", "missing subcarriers"), rows=rows),
         ]
-        return [*said, f"written to {self.out}"] if self.out else said
+        return [*said, Files("written to", (self.out,))] if self.out else said
 
 
 def run(request: SimulateRequest, progress: Progress) -> SimulateRecord:
+    from wirelessagent import chain
+    from wirelessagent.agent.run import describe
+    from wirelessagent.sensing.loss import parse
+    from wirelessagent.sensing.npz import write_npz
+
     check_gains(request.out)
-    losses = [parse_loss(text) for text in request.loss]
+    losses = [parse(text) for text in request.loss]
     scene = chain.simulate(request.source, request.cell(), seed=request.seed, **request.source_options)
     seen = scene.observe(*losses, seed=request.seed)
     progress(Event(stage="sense", message=describe(seen)))
@@ -92,6 +100,8 @@ def run(request: SimulateRequest, progress: Progress) -> SimulateRecord:
 
 def scene_arrays(scene: Scene, seen: ChannelObservation) -> tuple[dict[str, Any], dict[str, Any]]:
     """The arrays and the metadata under which an observed scene is written, and read back by the file source."""
+    import numpy as np
+
     arrays: dict[str, Any] = {"gain": seen.gain, "user_names": np.array(seen.user_names)}
     optional = {
         "truth": scene.truth,
@@ -107,8 +117,11 @@ def scene_arrays(scene: Scene, seen: ChannelObservation) -> tuple[dict[str, Any]
 
 SIMULATE = Operation(
     name="simulate",
-    summary="Draw a channel, lose some of it, and write both",
     request=SimulateRequest,
     record=SimulateRecord,
     run=run,
+    examples=(
+        "simulate --num-users 8 --loss random:0.2 --out seen.npz",
+        "simulate --source cqi --loss bursts:0.2",
+    ),
 )

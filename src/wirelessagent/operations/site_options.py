@@ -4,23 +4,21 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from pydantic import Field
 
-from wirelessagent import chain
-from wirelessagent.agent.acting import TOLERANCE
-from wirelessagent.agent.session import Session
-from wirelessagent.agent.tools import Tools
-from wirelessagent.model.scene import Scene
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.channel_file import file_scene
-from wirelessagent.operations.fields import OptionsOf, PluginName, PluginOptions
+from wirelessagent.operations.fields import Advanced, Known, OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Progress
 from wirelessagent.operations.recognisers import RecogniserOption
-from wirelessagent.operations.simulate import LOSS_USAGE
+from wirelessagent.operations.simulate import loss_patterns
 from wirelessagent.operations.tool_options import MethodOptions, RepairerOptions
-from wirelessagent.sensing.loss import parse as parse_loss
+
+if TYPE_CHECKING:
+    from wirelessagent.agent.session import Session
+    from wirelessagent.model.scene import Scene
 
 
 class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions):
@@ -29,24 +27,28 @@ class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions)
     panel: ClassVar[str] = "Options"
 
     csi: Path | None = Field(None, description="gain matrix to work on; a simulated cell if not given")
-    source: Annotated[str, PluginName("channel_source")] = Field("rayleigh", description="channel source without --csi")
+    source: Annotated[str, PluginName("channel_source"), Advanced()] = Field(
+        "rayleigh", description="channel source without --csi"
+    )
     source_options: Annotated[PluginOptions, OptionsOf("channel_source", but=("path",))] = Field(
         default_factory=dict, description="options of the channel source; with --csi, how to read the file"
     )
-    loss: list[str] | None = Field(
+    loss: Annotated[list[str] | None, Known(loss_patterns)] = Field(
         None,
-        description=f"what gets lost, several joined by +: {LOSS_USAGE}; "
-        "random:0.2 for a simulated cell and nothing for a file if not given",
+        description="what gets lost, such as random:0.3 or bursts:0.2+users:1; random:0.2 for a simulated cell and "
+        "nothing for a file if not given",
     )
-    base_station: Annotated[str | None, PluginName("base_station")] = Field(
+    base_station: Annotated[str | None, PluginName("base_station"), Advanced()] = Field(
         None, description="base station; simulated where the true channel is known"
     )
     base_station_options: Annotated[PluginOptions, OptionsOf("base_station")] = Field(
         default_factory=dict, description="options of the base station"
     )
     yes: bool = Field(False, description="apply without asking; simulated base stations never ask")
-    tolerance: float = Field(
-        TOLERANCE, ge=0, description="share of what was promised that may be lacking before it is taken back"
+    tolerance: Annotated[float | None, Advanced()] = Field(
+        None,
+        ge=0,
+        description="share of what was promised that may be lacking before it is taken back; 0.1 if not given",
     )
     seed: int = Field(1, description="seed of every draw")
 
@@ -54,18 +56,25 @@ class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions)
         """The cell and its channel."""
         if self.csi is not None:
             return file_scene(self, self.csi, self.source_options, progress)
+        from wirelessagent import chain
+
         return chain.simulate(self.source, self.cell(), seed=self.seed, **self.source_options)
 
     def session(self, progress: Progress, *, raises: bool = False) -> Session:
         """A conversation about the cell that was not begun yet."""
+        from wirelessagent.agent.acting import TOLERANCE
+        from wirelessagent.agent.session import Session
+        from wirelessagent.agent.tools import Tools
+        from wirelessagent.sensing.loss import parse
+
         default_loss = [] if self.csi else ["random:0.2"]
         return Session(
             self.scene(progress),
-            *(parse_loss(text) for text in (default_loss if self.loss is None else self.loss)),
+            *(parse(text) for text in (default_loss if self.loss is None else self.loss)),
             seed=self.seed,
             recogniser=self.chosen_recogniser(),
             confirm=False if self.yes else None,
-            tolerance=self.tolerance,
+            tolerance=TOLERANCE if self.tolerance is None else self.tolerance,
             tools=Tools(**{item.name: getattr(self, item.name) for item in dataclasses.fields(Tools)}),
             progress=progress,
             raises=raises,

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pydantic import Field
 
-from wirelessagent import chain
-from wirelessagent.acting.file import FileBaseStation
-from wirelessagent.agent.figures import certificate_line
-from wirelessagent.explain.report import report
-from wirelessagent.explain.tables import decision_tables
-from wirelessagent.explain.words import explain
-from wirelessagent.model.estimate import ChannelEstimate
-from wirelessagent.model.problem import Problem
-from wirelessagent.model.scene import Scene
 from wirelessagent.operations.answers import DecisionAnswer, ReportAnswer
 from wirelessagent.operations.channel_file import ChannelFile
 from wirelessagent.operations.operation import Event, Operation, Progress
 from wirelessagent.operations.outputs import check_allocation, check_picture, draw_run
 from wirelessagent.operations.problem_options import ProblemOptions
-from wirelessagent.operations.record import Block, Conclusion, Table, of_decision
+from wirelessagent.operations.record import Block, Conclusion, Files, Table, of_decision
 from wirelessagent.operations.tool_options import MethodOptions, RepairerOptions
+
+if TYPE_CHECKING:
+    from wirelessagent.model.estimate import ChannelEstimate
+    from wirelessagent.model.problem import Problem
+    from wirelessagent.model.scene import Scene
 
 
 class ProblemOnFile(ProblemOptions, RepairerOptions, ChannelFile):
@@ -31,6 +28,8 @@ class ProblemOnFile(ProblemOptions, RepairerOptions, ChannelFile):
 
     def posed(self, progress: Progress) -> tuple[Scene, ChannelEstimate, Problem]:
         """The scene, its estimate and the problem on it."""
+        from wirelessagent import chain
+
         scene = self.scene(progress, wanted_power_w=self.max_power_w)
         problem = self.problem(scene.sensed.user_names, scene.sensed.num_subcarriers)
         estimate = chain.repair(scene.sensed, self.repairer, **self.repairer_options)
@@ -64,10 +63,17 @@ class SolveRecord(DecisionAnswer):
 
     def blocks(self) -> list[Block]:
         said: list[Block] = [self.summary, *self.tables, " ".join(self.explanation)]
-        return [*said, *(f"written to {path}" for path in (self.out, self.plot) if path)]
+        return [*said, *(Files("written to", (path,)) for path in (self.out, self.plot) if path)]
 
 
 def run(request: SolveRequest, progress: Progress) -> SolveRecord:
+    from wirelessagent import chain
+    from wirelessagent.acting.file import FileBaseStation
+    from wirelessagent.agent.figures import certificate_line
+    from wirelessagent.explain.report import report
+    from wirelessagent.explain.tables import decision_tables
+    from wirelessagent.explain.words import explain
+
     check_allocation(request.out)
     check_picture(request.plot)
     scene, estimate, problem = request.posed(progress)
@@ -92,8 +98,11 @@ def run(request: SolveRequest, progress: Progress) -> SolveRecord:
 
 SOLVE = Operation(
     name="solve",
-    summary="Decide who gets which subcarrier at what power, on a gain matrix from a file",
     request=SolveRequest,
     record=SolveRecord,
     run=run,
+    examples=(
+        "solve gains.csv --objective min_power --min-rate-bps 500e3 --out allocation.json",
+        "solve repaired.npz --objective PF --users 'user 1,user 3' --max-power-w 10",
+    ),
 )

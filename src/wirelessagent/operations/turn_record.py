@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
 
-from wirelessagent.agent.session import Session
-from wirelessagent.agent.turn import Turn
 from wirelessagent.explain.table import Table
 from wirelessagent.model.errors import InputError
-from wirelessagent.model.outcome import Outcome
 from wirelessagent.operations.answers import DecisionAnswer, ReportAnswer
 from wirelessagent.operations.record import Block, Conclusion, Integers, Record, Vector, of_decision
-from wirelessagent.store.plain import plain
+
+if TYPE_CHECKING:
+    from wirelessagent.agent.session import Session
+    from wirelessagent.agent.turn import Turn
+    from wirelessagent.model.outcome import Outcome
 
 
 class OutcomeAnswer(Record):
@@ -66,6 +67,8 @@ class TurnRecord(Record):
 
     @classmethod
     def of(cls, turn: Turn, session: Session, stored: int | None) -> TurnRecord:
+        from wirelessagent.store.plain import plain
+
         run, request = turn.run, session.request
         same = ("number", "session", "at_utc", "text", "stage", "reply", "recogniser", "seed", "version")
         return cls(

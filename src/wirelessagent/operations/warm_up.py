@@ -133,8 +133,8 @@ def _decide_batch(seen: ChannelObservation, problem: Problem) -> BatchDecision:
 
 WARM_UP = Operation(
     name="warm-up",
-    summary="Make the machine code of all kernels now, so that nothing runs interpreted later",
     request=WarmUpRequest,
     record=WarmUpRecord,
     run=run,
+    examples=("warm-up",),
 )
