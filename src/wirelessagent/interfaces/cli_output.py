@@ -76,10 +76,22 @@ def _started_bar() -> Progress:
 
 
 class _Notes(logging.Handler):
-    """Prints log records to stderr, one line each."""
+    """Prints log records to stderr, one line each, and those that count as a bar."""
+
+    def __init__(self, level: int = logging.NOTSET) -> None:
+        super().__init__(level)
+        self._listener: Listener | None = None
 
     def emit(self, record: logging.LogRecord) -> None:
-        complain(record.getMessage())
+        done, total = (getattr(record, name, 0) for name in ("done", "total"))
+        if not total:
+            complain(record.getMessage())
+            return
+        self._listener = self._listener or Listener()
+        self._listener(Event(stage=record.getMessage(), message="", done=done, total=total))
+        if done == total:
+            self._listener.__exit__(None, None, None)
+            self._listener = None
 
 
 def take_over(*, notes: bool) -> None:
@@ -91,9 +103,10 @@ def take_over(*, notes: bool) -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="written_out")  # a terminal without Chinese must not stop the work
-    for name, shown in (("wirelessagent.kernels.compiling", notes), ("wirelessagent.store", True)):
+    wanted = ("wirelessagent.kernels.compiling", notes, logging.DEBUG), ("wirelessagent.store", True, logging.INFO)
+    for name, shown, level in wanted:
         log = logging.getLogger(name)
-        log.setLevel(logging.INFO)
+        log.setLevel(level)
         log.propagate = False
         log.handlers = [_Notes()] if shown else [logging.NullHandler()]
     logging.lastResort = _Notes(logging.WARNING)

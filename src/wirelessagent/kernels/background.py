@@ -94,8 +94,9 @@ def wait_for(is_there: Callable[[], bool]) -> None:
     log.info("this work is large, so it waits for its machine code, which takes a minute or two")
     while not is_there() and (time.monotonic() - _started_at < START_S or not _lock(folder).is_free):
         now = made()
-        log.debug("machine code", extra={"done": now.done, "total": now.total})
+        log.debug("machine code", extra={"done": min(now.done, now.total - 1), "total": now.total})
         time.sleep(LOOK_S)
+    log.debug("machine code", extra={"done": _number_of_kernels(), "total": _number_of_kernels()})
 
 
 @contextmanager
@@ -131,7 +132,7 @@ def _folder() -> Path | None:
 
 
 def _lock(folder: Path) -> Lock:
-    return Lock(folder.parent / "compiling.lock")
+    return Lock(folder / "compiling.lock")
 
 
 @functools.cache
