@@ -125,7 +125,7 @@ def test_a_terminal_has_a_prompt_and_editing_and_lets_people_leave(keys: bytes, 
 def test_a_base_station_asks_unless_it_is_told_yes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "allocation.json"
     options = ["chat", *CELL, "--base-station", "file", "--path", str(out), "--say", "maximum rate", "--json"]
-    assert run(options) == 0
+    assert run(options) == 2
     assert json.loads(capsys.readouterr().out)["awaits"] == "confirmation"
     assert not out.exists()
     assert run([*options, "--yes"]) == 0
@@ -145,7 +145,7 @@ def test_what_is_said_comes_from_one_place(tmp_path: Path, capsys: pytest.Captur
 def test_without_a_terminal_the_request_says_it_all() -> None:
     record = chat(ChatRequest(say=["maximum rate", "make it nice"], source_options={"num_users": 3}), silent)
     assert [turn.stage for turn in record.turns] == ["applied", "asked"]
-    assert record.needs_answer
+    assert record.conclusion == "unclear"
     with pytest.raises(InputError, match="nothing is said"):
         chat(ChatRequest(), silent)
 

@@ -136,7 +136,7 @@ def test_gains_are_not_repaired_for_a_file_that_cannot_be_written(
 
 def test_nothing_is_the_best_where_nothing_is_feasible(matrix: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ("--objective", "min_power", "--min-rate-bps", 1e9, "--methods", "dual,greedy")
-    told = shown(capsys, "compare", matrix, *arguments)
+    told = shown(capsys, "compare", matrix, *arguments, code=3)
     assert "none has an allocation" in told
     assert "best first" not in told
 

@@ -65,8 +65,8 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return path
 
 
-def answer(capsys: pytest.CaptureFixture[str], *arguments: object) -> dict[str, Any]:
-    assert run([str(argument) for argument in arguments] + ["--json"]) == 0, capsys.readouterr().err
+def answer(capsys: pytest.CaptureFixture[str], *arguments: object, code: int = 0) -> dict[str, Any]:
+    assert run([str(argument) for argument in arguments] + ["--json"]) == code, capsys.readouterr().err
     return json.loads(capsys.readouterr().out)
 
 
@@ -79,8 +79,8 @@ def talked(capsys: pytest.CaptureFixture[str], *sentences: str, options: tuple[s
     return [json.loads(line) for line in out.splitlines()]
 
 
-def told(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
-    assert run([str(argument) for argument in arguments]) == 0, capsys.readouterr().err
+def told(capsys: pytest.CaptureFixture[str], *arguments: object, code: int = 0) -> str:
+    assert run([str(argument) for argument in arguments]) == code, capsys.readouterr().err
     return capsys.readouterr().out
 
 
@@ -217,11 +217,11 @@ def test_history_show_tells_a_turn_and_checks_it(
         connection.execute("DROP TRIGGER audit_turn_no_update")
         connection.execute("UPDATE audit_turn SET text = 'save power' WHERE number = 1")
         connection.commit()
-    assert answer(capsys, "history", "show", 1)["tampering"] == [
+    assert answer(capsys, "history", "show", 1, code=1)["tampering"] == [
         "the trigger audit_turn_no_update is missing", "turn 1 was changed",
     ]  # fmt: skip
     assert "WARNING: the trigger audit_turn_no_update is missing; turn 1 was changed" in told(
-        capsys, "history", "show", 1
+        capsys, "history", "show", 1, code=1
     )
 
 

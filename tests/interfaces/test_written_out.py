@@ -80,6 +80,8 @@ def ways(folder: Path) -> list[list[str]]:
         ["evaluate decision", *evaluated],
         ["evaluate intents", str(folder / "meant.jsonl"), "--errors"],
         ["plugins", "--kind", LINES],
+        ["new-plugin", "objective", LINES],
+        ["warm-up", LINES],
         ["history"],
         ["history", "--session", LINES],
         ["history show", "1"],

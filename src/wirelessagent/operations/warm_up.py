@@ -26,7 +26,7 @@ from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.problem import Problem
 from wirelessagent.operations.operation import Event, Operation, Progress, Request
-from wirelessagent.operations.record import Block, Record
+from wirelessagent.operations.record import Block, Conclusion, Record
 from wirelessagent.sensing.loss import random
 
 LIMITS: dict[str, dict[str, Any]] = {
@@ -55,6 +55,10 @@ class WarmUpRecord(Record):
     of: int
     folder: str | None
     time_s: float
+
+    @property
+    def conclusion(self) -> Conclusion:
+        return "failed" if self.folder is None else "done"
 
     def blocks(self) -> list[Block]:
         if self.folder is None:
