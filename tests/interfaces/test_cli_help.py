@@ -49,6 +49,21 @@ def test_help_comes_before_what_it_is_about_is_loaded(arguments: list[str]) -> N
     assert "Usage: wirelessagent" in done.stdout
 
 
+def test_an_answer_loads_nothing_that_it_does_not_need() -> None:
+    code = (
+        "import re._compiler as compiler, sys; made = []; compile = compiler.compile\n"
+        "compiler.compile = lambda *given: made.append(sys._getframe(2).f_code.co_filename) or compile(*given)\n"
+        "from wirelessagent.language.offline import OfflineRecogniser\n"
+        "from wirelessagent.interfaces.cli import run; run(['ask', 'Share fairly', '--no-store', '--json'])\n"
+        "loaded = {'scipy.optimize', 'sqlalchemy', 'h5py', 'matplotlib', 'rich.console'} & set(sys.modules)\n"
+        "sys.exit(f'{sorted(loaded)} {len(made)}')"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False)
+    loaded, _, expressions = done.stderr.splitlines()[-1].rpartition(" ")
+    assert loaded == "[]"
+    assert int(expressions) < 300  # more than 500 if all are made that there are
+
+
 def test_every_operation_has_a_place_in_the_list_and_is_what_it_is_called() -> None:
     first_words = [name for names in GROUPS.values() for name in names]
     assert sorted(first_words) == sorted({name.split()[0] for name in OPERATIONS})

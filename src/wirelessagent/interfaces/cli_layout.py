@@ -27,8 +27,8 @@ _PIPED = 120
 """Columns where the output is no terminal and ``COLUMNS`` says nothing."""
 
 _GAP = "  "
-_NAME = 12
-"""A row's name of so many columns is not broken: by it the row is found."""
+_READABLE = 10
+"""Columns that every cell gets if it fills them, so that no heading stands sign by sign."""
 
 
 def output_width() -> int:
@@ -71,11 +71,13 @@ def listed(rows: Sequence[tuple[str, str]], width: int, left: int) -> list[str]:
 def tabled(columns: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> list[str]:
     """A table; each row as a list of its own where not all columns fit beside each other."""
     cells = [list(column) for column in zip(columns, *rows, strict=True)]
-    least = [max(map(_widest_piece, column)) for column in cells]
-    least[0] = max(least[0], min(_NAME, max(map(cell_len, cells[0]))))
+    natural = [max(map(cell_len, column)) for column in cells]
+    least = [
+        max(min(size, _READABLE), *map(_widest_piece, column)) for size, column in zip(natural, cells, strict=True)
+    ]
     if sum(least) + len(_GAP) * (len(columns) - 1) > width:
         return _stacked(columns, rows, width)
-    widths = _shared([max(map(cell_len, column)) for column in cells], least, width - len(_GAP) * (len(columns) - 1))
+    widths = _shared(natural, least, width - len(_GAP) * (len(columns) - 1))
     figures = [number > 0 and all(map(_is_figure, column[1:])) for number, column in enumerate(cells)]
     lines = [line for row in [columns, *rows] for line in _row(row, widths, figures)]
     head = len(_row(columns, widths, figures))

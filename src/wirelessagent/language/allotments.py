@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from wirelessagent.language.clauses import clause_end, clause_start, cuts_between
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.exceptions import Standing, exception_of, promised_nothing
 from wirelessagent.language.figure_words import CORRECTION
 from wirelessagent.language.intent import EVERYBODY, Constraint
@@ -22,16 +23,16 @@ _AT_ODDS = 0.15
 _SAID = 0.4
 _NEAR = 30
 
-_SERVED = re.compile(r"(?i)\b(?:serv(?:e|es|ing)|sirv\w*|atiend\w*|bedien\w*)\b|服务")
-_COMPARED = re.compile(
+_SERVED = deferred(r"(?i)\b(?:serv(?:e|es|ing)|sirv\w*|atiend\w*|bedien\w*)\b|服务")
+_COMPARED = deferred(
     r"(?i)\s*(?:(?:is|be|must|should|may|gets?|goes|go|no|not|never|stays?)\s+)*(?:(?:faster|slower|more|less|better|higher|lower)\s+"
     r"than|above|below|over|under|ahead\s+of|behind)\s+|\s*(?:也|都|要|得)?(?:不|别|不能|不得|不许)?(?:能|得|要)?(?:超过|高于|低于|"
     r"快于|慢于|大于|小于|多于|少于|快过|比)\s*"
 )
-_LEADING = re.compile(r"(?i)\s*(?:以外|之外|除外|外|aside|excepted|ausgenommen)?\s*")
-_INSERTED = re.compile(r"\s*[,(\uff0c][^,;()\uff0c]{0,24}")
+_LEADING = deferred(r"(?i)\s*(?:以外|之外|除外|外|aside|excepted|ausgenommen)?\s*")
+_INSERTED = deferred(r"\s*[,(\uff0c][^,;()\uff0c]{0,24}")
 _COLLECTIVE = ("everybody", "others")
-_AT_ONCE = re.compile(  # what may stand between an exception that leads and what all get
+_AT_ONCE = deferred(  # what may stand between an exception that leads and what all get
     r"(?i)\s*(?:(?:please|give|grant|guarantee|promise|ensure|keep|let|hold|with|and|there|is|a|must|should|da|dales|"
     r"garantiza|donne|donnez|garantis|gib|gebt|garantiere)\s+)*(?:给|让|保证|确保|保障|保|请|都|要|得|满足)*\s*"
 )

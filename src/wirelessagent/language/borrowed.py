@@ -6,10 +6,10 @@ and for whom is asked afterwards as of any figure.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.figure_roles import SCALED
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity, QuantityKind
@@ -23,7 +23,7 @@ BORROWING: Mapping[str, QuantityKind] = {
 _SCALES = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
 _FAR = 200  # no two rates of one sentence are farther apart: another unit is meant
 _PARTS = {"half": "0.5", "medi": "0.5", "demi": "0.5", "halb": "0.5", "quar": "0.25", "cuar": "0.25", "vier": "0.25"}
-_ONE = re.compile(  # "the others only one", against "one user"
+_ONE = deferred(  # "the others only one", against "one user"
     r"(?i)(?<![\w'-])(?:(?:one|uno|una|une?|ein(?:s|e[nmr]?)?)|"
     r"(?P<part>(?:an?\s+|une?\s+|ein(?:e[nr]?)?\s+)?(?:half|quarter|medio|cuarto|demie?|quart|halbe[sn]?|viertel)))"
     r"(?=\s*(?:$|[,.;:!?)]|(?:each|apiece|for|at|max|maximum|out|and|only|on|per|to|para|al?|el|y|como|con|seul|pour|au|"

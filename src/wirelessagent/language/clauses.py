@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import bisect
 import functools
-import re
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.text import CLAUSE_END
 
-_CUT = re.compile(CLAUSE_END)
+_CUT = deferred(CLAUSE_END)
 
 
 def clause_start(plain: str, place: int, from_: int = 0) -> int:

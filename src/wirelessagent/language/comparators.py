@@ -9,6 +9,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.phrases import Phrases
 from wirelessagent.language.spelling import one_edit
 from wirelessagent.language.text import CLAUSE_END, USER_NOUN
@@ -104,7 +105,7 @@ _FILLERS = _listed(
     "数据 传输 传 消耗 使用 要 达到 有 给 保证 中断 概率 可靠性"
 )
 
-_LATIN = re.compile(r"[A-Za-z]")
+_LATIN = deferred(r"[A-Za-z]")
 
 
 def _any_of(words: list[str]) -> str:
@@ -121,10 +122,10 @@ def _any_of(words: list[str]) -> str:
     return "(?:" + "|".join([bordered, *others]) + ")"
 
 
-_WORD = re.compile(r"[A-Za-zÀ-ÿ]++")
+_WORD = deferred(r"[A-Za-zÀ-ÿ]++")
 _BETWEEN = frozenset([*_FILLERS, *_POWER_NOUNS, *_RATE_NOUNS])  # what may stand between a comparator and its figure
 _SIGNS = "|".join(sorted((word for word in _BETWEEN if not _WORD.match(word)), key=len, reverse=True))
-_GAP = re.compile(rf"(?:\s|{_WORD.pattern}|{_SIGNS}){{0,16}}$")
+_GAP = deferred(rf"(?:\s|{_WORD.pattern}|{_SIGNS}){{0,16}}$")
 _WORDS = rf"(?:(?!(?:and|y|et|und)\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"
 _CAP = (  # "cap users at", "limite l'utilisateur 5 à", "limitado a", "auf … begrenzt" stands behind
     rf"\b(?:rate-)?(?:cap|limit|restrict|throttl|clamp|polic|chok|stop|held\s+down|cut\s+off)(?:s|e|es|p?ed|t?ing|ping|ing)?\s+{_WORDS}"
@@ -136,7 +137,7 @@ _BEFORE = Phrases(
     rf"(?P<at_least>{_any_of(_AT_LEAST)})|(?P<at_most>{_CAP}|{_any_of(_AT_MOST)})|(?P<exactly>{_any_of(_EXACTLY)})"
     rf"|(?P<above>{_any_of(_ABOVE)})|(?P<below>{_any_of(_BELOW)})"
 )
-_NEGATION = re.compile(
+_NEGATION = deferred(
     r"(?i)\b(?:no|not|never|nobody|none|nothing|without|cannot|can't|cant|don't|dont|do not|does not|"
     r"doesn't|doesnt|mustn't|must not|shouldn't|should not|won't|avoid|nowhere|neither|forbid\w*|"
     r"nadie|ning[uú]n[oa]?|nunca|jamás|sin|ni|tampoco|prohibid[oa]|evita\w*|"
@@ -144,16 +145,16 @@ _NEGATION = re.compile(
     r"nicht|nichts|kein\w*|niemand\w*|nie|niemals|ohne|verboten)\b|[不别勿没无莫禁]"
 )
 _NOBODY = ("nobody", "without", "cannot", "nadie", "personne", "niemand")
-_DENIED_AFTER = re.compile(  # "mehr als 24 Watt gibt's nicht", "below 1 Mbit/s nobody may fall"
+_DENIED_AFTER = deferred(  # "mehr als 24 Watt gibt's nicht", "below 1 Mbit/s nobody may fall"
     r"(?i)^(?:(?!\b(?:and|und|y|et|aber|but|sonst)\b)[\w\s'’-])*?\b(?:nicht(?! (?:mehr|weniger|über|unter)\b)|kein\w*|"
     r"niemand\w*|nie|niemals|nobody|no\s+one|never|nadie|ninguno?|nunca|personne|aucune?|jamais|forbidden|prohibido|"
     r"interdit|verboten|schluss)\b"
 )
-_AFTER_RE = re.compile(
+_AFTER_RE = deferred(
     rf"(?i)[\s-]*(?:(?:auch|das|ist|sind|je|pro|nutzer|kopf|die|jeden|für|each|everyone|person|de|en|per|user|the|at)\s+){{0,5}}"
     rf"(?P<word>{_any_of(list(_AFTER))})(?!\s*(?:of\s+|is\s+)?[0-9])"
 )
-_LAST_WORD = re.compile(  # "10 W, no more", "10 kbit/s, no less and no more"
+_LAST_WORD = deferred(  # "10 W, no more", "10 kbit/s, no less and no more"
     r"(?i),?\s*(?:(?P<exactly>no\s+(?:less\s+and\s+no\s+more|more\s+and\s+no\s+less)|not\s+more\s+not\s+less|"
     r"ni\s+m[aá]s\s+ni\s+menos|ni\s+plus\s+ni\s+moins|nicht\s+mehr\s+und\s+nicht\s+weniger|不多不少)|"
     r"(?P<at_most>tops|at\s+(?:the\s+)?(?:very\s+)?most|(?:and\s+)?(?:no|not\s+a\s+watt|not\s+one)\s+more|"
@@ -161,11 +162,11 @@ _LAST_WORD = re.compile(  # "10 W, no more", "10 kbit/s, no less and no more"
     r"不能再多|不能再高|不许再多)|(?P<at_least>(?:and\s+)?(?:no|not)\s+less|y?\s*no\s+menos|(?:et\s+)?pas\s+moins|"
     r"(?:und\s+)?nicht\s+weniger|不能少|不能再少))(?=\s*(?:$|[.,;:!?)\uff0c。\uff1b、]))"
 )
-_LOOSE = re.compile(r"(?i)(?:max|min)(?:imum)?\b")  # "maximum rate at 1 Mbit/s minimum" wishes first and bounds after
-_POWER_RE = re.compile("(?i)" + _any_of(_POWER_NOUNS))
-_RATE_RE = re.compile("(?i)" + _any_of(_RATE_NOUNS))
-_WISH_WITH = re.compile("(?i)" + _any_of(_RATE_NOUNS) + r"\s+(?:with|con|avec|mit|bei)\b")
-_CLAUSE = re.compile(CLAUSE_END)
+_LOOSE = deferred(r"(?i)(?:max|min)(?:imum)?\b")  # "maximum rate at 1 Mbit/s minimum" wishes first and bounds after
+_POWER_RE = deferred("(?i)" + _any_of(_POWER_NOUNS))
+_RATE_RE = deferred("(?i)" + _any_of(_RATE_NOUNS))
+_WISH_WITH = deferred("(?i)" + _any_of(_RATE_NOUNS) + r"\s+(?:with|con|avec|mit|bei)\b")
+_CLAUSE = deferred(CLAUSE_END)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,7 @@ import re
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.clauses import clause_end, clause_start
+from wirelessagent.language.deferred import deferred
 
 Standing: TypeAlias = Literal["kept", "excepted", "exempt", "uncapped", "alone", "leaves", ""]
 
@@ -21,29 +22,29 @@ _OUT = (
     r"(?:kick|drop|leav|exclud|remov|cut|skip|forget|ignor|throw|disconnect|omit|bench|los|neglect|abandon|"
     r"quit|exclu|dej|elimin|olvid|retir|enlev|laiss|oubli|coup)\w*(?:\s+(?:out|off|aside|fuera|de\s+côté))?"
 )
-_KEPT_BEFORE = re.compile(
+_KEPT_BEFORE = deferred(
     rf"(?i)(?:\b(?:don'?t|do\s+not|never|mustn'?t|must\s+not|shouldn'?t|should\s+not|without|no|ne|n'|not)\s*"
     rf"(?:please\s+|yet\s+|you\s+dare\s+)?{_OUT}{_SMALL}|(?:别|不要|不许|不准|不能|不得|勿|甭|不用|不必)再?(?:把|将|让)?\s*|"
     rf"(?:别|不要|不许|不准|不能|不得|勿)再?(?:不服务|不管|不带|漏掉|漏|排除|踢掉|去掉|忽略|忘了|忘记|丢下|落下|丢掉))$"
 )
-_ZH_OUT_AFTER = re.compile(
+_ZH_OUT_AFTER = deferred(
     r"\s*(?:给|都|也)?(?:踢|排除|去掉|剔除|移除|拿掉|停掉|断开|丢下|落下|漏掉|漏了|忘了|删|撤|摘|甩|扔|除名|不服务|"
     r"弄(?:下线|没|掉)|出去|下线|砍|赶)"
 )
-_BARE_NOT = re.compile(r"(?:别|不要|不许|不准|不能|不得|勿|甭|不用|不必)再?(?:把|将|让)?\s*$")
-_KEPT_AFTER = re.compile(
+_BARE_NOT = deferred(r"(?:别|不要|不许|不准|不能|不得|勿|甭|不用|不必)再?(?:把|将|让)?\s*$")
+_KEPT_AFTER = deferred(
     r"(?i)\s*(?:(?:is|are|be|bleibt|bleiben)\s+)?(?:not|never|nicht|niemals)\s+(?:to\s+be\s+|be\s+)?"
     r"(?:kick|drop|left|exclud|remov|cut|skip|forgotten|ignor|raus|weg|aus|rauswerf|vergess|weglass)|"
     r"\s*(?:stays?|remains?|keeps?)\s+in\b|\s*(?:不用|不要|别|不能|不许|不必)(?:踢|排除|去掉|剔除|移除|拿掉|停掉|断开)"
 )
-_EXCEPT_BEFORE = re.compile(
+_EXCEPT_BEFORE = deferred(
     r"(?i)(?:\b(?:except(?:ing)?(?:\s+for)?|but(?!\s+(?:only|also))|apart\s+from|aside\s+from|other\s+than|save(?:\s+for)?|"
     r"excluding|barring|bar|besides|not\s+counting|(?:but|just|only)\s+not(?:\s+for)?|with\s+the\s+exception\s+of|"
     rf"excepto|salvo|menos|aparte\s+de|(?:a|con)\s+(?:la\s+)?excepción|"
     rf"sauf|hormis|excepté|à\s+part|(?:à\s+l')?exception(?:\s+faite)?|außer|ausser|bis\s+auf|"
     rf"mit\s+ausnahme\s+von){_SMALL}|除了?|除去|除开|不(?:包?括|包?含|算))$"
 )
-_EXCEPT_AFTER = re.compile(
+_EXCEPT_AFTER = deferred(
     r"\s*(?:以外|之外|除外|例外|不在此列|外(?=[\uff0c,的每都其]))|(?i:\s+(?:aside|excepted|ausgenommen|"
     r"(?:is\s+|as\s+|being\s+)?the\s+(?:one\s+|only\s+|sole\s+)?exception))\b"
 )
@@ -57,20 +58,20 @@ _NO = (
     r"(?:\b(?:no|not|cannot|never|nothing|without|none|sin|nada|ningun\w*|pas|sans|rien|aucune?|nichts?|kein\w*|ohne)\b|"
     r"n't\b|[不没无免])"
 )
-_NO_PROMISE = re.compile(
+_NO_PROMISE = deferred(
     rf"(?i){_NO}[^0-9]{{0,25}}?{_PROMISE}|"
     rf"{_PROMISE}[^0-9]{{0,12}}(?:\b(?:(?:do|does|is|are)(?:n't|\s+not)|n[o']|nicht)\b|不|取消|免)|"
     r"\b(?:exempt\w*|excused?|off\s+the\s+hook|exent\w+|eximid\w+|exime|dispensad\w+|dispensée?s?|exemptée?s?|befreit|"
     r"verzichtet)\b|豁免|不(?:用|必|需要|给|对|为)?保(?![留持护])|[免无]保|不[做作]要求|不设最低|[都就可]免[了掉]?\s*$"
 )
-_OF_A_CAP = re.compile(
+_OF_A_CAP = deferred(
     r"(?i)\b(?:cap|caps|capped|ceiling|max\w*|upper|limit\w*|l[ií]mite|plafond|tope|obergrenze)\b|上限|限速|封顶|最高"
 )
 _CAP = (
     r"(?:cap|caps|capped|ceiling|limit(?:ed|s)?|maximum|max|l[ií]mites?|limitad\w+|tope|plafonds?|plafonné\w*|limité\w*|"
     r"obergrenze|begrenzt|gedeckelt|grenze)"
 )
-_NO_CAP = re.compile(  # "the cap doesn't apply to user 3", "3号不限速"
+_NO_CAP = deferred(  # "the cap doesn't apply to user 3", "3号不限速"
     rf"(?i)@[^0-9]{{0,30}}?(?:{_NO}[^0-9]{{0,20}}?\b{_CAP}\b|\b(?:unlimited|uncapped|unbegrenzt)\b|\b(?:illimité|ilimitad)\w*)|"
     rf"(?:{_NO}\s+(?:\w+\s+)?{_CAP}|\b{_CAP}\b[^0-9@]{{0,12}}(?:n't|\bnot|\bno|\bnicht)\b)[^0-9@]{{0,15}}@|"
     r"\b(?:exempt|free|spare)\s+@\s*from\s+(?:the\s+|that\s+|any\s+)?(?:cap|max|ceil|limit|upper)|"
@@ -91,7 +92,7 @@ _NEVER = (
 )
 _ON = r"(?:(?!\b(?:only|nur|and|but|y|et|und|sondern|sino|mais)\b)[^0-9])"  # one thing goes on being said
 _ZH_OUT = r"(?:踢|赶|扔|丢|落下|漏|砍|断开|断掉|停|剔除|移除|排除|去掉|弄(?:下线|没|掉)|舍弃|放弃|出去|下线|除名|忘)"
-_STAYS = re.compile(
+_STAYS = deferred(
     rf"(?i){_NEVER}{_ON}{{0,40}}?\b{_OUT_LATER}\b{_ON}{{0,12}}@|"
     rf"@{_ON}{{0,20}}?{_NEVER}{_ON}{{0,20}}?\b{_OUT_LATER}\b|{_NEVER}{_ON}{{0,25}}@{_ON}{{0,15}}?\b{_OUT_LATER}\b|"
     rf"{_NEVER}{_ON}{{0,25}}?\b(?:kick|throw|shut|cut|leav|count|tak|put|lock)\w*\s+@\s*(?:out|off)\b|"
@@ -103,17 +104,17 @@ _STAYS = re.compile(
     r"(?<![只仅光就])(?:留着|留下|带上)\s*@\s*$|"
     r"@\s*(?:也|还|都|必须|一定|要|得|先|继续)*(?:留(?!空)|保留|正常服务|照常服务|照旧服务)"
 )
-_NOBODY_ELSE = re.compile(
+_NOBODY_ELSE = deferred(
     r"(?i)(?:\b(?:no\s*body|no\s+one|none)\b[^0-9@]{0,25}@|@[^0-9]{0,30}?\b(?:nobody|no\s+one|nothing\s+else|niemand|nadie|personne)\b"
     r"[^0-9]{0,12}?(?:serv\w*|bedient|atiend\w+|atender|else|$)|"
     r"@(?:[^0-9]{0,10})(?:谁|其他|其它|其余|别|全|的人|人|都|一律)[^0-9]{0,8}?(?:不用?|别|不要)(?:再)?(?:服务|管|发|带|给|理)|"
     r"@\s*(?:以外|之外|外)?[,\uff0c]?\s*(?:全?都|一律)(?:不|别)(?:服务|管|带))"
 )
-_LEAVES_BEFORE = re.compile(r"(?:让|叫|请)\s*$")
-_LEAVES_AFTER = re.compile(r"\s*(?:离开|走吧|走开|走人|退场|下去|先走|出去)")
+_LEAVES_BEFORE = deferred(r"(?:让|叫|请)\s*$")
+_LEAVES_AFTER = deferred(r"\s*(?:离开|走吧|走开|走人|退场|下去|先走|出去)")
 _REACH = 100
-_MERE_BUT = re.compile(r"(?i)but\b(?!\s+not)")
-_ALL = re.compile(r"(?i)\b(?:all|every\w*|each|any\w*|no\w*|per|the\s+(?:lot|rest|others))\b")
+_MERE_BUT = deferred(r"(?i)but\b(?!\s+not)")
+_ALL = deferred(r"(?i)\b(?:all|every\w*|each|any\w*|no\w*|per|the\s+(?:lot|rest|others))\b")
 
 
 def exception_of(plain: str, start: int, end: int) -> Standing:

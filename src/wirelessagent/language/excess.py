@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
+from wirelessagent.language.deferred import deferred
 
 MOST_FIGURES = 40
 _MOST_DIGITS = 200
-_FIGURE = re.compile(
+_FIGURE = deferred(
     r"[0-9]+(?:[.,'][0-9]+)*|[零〇一二两三四五六七八九十百千万亿半几]+|\b(?:one|two|three|four|five|six|seven|eight|nine|ten|"
     r"eleven|twelve|twenty|thirty|fifty|hundred|thousand|dos|tres|cuatro|cinco|deux|trois|quatre|cinq|zwei|drei|vier|"
     r"fünf)\b"

@@ -7,7 +7,6 @@ on every machine and in every process.
 from __future__ import annotations
 
 import functools
-import re
 import unicodedata
 import zlib
 from collections.abc import Iterator, Sequence
@@ -16,12 +15,13 @@ import numpy as np
 import numpy.typing as npt
 
 from wirelessagent.language.base_words import based
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.spelling import SOUND_OF
 from wirelessagent.language.text import CJK, is_chinese
 
 BUCKETS = 1 << 16
 _MAX_TOKENS = 120
-_TOKEN = re.compile(rf"@[a-z]+|[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|[?\uff1f]")
+_TOKEN = deferred(rf"@[a-z]+|[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|[?\uff1f]")
 
 
 def buckets(text: str, concepts: Sequence[str] = (), language: str = "en") -> npt.NDArray[np.int64]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import functools
 import math
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from wirelessagent.language.clauses import clause_end, clause_start
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.figure_words import CORRECTION
 from wirelessagent.language.hints import HINTS, hints
 from wirelessagent.language.mentions import Mention
@@ -39,11 +39,11 @@ LABELS: Mapping[str, tuple[str, ...]] = {
     "link": ("link",),
 }
 _PLACEHOLDERS = {"named": "@user", "others": "@others", "everybody": "@all", "pronoun": "@them"}
-_EACH = re.compile(r"(?i)(?:each|apiece|je|jeweils|cada un[oa]|chacune?|各)(?!\w)")  # of all, or of those just named
+_EACH = deferred(r"(?i)(?:each|apiece|je|jeweils|cada un[oa]|chacune?|各)(?!\w)")  # of all, or of those just named
 _PEOPLE = (*_PLACEHOLDERS.values(), "@each", "@weighed")
 Answer = TypeVar("Answer")
 _MOST_USERS = 20
-SCALED = re.compile(r"\s?[kKMG](?![^\W\d_])")
+SCALED = deferred(r"\s?[kKMG](?![^\W\d_])")
 _FAR = 8
 
 

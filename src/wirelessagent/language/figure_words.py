@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
-
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.phrases import Phrases
 
 HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
 
-CIRCUIT = re.compile(
+CIRCUIT = deferred(
     r"(?ia)\b(?:circuits?|circuitry|static|fixed|idle|overhead|baseline(?= (?:power|consumption|draw|load|"
     r"energy))|stand-?by|quiescent|electronics|hardware|"
     r"cooling|constant)\b"
@@ -20,64 +19,64 @@ CIRCUIT = re.compile(
     r"风扇|电路|静态|固定|基础|设备自身|待机|硬件|板子|整机|器件|本底)"
     r"(?:功率|功耗|能耗|消耗|耗电|损耗)?"
 )
-RADIATED = re.compile(
+RADIATED = deferred(
     r"(?i)\b(?:transmit|transmission|transmitted|tx|radiated|output|p_?max|sendeleistung|strahl\w*|"
     r"puissance d'émission|"
     r"potencia (?:de transmisión|radiada))\b|发射|辐射"
 )
-CORRECTION = re.compile(
+CORRECTION = deferred(
     r"(?ia)\b(?:no|nope|wait|sorry|i mean|i meant|make (?:that|it)|scratch that|rather|correction|oops|actually|"
     r"better|pardon|er|"
     r"non|nein|perdón|pardon|mejor|plutôt|lieber|besser|doch|digo|ich meine|je veux dire|quiero decir|strike that|"
     r"let's say)\b|"
     r"[,\uff0c。]\s*不\s*[,\uff0c]|不对|不是|应该是|改成|改为|算了|错了|说错|还是|哦不|不不|口误|更正|纠正"
 )
-NEGATED = re.compile(  # "more than 10 W are not to be had", 超过4瓦不行
+NEGATED = deferred(  # "more than 10 W are not to be had", 超过4瓦不行
     r"(?i)\b(?:not|no|never|nicht|ned|nie|kein\w*|nunca|sin|pas|jamais|garde-toi|évite|vermeide|avoid|gibt's aber)\b|"
     r"[别不勿禁]|报警|跳闸"
 )
-EXACT = re.compile(
+EXACT = deferred(
     r"(?i)(?:\s+(?:each|apiece|per user|por usuario|par personne|chacun|cada uno|pro nutzer))?\s*,?\s*(?:exactly|exact|"
     r"precisely|no more,? no less|exact[oa]s?|clavad[oa]s?|ni más ni menos|exactement|pile|tout rond|"
     r"ni plus ni moins|genau|exakt)\b"
 )
-EXACT_BEFORE = re.compile(
+EXACT_BEFORE = deferred(
     r"(?i)\b(?:exactly|precisely|exactamente|exactement|précisément|genau|exakt)\s+$|(?:锁定?在?|锁死在|恰好|正好|刚好)\s*$"
 )
-PER_USER = re.compile(
+PER_USER = deferred(
     r"(?i)\s*(?:each\b|apiece\b|(?:per|a|for (?:each|every))\s+(?:user|ue|person|head|subscriber|device|sensor|"
     r"subcarrier|channel|carrier|antenna|tone)|/\s*(?:user|ue)|每|(?:por|par|pro|je)\s+(?:usuario|utilisateur|"
     r"nutzer))"
 )
-TOTAL_BEFORE = re.compile(
+TOTAL_BEFORE = deferred(
     r"(?i)(?:\b(?:total|sum|overall|aggregate|combined|cell|network)\s+(?:data\s+)?(?:rate|throughput|speed|"
     r"capacity)|"
     r"总速率|总吞吐量?|和速率|总共|合计|一共)[\w\s:=]{0,8}$"
 )
-TOTAL_AFTER = re.compile(
+TOTAL_AFTER = deferred(
     r"(?i)\s*(?:of\s+)?(?:in\s+total|total|altogether|overall|combined|in\s+sum|"
     r"(?:to\s+be\s+)?(?:split|shared|divided|distributed)(?:\s+(?:between|among|by|equally|evenly|over))?)\b|"
     r"\s*(?:大家|一起|共同)?(?:平分|均分|分摊)"
 )
-CHANGE_BEFORE = re.compile(
+CHANGE_BEFORE = deferred(
     r"(?i)(?:\b(?:by|save|saves|saving|cut|another|extra|additional|reduce|(?<!au )plus|increase)\s*(?:about|"
     r"around|roughly)?|"
     r"(?:减少|降低|节省|省下?|增加|提高|再加|(?<![最至])多给|下降|提升|升高|(?<=[功速]率)[降减升增加])了?)\s*$"
 )
-CHANGE_AFTER = re.compile(r"(?i)\s*(?:(?:of\s+)?(?:more|less|lower|higher|faster|extra)\b)")
-SET_TO = re.compile(
+CHANGE_AFTER = deferred(r"(?i)\s*(?:(?:of\s+)?(?:more|less|lower|higher|faster|extra)\b)")
+SET_TO = deferred(
     r"(?i)(?:\b(?:reduce|lower|cut|drop|bring|decrease|turn|raise|increase|set|limit)\s+(?:down\s+|up\s+)?(?:the\s+)?"
     r"(?:total\s+|max\w*\s+)?(?:transmit\s+|tx\s+|radiated\s+)?(?:power|budget)(?:\s+budget)?\s+(?:down\s+|"
     r"up\s+)?(?:to|at)|"
     r"(?:总?发?射?功率)(?:降低?|减[小少]?|调|提高|升|增加?|设)(?:到|至|为)|(?:降低?|减[小少]?|"
     r"提高)(?:总?发?射?功率)(?:到|至))\s*$"
 )
-RATE_SET_TO = re.compile(
+RATE_SET_TO = deferred(
     r"(?i)\b(?:raise|increase|bring|set|lift|boost|push|lower|reduce)\s+(?:the\s+|each\s+|every\s+|their\s+)*"
     r"(?:min\w*\s+|user\w*\s+|data\s+|bit\s+)*(?:rates?|speeds?|throughput)\s+(?:up\s+|down\s+)?to\s+$|"
     r"(?:速率|速度|网速)(?:提高|提升|增加|升|调|设)(?:到|至|为)\s*$"
 )
-MISSING = re.compile(
+MISSING = deferred(
     r"(?ia)\b(?:missing|lost|loss|unknown|holes?|absent|gone|faltar\w*|falta\w*|perd\w*|manqu\w*|fehl\w*|"
     r"verloren)\b|缺失|丢失|缺少|丢包|未知|缺|丢"
 )
@@ -85,7 +84,7 @@ _COUNT = (
     r"(?:[0-9]+|two|three|four|five|six|seven|eight|nine|ten|twelve|sixteen|twenty|dos|tres|cuatro|cinco|seis|ocho|diez|"
     r"deux|trois|quatre|cinq|huit|dix|zwei|drei|vier|fünf|sechs|acht|zehn)"
 )
-COUNTED_USERS = re.compile(
+COUNTED_USERS = deferred(
     rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:users|ues|subscribers|devices|sensors|terminals|subcarriers|channels|usuarios|"
     r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
     r"设备|传感器|子载波)"
@@ -115,7 +114,7 @@ HALVED = Phrases(
     r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)",
     marks="half halve third quarter double twice 减半 一半 翻倍",
 )
-EITHER = re.compile(  # between two figures
+EITHER = deferred(  # between two figures
     r"(?i)\s*,?\s*(?:or|o|ou|oder|或者?|还是|(?:or\s+)?(?:if\s+possible|ideally|preferably),?\s+(?:else|otherwise|or)|else|otherwise)\s*"
 )
 OTHERS_HALVED = Phrases(
@@ -149,11 +148,11 @@ SHARES = {
     "half": 1 / 2, "zh_half": 1 / 2, "of_half": 1 / 2, "third": 1 / 3, "zh_third": 1 / 3, "thirds": 2 / 3,
     "zh_thirds": 2 / 3, "quarter": 1 / 4, "zh_quarter": 1 / 4, "quarters": 3 / 4,
 }  # fmt: skip
-SUBCARRIER = re.compile(
+SUBCARRIER = deferred(
     r"(?i)\s*(?:of\s+power\s+)?(?:/|per|on (?:each|every|any|a)|for (?:each|every)|each|any)\s*(?:sub-?carrier|"
     r"tone|carrier|rb|resource block)\b|\s*(?:per|on any) (?:sub-?carrier|tone)"
 )
-SUBCARRIER_BEFORE = re.compile(
+SUBCARRIER_BEFORE = deferred(
     r"(?i)(?:\b(?:each|every|any|per|no|single)\s+(?:single\s+)?(?:sub-?carrier|tone|carrier)\b|(?:每个|每|单个|"
     r"任一|各)子载波)[^,;.，。]{0,40}$"
 )
@@ -176,4 +175,4 @@ STEP = Phrases(
     r"\bun vatio más\b|\bun watt de plus\b|\bein(?: weiteres)? watt mehr\b|\bein weiteres watt\b",
     marks="watt vatio 一瓦",
 )
-MOVE_BEFORE = re.compile(r"(?i)\b(?:reduce|lower|cut|save|drop|decrease|less)\b[\w\s]*$")
+MOVE_BEFORE = deferred(r"(?i)\b(?:reduce|lower|cut|save|drop|decrease|less)\b[\w\s]*$")

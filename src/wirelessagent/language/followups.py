@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS, Constraint
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.stated import Reading
@@ -34,14 +35,14 @@ _LIMITS: tuple[tuple[str, str, str], ...] = (
     ("circuit_power_w", r"circuit\s+power", "电路功率"),
     ("resource_block_group_size", r"(?:groups?|blocks?|grouping)(?:\s+of\s+subcarriers)?", "(?:子载波)?分组"),
 )  # fmt: skip
-_ALL = re.compile(
+_ALL = deferred(
     rf"(?i)\b{_GO}(?:limits?|constraints?|restrictions?|conditions?|caps?|ceiling|límites?|limites?|grenzen?)\b|"
     r"(?:去掉|取消|不要|解除|拿掉|撤掉|放开|删除|没有)(?:所有|全部|一切)?的?(?:限制|约束|条件|上限)(?!为|在)"
 )
 _ZH_GO = "(?:去掉|取消|不要|解除|拿掉|撤掉|放开|删除|删掉|撤销|不用|忽略|别管|没有|不设|移除)(?:了|掉)?"
 _ZH_GONE = "(?:去掉|取消|不要了|解除|拿掉|撤掉|放开|删掉|不设|没有了|免了|作废)"
 _GENERAL = ("max_power_w", "min_rate_bps", "max_rate_bps", "outage_probability", "subcarrier_max_power_w")
-_SAME = re.compile(
+_SAME = deferred(
     r"(?i)\b(?:same|instead|keep(?:ing)?\s+(?:the\s+)?(?:limits?|rest|everything\s+else|constraints?|figures)|"
     r"otherwise|rather|but\s+with|still|also|too|switch|change)\b|"
     r"^\s*(?:and|now|but|then|plus|ok,?\s+now|what\s+about|how\s+about)\b|条件不变|其他不变|其余不变|限制不变|改为|"
@@ -50,7 +51,7 @@ _SAME = re.compile(
 )
 
 
-_GOES = re.compile(rf"(?i)(?<![A-Za-z]){_GO}|{_ZH_GO}|{_ZH_GONE}|\s(?:is|are)\s+(?:gone|off|lifted|no\s+longer|void)")
+_GOES = deferred(rf"(?i)(?<![A-Za-z]){_GO}|{_ZH_GO}|{_ZH_GONE}|\s(?:is|are)\s+(?:gone|off|lifted|no\s+longer|void)")
 
 
 def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tuple[tuple[int, int], ...]]:

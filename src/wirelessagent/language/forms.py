@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import re
+from wirelessagent.language.deferred import deferred
 
-_ASKS = re.compile(
+_ASKS = deferred(
     r"(?i)\s*(?:and |so |but |hey,? |hi,? |ok,? |well,? )?(?:(?:who|which|wh?at|what|whose)(?:'?s|\s+(?:is|are|was|"
     r"were|would|will|does|do|did|can|could|has|have|had|ends?|gets?|got|"
     r"\w+\s+(?:is|are|would|does|do|did|gets?|has|have)))(?!\s+(?:i|we)\s+(?:want|need|like|mean))(?!\s+(?:i'm|"
@@ -12,27 +12,27 @@ _ASKS = re.compile(
     r"how (?:much|many|high|fast|long|far|good|sure|big|come|is|are|did|do|does|would|was)\b|(?:is|are|was|were|"
     r"does|did|has|have)\s+\w+)"
 )
-_ONLY_ASKING = re.compile(
+_ONLY_ASKING = deferred(
     r"(?i)\b(?:just|only|merely) (?:asking|curious|wondering|checking|a question)\b|\bwithout (?:changing|touching|"
     r"applying) (?:anything|it)\b|\b(?:don'?t|do not) (?:touch|change|apply|do) "
     r"(?:it|anything|a thing)\b(?!\s+else)|\bhypothetical(?:ly)?\b|只是问问|随便问问|先别动|别真改|不要真的改|"
     r"只是想知道"
 )
 _ANSWERS = {
-    "confirm": re.compile(
+    "confirm": deferred(
         r"(?i)\s*(?:yes|yeah|yep|yup|ok|okay|sure|of course|yes,? please|confirm(?:ed)?|agreed|do that|sí|si|vale|"
         r"oui|d'accord|ja|jawohl|jawoll|"
         r"是|是的|对|对的|好|好的|好吧|好啊|行|行吧|可以|可以的|确认|确定|同意|没错|没问题|嗯|"
         r"嗯嗯)\s*[.!。\uff01~]*\s*"
     ),
-    "reject": re.compile(
+    "reject": deferred(
         r"(?i)\s*(?:no|nope|nah|no thanks|no,? thank you|not now|better not|non|nein|no,? gracias|non merci|"
         r"nein danke|"
         r"不|不要|不用|不用了|不行|不是|不对|不了|否|别|算了|不同意|先不|不必)\s*[.!。\uff01~]*\s*"
     ),
 }
-_COMPARES = re.compile(r"(?i)\s*(?:please\s+|请)?(?:compare|vergleiche?|compara|比较|对比)(?![A-Za-z])")
-_CODE = re.compile(  # programs, mark-up and injections are no wishes
+_COMPARES = deferred(r"(?i)\s*(?:please\s+|请)?(?:compare|vergleiche?|compara|比较|对比)(?![A-Za-z])")
+_CODE = deferred(  # programs, mark-up and injections are no wishes
     r"<[|/!a-zA-Z]|\{\{|\}\}|\$\(|--\s*$|\\x|__\w+__|"
     r"(?i:\b(?:select|delete|drop|insert|update)\b.*\b(?:from|table|into|set)\b.*[;*=]|;\s*commit\b|"
     r"\bbegin\b.*\bdelet|\b(?:os|"
@@ -40,12 +40,12 @@ _CODE = re.compile(  # programs, mark-up and injections are no wishes
     r"(?i:\b(?:ignore|disregard|forget)\s+(?:all\s+|any\s+|the\s+|your\s+)*(?:previous|prior|above|earlier)\s+"
     r"(?:instructions?|rules?|prompts?))|(?:忽略|无视)[^,\uff0c]{0,6}(?:指令|规则|提示)"
 )
-_ASKS_IN_CHINESE = re.compile(
+_ASKS_IN_CHINESE = deferred(
     r"^\s*(?:我?想)?(?:请教|请问|问一下|打听)|^\s*(?:为啥|为什么|为何|凭什么|咋)(?![不别])|(?:多少|什么|怎么|"
     r"为什么|谁|哪[个些里]|几[个瓦位]|"
     r"啥)[^\uff0c。,]{0,8}[\uff1f?]\s*$"
 )
-_STATED = re.compile(
+_STATED = deferred(
     r"(?i)\s*(?:the|our|this|that|your)\s+[\w -]{2,30}?\s+(?:is|are|looks?|seems?|was|feels?)\s+(?:good|fine|ok|"
     r"okay|nice|"
     r"all right|alright|great|perfect|normal|acceptable)\b[^,;:\n]{0,20}"

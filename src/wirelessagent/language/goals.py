@@ -8,11 +8,11 @@ and says why.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.vocabulary import Found
 
 Verdict: TypeAlias = Literal["clear", "none", "weak", "contradiction", "negated", "opposite"]
@@ -60,8 +60,8 @@ _PAIRS: dict[tuple[str, str], tuple[str, float]] = {
     ("bad", "battery"): ("more_power", 0.5),
     ("bad", "efficiency"): ("less_efficiency", 1.0),
 }
-_EQUALLY = re.compile(r"(?i)\bequally fast\b|\bequal (?:rates|speeds)\b|(?:一样|同样)快")
-_IN_TOTAL = re.compile(
+_EQUALLY = deferred(r"(?i)\bequally fast\b|\bequal (?:rates|speeds)\b|(?:一样|同样)快")
+_IN_TOTAL = deferred(
     r"(?i)\b(?:total|sum|overall|aggregate|combined|versus|or|than|not|no)\b|总|和速率|合计|不(?!超过|高于)|别|还是|比"
 )
 _SAME_WISH = 0.8

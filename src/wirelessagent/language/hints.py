@@ -10,6 +10,8 @@ import functools
 import re
 from collections.abc import Mapping, Sequence
 
+from wirelessagent.language.deferred import deferred
+
 _BEGINNINGS: Mapping[str, str] = {
     "capped": (
         "cap caps capped capping ceiling limit thrott clamp hold held restrict more over above beyond exceed "
@@ -66,7 +68,7 @@ _CHINESE: Mapping[str, str] = {
     "alone": "只 仅 单 唯 就 专",
     "weighed": "权 算 顶 份 倍 重",
 }
-_MARKS = re.compile(r"['’\-(\[\"“«/]")
+_MARKS = deferred(r"['’\-(\[\"“«/]")
 HINTS: Mapping[str, Sequence[str]] = {
     "power": ("drawn", "sent", "now", "capped"),
     "rate": ("capped", "floored", "exact", "now"),
@@ -94,6 +96,6 @@ def _spaced(words: str) -> str:
 @functools.cache
 def _patterns() -> Mapping[str, re.Pattern[str]]:
     return {
-        name: re.compile(f" (?:{'|'.join(words.split())})|{'|'.join(_CHINESE[name].split())}")
+        name: deferred(f" (?:{'|'.join(words.split())})|{'|'.join(_CHINESE[name].split())}")
         for name, words in _BEGINNINGS.items()
     }

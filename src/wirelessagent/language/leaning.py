@@ -11,11 +11,12 @@ import dataclasses
 import re
 from collections.abc import Sequence
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.readings import Reading
 from wirelessagent.language.text import USER_NOUN
 from wirelessagent.language.units import Unit, unit_at
 
-_ENDS = re.compile(
+_ENDS = deferred(
     r"(?i)\s*(?:$|[,;:!?)\uff0c。\uff1b、]|\.(?![0-9])|(?:and|y|et|und|but|pero|mais|aber|then|now|please|each|at\s+least|"
     r"at\s+most|cada\s+uno|chacun|je|max|min)\b)"
 )
@@ -34,41 +35,41 @@ _LINK = (
     r"tiene[n]?|necesita[n]?|que|avec|à|a|aura|obtient|reçoit|mit|auf|bei|bekommt|kriegt|kriegen|bekommen|braucht|"
     r"brauchen|reichen|reicht|wenigstens|mindestens|höchstens|sogar|nur|al\s+menos|au\s+moins|at\s+least|at\s+most)\b)"
 )
-_SUBJECT_BEFORE = re.compile(rf"(?i)(?:\b{_USER}|\b{_OTHERS},?){_LINK}*(?:\s+|\bd')$")
-_SUBJECT_AFTER = re.compile(
+_SUBJECT_BEFORE = deferred(rf"(?i)(?:\b{_USER}|\b{_OTHERS},?){_LINK}*(?:\s+|\bd')$")
+_SUBJECT_AFTER = deferred(
     rf"(?i)\s+(?:promis(?:ed)?\s+)?(?:(?:for|to|para|pour|für|an)\s+(?:el\s+|la\s+|l'|den\s+|die\s+|dem\s+|the\s+)?|"
     rf"à\s+l'|à\s+|al?\s+)(?:{USER_NOUN}\s*[0-9]{{1,2}}|{_OTHERS}\b|[0-9]{{1,2}}\b|all\b|each\b)"
 )
-_JOINED_ON = re.compile(r"(?i)(?:[,;:(]|\b(?:and|y|et|und|but|pero|mais|aber))\s*$")
-_PRONOUN = re.compile(r"(?i)\b(?:others?|every|each|any|the|this|that|which|no|some|only|last|\w+st)\s+$")
-_OF_MANY = re.compile(  # "the other five", "UE 1 à 3": a count of users, or the last of them
+_JOINED_ON = deferred(r"(?i)(?:[,;:(]|\b(?:and|y|et|und|but|pero|mais|aber))\s*$")
+_PRONOUN = deferred(r"(?i)\b(?:others?|every|each|any|the|this|that|which|no|some|only|last|\w+st)\s+$")
+_OF_MANY = deferred(  # "the other five", "UE 1 à 3": a count of users, or the last of them
     rf"(?i)(?:\b(?:others?|otros|dem[aá]s|autres|anderen|andern|übrigen|restlichen)|\b{USER_NOUN}\s*[0-9]{{1,2}}\s+"
     r"(?:à|a|to|bis|hasta))\s+$"
 )
-_POWER_BEFORE = re.compile(
+_POWER_BEFORE = deferred(
     r"(?i)\b(?:electronics|circuit(?:s|ry)?|hardware|baseband|transmitter|elektronik|schaltung|sender|electrónica|"
     r"circuitos?|transmisor|électronique|circuits|émetteur)\s+(?:alone\s+)?(?:takes?|eats?|uses?|burns?|draws?|needs?|"
     r"can\s+do|gets?|at|frisst|braucht|verbraucht|nimmt|darf|come[n]?|consume[n]?|gasta[n]?|prend|consomme|mange)\s+$"
 )
-_MARKER = re.compile(
+_MARKER = deferred(
     r"(?i)\b(?:no|nope|wait|hang\s+on|hold\s+on|sorry|i\s+mean|i\s+meant|make\s+(?:that|it)|scratch\s+that|correction|"
     r"oops|rather|actually|better|pardon|non|plutôt|nein|entschuldigung|lieber|besser|perd[oó]n|mejor|digo|disculpa|"
     r"ich\s+meine|je\s+veux\s+dire|quiero\s+decir|typo)\b|不对|不是|应该是|改成|改为|说错|哦不|错了|口误|更正"
 )
-_AFTER_MARKER = re.compile(  # what may stand between the last comma of a correction and its number
+_AFTER_MARKER = deferred(  # what may stand between the last comma of a correction and its number
     rf"(?i)(?:[\s…-]|{_MARKER.pattern.removeprefix('(?i)')}|\b(?:ach|oh|uh|er|at\s+most|at\s+least|under|below|max|only|just|it|that|to|of|"
     r"better|then|plutôt|con|mit|avec|under|höchstens|mindestens|como\s+mucho|au\s+plus|es\s+sind|eher)\b|[是成到呃嗯])*$"
 )
-_JOINS = re.compile(
+_JOINS = deferred(
     r"(?i)\s*(?:and|or|y|o|et|ou|und|oder|beziehungsweise|bzw\.?|respectively|和|、)"
     r"(?:\s*(?:at\s+most|up\s+to|höchstens|maximal|como\s+mucho|como\s+máximo|au\s+plus|max|最多|至多))?\s*$"
 )
-_COMMA = re.compile(r"\s*[,、]\s*$")
-_NAMED_BEFORE = re.compile(
+_COMMA = deferred(r"\s*[,、]\s*$")
+_NAMED_BEFORE = deferred(
     rf"(?i)(?:\b{USER_NOUN}|\b(?:al|el|le|der|den|dem|the|slots?|day|no\.?))\s*(?:[0-9]+\s*,\s*)*$"
 )
-_DECLARED = re.compile(r"(?i)\b(?:in|en)\s+")
-_SENTENCE_END = re.compile(r"[!?。]|\.(?=\s|$)")
+_DECLARED = deferred(r"(?i)\b(?:in|en)\s+")
+_SENTENCE_END = deferred(r"[!?。]|\.(?=\s|$)")
 
 
 def with_units(plain: str, found: Sequence[Reading]) -> list[Reading]:

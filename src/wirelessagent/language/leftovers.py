@@ -8,11 +8,11 @@ cannot be mere idiom ("half of", "ten volts"; not "a", "one", "十分").
 from __future__ import annotations
 
 import functools
-import re
 import unicodedata
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.factors import factors
 from wirelessagent.language.numerals import Number, numbers
 from wirelessagent.language.phrases import Phrases
@@ -21,7 +21,7 @@ from wirelessagent.language.units import unit_at
 Span = tuple[int, int]
 
 # Generations, picture sizes and the like: they look like figures and describe.
-_NAMES = re.compile(
+_NAMES = deferred(
     r"(?i)(?<![A-Za-z0-9.])(?:[2-6]G|[248]K|(?:720|1080|1440|2160)p|wi-?fi\s?[4-7]|24/7)(?![A-Za-z0-9])"
     r"(?!\s*(?:each|per|apiece|every|for (?:each|every))\b)"
 )
@@ -49,13 +49,13 @@ _TIMES = Phrases(
     r"个小时|天|周|个月|年)(?!\s*[w瓦])|"
     r"(?:周|星期|礼拜)[一二三四五六日天]|[一二三四五六七八九十0-9]{1,2}月|[一二三四五六七八九十0-9]{1,2}[日]"
 )
-_PRICES = re.compile(  # and other amounts of what no limit here is
+_PRICES = deferred(  # and other amounts of what no limit here is
     r"(?i)[€$£¥]\s?[0-9][0-9.,]*|(?<![\w.,])[0-9][0-9.,]*\s?(?:€|\$|£|¥|euros?|cents?|dollars?|pounds?|pesos?|francs?|"
     r"centimes?|céntimos?|yuan|kronen|[kM]?Wh|kilowatt-?hours?|kilowattheures?|[kMGT]B(?!/|\s?per|ps)|gigabytes?|"
     r"terabytes?|gigas?octets?|km|metres?|meters?|kilometres?)(?![A-Za-zÀ-ÿ])|"
     r"[0-9.]+\s?(?:元|块钱?|毛|欧元|美元|度电?)(?!带宽)"
 )
-_GLUED = re.compile(  # CO2, TV5, A9, 9th, 3GPP
+_GLUED = deferred(  # CO2, TV5, A9, 9th, 3GPP
     r"(?<![A-Za-z0-9_])(?:(?!(?:[UuRrPpWwXx]|UE|ue|Ue)[0-9])[A-Za-z]{1,4}[0-9₀-₉]{1,3}|[0-9]{1,3}(?:st|nd|rd|th|er|ère|ème|º|ª))"
     r"(?![A-Za-z0-9]*[=<>≤≥])(?![A-Za-z0-9.,]*[0-9])|3GPP|CO₂"
 )
@@ -67,37 +67,37 @@ _PAIRS = Phrases(
     r"第[一二三]|万一|一二",
     marks="two three 两 一举 三心 四面 十足 第 万一 一二",
 )
-_VAGUE = re.compile(
+_VAGUE = deferred(
     r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
     r"(?<=a )number)\s+(?:of\s+)?|(?<=[0-9a-z])-odd\s+"
 )
-_SETS_A_LIMIT = re.compile(
+_SETS_A_LIMIT = deferred(
     r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max|min|maximum|minimum|exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥]|"
     r"(?:功率|速率|网速|上限|下限|预算|封顶)(?:为|是|到|在|用)?)\s*$"
 )
-_UNIT_OF_ANOTHER_KIND = re.compile(
+_UNIT_OF_ANOTHER_KIND = deferred(
     r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"
 )
-_ABBREVIATED = re.compile(r"\s?-?(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})(?![^\W\d_])")  # "43 dbx"
-_ALONE_AHEAD = re.compile(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
-_ALONE_BEHIND = re.compile(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
+_ABBREVIATED = deferred(r"\s?-?(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})(?![^\W\d_])")  # "43 dbx"
+_ALONE_AHEAD = deferred(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
+_ALONE_BEHIND = deferred(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
 _ALL_IDIOMS = (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR, _PRICES, _GLUED)
-_RATING = re.compile(  # what a device has, and a limit only where nothing else is said
+_RATING = deferred(  # what a device has, and a limit only where nothing else is said
     r"(?i)\s?-?(?:[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz|(?:kilo|mega|giga)hertz)(?![^\W\d_])|\s*[千兆毫]?(?:伏|赫)"
 )
-FOREIGN_UNIT = re.compile(  # no user's number stands before one
+FOREIGN_UNIT = deferred(  # no user's number stands before one
     r"(?i)\s?-?(?:[kMG]?Hz|hertz|[km]?V|volts?|voltios?|[km]?A|[km]?Wh|J|joules?|julios?|dB|°|[kMGT]?B|bits?|bytes?|"
     r"kilo\w+|mega\w+|giga\w+|cm|mm|km|m²|ms|grad|degrees?|percent)(?![^\W\d_])"
 )
-_WHOLE = re.compile(r"[0-9]+")
+_WHOLE = deferred(r"[0-9]+")
 _IDIOMS = frozenset(
     (
         "a", "an", "one", "un", "une", "uno", "una", "ein", "eins", "eine", "einen", "einem", "einer", "eines", "cero",
         "medio", "media", "medios", "medias", "demi", "demie", "halb", "halbe", "halben", "halbes", "halber",
     )
 )  # fmt: skip
-_CHINESE_FIGURE = re.compile(r"[二三四五六七八九]|十(?!分)|两(?=\s*[个名位台倍])")
-_TO_THE_RIGHT = re.compile(r"[^\s,;:!?\uff0c\uff1b。、)]*(?:\s*[\^*×·/+÷x]\s*[^\s,;]+)*(?:\s?(?:of\s+)?[A-Za-zμΩ/]+)?")
+_CHINESE_FIGURE = deferred(r"[二三四五六七八九]|十(?!分)|两(?=\s*[个名位台倍])")
+_TO_THE_RIGHT = deferred(r"[^\s,;:!?\uff0c\uff1b。、)]*(?:\s*[\^*×·/+÷x]\s*[^\s,;]+)*(?:\s?(?:of\s+)?[A-Za-zμΩ/]+)?")
 
 
 def unread(plain: str, covered: Sequence[Span]) -> Span | None:

@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.followups import dropped_in, keeps_the_limits, with_users_back
 from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
 from wirelessagent.language.llm_reasons import Objection
@@ -17,7 +18,7 @@ from wirelessagent.language.mentions import mentions
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.sentence import Sentence
 
-_TAKES_BACK = re.compile(
+_TAKES_BACK = deferred(
     r"(?i)\b(?:without|drop\w*|remov\w+|lift\w*|forget|no|cancel\w*|get\s+rid|take\s+away|delet\w+|not?\s+longer|any\s?more|"
     r"ignore|scrap\w*|waiv\w+|abolish\w*|relax\w*|unlimited|unrestricted|gone|never\s?mind|"
     r"sin|quita\w*|elimina\w*|sans|supprim\w+|enlèv\w+|ohne|entfern\w+|streich\w+)\b|"
@@ -26,7 +27,7 @@ _TAKES_BACK = re.compile(
 _RATE = r"rate|speed|promis|guarantee|floor|bit|minimum|velocidad|tasa|débit|速|保|兆"
 _USERS = r"user|everyone|everybody|every one|who|usuari|utilisat|nutzer|用户|人|大家|号"
 _SPEAKS_OF: Mapping[str, re.Pattern[str]] = {
-    name: re.compile(rf"(?i){words}")
+    name: deferred(rf"(?i){words}")
     for name, words in {
         "max_power_w": r"power|watt|budget|\bw\b|potencia|puissance|leistung|功率|瓦|电", "min_rate_bps": _RATE,
         "max_rate_bps": rf"{_RATE}|cap|ceiling|throttl", "circuit_power_w": r"circuit|电路",
@@ -35,7 +36,7 @@ _SPEAKS_OF: Mapping[str, re.Pattern[str]] = {
         "users": _USERS, "leave_out": _USERS,
     }.items()
 }  # fmt: skip
-_NUMBERED = re.compile(r"[^0-9]*([0-9]{1,9})[^0-9]*")
+_NUMBERED = deferred(r"[^0-9]*([0-9]{1,9})[^0-9]*")
 
 
 class Held:

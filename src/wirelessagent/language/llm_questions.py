@@ -7,19 +7,19 @@ nothing are left out, and a question that claims something was done, or names an
 from __future__ import annotations
 
 import math
-import re
 import unicodedata
 from collections.abc import Sequence
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.llm_reasons import Objection
 from wirelessagent.language.quantities import parse_quantities
 
-_SENTENCE = re.compile(r"(?s).+?(?:[.!?](?=\s|$)|[。！？\uff1f\uff01]|\n|$)")
-_ADDRESS = re.compile(
+_SENTENCE = deferred(r"(?s).+?(?:[.!?](?=\s|$)|[。！？\uff1f\uff01]|\n|$)")
+_ADDRESS = deferred(
     r"(?i)[a-z][a-z0-9+.-]*:\s*/\s*/|\bwww\.|\b(?:mailto|javascript|data|tel):|[^\s@]@[^\s@]|\[\s*link|\]\s*\(|"
     r"(?<![0-9])[a-z0-9-]+\.(?:[a-z]{2,24})(?=[/\s:?#,;)\uff1f]|$)"
 )
-_CLAIM = re.compile(
+_CLAIM = deferred(
     r"(?i)(?<!\bbe )\b(?:done|applied|activated|deployed|executed|completed?|confirmed|committed|reverted|undone|"
     r"finished|succe\w+|"
     r"(?:i|we|it|has|have|was|were|is|are|been|i've|we've|just|already|now)\s+(?:\w+\s+)?(?:set|changed|saved|"

@@ -8,12 +8,12 @@ tie to the objective. The rules' own reading needs neither.
 
 from __future__ import annotations
 
-import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 
 from wirelessagent.language import forms
 from wirelessagent.language.base_words import based
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.llm_reasons import Objection
@@ -22,7 +22,7 @@ from wirelessagent.language.text import normalise
 from wirelessagent.language.vocabulary import OwnWords, units_of
 
 _A_QUESTION, _SOMETHING_ELSE, _REFUSED = 0.5, 0.8, 0.5
-_ENDS_WITH_NO = re.compile(r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$")
+_ENDS_WITH_NO = deferred(r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$")
 
 # Concepts of the lexicon and base words that speak of an objective.
 _TIES: Mapping[str, tuple[str, str]] = {

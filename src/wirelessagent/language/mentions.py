@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.phrases import Phrases
 from wirelessagent.language.units import unit_at
@@ -86,7 +87,7 @@ def _zh_list(number: str) -> str:
 
 
 _ZH_LIST = rf"(?:{_zh_list('[0-9]{1,4}')}|{_zh_list('[一二三四五六七八九十]{1,3}')})"
-_ZH = re.compile(
+_ZH = deferred(
     rf"(?<!其他)(?<!其它)(?<!其余)(?:{_ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致下])号?)"
     rf"|(?<![权重乘取为=.0-9月])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{_ZH_NOUN}?"
     rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{_ZH_NOUN}"
@@ -126,16 +127,16 @@ _PRONOUN = Phrases(
     r"él|ella|ellos|ambos|los dos|"
     r"lui|elle|eux|les deux|ihm|ihr|ihn|ihnen|den|die beiden|beide[nr]?)\b|[他她它]们?(?!人)"
 )
-JOINT = re.compile(
+JOINT = deferred(
     r"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|\b(?:or|and|nor|plus|y|e|o|ni|et|ou|und|oder|sowie|noch|"
     r"as\s+well\s+as|así\s+como|ainsi\s+que)\b|\s)+\s*(?:(?:also|the|al|el|los|la|le|les|au|aux|die|den|der|del|du)\s+)?"
     r"(?:l'|à\s+l')?"
 )
-LISTED = re.compile(  # between the figures of a list
+LISTED = deferred(  # between the figures of a list
     rf"(?i)\s*(?:[,;、\uff0c]|{JOINT.pattern.removeprefix('(?i)')}|,?\s*(?:and then|beziehungsweise|bzw\.?|"
     r"respectively))\s*"
 )
-_RANGE = re.compile(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
+_RANGE = deferred(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 
 from wirelessagent import plugins
+from wirelessagent.language.deferred import deferred
 
 _SPOKEN: Mapping[str, tuple[str, ...]] = {
     "dual": ("dual decomposition", "lagrangian", "对偶"),
@@ -61,4 +62,4 @@ def _spoken(names: tuple[str, ...]) -> tuple[Mapping[str, str], re.Pattern[str]]
     spoken = {said: name for name in names for said in (_plain(name), *_SPOKEN.get(name, ()))}
     longest_first = sorted(spoken, key=len, reverse=True)
     either = "|".join(rf"\b{re.escape(said)}(?![a-z])" if said.isascii() else said for said in longest_first)
-    return spoken, re.compile(either or r"(?!)")
+    return spoken, deferred(either or r"(?!)")

@@ -6,7 +6,7 @@ themselves. Which of the two is meant has to be asked, lest the wish be dropped 
 
 from __future__ import annotations
 
-import re
+from wirelessagent.language.deferred import deferred
 
 _NOT = (
     r"\b(?:not|never|without|nobody|no\s+one|no\s+user|none|avoid|mustn'?t|don'?t|shouldn'?t|can'?t|sin|nadie|ning[uú]n|no|"
@@ -17,7 +17,7 @@ _GO_WITHOUT = (
     r"\bempty[- ]handed|\bhambre|\bsin\s+nada|\baffam\w+|\bsans\s+rien|"
     r"\bverhunger\w*|\bleer\s+aus\w*|\bzu\s+kurz\s+komm\w*)"
 )
-_NOBODY_STARVES = re.compile(
+_NOBODY_STARVES = deferred(
     rf"(?i){_NOT}[^,;.!?]{{0,40}}?{_GO_WITHOUT}|"
     r"\b(?:look(?:ing)?\s+after|tak(?:e|ing)\s+care\s+of|protect(?:ing)?|mind(?:ing)?|spar(?:e|ing)\s+a\s+thought\s+for)\s+the\s+"
     r"(?:weak|slow|poor|worst|far|distant|cell[- ]edge|edge)\w*|"

@@ -6,10 +6,10 @@ place can be at all: a bounded number is no user, a scaled one no weight.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language.borrowed import BORROWING
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.figure_roles import SCALED, answers
 from wirelessagent.language.figure_words import CORRECTION, COUNTED_USERS
 from wirelessagent.language.leftovers import FOREIGN_UNIT, idioms, may_be_a_limit
@@ -19,16 +19,16 @@ from wirelessagent.language.numerals import Number
 
 _ONE_OF_A_LIST, _NEAR = 0.3, 24
 _MOST_WEIGHT = 10**6
-ITEMS = re.compile(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
-_WEIGHED = re.compile(
+ITEMS = deferred(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
+_WEIGHED = deferred(
     r"(?i)weigh|count|priorit|import|prefer|peso|pesa|cuent|poids|pèse|compt|gewicht|zähl|wichtig|vale|权|优先|重要|比重|算|当"
 )
-_HEADS = re.compile(r"\s*(?::|=|->|→)\s*[0-9]")
-_COUNTS = re.compile(  # "3 waiting users"
+_HEADS = deferred(r"\s*(?::|=|->|→)\s*[0-9]")
+_COUNTS = deferred(  # "3 waiting users"
     r"(?i)\s+(?!(?:for|to|of|from|with|at|and|or|is|are|other|as|than|our|the)\b)[a-z]+(?:\s+[a-z]+)?\s+(?:users|ues|people|"
     r"subscribers|customers|clients|devices|phones|sensors|terminals)\b"
 )
-_WEIGHTS = re.compile(  # what follows are weights, whatever else they may look like
+_WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
     r"(?i)(?:\b(?:weights?|weigh(?:s|ing|ed)?|pesos?|poids|gewichten?)(?:\s+(?:of|are|is|being|de|von|sind))?|权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
 )
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one

@@ -8,10 +8,11 @@ numbers. Vague amounts ("a few hundred", "quelques", "una treintena") are number
 from __future__ import annotations
 
 import functools
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
+
+from wirelessagent.language.deferred import deferred
 
 _PLAIN = str.maketrans("áàâäéèêëíîïóôöúùûüñç", "aaaaeeeeiiiooouuuunc")
 _GERMAN_PLAIN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
@@ -118,7 +119,7 @@ _GRAMMARS = {"en": _ENGLISH, "es": _SPANISH, "fr": _FRENCH, "de": _GERMAN}
 _GERMAN_ROOTS = "|".join(
     sorted(_GERMAN_ONES | _GERMAN_TENS | {"hundert": 0, "tausend": 0, "und": 0, "einhalb": 0}, key=len, reverse=True)
 )
-_GERMAN_COMPOUND = re.compile(rf"(?:{_GERMAN_ROOTS})+|anderthalb(?:e|es)?")
+_GERMAN_COMPOUND = deferred(rf"(?:{_GERMAN_ROOTS})+|anderthalb(?:e|es)?")
 
 
 @dataclass(frozen=True, kw_only=True)

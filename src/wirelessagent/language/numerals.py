@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import Spoken, languages_of, spoken
 from wirelessagent.language.text import USER_NOUN, language_of
 from wirelessagent.language.units import unit_at
@@ -38,7 +39,7 @@ _DIGITS = (
     r"|[0-9]+[.,][0-9]+(?![0-9]|[.,][0-9])|[0-9]+(?:[.,][0-9]+){2,}|\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
 )
 _LETTERS = "A-Za-zÀ-ÖØ-öø-ÿ"
-_NUMBER = re.compile(
+_NUMBER = deferred(
     rf"(?P<minus>(?<![A-Za-z0-9_)])-(?=[0-9.])|(?i:\b(?:minus|negative)\s+)|负\s*)?"
     rf"(?:(?P<digits>(?<![A-Za-z0-9_.]){_DIGITS})(?P<power>\s?[×x*·]\s?10\^(?P<exponent>[+-]?[0-9]{{1,2}})(?![0-9]))?"
     rf"(?:\s?(?P<scale>(?i:{'|'.join(sorted(_SCALES, key=len, reverse=True))})\b(?:\s+(?:de\b|d'))?|[百千]?万|百|亿|"
@@ -46,25 +47,25 @@ _NUMBER = re.compile(
     rf"|(?P<fraction>(?<![0-9])[½¼¾])|(?P<word>(?<![{_LETTERS}0-9_])[{_LETTERS}]+(?![0-9_]))"
     rf"|(?P<chinese>[几零〇一二两三四五六七八九十百千万亿半][零〇一二两三四五六七八九十百千万亿点半]*))"
 )
-_WORDS = re.compile(rf"[{_LETTERS}]+(?:(?:[\s-]{{1,2}}|'|\s?(?:\.{{3}}|…)\s?)[{_LETTERS}]+){{0,11}}")
-_WORD = re.compile(rf"[{_LETTERS}]+")
-_AND_PART = re.compile(
+_WORDS = deferred(rf"[{_LETTERS}]+(?:(?:[\s-]{{1,2}}|'|\s?(?:\.{{3}}|…)\s?)[{_LETTERS}]+){{0,11}}")
+_WORD = deferred(rf"[{_LETTERS}]+")
+_AND_PART = deferred(
     r"(?i)(?:\s+(?:and\s+an?|y|et|und\s+ein)\s+(?P<part>half|quarter|medio|media|cuarto|demie?|quart|halbes|viertel)\b|"
     r"\s?(?P<sign>[½¼¾]))"
 )
-_OVER = re.compile(r"/(?P<below>[1-9][0-9]?)(?![0-9/])(?:\s+(?:of\s+an?|de|d'un))?")
-_VAGUELY = re.compile(r"[来多余几]")
-_THOUSANDFOLD = re.compile(r"比特|字节|瓦(?!时)")
-_AS_FEW = re.compile(r"(?i)\b(?:as|so|too|tan|aussi|zu|very|muy|trop)\s+$")
+_OVER = deferred(r"/(?P<below>[1-9][0-9]?)(?![0-9/])(?:\s+(?:of\s+an?|de|d'un))?")
+_VAGUELY = deferred(r"[来多余几]")
+_THOUSANDFOLD = deferred(r"比特|字节|瓦(?!时)")
+_AS_FEW = deferred(r"(?i)\b(?:as|so|too|tan|aussi|zu|very|muy|trop)\s+$")
 _EACH = (
     r"(?<!every )(?<!each )(?<!per )(?<!all )(?<!cada )(?<!por )(?<!chaque )(?<!par )(?<!jeder )(?<!jeden )(?<!pro )"
 )
-_NAMED = re.compile(rf"(?i){_EACH}\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|y|et|und|&|/)\s*)*$")
-_PLURAL = re.compile(
+_NAMED = deferred(rf"(?i){_EACH}\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|y|et|und|&|/)\s*)*$")
+_PLURAL = deferred(
     r"(?i)\b(?:users|ues|subscribers|customers|clients|devices|phones|usuarios|abonados|utilisateurs|"
     r"abonnés|usagers|kunden)\s*$"
 )
-_BELOW_ZERO = re.compile(r"(?i)(?<!al )(?<!lo )(?<!au )(?<!ou )\b(?:menos|moins)\s+$")
+_BELOW_ZERO = deferred(r"(?i)(?<!al )(?<!lo )(?<!au )(?<!ou )\b(?:menos|moins)\s+$")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import Quantity
 
@@ -39,7 +40,7 @@ _EVENT = (
 _PART = rf"(?P<part>[0-9]{{1,3}}|{'|'.join(sorted(_PARTS, key=len, reverse=True))})"
 _WHOLE = rf"(?P<whole>10|20|25|40|50|100|200|500|1[ .,']?000|{'|'.join(sorted(_WHOLES, key=len, reverse=True))})"
 _NUMERAL = "[0-9一二两三四五六七八九十百千]+"
-_ODDS = re.compile(
+_ODDS = deferred(
     rf"(?i)(?<![\w.,]){_PART}(?:[\s-]+{_EVENT})?[\s-]+(?:in|out\s+of|of|por\s+cada|de\s+cada|cada|entre|sur|von|aus|auf)"
     rf"[\s-]+(?:every\s+|each\s+|je\s+)?{_WHOLE}(?![\w%]|[.,][0-9]|\s?(?:[kmM]?W|dB\w*|[kKMG]?bit\S*|[kMG]bps)\b)|"
     rf"\bjede[rsnm]?\s+(?P<ordinal>{'|'.join(_ORDINALS)})[nrsm]?\b|"

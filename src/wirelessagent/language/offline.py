@@ -16,6 +16,7 @@ from collections.abc import Mapping, Sequence
 
 from wirelessagent.language.answer import Answer
 from wirelessagent.language.command_cues import CHANGING, is_unsure
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.excess import MOST_FIGURES, too_many_figures
 from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
@@ -36,10 +37,8 @@ _DEFAULT_CONFIDENCE = 0.75
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
 _UNFAIR_OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency")
 _FAIR_WORDS = {"fair", "same", "fairly"}
-_REFUSED = re.compile(
-    r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$"
-)  # "max rate? no"
-_ASKED = re.compile(r"[?\uff1f]\s*$")
+_REFUSED = deferred(r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$")  # "max rate? no"
+_ASKED = deferred(r"[?\uff1f]\s*$")
 
 
 class OfflineRecogniser(Recogniser):

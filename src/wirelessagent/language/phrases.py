@@ -9,6 +9,7 @@ import re
 import sys
 from collections.abc import Iterator
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.text import lowered
 
 
@@ -24,7 +25,7 @@ class Phrases:
     """
 
     def __init__(self, pattern: str, marks: str = "") -> None:
-        self.compiled = re.compile(pattern)
+        self.compiled = deferred(pattern)
         self.marks = tuple(mark.replace("_", " ") for mark in marks.split())
 
     def search(self, plain: str, start: int = 0, end: int = sys.maxsize) -> re.Match[str] | None:

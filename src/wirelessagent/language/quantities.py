@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.comparators import Comparator, comparison
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.readings import GENERATION, Reading
 from wirelessagent.language.readings import readings as read_numbers
@@ -22,48 +23,48 @@ from wirelessagent.language.units import unit_of_another_time
 QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
 
 # A bare number may be followed by these; any other word makes it a count of that word or an unknown unit.
-_AFTER_BARE = re.compile(
+_AFTER_BARE = deferred(
     r"\s*(?:$|[,;:!?。\uff0c\uff1b、)\]]|\.(?![0-9])|(?i:(?:please|and|or|for|each|per|max|maximum|min|minimum|"
     r"with|at|but|then|now|thanks|"
     r"to|in|on|the|while|when|apiece)\b|(?:de\s+)?(?:probabilit|outage|wahrscheinlich)))"
 )
-_NAMES = re.compile(
+_NAMES = deferred(
     r"(?i:(?:\b(?:users?|ues?|slots?|subcarriers?|channels?|carrier|cells?|number|numbers|no\.?|and|to|release|"
     r"version|mode"
     r"|device|sensor|band|seed|step|case|at|day|room)|[#№])\s*$)|(?:用户|子载波|信道|小区|第|方案|模式|时隙)\s*$"
 )
-_USERS = re.compile(rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|or|y|et|und|oder|ou|o|&|/)\s*)*$")
-_CHINESE_COUNTED = re.compile(
+_USERS = deferred(rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|or|y|et|und|oder|ou|o|&|/)\s*)*$")
+_CHINESE_COUNTED = deferred(
     r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
 )
-_VARIABLE = re.compile(r"\s+[A-Za-z]{1,3}_?[0-9]")  # "R6=700k R7=900k"
-_FOREIGN_UNIT = re.compile(r"\s?[A-Za-zμ][A-Za-zμ/]*")
-_FOREIGN_APIECE = re.compile(
+_VARIABLE = deferred(r"\s+[A-Za-z]{1,3}_?[0-9]")  # "R6=700k R7=900k"
+_FOREIGN_UNIT = deferred(r"\s?[A-Za-zμ][A-Za-zμ/]*")
+_FOREIGN_APIECE = deferred(
     r"(?i)\s?(?!users?\b|ues?\b)[A-Za-zμ][A-Za-zμ/]*\s*(?:each\b|apiece\b|per\s+(?:user|person|head)\b|每)"
 )
-_RANGE = re.compile(r"\s*(?:-|–|—|~|(?i:to\b|and\b|through\b|y\b|et\b|à\b|und\b|bis\b)|到|至)\s*$")
-_PRICE_BEFORE = re.compile(r"(?i)(?:\b(?:per|each|every|out of|from|for|of|pro|je|par|por|cada|chaque|aus)\s+|每)$")
-_PRICE_AFTER = re.compile(
+_RANGE = deferred(r"\s*(?:-|–|—|~|(?i:to\b|and\b|through\b|y\b|et\b|à\b|und\b|bis\b)|到|至)\s*$")
+_PRICE_BEFORE = deferred(r"(?i)(?:\b(?:per|each|every|out of|from|for|of|pro|je|par|por|cada|chaque|aus)\s+|每)$")
+_PRICE_AFTER = deferred(
     r"(?i)\s*(?:should\s+|can\s+|must\s+)?(?:buys?|brings?|carr(?:y|ies)|gives?|yields?|delivers?|moves?|"
     r"fetch(?:es)?)\b|[的]?(?:电|功率)?(?:都|要|能|可以)?(?:换|传|产|带来|跑|花得)"
 )
-_OWN_NOUN = re.compile(  # "each user's rate no lower than" bounds the rate, and wishes for none
+_OWN_NOUN = deferred(  # "each user's rate no lower than" bounds the rate, and wishes for none
     r"(?:用户|每人|人均|每个|每户|各|UE|终端|大家|的)的?(?P<noun>(?:下行|数据)?(?:速率|速度|网速|吞吐量?))(?:都|"
     r"也)?(?:要|得|必须|应|须)?$"
 )
-_FOR_EACH = re.compile(
+_FOR_EACH = deferred(
     rf"(?i)\s*(?:for|on|para|pour|für)\s+(?:el\s+|l'|the\s+|den\s+)?(?:{USER_NOUN}\s*[0-9]{{1,2}}|[0-9]{{1,2}})"
     r"\s*(?:,|,?\s*(?:and|y|et|und))\s*"
 )
-_LAST_WORD = re.compile(r"([A-Za-zÀ-ÿ]+)\s+$")
-_SAME_FORM = re.compile(
+_LAST_WORD = deferred(r"([A-Za-zÀ-ÿ]+)\s+$")
+_SAME_FORM = deferred(
     rf"(?i)(?:\s+\w+)?\s*(?:,|,?\s*(?:and|y|et|und))\s+(?:al?\s+|el\s+|l'|à\s+l'|the\s+)?(?:{USER_NOUN}\s*"
     r"[0-9]{1,2}|everyone(?:\s+else)?|the\s+(?:others?|rest))\s+(to|at|a|en|à|auf|bei)\s+"
 )
-_STEP_AFTER = re.compile(
+_STEP_AFTER = deferred(
     r"(?i)\s*(?:more|less|faster|extra|too\s+much|de\s+m[aá]s|m[aá]s|de\s+plus|mehr|zu\s+viel|zuviel)\b"
 )
-_STEP_BEFORE = re.compile(r"(?i)\b(?:not|nor|ni|pas|nicht|without|last|per|by|an|what)\s+$")
+_STEP_BEFORE = deferred(r"(?i)\b(?:not|nor|ni|pas|nicht|without|last|per|by|an|what)\s+$")
 
 
 def amount_of_another_time(plain: str) -> tuple[int, int] | None:

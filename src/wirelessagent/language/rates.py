@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 
 from wirelessagent.language import figure_words
 from wirelessagent.language.allotments import Allotments, Target
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.neighbours import Neighbours, is_change
 from wirelessagent.language.quantities import Quantity
@@ -17,7 +17,7 @@ _SURE_OF_A_LIMIT = 0.75  # most figures are limits, so that the model takes a st
 _BOUNDS = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _CONTRARY = {"at_least": "max_rate_bps", "at_most": "min_rate_bps"}
 _CONTRARY_CHANCE = 0.1  # "at least" seldom caps
-_TURNED = re.compile(
+_TURNED = deferred(
     rf"(?i)\s*[,;.\uff0c；。]?\s*(?:oh\s+)?(?:{figure_words.CORRECTION.pattern.removeprefix('(?ia)')})[\s,\uff0c]*"
 )
 

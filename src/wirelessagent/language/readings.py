@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from decimal import Decimal
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
 from wirelessagent.language.text import USER_NOUN, has_chinese
 from wirelessagent.language.units import Unit, unit_at
 
-_SUFFIX = re.compile(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9]|/(?!\s?(?:users?|ue|person|head)\b))|m(?![A-Za-z0-9/])")
-_CHINESE_SUFFIX = re.compile(
+_SUFFIX = deferred(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9]|/(?!\s?(?:users?|ue|person|head)\b))|m(?![A-Za-z0-9/])")
+_CHINESE_SUFFIX = deferred(
     r"\s?(?P<suffix>[kKM])(?!\s*[A-Za-z0-9/瓦赫焦伏安米克])"
 )  # "每人2M": so are rates written there
 _WHO = (
     r"(?:users?|ues?|person|people|head|subscriber|customer|client|device|phone|sensor|terminal|one|usuario|abonado|persona|"
     r"utilisateur|abonné|personne|tête|nutzer|teilnehmer|kopf|kunden?|gerät)"
 )
-_APIECE_AFTER = re.compile(  # what is given to each with a mere "k" or "M" is a rate
+_APIECE_AFTER = deferred(  # what is given to each with a mere "k" or "M" is a rate
     rf"(?i)\s*(?:each|apiece|a\s+(?:head|piece)|(?:for|to)\s+(?:everyone|everybody|all|each|every)|(?:per|a|/)\s*{_WHO}|"
     rf"para\s+(?:todos|cada)|cada\s+uno|por\s+{_WHO}|pour\s+(?:tous|chacun|chaque|tout\s+le\s+monde)|chacun|par\s+{_WHO}|"
     rf"für\s+(?:alle|jeden?)|(?:pro|je)\s+{_WHO})(?![\w-])"
 )
-_APIECE_BEFORE = re.compile(
+_APIECE_BEFORE = deferred(
     r"(?i)\b(?:everyone|everybody|each(?:\s+(?:user|one|of\s+them))?|all\s+users|every\s+user|per\s+user|todos|cada\s+usuario|"
     r"tous|chacun|chaque\s+utilisateur|alle|jede[rnm]?(?:\s+nutzer)?)\s*(?:(?:should|must|to|has|have|had|get|gets|got|getting|"
     r"needs?|receives?|with|wants?|at|least|most|a|minimum|min|of|tenga|tienen?|recib\w+|al|menos|au|moins|reçoit|reçoivent|ait|"
@@ -31,26 +31,24 @@ _APIECE_BEFORE = re.compile(
     rf"\b(?:cap|limit|throttle|hold|keep|give|grant|guarantee|promise)\s+{USER_NOUN}\s*[0-9]{{1,3}}\s+(?:at|to|below|under|"
     r"above|over|a|at\s+least|at\s+most)?\s*$|\br_?(?:min|max)\s*(?:[:=]|of|is|≥|≤|<=|>=)?\s*$"
 )
-_PRICE = re.compile(r"[€$£¥]\s?$")
+_PRICE = deferred(r"[€$£¥]\s?$")
 _SUFFIXES = {"k": Decimal(10**3), "K": Decimal(10**3), "M": Decimal(10**6), "G": Decimal(10**9)}
-GENERATION = re.compile(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
-_PICTURE = re.compile(r"[248]K")
-_TRAILING_HALF = re.compile(r"半(?!小时)")
-_TRAILING_DIGIT = re.compile(
+GENERATION = deferred(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
+_PICTURE = deferred(r"[248]K")
+_TRAILING_HALF = deferred(r"半(?!小时)")
+_TRAILING_DIGIT = deferred(
     r"(?P<digit>[一二三四五六七八九])(?![零〇一二三四五六七八九十百千万亿点半个号户位人台家成兆瓦毫kKM])"
 )
-_FRACTION = re.compile(r"(?P<below>[0-9]+|[一二三四五六七八九十百千万两]+)分之$")
-_TENTHS = re.compile(r"成(?P<more>[一二三四五六七八九半]{0,3})(?![员立为功本交绩效长了就品]|不变)")
-_ODDS = re.compile(
+_FRACTION = deferred(r"(?P<below>[0-9]+|[一二三四五六七八九十百千万两]+)分之$")
+_TENTHS = deferred(r"成(?P<more>[一二三四五六七八九半]{0,3})(?![员立为功本交绩效长了就品]|不变)")
+_ODDS = deferred(
     r"(?i)\s+(?:(?:(?:times?|nights?|days?|cases?|tries|attempts?|miss(?:es)?|failures?|outages?|mal|fällen?|nächten?|"
     r"veces|noches|casos|días|fois|cas|nuits|jours)\s+)(?:out\s+of|in|of|von|aus|auf|de(?:\s+cada)?|sur|en)|"
     r"out\s+of|(?:de\s+)?cada|de\s+cada|sur)(?:\s+(?:every|each|je))?\s+$"
 )
 _BASES = (10, 20, 25, 40, 50, 100, 200, 500, 1000, 10_000)
-_COUNTED = re.compile(
-    rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|persons|personas|personnes|sensor\w*)\b"
-)
-_ONE_IN = re.compile(r"(?i)\s+in\s+$")
+_COUNTED = deferred(rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|persons|personas|personnes|sensor\w*)\b")
+_ONE_IN = deferred(r"(?i)\s+in\s+$")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import EVERYBODY, Constraint
 from wirelessagent.model.units import reliability
 
@@ -58,7 +59,7 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
     },
 }
 
-_NUMBERED = re.compile(r"(?i)(?:user\s*)?(\d+)")
+_NUMBERED = deferred(r"(?i)(?:user\s*)?(\d+)")
 _SEVERAL = 3
 """So many users are named by their numbers alone."""
 
@@ -121,7 +122,7 @@ def _user(words: Mapping[str, str], reference: str) -> str:
 
 
 def _listed(words: Mapping[str, str], names: list[str]) -> str:
-    pattern = re.compile(re.escape(words["user"]).replace(r"\{\}", r"(\d+)"))
+    pattern = deferred(re.escape(words["user"]).replace(r"\{\}", r"(\d+)"))
     numbers = [match[1] for match in map(pattern.fullmatch, names) if match is not None]
     if len(names) >= _SEVERAL and len(numbers) == len(names):  # "users 1, 3 and 4"
         return words["users_by_number"].format(_listed(words, numbers))

@@ -7,7 +7,6 @@ apart from what is near; letters within words catch compounds such as "Ruheverbr
 from __future__ import annotations
 
 import functools
-import re
 import unicodedata
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
@@ -18,12 +17,13 @@ import numpy as np
 import numpy.typing as npt
 
 from wirelessagent.language.base_words import based
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.text import CJK
 
 BUCKETS = 1 << 14
 _REACH = 12
 _BASE_REACH, _BASE_NEAR = 8, 3
-_TOKEN = re.compile(rf"[{CJK}]|(?:(?![{CJK}])[^\W\d_])+(?:'(?=[^\W\d_]))?|[0-9]+|\S")
+_TOKEN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W\d_])+(?:'(?=[^\W\d_]))?|[0-9]+|\S")
 _CLAUSE_ENDS = frozenset(",;!?.。，；！？…—\n")
 
 

@@ -6,10 +6,10 @@ The words stand right before or right after the name; anything in between but sm
 from __future__ import annotations
 
 import functools
-import re
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.clauses import clause_start
+from wirelessagent.language.deferred import deferred
 
 UserRole: TypeAlias = Literal["leave_out", "users", "back", "none"]
 
@@ -17,7 +17,7 @@ _SMALL = (
     r"(?:\s+(?:the|out|of|to|for|off|any|our|my|with|about|from|both|now|please|all|a|al|el|la|los|las|le|les|"
     r"den|die|dem))*\s*(?:l')?"
 )
-_OUT_BEFORE = re.compile(
+_OUT_BEFORE = deferred(
     r"(?i)(?:(?<![A-Za-z])(?:leav(?:e|ing)\s+(?:out|aside|off)|drop(?:ping)?|skip(?:ping)?|exclud(?:e|es|ing)|"
     r"omit(?:ting)?|"
     r"ignor(?:e|ing)|without(?:\s+serving)?|except(?:ing)?(?:\s+for)?|but\s+not|not\s+serving|"
@@ -43,17 +43,17 @@ _OUT_BEFORE = re.compile(
     r"除了|除开|除去|除|忽略|跳过|扣掉|撇开|抛开|放弃|停掉|断开|断掉|屏蔽|撤掉|拿掉|不要|别要|不用|甩开)(?:掉|了|"
     r"对)?\s*)$"
 )
-_PART_BEFORE = re.compile(
+_PART_BEFORE = deferred(
     r"(?i)(?<![A-Za-z])(?:leav(?:e|ing)|tak(?:e|ing)|put(?:ting)?|keep(?:ing)?|cut(?:ting)?|throw(?:ing)?|lass(?:e|"
     r"en)?|"
     r"schließ(?:e|en)?|nimm|nehmen|deja|laisse)" + _SMALL + r"$|(?:把|将|让|给)\s*$"
 )
-_PART_AFTER = re.compile(
+_PART_AFTER = deferred(
     r"(?i)\s*(?:completely\s+|entirely\s+|both\s+)?(?:out\b|aside\b|off\b|unserved|fuera\b|de\s+côté|dehors|weg\b|"
     r"aus\b|raus\b|"
     r"außen\s+vor)|\s*(?:先|都|也|给)?(?:排除|去掉|踢|剔除|移除|拿掉|关掉|停掉|断开|忽略|摘|撤|扔)"
 )
-_OUT_AFTER = re.compile(
+_OUT_AFTER = deferred(
     r"(?i),?\s*(?:who\s+|which\s+)?(?:is|are|be|can\s+be|may\s+be|should\s+be|stays?|remains?|goes|go|will\s+be|"
     r"must\s+be|"
     r"shall\s+be|gets?|can\s+stay)?\s*(?:left\s+|kept\s+|taken\s+|cut\s+|kicked\s+|switched\s+)?(?:out\b|excluded|"
@@ -77,7 +77,7 @@ _OUT_AFTER = re.compile(
     r"退出|剔除|去掉|移除|停掉|断开|忽略|跳过|"
     r"拿掉|摘掉|下线|停机|掉线|欠费停机)"
 )
-_ONLY_BEFORE = re.compile(
+_ONLY_BEFORE = deferred(
     r"(?i)(?:(?<![A-Za-z])(?:only|just|solely|exclusively|nobody\s+but|no\s+one\s+but|none\s+but|(?:restrict|limit|"
     r"confine)(?:ed|ing)?\s+"
     r"(?:it\s+|service\s+|this\s+|yourself\s+)?to|stick\s+to|solo|sólo|solamente|únicamente|seulement|uniquement|"
@@ -89,25 +89,25 @@ _ONLY_BEFORE = re.compile(
     r"|(?:只|仅|光|单|只需|只要|仅仅|专门|就)(?:需|要|对)?(?:服务|带|给|管|保障|保证|考虑|算|对|为|留|让|有|保留|"
     r"要|照顾|分给|调度|接入)*\s*)$"
 )
-_ONLY_AFTER = re.compile(
+_ONLY_AFTER = deferred(
     r"(?i)\s*(?:only|alone|exclusively|and\s+(?:nobody|no\s+one)\s+else|solamente|seulement|uniquement|"
     r"allein)(?![A-Za-z])"
 )
-_GETS = re.compile(
+_GETS = deferred(
     r"(?i)\s*(?:gets?|needs?|must|should|has\s+to|have\s+to|at\s+least|at\s+most|>=|≥|:|min|wants?|needs|necesita|"
     r"doit|braucht|soll|至少|保底|最少|起码|不低于|"
     r"要|需要|最多|不超过|保证|的)"
 )
-_BACK = re.compile(
+_BACK = deferred(
     r"(?i)\s*(?:is\s+|are\s+|comes?\s+)?(?:back\b|in\s+again\b|again\b|de\s+vuelta|de\s+nuevo|wieder|zurück|"
     r"à\s+nouveau)"
     r"|\s*(?:先|再|也|都)?(?:加回|放回|恢复|回来|重新加入|拉回|请回|带回|重新服务|接回)"
 )
-_BACK_BEFORE = re.compile(
+_BACK_BEFORE = deferred(
     r"(?i)(?:(?<![A-Za-z])(?:readmit|re-admit|bring\s+back|put\s+back|take\s+back|add\s+back|restore)\s+|(?:加回|"
     r"恢复|重新服务|带回|拉回|重新带上|重新接入)(?:对)?\s*)$"
 )
-_SOMETHING_OF = re.compile(  # "drop user 2's minimum", "don't serve user 1 more than …": not the user is meant
+_SOMETHING_OF = deferred(  # "drop user 2's minimum", "don't serve user 1 more than …": not the user is meant
     r"(?i)\s*(?:['’]s\s+\w|s['’]\s+\w|(?:with\s+|at\s+|any\s+)?(?:more|faster|above|beyond|over)\b|"
     r"的?(?:最低|最高|最小|最大)?(?:速率|速度|上限|下限|限制|限速|保底|功率|权重|要求|承诺)|(?:超过|多于|高于))"
 )

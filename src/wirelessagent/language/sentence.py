@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import functools
-import re
 from collections.abc import Mapping, Sequence
 from typing import cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
 from wirelessagent.language.constraints import read_constraints
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import parse_quantities
@@ -21,7 +21,7 @@ from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary,
 from wirelessagent.model.objective import Objective
 
 BUILT_IN = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
-_WORD = re.compile(r"(?i)[\u3400-\u9fff]|[^\W\d_\u3400-\u9fff]{2,}|p[1-3](?!\d)")
+_WORD = deferred(r"(?i)[\u3400-\u9fff]|[^\W\d_\u3400-\u9fff]{2,}|p[1-3](?!\d)")
 _PLACEHOLDERS = {"power": " @power ", "rate": " @rate ", "ratio": " @ratio ", "bare": " @number ", "other": " @number "}
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.text import CJK
 
 _SOUNDS = (  # characters that sound alike
@@ -26,7 +26,7 @@ _WORDS = (
 _MEANT = {"".join(SOUND_OF.get(letter, letter) for letter in word): word for word in _WORDS.split()}
 _OTHER_WORDS = "公里 工会 公用 工作 小时 消费 小户 点击 有用 大家"
 _RIGHT = frozenset(_WORDS.split()) | frozenset(_OTHER_WORDS.split())
-_PAIR = re.compile(f"(?=([{CJK}]{{2}}))")
+_PAIR = deferred(f"(?=([{CJK}]{{2}}))")
 
 
 def respelt(plain: str) -> str:

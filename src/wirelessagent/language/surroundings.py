@@ -3,39 +3,39 @@
 from __future__ import annotations
 
 import functools
-import re
 from collections.abc import Sequence
 
 from wirelessagent.language import figure_words, lexicon
 from wirelessagent.language.clauses import clause_end, clause_start
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.quantities import Quantity
 
 _OPERATOR = r"\^*×·⋅∙÷+±√∛"
-_CALCULATED_BEFORE = re.compile(
+_CALCULATED_BEFORE = deferred(
     rf"(?i)(?:[{_OPERATOR}]|(?<![wW])/|(?<![a-z])x|\b(?:twice|thrice|double|triple|quadruple|times|half|thirds?|"
     rf"quarters?|"
     r"tenths?|fraction|part|(?<!at )most|some|all but|portion|share|multiple|(?<!au )plus|minus|square|root|sqrt|sum)"
     r"(?:\s+(?:of|the|an?))*"
     r"|[倍半加减乘除]之?[一二三]?[的以上去]?|分之[一二三]的?|(?<![\w.,])[0-9][0-9.,]*\s+(?:out\s+)?of\s+(?:the|our)(?:\s+\w+)?)\s*$"
 )
-_CALCULATED_AFTER = re.compile(
+_CALCULATED_AFTER = deferred(
     rf"(?i)\s*(?:[{_OPERATOR}]|/\s*[0-9]|x\s*[0-9]|[加减乘除]|(?:times|squared|cubed|divided|multiplied|plus|minus|"
     r"doubled|halved|tripled)\b|的?(?:[一二两三四五十]?倍|一半|[二三四五十]分之))"
 )
 
 # Words beside a power which say that it isn't the cell's to radiate.
-_SPARED = re.compile(
+_SPARED = deferred(
     r"(?i)\b(?:unused|reserved?|reserves|(?<!can )(?<!could )spare|aside|headroom|leave|leaves|leaving|left|"
     r"remaining|remains|"
     r"untouched|lost|"
     r"lose|losing|behind|free|wasted?|wasting|margin)\b|[留剩余]|备用|闲置"
 )
-_HELD = re.compile(r"(?i)\b(?:keep|keeping|hold|hold back|retain|lose|losing|steal|donate)\s+(?:the\s+|about\s+)?$")
-_DRAWN = re.compile(
+_HELD = deferred(r"(?i)\b(?:keep|keeping|hold|hold back|retain|lose|losing|steal|donate)\s+(?:the\s+|about\s+)?$")
+_DRAWN = deferred(
     r"(?i)(?P<by>[a-z]+)\s+(?:uses?|draws?|consumes?|takes?|needs?|burns?|emits?|radiates?|has|swallows?|eats?|"
     r"gobbles?|guzzles?|sucks?)\s+(?:about\s+|around\s+)?$"
 )
-_DETERMINED = re.compile(  # "a 100 W bulb", against "thirty watts permit"
+_DETERMINED = deferred(  # "a 100 W bulb", against "thirty watts permit"
     r"(?i)\b(?:an?|the|another|his|her|their|my|this|that|some|every|each|one|un|una|une|ein|eine|einen|einer)\s+$"
 )
 _OURS = (
@@ -51,18 +51,18 @@ _STOP_WORDS = (
     "apply available below above beyond under over not now ok okay again anyway instead keep keeping let lets thats "
     "subject promise promised everywhere"
 )
-_FIRST_WORD = re.compile(r"\s*-?\s*([A-Za-z']+)")
+_FIRST_WORD = deferred(r"\s*-?\s*([A-Za-z']+)")
 
-_ALL = re.compile(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
-_DESCRIBED_BEFORE = re.compile(
+_ALL = deferred(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
+_DESCRIBED_BEFORE = deferred(
     r"(?i)(?:^|\b(?:the|our|these|those|my|with|have|has|of|are|serve|serving|and|among|between|total|per|over|"
     r"across|into)|[有共])\s*$"
 )
-_DESCRIBED_AFTER = re.compile(
+_DESCRIBED_AFTER = deferred(
     r"(?i)\s*(?:$|(?:in|on|and|at|within|under|with|each|per|over|connected|total|online|active|now|max|min|maximum|"
     r"minimum|or|share|sharing)\b|[每都共同])"
 )
-_TOO_MUCH = re.compile(
+_TOO_MUCH = deferred(
     r"(?i)[\s,]*(?:(?:each|apiece|per user|for (?:each|every|all)\w*|(?:for )?users? [0-9]+|cada uno|chacun|"
     r"für jeden)\s+)?"
     r"(?:(?:(?:is|are|was|were|seems?|looks?|sounds?|feels?|would be|es|son|c'est|est|sont|ist|sind|wäre[n]?)\s+)?"
@@ -74,7 +74,7 @@ _TOO_MUCH = re.compile(
     r"(?:no|ne) (?:basta|alcanza|suffi)\w*|(?:reich(?:t|en)|genüg(?:t|en)) nicht\b)|"
     r"\s*(?:实在|有点|还是|都|也|还)*(?:太[多少高低大小慢快]|不够|过[多高低大少]|偏[多高低少])"
 )
-_UNWANTED = re.compile(
+_UNWANTED = deferred(
     r"(?i)(?:\b(?:do|does|did)(?:n't| not) (?:want|need|require|have)|\bno longer (?:want|need|require)|"
     r"\b(?:no quiero|no necesit\w+)|\b(?:je ne veux pas|ne veux pas(?: de)?)|"
     r"\b(?:will|wollen|brauche[nt]?|möchten?) keine)\s*"

@@ -6,7 +6,8 @@ Deliberately not NFKC: that would turn "10² W" into "102 W".
 from __future__ import annotations
 
 import functools
-import re
+
+from wirelessagent.language.deferred import deferred
 
 _SAME_LENGTH = {
     # Full-width ASCII, but for the comma and the semicolon: they never stand inside a number.
@@ -26,7 +27,7 @@ _TABLE = str.maketrans(_SAME_LENGTH)
 
 CJK = "\u3400-\u9fff\uf900-\ufaff"
 
-_WORD = re.compile(r"[^\W\d_]+")
+_WORD = deferred(r"[^\W\d_]+")
 _SMALL: dict[str, str] = {
     "en": (
         "the and to of is for with no not it we you at in on my our all as each every a an that this be please "

@@ -7,11 +7,11 @@ where bits and bytes are as near ("megabites"), or where the word is another one
 from __future__ import annotations
 
 import functools
-import re
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.spelling import one_edit
 
-_WORD = re.compile(r"[A-Za-zÀ-ÿ]{3,12}(?:/s(?![A-Za-z]))?(?![A-Za-z0-9])")
+_WORD = deferred(r"[A-Za-zÀ-ÿ]{3,12}(?:/s(?![A-Za-z]))?(?![A-Za-z0-9])")
 _PREFIXED = [f"{prefix}{core}" for prefix in ("kilo", "mega", "giga") for core in ("bit", "bits", "byte", "bytes")]
 _PER_SECOND = [f"{prefix}{core}/s" for prefix in "kmg" for core in ("bit", "bits", "byte", "bytes")]
 _SHORT = ("kbps", "mbps", "gbps", "dbm", "dbw")

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import Literal, TypeAlias
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.unit_slips import slip_at
 from wirelessagent.model.units import dbm_to_w
 
@@ -33,37 +34,37 @@ _PER_SECOND = (
 )
 _END = r"(?![A-Za-z0-9])"
 
-_LEVEL = re.compile(
+_LEVEL = deferred(
     rf"(?i:(?P<level>dbmw|dbms?|dbw){_END}|(?:decibels?|d[ée]cibel(?:io)?s|dezibel)[ -](?:milli-?watts?|"
     rf"milivatios?){_END})|(?P<zh_level>分贝毫瓦|毫瓦分贝|分贝瓦)"
 )
-_WATT = re.compile(
+_WATT = deferred(
     rf"(?P<symbol>[nuμmkKMG]?)[wW]{_END}|(?i:(?P<word>nano|micro|milli|mili|kilo|mega|giga)?[ -]?(?:watts?|vatios?|"
     rf"watios?){_END})"
     r"|(?P<zh>[纳微毫千兆]?)(?:瓦特?(?!时|分贝)|哇(?!塞))"
 )
-_BIT = re.compile(
+_BIT = deferred(
     rf"(?P<prefix>[kKmMgGtT]?)(?P<binary>i?)(?:(?P<short>[bB])(?P<ps>[pP][sS]){_END}"
     rf"|(?P<core>(?i:bits?|bytes?|octets?)|[bB]|o(?=/s))(?:(?i:{_PER_SECOND})(?P<per>)|{_END}))"
 )
-_BIT_WORD = re.compile(
+_BIT_WORD = deferred(
     rf"(?i:(?P<word>kilo|mega|méga|giga|tera)[ -]?(?P<core>bits?|bytes?|octets?)(?:{_PER_SECOND}(?P<per>)|{_END}))"
 )
-_SPOKEN = re.compile(  # "two megs", "3 megas"; gigas are files unless there is a second
+_SPOKEN = deferred(  # "two megs", "3 megas"; gigas are files unless there is a second
     rf"(?i:(?:(?P<mega>megs?|m[eé]gas?)|(?P<kilo>kays?)|(?P<giga>gigs?|gigas?)(?={_PER_SECOND})){_END}"
     rf"(?:{_PER_SECOND})?(?!\s?-?(?:bits?|bytes?|octets?|watts?|vatios?|hertz|hz|pixels?|p[ií]xel|joules?|julios?|"
     rf"ohms?|euros?)\b))"
 )
-_BIT_ZH = re.compile(
+_BIT_ZH = deferred(
     rf"(?:(?P<prefix>[千兆吉太kKmMgG]?)\s?(?P<core>比特|字节)|(?P<mega>兆)(?P<latin>(?i:bits?|b|"
     rf"(?=ps))?)(?![瓦赫焦]|\s*(?i:hz|w|b)))"
     rf"(?P<per>(?i:{_PER_SECOND}|ps{_END}))?"
 )
-_RATIO = re.compile(
+_RATIO = deferred(
     rf"%|(?i:(?:percent|per\s+cent|pct|prozent(?:ig(?:e[rnms]?)?)?|por\s+ciento|pour\s+cent|por\s+cien){_END})|"
     rf"(?P<thousandth>‰|(?i:(?:per\s+mille?|per\s+thousand|promille|por\s+mil|pour\s+mille){_END}))"
 )
-_NOT_A_RATE_OR_POWER = re.compile(
+_NOT_A_RATE_OR_POWER = deferred(
     r"(?i)(?:/|每)\s?(?!user|ue|person|device|sensor|人|用户|subscriber|customer|head|each)(?=[A-Z])"
     r"|\s*(?:/|(?:per|pro|par|por)\s)\s*(?:\w?hz|hertz|megahertz|kilohertz|joules?|j|watts?|w|hours?|symbol|bit|"
     r"m2|m²|kg)\b"
@@ -91,14 +92,14 @@ class Unit:
             return float("inf")
 
 
-_PER_ANOTHER_TIME = re.compile(
+_PER_ANOTHER_TIME = deferred(
     r"(?i)\s*(?:per|an?|every|each|/|par|pro|por|al?|je|cada|chaque|jede)\s*(?:minutes?|min|hours?|h|days?|weeks?|months?|"
     r"minutos?|horas?|heures?|jours?|mois|stunden?|tage?|woche|monat|d[ií]as?|mes)\b|\s*[/每]?每(?:分钟?|小时|天|周|月)"
 )
-_OF_ANOTHER_TIME = re.compile(r"每个?(?:分钟?|小时|天|周|月)[^,\uff0c。;]{0,6}$")
+_OF_ANOTHER_TIME = deferred(r"每个?(?:分钟?|小时|天|周|月)[^,\uff0c。;]{0,6}$")
 
 
-_GAP = re.compile(r"\s?个\s?|-|\s{0,2}")
+_GAP = deferred(r"\s?个\s?|-|\s{0,2}")
 
 
 @functools.lru_cache(maxsize=512)

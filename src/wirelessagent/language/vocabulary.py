@@ -8,17 +8,17 @@ as that word. Figures are masked beforehand, so that "minimum" in "minimum 1 Mbi
 from __future__ import annotations
 
 import functools
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from wirelessagent.language import lexicon
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.spelling import nearest, one_edit
 from wirelessagent.language.text import CJK, CLAUSE_END, normalise
 
 MASK = "#"
 
-_UNIT = re.compile(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|(?P<cut>{CLAUSE_END})")
+_UNIT = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|(?P<cut>{CLAUSE_END})")
 _SIGN = 0.6  # a single Chinese character may be part of another word: 快 of 快递
 _SHORTEST_CORRECTED, _LONG = 5, 8
 _RIGHT_WORDS = frozenset(lexicon.RIGHT_WORDS.split())

@@ -6,12 +6,12 @@ no figure for "nothing": 1 Mbit/s for everybody but user 2 is 1 Mbit/s for each 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.returning import read_return
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.followups import joined, merged, numbers_of, taken_in
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Intent
 
@@ -23,14 +23,14 @@ CORRECTING = (
 )
 BESIDE = r"(?:for|to|the|one|of|be|与|给|的|是|[,，\s])"
 _BOUND = r"(?:at\s+least|at\s+most|至少|最多|不超过)"
-CORRECTS = re.compile(rf"{CORRECTING}")
-_THAT_USER = re.compile(
+CORRECTS = deferred(rf"{CORRECTING}")
+_THAT_USER = deferred(
     rf"(?:{CORRECTING}|{BESIDE})*+@(?:[,，\s]*(?:instead|then|才对|才是))?"
     r"(?P<not>[,，\s]*(?:and\s+)?(?:not|而?不是|rather\s+than|instead\s+of)\s*@)?|"
     r"(?P<other>(?:not|不是)\s*@[,，\s]*(?:but\s+(?:rather\s+)?|是|而是)?\s*@)"
 )
-_THAT_FIGURE = re.compile(rf"(?:{_BOUND}|{CORRECTING}|{BESIDE})*+#(?:[,，\s]*(?:instead|then|才对))?")
-_BARE = re.compile(
+_THAT_FIGURE = deferred(rf"(?:{_BOUND}|{CORRECTING}|{BESIDE})*+#(?:[,，\s]*(?:instead|then|才对))?")
+_BARE = deferred(
     rf"(?:{_BOUND}|{CORRECTING}|{BESIDE}|yes|about|say|min(?:imum)?|max(?:imum)?|and|和|就|嗯|好|用|要)*+#"
     rf"(?:(?:and|和|[,，\s]|{_BOUND})*+#)*+(?:以上|以内|就行|就好|就可以|吧|at\s+least|at\s+most|[,.\s])*+"
 )
@@ -53,42 +53,42 @@ _ZH_LIMIT = (
     "的?#)"
 )
 _ZH_DROP = "(?:取消|去掉|不要|解除|拿掉|撤掉|放开|删除|删掉|撤销|移除)(?:掉|了)?"
-_FREED = re.compile(
+_FREED = deferred(
     rf"(?:(?:now|actually|also)\s+)?(?:@\s+{_NO_LONGER}|{_DROP}\s+(?:the\s+)?(?:@'?s?\s+{_LIMIT}|{_LIMIT}\s+(?:of|for|on|from)\s+@))"
     r"(?:\s+(?:any\s?more|any\s+longer|now))?|"
     rf"(?:现在)?@(?:已经|现在)?(?:不再|不|不用|不必|无需|无须)(?:再)?(?:需要|要|用|必)?(?:保证|限制|有|满足|达到|至少|最多)*(?:{_ZH_LIMIT})?(?:限速)?(?:了)?|"
     rf"(?:现在)?(?:不再|不用|不必|无需|不需要)(?:再)?(?:给|为|对)@(?:再)?(?:保证|限制|设)?(?:{_ZH_LIMIT})?(?:了)?|"
     rf"{_ZH_DROP}(?:对|给)?@{_ZH_LIMIT}(?:了)?|(?:把)?@{_ZH_LIMIT}(?:也|就|都)?(?:取消|去掉|不要了|解除|拿掉|撤掉|放开|删掉|删除|免了|作废)(?:掉|了)?"
 )
-_NOBODY = re.compile(
+_NOBODY = deferred(
     rf"(?:now\s+)?(?:nobody|no\s+one|no\s+user)\s+(?:needs?|requires?)\s+(?:an?\s+|the\s+|any\s+)?{_LIMIT}"
     r"(?:\s+(?:any\s?more|any\s+longer|now))?|"
     r"(?:the\s+)?(?:#|(?:min(?:imum)?\s+)?(?:rate|guarantee))\s+is\s+(?:no\s+longer|not)\s+needed(?:\s+any\s?more)?|"
     rf"(?:大家|所有人|所有用户|每个用户|谁)?都?(?:不再|不|不用)(?:需要|要)(?:保证)?{_ZH_LIMIT}了?"
 )
-_OF_A_LIMIT = re.compile(rf"#|{_LIMIT.replace('|#', '')}|速率|速度|要求|保证|下限|上限|限制|约束|限速|保底|权重|优先级")
-_CAPS = re.compile(r"\b(?:max(?:imum)?|caps?|ceilings?|capped|limited)\b|at\s+most|上限|最高|最大|限速|最多|不超过")
-_WEIGHTS = re.compile(r"weights?|priority|权重|优先级")
+_OF_A_LIMIT = deferred(rf"#|{_LIMIT.replace('|#', '')}|速率|速度|要求|保证|下限|上限|限制|约束|限速|保底|权重|优先级")
+_CAPS = deferred(r"\b(?:max(?:imum)?|caps?|ceilings?|capped|limited)\b|at\s+most|上限|最高|最大|限速|最多|不超过")
+_WEIGHTS = deferred(r"weights?|priority|权重|优先级")
 _ALSO = r"(?:(?:also|and|too|as\s+well|again|back|in|now|then)\b|再|也|还|另外|同时|并且|并|请|把|将|[,，\s])"
 _TAKE_IN = (
     "(?:serve|add|include|cover|admit|bring|take|加上|加入|加进来?|加进去|添加|增加|服务|纳入|包括|算上|带上|补上|"
     "接入|加)"
 )
-_TAKEN_IN = re.compile(
+_TAKEN_IN = deferred(
     rf"{_ALSO}*+{_TAKE_IN}{_ALSO}*+@(?:{_ALSO}|to\s+(?:them|those|the\s+(?:list|users|group|others|rest)))*+"
     rf"(?:进来|进去|一起|吧)*+|{_ALSO}*+@{_ALSO}*+{_TAKE_IN}(?:进来|进去|上|吧|一起)*+"
 )
-_EVERYONE_IN = re.compile(
+_EVERYONE_IN = deferred(
     rf"(?:never\s?mind[,，.\s]+|no[,，\s]+)?{_ALSO}*+(?:serve|include|bring\s+back|take\s+back)\s+(?:everyone|everybody|all(?:\s+(?:the\s+)?"
     rf"users)?|them\s+all){_ALSO}*+|(?:算了[,，]?)?(?:大家|所有人|所有用户|全部用户|每个人|全部|全都|都)+(?:都|再)?(?:恢复|重新)?服务|"
     r"(?:算了[,，]?)?(?:恢复|重新)?服务(?:大家|所有人|所有用户|全部用户|全部)"
 )
-_KEPT_IN = re.compile(rf"{_ALSO}*+(?:keep|retain|保留|留下|留着){_ALSO}*+@{_ALSO}*+")
-_SAME_FOR = re.compile(
+_KEPT_IN = deferred(rf"{_ALSO}*+(?:keep|retain|保留|留下|留着){_ALSO}*+@{_ALSO}*+")
+_SAME_FOR = deferred(
     r"(?:the\s+)?same\s+(?:goes\s+)?for\s+@(?:\s+too)?|also\s+(?:for\s+)?@|@\s+(?:too|as\s+well|also)|"
     r"@(?:也|同样)(?:是|一样|如此|这样|照此|要|同样)*(?:处理)?"
 )
-_BARE_NUMBER = re.compile(
+_BARE_NUMBER = deferred(
     rf"(?:{CORRECTING}|{BESIDE})*+(?P<number>\d+(?:\.\d+)?)\s*(?P<prefix>[kmg])?(?:[,，\s]*(?:instead|才对))?"
 )
 _PREFIXES = {"k": 1e3, "m": 1e6, "g": 1e9}

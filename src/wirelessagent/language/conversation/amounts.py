@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import chinese_value
 
 _PARTS = {
@@ -24,7 +25,7 @@ _PARTS = {
 }
 _COUNTS = {"a": 1, "one": 1, "two": 2, "three": 3, "four": 4}
 _DIGITS = r"\d+(?:\.\d+)?|[一二两三四五六七八九十百]+"
-_AMOUNT = re.compile(
+_AMOUNT = deferred(
     r"(?P<percent>\d+(?:\.\d+)?)\s*(?:%|percent\b|per\s+cent\b|个百分点)|"
     rf"(?P<below>{_DIGITS})分之(?P<over>{_DIGITS})|(?P<tenths>[1-9]|[一二两三四五六七八九])成(?P<more>半)?|(?P<zh_half>一半|半数)|"
     rf"(?:(?P<count>\d+|{'|'.join(_COUNTS)})\s+)(?P<part>{'|'.join(_PARTS)})s?\b|(?P<half>\bhalf)\b|"

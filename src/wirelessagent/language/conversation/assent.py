@@ -11,6 +11,7 @@ import re
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.text import is_chinese, lowered, normalise
 
@@ -78,13 +79,13 @@ def _part(name: str, words: str) -> str:
     return rf"(?P<{name}>{_APART}(?:{words}){_OVER})"
 
 
-_ASSENT = re.compile(
+_ASSENT = deferred(
     rf"(?:\s*(?:{_part('apply', _APPLY)}|{_part('mild', _MILD)}|{_part('yes', _YES)}|"
     rf"{_APART}(?:{_POLITE}){_OVER})){{1,9}}\s*"
 )
-_NO_ASSENT = re.compile(r"[?？\d]|[是对對]吧")
+_NO_ASSENT = deferred(r"[?？\d]|[是对對]吧")
 """A question or a figure, which no assent has in it."""
-_PLAIN = re.compile(r"[\s,，、.。!！~;；:：…]+")
+_PLAIN = deferred(r"[\s,，、.。!！~;；:：…]+")
 
 _WORDS_KNOWN = (
     "a about again ahead all already an any anything and are as at be been before but by can cancel could defer delay "
@@ -115,35 +116,33 @@ _OF_APPLYING = (
     r"umsetzen|proceed|go\s+ahead|into\s+effect|live)\b|应用|應用|执行|執行|下发|下發|部署|生效|确认|確認"
 )
 _WORDS_OF_ASSENT = r"\b(?:agree|disagree|yes|yeah|yep|ok|okay|sure|fine|good|great|right|sí|oui|ja)\b|同意"
-_SPOKEN_OF = re.compile(rf"{_OF_APPLYING}|{_WORDS_OF_ASSENT}")
-_ABOUT = re.compile(rf"{_OF_APPLYING}|{_WORDS_OF_ASSENT}|可以|行|好|是|对|對")
-_ASKED = re.compile(
+_SPOKEN_OF = deferred(rf"{_OF_APPLYING}|{_WORDS_OF_ASSENT}")
+_ABOUT = deferred(rf"{_OF_APPLYING}|{_WORDS_OF_ASSENT}|可以|行|好|是|对|對")
+_ASKED = deferred(
     r"[?？]|^(?:(?:ok|so|and|but|well|please)\s+)*(?:should|shall|can|could|may|will|would|do|does|did|is|are|was|has|have|"
     r"what|when|who|why|which|how)\b(?!\s+(?:it|that|this|so|not)(?:\s+(?:not|now|never))?$)(?!\s+not\b)|"
     r"\b(?:what|when|who|why|which|how)\b|吗|嗎|呢|什么(?!都|也)|何时|谁|是否|行不行|好不好|是不是|可不可以|要不要"
 )
-_IF = re.compile(
+_IF = deferred(
     r"\b(?:if|unless|but|until|before|once|only|maybe|perhaps|either|or|else|other|first|see|understand|understood|said|"
     r"says?|sure|with|safe)\b|如果|要是|除非|但|(?<!再)说|懂|明白|知道"
 )
-_LATER = re.compile(
+_LATER = deferred(
     r"\b(?:wait|hold|later|yet|tomorrow|tonight|soon|postpone|defer|delay|moment|minute|sec|second|not\s+now|"
     r"todavía|aún|espera|attends|attendez|encore|warten?|später|noch)\b|等|明天|后天|晚点|稍后|先[不别]|暂|还不|再说"
 )
-_REFUSED = re.compile(
+_REFUSED = deferred(
     r"\b(?:not|\w+n't|dont|cannot|never|nothing|none|neither|nowhere|without|refuse|refrain|reject|cancel|stop|abort|unapply|"
     r"disagree|nada|nunca|pas|rien|jamais|nichts?|nie|keinen?)\b|^\s*(?:no|non|nein)\b|\bno\s+(?:appl|plan|alloc|change)|"
     r"不|别|勿|取消|停止|拒绝|放弃|没|无"
 )
-_NO = re.compile(
+_NO = deferred(
     r"(?:(?:no|nope|nah|n|never|please|thanks?|thank\s+you|don'?t|do\s+not|no\s+way|(?:better|rather|i'd\s+rather)\s+not|"
     r"non|nein|gracias|merci|danke|不|不要|不用|不用了|不行|不是|不对|不了|否|别|不同意|不必|不可以|谢谢)\s*)+"
 )
-_COURTESY = re.compile(r"(?:(?:please|thanks?|thank\s+you|gracias|merci|danke|谢谢)\s*)+")
-_CONTRADICTS = re.compile(
-    r"\b(?:yes|yeah|yep|y)\b.*\b(?:no|not|nope)\b|\b(?:no|nope)\b.*\b(?:yes|yeah|yep|y|ok|okay)\b"
-)
-_TAKEN_BACK = re.compile(r"\b(?:no\s+(?:problem|worries)|why\s+not)\b")
+_COURTESY = deferred(r"(?:(?:please|thanks?|thank\s+you|gracias|merci|danke|谢谢)\s*)+")
+_CONTRADICTS = deferred(r"\b(?:yes|yeah|yep|y)\b.*\b(?:no|not|nope)\b|\b(?:no|nope)\b.*\b(?:yes|yeah|yep|y|ok|okay)\b")
+_TAKEN_BACK = deferred(r"\b(?:no\s+(?:problem|worries)|why\s+not)\b")
 
 
 def assent(text: str) -> Assent:

@@ -6,11 +6,10 @@ takes for apply, undo or start over is carried out only where every word of the 
 
 from __future__ import annotations
 
-import re
-
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.command_words import CHINESE, WORDS
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import NAME
 from wirelessagent.language.text import normalise
@@ -19,11 +18,11 @@ _CHANGING = ("apply", "undo", "reset")
 _LONGEST = 120
 """Characters of a line that may be nothing but a command."""
 
-_ZH_WORD = re.compile("|".join(CHINESE))
-_ZH_DENIED = re.compile("如果|要是|假如|吗|要不要|该不该|能不能|可不可以|没|别|不(?:是|要|用|想|该|能|会|准|许|再)|未")
-_LATIN = re.compile(r"[a-zß-ÿœ](?:[a-zß-ÿœ'’-]*[a-zß-ÿœ])?")
-_LETTER = re.compile(r"[^\W_]")
-_NAMED = re.compile(
+_ZH_WORD = deferred("|".join(CHINESE))
+_ZH_DENIED = deferred("如果|要是|假如|吗|要不要|该不该|能不能|可不可以|没|别|不(?:是|要|用|想|该|能|会|准|许|再)|未")
+_LATIN = deferred(r"[a-zß-ÿœ](?:[a-zß-ÿœ'’-]*[a-zß-ÿœ])?")
+_LETTER = deferred(r"[^\W_]")
+_NAMED = deferred(
     r"(?i)\b(?:undo\w*|revert\w*|roll\w*\s?back|retract|withdraw|reverse|restore|previous|mistake|oops|reset|restart|"
     r"forget|erase|wipe|clear|start(?:ing)?\s+(?:over|afresh|again|anew)|scratch|apply|activate|deploy|implement|execute|"
     r"enact|roll\w*\s+\w*\s*out|go\s+(?:ahead|live)|proceed|"
@@ -31,7 +30,7 @@ _NAMED = re.compile(
     r"撤|退|回滚|还原|恢复|收回|取消|重置|重来|重新|从头|清空|清除|清零|归零|复位|忘|应用|执行|下发|部署|生效|启用|上线|激活"
 )
 """Words that speak of such a command, whatever else a line says."""
-_POLITE = re.compile(
+_POLITE = deferred(
     r"^(?:(?:oh|ah|well|ok(?:ay)?)[,\s]+)?(?:no|nein|non)\s*[,，.;!]\s*|\b(?:could|can|would|will)\s+you(?:\s+mind)?\b|\bnever\s*mind\b|"
     r"^(?:could|can)\s+(?:we|i)\b|\bgo\s+ahead\b|能不能帮我|可不可以帮我|能帮我"
 )

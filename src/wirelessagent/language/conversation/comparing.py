@@ -7,22 +7,22 @@ as names under "aims".
 from __future__ import annotations
 
 import dataclasses
-import re
 
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint, Detail, Intent
 from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.sentence import Sentence, own_words
 
-_COMPARES = re.compile(
+_COMPARES = deferred(
     r"\b(?:compar(?:e|ed|ing|ison)|versus|vs\.?|differences?\s+between|side\s+by\s+side|(?:which|what)(?:'s|\s+is)\s+better)\b|"
     r"比较|对比|相比|比一比|比一下|区别|差别|差异|差多少|哪个[更比较]?好"
 )
-_BETTER = re.compile(r"\bbetter\b|好")
-_OF_OTHERS = re.compile(r"\b(?:missing|lost|loss|gone|unknown|turns?)\b|缺|丢|轮")
-_POWER = re.compile(r"\b(?:power|budget)\b|功率")
-_CAP = re.compile(r"\b(?:at\s+most|max(?:imum)?|cap(?:ped)?)\b|上限|不超过|最高")
+_BETTER = deferred(r"\bbetter\b|好")
+_OF_OTHERS = deferred(r"\b(?:missing|lost|loss|gone|unknown|turns?)\b|缺|丢|轮")
+_POWER = deferred(r"\b(?:power|budget)\b|功率")
+_CAP = deferred(r"\b(?:at\s+most|max(?:imum)?|cap(?:ped)?)\b|上限|不超过|最高")
 _MOST = 4
 
 

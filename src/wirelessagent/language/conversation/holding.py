@@ -7,12 +7,12 @@ that was promised, because a line names an aim and any other figure: that is for
 from __future__ import annotations
 
 import dataclasses
-import re
 
 from wirelessagent.language.conversation.line import NAME, Line
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Intent
 
-_STARTS_OVER = re.compile(
+_STARTS_OVER = deferred(
     r"\b(?:new|fresh|different|another)\s+(?:request|task|job|start|intent|order)\b|\b(?:start|begin)(?:ing)?\s+(?:all\s+)?"
     r"(?:over|again|afresh|anew|from\s+(?:scratch|zero|the\s+beginning))\b|\bfrom\s+scratch\b|\bafresh\b|"
     r"\b(?:instead\s+of|forget(?:\s+about)?|replac(?:e|ing)|drop|scrap|ignore|discard)\s+(?:all|everything)\b|"

@@ -5,11 +5,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint, Detail, Intent, IntentKind
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import Quantity, parse_quantities
@@ -19,8 +19,8 @@ from wirelessagent.language.sentence import labels_of, own_words
 from wirelessagent.language.text import language_of, normalise
 
 NAME = "conversation"
-_WORD = re.compile(r"[^\W\d_]{3,}")
-_POLITE = re.compile(
+_WORD = deferred(r"[^\W\d_]{3,}")
+_POLITE = deferred(
     r"^(?:(?:(?:ok(?:ay)?|please|hey|well|then|so|now|and|(?:could|can|would|will) you|let's|let us)\b|请|"
     r"麻烦(?:你|您)?|帮我|那就?)[,，\s]*)+(?=\S)|[,，\s]*(?:please|thanks|thank you|谢谢|吧|了吧)?[\s.!。！~]*$"
 )

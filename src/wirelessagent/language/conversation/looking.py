@@ -5,28 +5,27 @@ The detail "asked" is "gain", "limits" or "duration"; "user" and "subcarrier" (i
 
 from __future__ import annotations
 
-import re
-
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Detail, Intent
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.text import normalise
 
-_GAIN = re.compile(
+_GAIN = deferred(
     r"\b(?:s(?:i)?nr|signal[-\s]to[-\s]noise(?:\s+ratio)?|(?:channel\s+)?gains?|path\s*loss)\b|信噪比|增益|路径损耗"
 )
-_ASKS = re.compile(
+_ASKS = deferred(
     r"^(?:and\s+)?(?:what|how|which|tell|show|give)\b|\?$|？$|多少|多大|多高|是什么|怎么样|如何|[吗呢]$|^(?:the\s+)?(?:sinr|snr|gain)\b"
 )
-_SUBCARRIER = re.compile(
+_SUBCARRIER = deferred(
     r"\bsubcarrier\s*(?:no\.?|number|#)?\s*(\d+)|(?:第\s*)?(\d+|[一二三四五六七八九十]+)\s*(?:号|个)?子载波|子载波\s*(\d+)"
 )
-_DURATION = re.compile(
+_DURATION = deferred(
     r"how\s+(?:long|much\s+time)\s+(?:did|does|will|would)\s+(?:it|that|this|the\s+\w+|you)\s+(?:take|need|run|compute|calculate)\b.*|"
     r".*\b(?:comput\w+|calculation|solv\w+|run|running)\s+time\b.*|how\s+(?:fast|quick)\w*\s+(?:did|was|were)\s+(?:you|it|that)\b.*|"
     r".*(?:花|用|算|耗)了?(?:多久|多长时间|多少时间).*|.*(?:计算|求解|运行)(?:时间|耗时|用时).*"
 )
-_LIMITS = re.compile(
+_LIMITS = deferred(
     r"(?:who|what|which\s+(?:user|one|limit|constraint)s?)(?:'s|\s+is|\s+are)?\s+(?:it\s+that\s+)?(?:mainly\s+|really\s+|now\s+)?"
     r"(?:limit\w*|restrict\w*|constrain\w*|bottleneck\w*|slow\w*|drag\w*|hold(?:s|ing)?\s+(?:\w+\s+)?back)\b.*|"
     r".*\b(?:the|a|our)\s+(?:bottleneck|limiting\s+(?:factor|user)|binding\s+constraint)s?\b.*|"

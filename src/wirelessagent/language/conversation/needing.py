@@ -5,27 +5,26 @@ They are what-ifs with the detail "asked": "power". A power that is asked about 
 
 from __future__ import annotations
 
-import re
-
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint, Detail, Intent
 from wirelessagent.language.sentence import Sentence, own_words
 
-_TAKES = re.compile(
+_TAKES = deferred(
     r"\b(?:how\s+much\s+(?:radiated\s+)?power|how\s+many\s+(?:milli)?watts|(?:what|which)\s+power)\b.*"
     r"\b(?:needs?|needed|takes?|requires?|required|necessary|costs?)\b|"
     r"(?:需要?|要|得)(?:用|花)?(?:多少|几|多大)的?(?:瓦|功率|电)|(?:多少|多大)的?(?:瓦|功率)才?(?:能|够|可以|行)"
 )
-_NEEDS = re.compile(
+_NEEDS = deferred(
     r"(?:(?:do|does|would|will)\s+(?:we|i|it|they|this|that|the\s+cell)\s+(?:(?:really|actually|even|still|all)\s+)*"
     r"(?:need|take|require)|(?:is|are)\s+(?=#\s+(?:\w+\s+)?(?:needed|necessary|required)))\s*(?:all\s+(?:of\s+)?)?(?:the\s+)?#.*|"
     r"(?:真的?|现在|我们)*(?:需要|用得着|非要|必须用?)#.*[吗么]?"
 )
-_ENOUGH = re.compile(
+_ENOUGH = deferred(
     r"(?:is|are|would|will)\s+#\s+(?:be\s+)?(?:really\s+|still\s+)?(?:enough|sufficient).*|.*#(?:够不够|足?够)(?:用)?(?:了|吗|么)?.*"
 )
-_ENDS = re.compile(r"[?？]\s*$|[吗么]\s*$|够不够")
-_STEP = re.compile(
+_ENDS = deferred(r"[?？]\s*$|[吗么]\s*$|够不够")
+_STEP = deferred(
     r"\b(?:more|extra|additional|further|another|less|fewer|sav\w+|rais\w+|increas\w+|cut|each\s+watt)\b|%|再|还|[多加](?![少大])|提高|增|省|节|降"
 )
 _RATES = ("min_rate_bps", "outage_probability", "users", "leave_out")

@@ -5,23 +5,22 @@ They are what-ifs of another aim, with the detail "asked": the highest rate for 
 
 from __future__ import annotations
 
-import re
-
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.sentence import Sentence, own_words
 
-_HOW_MUCH = re.compile(r"\b(?:what|how\s+(?:much|high|fast|many))\b|多少|多高|多大|几兆|多快|什么速率|哪个速率")
-_MOST = re.compile(r"\b(?:most|max(?:imum|imal)?|highest|largest|biggest|best|top|up\s+to)\b|最多|最高|最大|最快|上限")
-_CAN = re.compile(r"\b(?:can|could|possible|possibly|able|may|might|at\s+(?:least|most))\b|能|可以|可|够")
-_PROMISE = re.compile(r"\b(?:promis\w+|guarantee\w*|assur\w+|ensur\w+|commit\w*|offer\w*)\b|保证|承诺|保底|保障|许诺")
-_GIVE = re.compile(r"\b(?:give|get|have|serve|provide|deliver|achieve|receive)s?\b|给|得到|分到|拿到|达到|有|提供")
-_RATE = re.compile(r"\b(?:rates?|speeds?|throughput|mbit|kbit)\b|速率|速度|兆")
-_OF_ALL = re.compile(
+_HOW_MUCH = deferred(r"\b(?:what|how\s+(?:much|high|fast|many))\b|多少|多高|多大|几兆|多快|什么速率|哪个速率")
+_MOST = deferred(r"\b(?:most|max(?:imum|imal)?|highest|largest|biggest|best|top|up\s+to)\b|最多|最高|最大|最快|上限")
+_CAN = deferred(r"\b(?:can|could|possible|possibly|able|may|might|at\s+(?:least|most))\b|能|可以|可|够")
+_PROMISE = deferred(r"\b(?:promis\w+|guarantee\w*|assur\w+|ensur\w+|commit\w*|offer\w*)\b|保证|承诺|保底|保障|许诺")
+_GIVE = deferred(r"\b(?:give|get|have|serve|provide|deliver|achieve|receive)s?\b|给|得到|分到|拿到|达到|有|提供")
+_RATE = deferred(r"\b(?:rates?|speeds?|throughput|mbit|kbit)\b|速率|速度|兆")
+_OF_ALL = deferred(
     r"\b(?:every(?:one|body)|each|all\s+(?:the\s+)?users|every\s+user|all\s+of\s+them|per\s+(?:user|head)|slowest|worst)\b|"
     r"每[个位名]?|大家|所有人|所有用户|各用户|人人|最慢的?|最差的?"
 )
-_NOT_THIS = re.compile(r"\b(?:why|power\s+(?:do|does|would|is)|watts)\b|多少(?:功率|瓦|电)|为什么|用户数|子载波")
+_NOT_THIS = deferred(r"\b(?:why|power\s+(?:do|does|would|is)|watts)\b|多少(?:功率|瓦|电)|为什么|用户数|子载波")
 _LIMITS = ("max_power_w", "outage_probability", "users", "leave_out")
 
 

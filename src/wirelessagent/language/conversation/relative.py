@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from wirelessagent.language.conversation.amendments import BESIDE, CORRECTING, CORRECTS
 from wirelessagent.language.conversation.amounts import Amount, with_amount
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.recogniser import Context
 
@@ -75,7 +76,7 @@ _PATTERNS = (
     rf"(?:{_ZH_NOUN}|把?它)?{_ZH_ALSO}{_ZH_FACTOR}",
     rf"(?:只)?(?:用|有|给)?(?:(?P<half>一半|半数)|(?P<twice>[两二2]倍|双倍))的?{_ZH_NOUN}",
 )
-_SHAPES = tuple(re.compile(pattern) for pattern in _PATTERNS)
+_SHAPES = tuple(deferred(pattern) for pattern in _PATTERNS)
 
 _RAISE, _LOWER = "(?P<up>increase|raise|boost|lift)", "(?P<down>decrease|reduce|lower|cut|drop|shrink|trim)"
 _TURN = "(?:turn|bring|take|dial)"
@@ -103,32 +104,32 @@ _AMOUNT_PATTERNS = (
     rf"{_ZH_NOUN}只(?:用|有|是|给)?(?:现在|原来)?的?~",
     rf"(?:只)?(?:用|有|给)?~的?(?:{_ZH_NOUN}|(?P<power>{_ZH_POWER}))(?:就行|就够了?|就好|行不行)?",
 )
-_AMOUNT_SHAPES = tuple(re.compile(pattern) for pattern in _AMOUNT_PATTERNS)
-_OTHER_AMOUNT = re.compile(
+_AMOUNT_SHAPES = tuple(deferred(pattern) for pattern in _AMOUNT_PATTERNS)
+_OTHER_AMOUNT = deferred(
     rf"(?:{CORRECTING}|{BESIDE}|(?:by|only|just|about)\s|[只降减少])*+(?:到|成|为)?[~#^]"
     rf"(?:of\s+(?:it|that|the\s+power)|less|more|的?功率|{CORRECTING}|才对|[,，\s])*+"
 )
-_CHANGING = re.compile(
+_CHANGING = deferred(
     r"(?:(?:now|actually|also|then|just|only|use|with|at\s+most|no\s+more\s+than)\s+|(?:现在|再|也|最多|只用)[,，]?)*"
 )
-_WILL_YOU = re.compile(r"(?:please\s+)?(?:could|can|would|will)\s+you\b|可以")
-_SUPPOSING = re.compile(
+_WILL_YOU = deferred(r"(?:please\s+)?(?:could|can|would|will)\s+you\b|可以")
+_SUPPOSING = deferred(
     r"(?:(?:and|but|so)\s+)?(?:what\s+(?:if|about|happens\s+(?:if|with)|would\s+happen\s+(?:if|with))|suppose|supposing|"
     r"imagine|assume|how\s+about|if)\s+(?:(?:we|you|i|they|it|the\s+cell)\s+)?(?:(?:only|had|have|has|got|used?|were\s+to|could)\s+)*|"
     r"(?:那|那么|但|但是)?(?:如果|要是|假如|假设|若是?|倘若|万一|设想)(?:把|将|我们|只)*"
 )
-_SUPPOSED_END = re.compile(
+_SUPPOSED_END = deferred(
     r"[,，]?\s*(?:(?:then\s+)?what(?:\s+(?:would\s+happen|then|happens))?|又?会?(?:怎么样|怎样|如何|怎么办)|的话|呢|结果如何)*"
     r"[?？。.\s]*$"
 )
-_AND_WHAT = re.compile(r"呢[?？]*$")
+_AND_WHAT = deferred(r"呢[?？]*$")
 _OUTCOME = r"(?:rates?|throughput|speed|power|watts?)"
 _LOSES = r"(?:cost|lose|save|bring|buy|gain|mean|give|take|do|change|matter)"
-_FOR_WHOM = re.compile(
+_FOR_WHOM = deferred(
     r"\s+(?:each|apiece|per\s+(?:user|head)|for\s+(?:@|each(?:\s+user)?|every\w*(?:\s+user)?|all(?:\s+users)?))$|"
     r"^(?:每[个位名]?(?:用户|人)?|大家|所有人|所有用户|各用户|@)(?=[少多降减提增])"
 )
-_WORTH = re.compile(
+_WORTH = deferred(
     rf"(?:how\s+much|what)(?:\s+(?:total\s+)?{_OUTCOME})?\s+(?:would|does|do|will|could)\s+(?P<said>.+?)\s+{_LOSES}"
     rf"(?:\s+(?:us|me|them|the\s+\w+|(?:in|of)\s+(?:the\s+)?(?:total\s+)?{_OUTCOME}))*|"
     rf"(?:how\s+much|what)(?:\s+(?:total\s+)?{_OUTCOME})?\s+(?:would|do|does|will|can|could)\s+(?:we|i|it|they|the\s+\w+)\s+"
@@ -139,7 +140,7 @@ _WORTH = re.compile(
     r"(?:的?(?:总?速率|吞吐量?|功率|兆|瓦|代价|影响|好处))?|(?P<zh_then>.+?)(?:的话)?[,，]?(?:会|又会)(?:怎么样|怎样|如何)"
 )
 """What a change is worth: "how much would 10 % less power cost?", "少10%功率会损失多少?"."""
-_TO_AMOUNT = re.compile(r"\bto\s+[~#^]|[到成为]\s*[~#^]")
+_TO_AMOUNT = deferred(r"\bto\s+[~#^]|[到成为]\s*[~#^]")
 
 
 @dataclass(frozen=True, kw_only=True)

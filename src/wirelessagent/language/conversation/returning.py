@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import re
-
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.followups import taken_in
 from wirelessagent.language.intent import Intent
 
@@ -21,7 +20,7 @@ _NOW = r"(?:\s+(?:again|now|online|already|today|with\s+us|on\s+air|in\s+the\s+c
 _ZH_ONE = "(?:[他她它]们?|那个?用户|那位用户|那个人)"
 _ZH_JUST = "(?:又|已经|已|现在|刚刚?|重新|再次|也|终于)*"
 _ZH_BACK = "(?:回来|来|回到小区|恢复|上线|归来|回归|在线|接入|连上|返回|出现)(?:服务)?"
-_RETURNED = re.compile(
+_RETURNED = deferred(
     rf"(?P<said>@|{_ONE}){_IS}{_BACK}{_NOW}|(?P<zh>@|{_ZH_ONE}){_ZH_JUST}{_ZH_BACK}(?:了|啦|吧)*|"
     r"(?P<again>(?:请|把|给)*恢复(?:对|给)?@)(?:的)?(?:服务)?(?:吧|了)*|"
     r"(?P<served>(?:重新|再)(?:给|为|对)?@(?:恢复|提供)?服务)"

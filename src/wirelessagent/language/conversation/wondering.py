@@ -7,14 +7,14 @@ left as it is.
 from __future__ import annotations
 
 import dataclasses
-import re
 
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Detail, Intent
 from wirelessagent.language.text import normalise
 
-_POLITE = re.compile(r"(?i)\bplease\b|\byou\b|请|麻烦|帮")
-_BEGINS = re.compile(
+_POLITE = deferred(r"(?i)\bplease\b|\byou\b|请|麻烦|帮")
+_BEGINS = deferred(
     r"(?i)\s*(?:(?:and|but|so|hm+|well|ok(?:ay)?)[,\s]+)*(?:"
     r"(?:can|could|may|might)\s+(?:we|i|it|they|the\s+cell)\s+(?:also\s+|still\s+|even\s+|just\s+|maybe\s+)*|"
     r"(?:can|could)\s+(?=user|everyone|everybody|all\b|each)|"
@@ -22,14 +22,14 @@ _BEGINS = re.compile(
     r"(?:那么?|那我们|我们)*(?:能不能|可不可以|能否|可否|是否可以|是否能|是不是可以|行不行)(?:就|也|把)?)"
     r"(?P<rest>.+?)\s*[?？。.吗呢]*\s*"
 )
-_ENDS = re.compile(
+_ENDS = deferred(
     r"(?i)\s*(?:(?:is|are|would)\s+(?P<rest>.+?)\s+(?:be\s+)?(?:possible|feasible|doable|achievable|realistic)\s*\?*|"
     r"(?:可以|能)(?P<polar>.+?)吗[?？]*|"
     r"(?P<then>.+?)的话[,，]?(?:又|会|将|结果|情况)*(?:是|变成?)?(?:什么样子?|怎么?样|如何|什么情况|啥样)?[?？]*|"
     r"(?P<said>.+?)[,，]?(?:可行吗|可以吗|行吗|行不行|可能吗|能行吗|做得到吗|可不可以|能不能做到|好不好)[?？]*)\s*"
 )
 _LEAD = r"(?:(?:and|but|so|ok(?:ay)?|well|hm+|now|then|just|hey)[,\s]+)*"
-_SUPPOSES = re.compile(
+_SUPPOSES = deferred(
     rf"{_LEAD}(?:what\s+(?:if|happens|would|could|might)\b|(?:what|how)\s+about\b|(?:let's\s+|let\s+us\s+)?(?:suppose|supposing|imagine|assume|"
     r"assuming|pretend)\b|(?:let's\s+|let\s+us\s+)say\b|say\s+(?:we|i|they)\b|hypothetically|(?:i\s+|i'm\s+|just\s+)+wonder|"
     r"(?:should|shall|ought|must|do|are|would|could|might|may)\s+(?:we|i|it|they)\b(?=.*\?\s*$)|"
@@ -39,7 +39,7 @@ _SUPPOSES = re.compile(
     r"could|\w+ed)\b|if\s+(?:we|i|they|it|the\s+cell|every\w+|all|@)\b.*\b(?:instead|what|how)\b)|"
     r".*(?<!matter )(?<!of )(?<!care )\bhow\s+(?:much|many)\b.*\?\s*$|.*[,;:\s](?:what\s+if|what\s+would)\b"
 )
-_ZH_SUPPOSES = re.compile(
+_ZH_SUPPOSES = deferred(
     "[那么但是可嗯，, ]*(?:(?:如果|要是|若是?|倘若)(?!可以|可能|行|能|方便|没问题|允许|有)|"
     "假如|假设|假若|假定|万一|设想|试想|想象)|"
     ".*(?:要不要|该不该|应不应该|应该不应该|需不需要|有没有必要|有必要.*吗|是不是(?:应该|该|要|最好)|是否(?:应该?|该|需要|要|值得)|值不值得|"
