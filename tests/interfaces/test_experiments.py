@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import functools
 import io
+import itertools
 import json
 import multiprocessing
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
@@ -167,15 +168,16 @@ def test_neither_legends_nor_labels_cover_data_or_each_other(name):
 
 @pytest.mark.parametrize("name", [name for name in EXPERIMENTS if name != "modes"])
 def test_curves_that_coincide_are_told_apart(name):
-    for panel in drawn(name)[2].panels:
+    canvas = drawn(name)[2]
+    canvas.figure.draw_without_rendering()
+    for panel in canvas.panels:
         curves = [one.lines[0] for one in panel.axes.containers]
         looks = [(line.get_color(), line.get_marker()) for line in curves]
         assert len(set(looks)) == len(looks)
-        for one in curves:
-            for other in curves:
-                same = one is not other and np.array_equal(one.get_xydata(), other.get_xydata())
-                apart = [line.get_transform().transform((1.0, 1.0))[0] for line in (one, other)]
-                assert not same or abs(apart[0] - apart[1]) > 2.0, "in pixels"
+        for one, other in itertools.combinations(curves, 2):
+            shown = [line.get_transform().transform(line.get_xydata()) for line in (one, other)]
+            if shown[0].shape == shown[1].shape and np.abs(shown[0][:, 1] - shown[1][:, 1]).max() < 3.0:
+                assert np.abs(shown[0][:, 0] - shown[1][:, 0]).min() > 2.0, "in pixels"
 
 
 @pytest.mark.parametrize("name", EXPERIMENTS)

@@ -44,7 +44,7 @@ class Bar:
         return "passed" if low >= limit else "failed" if high < limit else "open"
 
     def told(self, found: Measure) -> str:
-        return f"{self.what}: {found}; asked: {self.side} {self.limit:g} {found.unit}".strip()
+        return f"{self.what}: {found}, asked {self.side} {self.limit:g} {found.unit}".strip()
 
 
 @dataclass(frozen=True, kw_only=True)

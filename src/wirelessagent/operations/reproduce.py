@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import Field
 
 from wirelessagent.experiments.catalogue import EXPERIMENTS, VERDICTS, reproduce
+from wirelessagent.kernels import supply
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Event, Operation, Progress, Request
@@ -63,7 +66,8 @@ def run(request: ReproduceRequest, progress: Progress) -> ReproduceRecord:
         progress(Event(stage=name, message=EXPERIMENTS[name].summary, done=done, total=total))
 
     names = request.names or list(EXPERIMENTS)
-    made = reproduce(names, out=request.out, draws=request.draws, seed=request.seed, progress=told)
+    with _compiling():
+        made = reproduce(names, out=request.out, draws=request.draws, seed=request.seed, progress=told)
     return ReproduceRecord(
         figures=[
             ReproducedFigure(name=name, summary=EXPERIMENTS[name].summary, files=list(files))
@@ -73,6 +77,13 @@ def run(request: ReproduceRequest, progress: Progress) -> ReproduceRecord:
         verdicts=[one.to_dict() for one in made.verdicts],
         verdict_files=list(made.files.get(VERDICTS, ())),
     )
+
+
+@contextmanager
+def _compiling() -> Generator[None]:
+    """Compile what is missing before it is called: many draws are long work, and times are those of machine code."""
+    with supply.foreground() if supply.mode() == "background" else nullcontext():
+        yield
 
 
 REPRODUCE = Operation(
