@@ -8,7 +8,7 @@ RUN := $(UV) run --frozen --extra plot --extra evaluate --extra llm
 
 export UV_COMPILE_BYTECODE ?= 1
 
-.PHONY: demo test lint bench docs format clean
+.PHONY: demo test check quick bars lint code bench docs format clean
 
 demo: $(UV)  ## run the chain on measured and on simulated channels and leave the pictures in demo/
 	$(UV) sync --frozen --quiet --inexact --no-default-groups --extra plot
@@ -17,17 +17,39 @@ demo: $(UV)  ## run the chain on measured and on simulated channels and leave th
 		--csi examples/data/measured_wifi.npz --loss random:0.2 --plot demo/measured.png
 	.venv/bin/wirelessagent ask "Higher speed for video streaming" --plot demo/simulated.png
 
-test: lint  ## lint, types, import contract, all tests, the third-party example
+test: $(UV)  ## all that CI needs: lint and types beside compiling, all tests, the third-party example
+	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm
+	$(MAKE) --no-print-directory -j2 lint code
 	$(RUN) pytest -n auto --dist worksteal
 	$(UV) pip install --quiet --no-deps --target build/third_party ./examples/third_party_objective
 	PYTHONPATH=build/third_party $(RUN) pytest examples/third_party_objective/tests
+
+check: $(UV)  ## lint, types, and the tests that need no machine code
+	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm
+	$(MAKE) --no-print-directory -j2 lint quick
+
+quick:
+	$(RUN) pytest -m "not machine_code" tests/interfaces
+
+bars: $(UV) code  ## the full counts behind the figures in the documentation; hours on two cores
+	$(RUN) python benchmarks/bars_interpreted.py
+	$(RUN) python benchmarks/bars_files.py
+	$(RUN) python benchmarks/bars_history.py
+	$(RUN) python benchmarks/bars_deadline.py
+	$(RUN) python benchmarks/bars_exact.py
+	$(RUN) python benchmarks/bars_decide.py
+	$(RUN) python benchmarks/bars_promises.py
+	$(RUN) python benchmarks/bars_intents.py
 
 lint: $(UV)
 	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm
 	$(RUN) ruff format --check .
 	$(RUN) ruff check .
-	$(RUN) pyright
 	$(RUN) lint-imports
+	$(RUN) pyright
+
+code: $(UV)  ## compile all kernels, once for all tests
+	$(RUN) wirelessagent warm-up --json
 
 bench: $(UV)  ## benchmarks against NumPy and cvxpy in the same run
 	$(RUN) --group bench pytest benchmarks --benchmark-only

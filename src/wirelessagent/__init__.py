@@ -58,7 +58,7 @@ if TYPE_CHECKING:
     from wirelessagent.sensing.files import read
     from wirelessagent.sensing.source import ChannelSource
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _HOMES = {
     "BaseStation": "acting.base_station",

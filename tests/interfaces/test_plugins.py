@@ -359,7 +359,7 @@ def modules_after(code: str) -> set[str]:
 
 
 def test_importing_the_package_loads_nothing_heavy() -> None:
-    heavy = {"numpy", "scipy", "numba", "h5py", "pydantic", "typer", "rich", "matplotlib", "platformdirs"}
+    heavy = {"numpy", "scipy", "numba", "h5py", "pydantic", "click", "rich", "matplotlib", "platformdirs"}
     assert modules_after("import wirelessagent") & heavy == set()
 
 

@@ -202,6 +202,6 @@ def _prints(node: ast.AST) -> bool:
         return False
     called: Callable[[Any], str] = ast.unparse
     name = called(node.func)
-    return name in ("print", "Console", "typer.echo", "sys.stdout.write", "sys.stderr.write") or (
+    return name in ("print", "Console", "click.echo", "sys.stdout.write", "sys.stderr.write") or (
         name.startswith("rich.") and "markup" not in name
     )

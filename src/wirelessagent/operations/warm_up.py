@@ -103,7 +103,7 @@ def _compile(progress: Progress) -> None:
 
 def exercises() -> Iterator[Exercise]:
     """A little of everything that needs kernels, what is asked for most first."""
-    now, past = _observed(num_slots=1), _observed(num_slots=6)
+    now, past, alike = _observed(num_slots=1), _observed(num_slots=6), _observed(num_slots=1, user_correlation=0.9)
     problems = [
         (f"{objective}, {name}", Problem(objective, **limits))
         for (name, limits), objective in itertools.product(LIMITS.items(), plugins.names("objective"))
@@ -111,7 +111,7 @@ def exercises() -> Iterator[Exercise]:
     yield Exercise("repair", lambda: chain.repair(now))
     for name, problem in problems:
         yield Exercise(name, partial(_decide, now, problem))
-    for repairer, seen in itertools.product(plugins.names("repairer"), (now, past)):
+    for repairer, seen in itertools.product(plugins.names("repairer"), (now, past, alike)):
         yield Exercise(f"repair by {repairer}", partial(chain.repair, seen, repairer))
     yield Exercise("prediction", partial(chain.repair, past, at_s=1.0))
     for method, (name, problem) in itertools.product(plugins.names("method"), problems):
@@ -121,8 +121,8 @@ def exercises() -> Iterator[Exercise]:
         yield Exercise(f"{name}, in a batch", partial(_decide_batch, now, problem))
 
 
-def _observed(*, num_slots: int) -> ChannelObservation:
-    scene = chain.simulate("rayleigh", seed=1, num_users=4, num_subcarriers=12, num_slots=num_slots, snr_db=20.0)
+def _observed(**how: float) -> ChannelObservation:
+    scene = chain.simulate("rayleigh", seed=1, num_users=4, num_subcarriers=12, snr_db=20.0, **how)
     return scene.observe(random(0.2), seed=1)
 
 
