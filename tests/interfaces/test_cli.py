@@ -129,7 +129,8 @@ def test_a_budget_of_any_size_is_solved_on_a_matrix_of_ones_own(
 
 
 def test_an_infeasible_promise_is_said_to_be_so_with_figures(matrix: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    decided = answer(capsys, "solve", matrix, "--objective", "min_power", "--min-rate-bps", 50e6, "--max-power-w", 0.01)
+    asked = ("--objective", "min_power", "--min-rate-bps", 50e6, "--max-power-w", 0.01)
+    decided = answer(capsys, "solve", matrix, *asked, code=3)
     assert decided["status"] == "infeasible"
     assert decided["needed_power_w"]["at_least"] > 0.01
     assert decided["rate_scaling"]["at_most"] < 1

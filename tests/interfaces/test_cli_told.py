@@ -130,8 +130,8 @@ def test_who_cannot_be_served_is_counted(capsys: pytest.CaptureFixture[str]) -> 
 def test_gains_are_not_repaired_for_a_file_that_cannot_be_written(
     matrix: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    told = shown(capsys, "repair", matrix, "--out", tmp_path / "o.csv", code=2)
-    assert told == "wirelessagent: gains are written as NPZ; call the file 'o.npz' instead of 'o.csv'"
+    told = shown(capsys, "repair", matrix, "--out", tmp_path / "o.mat", code=2)
+    assert told == "wirelessagent: gains are written as NPZ or CSV; end the name in .npz or .csv instead of 'o.mat'"
 
 
 def test_nothing_is_the_best_where_nothing_is_feasible(matrix: Path, capsys: pytest.CaptureFixture[str]) -> None:
