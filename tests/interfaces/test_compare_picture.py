@@ -14,6 +14,7 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human
 from wirelessagent.pictures.canvas import Canvas
 from wirelessagent.pictures.compare_picture import comparison_canvas, draw_comparison
+from wirelessagent.pictures.method_names import readable
 from wirelessagent.testing.channels import known, rayleigh_gain
 
 CELL = wa.Cell(max_power_w=20)
@@ -58,7 +59,8 @@ def test_marks_are_at_value_gap_and_time() -> None:
         assert time[row] == pytest.approx(1e3 * one.time_s, rel=1e-12)
     assert any(label.startswith(f"no allocation is below {max(bounds) / scale:.4g} ") for label in legend(canvas))
     names = [label.get_text() for label in canvas.panels[0].axes.get_yticklabels()]
-    assert names == list(SEVEN)
+    assert names == [readable(name) for name in SEVEN]
+    assert not any("_" in name for name in names)
 
 
 def test_who_has_no_allocation_or_no_bound_is_said_to() -> None:
@@ -77,7 +79,7 @@ def test_where_nothing_is_feasible_the_picture_says_why_and_what_it_would_take()
     assert decision.reason in said
     assert f"need at least {human(decision.needed_power_w.at_least, 'W')}" in said
     assert "times these rates" in said
-    assert "dual: infeasible; greedy: infeasible; paper_scan: refused" in said
+    assert "dual: infeasible; greedy: infeasible; the paper's power scan: refused" in said
 
 
 @pytest.mark.parametrize("objective", ["max_rate", "min_power", "max_energy_efficiency", "max_min_rate"])

@@ -17,6 +17,7 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.rates import normalised_gain, owned_gain
 from wirelessagent.model.units import db, human, prefixed
 from wirelessagent.pictures.canvas import GREY, PALETTE, Canvas, Panel, can_show, check_suffix
+from wirelessagent.pictures.method_names import readable
 from wirelessagent.pictures.needed import needed_lines
 
 _MOST_NAMED = 16
@@ -89,7 +90,7 @@ def draw_gains(
         user_ticks(sensed, "y", names),
     )
     mark = mark_repaired(repaired, estimate.repaired)
-    title = f"Repaired by {estimate.method} ({mark})" if lost else "Nothing to repair"
+    title = f"Repaired by {readable(estimate.method)} ({mark})" if lost else "Nothing to repair"
     repaired.describe(title, "Subcarrier", user_ticks(repaired, "y", names))
 
 
@@ -161,11 +162,12 @@ def mark_repaired(panel: Panel, where: BoolArray) -> str:
 def draw_allocation(panel: Panel, decision: Decision, names: list[str], estimate: ChannelEstimate | None) -> None:
     """Power per subcarrier in its owner's colour with a water level if there is one, or why nothing is allocated."""
     if decision.is_usable and decision.power_w.any():
-        title = f"Decided by {decision.method}: {human(decision.total_power_w, 'W')}"
+        title = f"Decided by {readable(decision.method)}: {human(decision.total_power_w, 'W')}"
         draw_powers(panel, title, decision.owner, decision.power_w, names, _water_level_w(estimate, decision))
         return
     reason = "No power is radiated" if decision.is_usable else f"{decision.status}: {decision.reason}"
-    panel.describe(f"Decided by {decision.method}: {'0 W' if decision.is_usable else decision.status}", "", "")
+    verdict = "0 W" if decision.is_usable else decision.status
+    panel.describe(f"Decided by {readable(decision.method)}: {verdict}", "", "")
     panel.note("\n".join(textwrap.fill(line, 48) for line in [reason, *needed_lines([decision])]))
 
 

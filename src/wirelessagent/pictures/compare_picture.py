@@ -13,6 +13,7 @@ from wirelessagent.model.errors import InputError
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human, percent, prefixed
 from wirelessagent.pictures.canvas import GREY, PALETTE, Canvas, Panel, can_show, check_suffix
+from wirelessagent.pictures.method_names import readable
 from wirelessagent.pictures.needed import needed_lines
 
 _NOTHING = "no allocation"
@@ -62,7 +63,9 @@ def comparison_canvas(found: Sequence[Compared]) -> Canvas:
     _draw_values(value, found, objective)
     _draw_gaps(gap, found)
     _draw_times(time, found)
-    names = [one.method if can_show(one.method) else f"method {row}" for row, one in enumerate(found, start=1)]
+    names = [
+        readable(one.method) if can_show(one.method) else f"method {row}" for row, one in enumerate(found, start=1)
+    ]
     for panel in canvas.panels:
         panel.grid()
         panel.limits(y=(len(found) - 0.5, -0.8))
@@ -73,7 +76,8 @@ def comparison_canvas(found: Sequence[Compared]) -> Canvas:
 
 def _nothing_canvas(found: Sequence[Compared], decisions: Sequence[Decision], objective: Objective) -> Canvas:
     """Why there is no allocation, in the words of the first method that has none, and who says what."""
-    verdicts = [f"{one.method}: {'refused' if one.decision is None else one.decision.status}" for one in found]
+    statuses = ("refused" if one.decision is None else one.decision.status for one in found)
+    verdicts = [f"{readable(one.method)}: {status}" for one, status in zip(found, statuses, strict=True)]
     reason = next((f"{one.status}: {one.reason}" for one in decisions if one.reason), "")
     said = [reason, *needed_lines(decisions), "; ".join(verdicts)]
     canvas = Canvas(width_in=8.0, height_in=3.0)
