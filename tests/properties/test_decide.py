@@ -120,7 +120,8 @@ def test_every_limit_is_kept(
     limits: dict[str, Any] = {"min_rate_bps": promised_bps} if promised_bps else {}
     decision = solve(
         gain, objective, method, CELLS[0],
-        max_power_w=budget_w, subcarrier_max_power_w=cap_w, forbidden=forbidden, users=users, **limits,
+        max_power_w=budget_w, subcarrier_max_power_w=cap_w, forbidden=forbidden,
+        users=[f"user {user + 1}" for user in users], **limits,
     )  # fmt: skip
     check(decision, gain, budget_w, np.isin(np.arange(gain.shape[0]), users) * promised_bps)
     served = decision.owner >= 0

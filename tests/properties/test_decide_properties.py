@@ -219,5 +219,6 @@ def permuted(case: RandomProblem, users: IntArray, subcarriers: IntArray) -> Ran
     if problem.forbidden is not None:
         limits["forbidden"] = problem.forbidden[users][:, subcarriers]
     if problem.users is not None:
-        limits["users"] = tuple(np.flatnonzero(np.isin(users, problem.users)).tolist())
+        served = problem.for_users(case.estimate.user_names).user_indices
+        limits["users"] = tuple(f"user {place + 1}" for place in np.flatnonzero(np.isin(users, served)))
     return with_limits(case._replace(estimate=known(case.estimate.gain[users][:, subcarriers])), **limits)

@@ -162,7 +162,8 @@ def test_all_limits_hold_together() -> None:
     forbidden = np.zeros(estimate.gain.shape, dtype=bool)
     forbidden[:, 6:8] = True
     problem = wa.Problem(
-        "min_power", min_rate_bps=[2e5] * 6 + [0.0, 0.0], users=tuple(range(7)), forbidden=forbidden,
+        "min_power", min_rate_bps=[2e5] * 6 + [0.0, 0.0], users=[f"user {k}" for k in range(1, 8)],
+        forbidden=forbidden,
         resource_block_group_size=2, subcarrier_max_power_w=5.0, outage_probability=0.1,
     )  # fmt: skip
     decision = wa.decide(estimate, problem, CELL)

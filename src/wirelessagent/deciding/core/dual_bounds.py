@@ -109,7 +109,8 @@ def _conjugate(form: NormalForm, program: Program | Programs, price: FloatArray,
     value, rate = form.objective.conjugate(price / weight, low, high)
     value = np.where(counts, weight * value, -price * low)
     paid = price * np.where(counts, np.where(np.isfinite(rate), rate, 0.0), low)
-    return np.asarray(value.sum(axis=-1) + rounding * (np.abs(value) + paid).sum(axis=-1))
+    total, terms = value.sum(axis=-1), (np.abs(value) + paid).sum(axis=-1)
+    return np.where(np.isfinite(total), total + rounding * np.where(np.isfinite(terms), terms, 0.0), total)
 
 
 def _groups_worth_w(form: NormalForm, price: FloatArray) -> FloatArray:
