@@ -208,8 +208,8 @@ FORMERLY_OPEN = (99, 190, 250, 354, 503, 549, 563, 619, 694)
 @pytest.mark.parametrize("number", [*FORMERLY_OPEN, *range(20)])
 def test_tiny_problems_are_proven_and_no_worse_than_thorough(number: int) -> None:
     case = tiny_problem(number, tuple(OBJECTIVES[name] for name in TURNS))
-    exact = wa.decide(case.estimate, case.problem, case.cell, Exact())
-    thorough = wa.decide(case.estimate, case.problem, case.cell, Dual(effort="thorough"))
+    exact = wa.decide(case.estimate, case.problem, case.cell, Exact(deadline_s=600.0))
+    thorough = wa.decide(case.estimate, case.problem, case.cell, Dual(effort="thorough", deadline_s=600.0))
     assert exact.status in ("optimal", "infeasible")
     assert thorough.status != "feasible" or exact.status == "optimal"
     if thorough.is_usable:
@@ -221,9 +221,11 @@ def test_tiny_problems_are_proven_and_no_worse_than_thorough(number: int) -> Non
 def test_what_is_not_proven_says_why() -> None:
     estimate = known(rayleigh_gain(6, 14, seed=3)[0])
     slowest, past = wa.Problem("max_min_rate"), (1e6, 0.0, 3e6, 1e5, 2e5, 1e6)
-    cut = wa.decide(estimate, slowest, wa.Cell(), Exact(steps=150))
+    cut = wa.decide(estimate, slowest, wa.Cell(), Exact(steps=150, deadline_s=600.0))
     assert cut.status == "feasible"
     assert "time allowed ended" in cut.reason
-    fair = wa.decide(estimate, wa.Problem(ProportionalFairness(past_average_bps=past)), wa.Cell(), Exact())
+    fair = wa.decide(
+        estimate, wa.Problem(ProportionalFairness(past_average_bps=past)), wa.Cell(), Exact(deadline_s=600.0)
+    )
     assert fair.status == "optimal" or "no power law" in fair.reason
-    assert wa.decide(estimate, slowest, wa.Cell(), Exact()).reason == ""
+    assert wa.decide(estimate, slowest, wa.Cell(), Exact(deadline_s=600.0)).reason == ""

@@ -69,7 +69,11 @@ def test_a_deadline_is_replayed_by_its_restarts(problem: wa.Problem, ticking: No
     same(again, cut)
 
 
-@pytest.mark.parametrize("method", [Dual(), Dual(effort="thorough"), Exact()], ids=["fast", "thorough", "exact"])
+@pytest.mark.parametrize(
+    "method",
+    [Dual(), Dual(effort="thorough", deadline_s=600.0), Exact(deadline_s=600.0)],
+    ids=["fast", "thorough", "exact"],
+)
 @pytest.mark.parametrize("problem", PROBLEMS.values(), ids=PROBLEMS.keys())
 def test_a_search_ends_soundly_after_however_few_steps(problem: wa.Problem, method: wa.Method) -> None:
     channel = estimate()

@@ -18,13 +18,13 @@ from wirelessagent.deciding.methods.exact import Exact
 from wirelessagent.deciding.objectives.max_rate import MaxRate
 from wirelessagent.model.errors import PluginError, UnsupportedProblemError
 from wirelessagent.testing.channels import known, rayleigh_gain
-from wirelessagent.testing.random_problems import random_problem
+from wirelessagent.testing.random_problems import random_problem, tiny_problem
 
 OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
 METHODS = {
     "dual": Dual(),
-    "thorough": Dual(effort="thorough"),
-    "exact": Exact(),
+    "thorough": Dual(effort="thorough", deadline_s=600.0),
+    "exact": Exact(deadline_s=600.0),
     "cut short": Dual(effort="thorough", steps=40),
     **{name: plugins.create("method", name) for name in plugins.names("method") if name not in ("dual", "exact")},
 }
@@ -58,7 +58,7 @@ def test_tiny_promises_are_kept_by_every_search() -> None:
         rng = np.random.default_rng(seed)
         gain = rayleigh_gain(3, 6, seed=seed)[0] * 10.0 ** rng.uniform(-6, 0, (3, 1))
         problem = wa.Problem("min_power", min_rate_bps=10.0 ** rng.uniform(-3, 2, 3))
-        for method in (Dual(), Dual(effort="thorough"), Exact()):
+        for method in (Dual(), Dual(effort="thorough", deadline_s=600.0), Exact(deadline_s=600.0)):
             decision = wa.decide(known(gain), problem, wa.Cell(), method)
             if decision.is_usable:
                 assert (decision.rate_bps >= problem.min_rates_bps(3)).all()
@@ -85,10 +85,22 @@ def test_the_bound_of_a_power_under_another_objective_is_the_higher_one() -> Non
     for seed in range(60):
         case = random_problem(seed, MaxRate(), num_users=4, num_subcarriers=6)
         if case.problem.min_rate_bps is not None:
-            decision = wa.decide(case.estimate, case.problem, case.cell, Exact())
+            decision = wa.decide(case.estimate, case.problem, case.cell, Exact(deadline_s=600.0))
             found[seed] = decision.status
     assert "undecided" not in found.values()
     assert {"optimal", "infeasible"} <= set(found.values())
+
+
+def test_a_level_is_not_left_at_zero() -> None:
+    """The sets of the promises leave others with nothing; a search cut short has hardly any sets at all."""
+    case = tiny_problem(39, tuple(plugins.objective(name) for name in OBJECTIVES))
+    assert wa.decide(case.estimate, case.problem, case.cell, "dual").value > 0
+    estimate = known(rayleigh_gain(12, 30, seed=2)[0])
+    for name in ("max_min_rate", "proportional_fairness"):
+        for method in ("dual", "greedy"):
+            values = [wa.decide(estimate, wa.Problem(name), wa.Cell(), method, steps=n).value for n in (0, 20, 10**6)]
+            assert 0 < values[0] < values[2]
+            assert values[1] > 0
 
 
 FAULTS: dict[str, tuple[dict[str, Any], str]] = {

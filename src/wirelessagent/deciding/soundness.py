@@ -91,7 +91,9 @@ def _broken_rates(decision: Decision, estimate: ChannelEstimate) -> Iterator[str
             yield f"rates {rate} fall short of the promised {least}"
     if problem.max_rate_bps is not None and (rate > problem.max_rates_bps(rate.size) * (1.0 + _TOLERANCE)).any():
         yield f"rates {rate} are above {problem.max_rates_bps(rate.size)}"
-    value = _objective(decision).value(rate, decision.total_power_w, cell, problem.weights_of(rate.size))
+    all_alike = problem.weights is None and problem.users is None
+    weight = None if all_alike else problem.weights_of(rate.size)
+    value = _objective(decision).value(rate, decision.total_power_w, cell, weight)
     if decision.value != value and not abs(decision.value - value) <= _TOLERANCE * abs(value):
         yield f"the value is {decision.value!r}, but the objective says {value!r}"
 

@@ -312,12 +312,24 @@ def write_figures(
 def start_sets(ask: Ask, sets: Sets, log_mu: float, owner: IntArray) -> tuple[float, int]:
     """Take over the owners (group,) and serve who lacks a rate; ln μ (or ln level) and how many still lack one.
 
-    Owners that keep every limit are left as they are.
+    Owners that keep every limit are left as they are, unless the level is 0 because somebody has nothing at all, and
+    serving everybody lifts it.
     """
     assign(sets, owner)
-    score, at, _ = settle(ask, sets, log_mu)
-    if score > -OVERSPENT * 1e-9:
-        return at, 0
+    score, own_at, _ = settle(ask, sets, log_mu)
+    keeps = score > -OVERSPENT * 1e-9
+    if keeps and (ask.goal != LEVEL or score > 0.0):
+        return own_at, 0
+    at, missing = serve_wanting(ask, sets, log_mu)
+    if keeps and not settle(ask, sets, at)[0] > 0.0:
+        assign(sets, owner)
+        return own_at, 0
+    return at, missing
+
+
+@kernel
+def serve_wanting(ask: Ask, sets: Sets, log_mu: float) -> tuple[float, int]:
+    """Serve who lacks a rate at a price, or at as much of a level as can be; ln of it and how many still lack one."""
     at = log_mu
     if ask.goal == LEVEL:
         set_level(sets.user, ask.share, np.exp(at))

@@ -14,7 +14,7 @@ from wirelessagent.deciding.core.best_prices_kernel import find_prices
 from wirelessagent.deciding.core.bundle_kernel import LOW, UNREACHABLE
 from wirelessagent.deciding.core.dual_kernel import Found, channel_of
 from wirelessagent.deciding.core.least_power_kernel import keep_budget, least_power
-from wirelessagent.deciding.core.moves_kernel import ROUNDING, change
+from wirelessagent.deciding.core.moves_kernel import ROUNDING, change, serve_all
 from wirelessagent.deciding.core.search_kernel import price_of
 from wirelessagent.deciding.core.sets_kernel import (
     FLOOR,
@@ -120,6 +120,8 @@ def solve_greedily(
     assign(sets, owners)
     value_all(sets, price_of(ask, log_mu))
     hand_out(sets, groups == subcarriers and ask.cap_w.min() == np.inf)
+    if is_over(ask.work):
+        serve_all(sets)
     missing = 0
     for k in range(users):
         if sets.user[k, WORTH] <= -UNREACHABLE:

@@ -27,7 +27,7 @@ def search_greedily(form: NormalForm, program: Program, owner: IntArray | None =
     """
     nobody = np.full(form.cap_w.size, -1, dtype=np.int64)
     found, missing = _search(form, program, nobody if owner is None else owner)
-    if missing and owner is None:
+    if missing and owner is None and not form.limit.is_over():
         again, _ = _search(form, program, _seeds(form, _must_have(form, program)))
         if again.score > found.score:
             return again
@@ -39,10 +39,10 @@ def search_objective_greedily(form: NormalForm, program: Program, owner: IntArra
     best = search_greedily(form, program, owner)
     for _ in range(_REFITS):
         nats = rates_of(form, best)
-        if not best.kept or best.program.meets(form, nats):
+        if not best.kept or best.program.meets(form, nats) or form.limit.is_over():
             break
         again = search_greedily(form, Program.of(form, nats), owner)
-        if not again.kept:
+        if not again.kept or form.limit.is_over():
             break
         best = dataclasses.replace(again, bound=tighter(form, program, best.bound, again.bound))
     return best

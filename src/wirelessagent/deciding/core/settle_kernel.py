@@ -160,10 +160,10 @@ def settle_level(
             stuck = stuck - 1 if stuck < 0 else -1
             if excess > -SETTLED or high - low <= SETTLED:
                 break
-        if high - low <= SETTLED or log_level <= np.log(LEAST_LEVEL):
+        if high - low <= SETTLED or log_level < np.log(LEAST_LEVEL):
             break
         if np.isinf(low):
-            trial = max(log_level - reach, np.log(LEAST_LEVEL))  # below, rates are 0, and nobody lacks any
+            trial = log_level - reach
             reach *= 3.0
         elif np.isnan(high_slack):
             trial = min(log_level + reach, high)

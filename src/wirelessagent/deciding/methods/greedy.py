@@ -72,6 +72,7 @@ def _decision(form: NormalForm) -> Decision:
         owner, power_w = (least.owner, least.power_w) if least is not None else nobody
         found = dataclasses.replace(found, owner=owner, power_w=power_w)
     worth = nats_worth(served)
-    dual = search_objective(served, program, _NO_RESTARTS) if worth is None else closed_decision(served, worth)
-    found = dataclasses.replace(found, bound=dual.bound)  # whose prices fit its own sets, too
+    if worth is not None or not form.limit.is_over():
+        dual = search_objective(served, program, _NO_RESTARTS) if worth is None else closed_decision(served, worth)
+        found = dataclasses.replace(found, bound=dual.bound)  # whose prices fit its own sets, too
     return decision_of(form, found, least, unserved)
