@@ -27,6 +27,7 @@ from wirelessagent.experiments.soft_impute import soft_impute
 from wirelessagent.experiments.table import Table
 from wirelessagent.interfaces.cli import run
 from wirelessagent.model.errors import InputError, MissingDependencyError, UnknownNameError
+from wirelessagent.pictures.method_names import readable
 from wirelessagent.sensing.rayleigh import Rayleigh
 
 QUICK = tuple(name for name in all_methods() if name != "iterative")
@@ -136,7 +137,7 @@ def test_the_pictures_show_what_the_tables_hold(result: Evaluated) -> None:
         drawn = {c.get_label(): c.lines[0].get_ydata() for c in panel.axes.containers if hasattr(c, "lines")}
         for method in QUICK:
             rows = [result.table.where(channel=channel, loss=f"random:{rate}", method=method) for rate in (0.2, 0.5)]
-            assert drawn[method].tolist() == [row.numbers("rmse")[0] for row in rows]
+            assert drawn[readable(method)].tolist() == [row.numbers("rmse")[0] for row in rows]
     recovery = result.tables["recovery"]
     assert recovery.columns[5] == "kriging_db"
     heard = recovery.where(missing=0)

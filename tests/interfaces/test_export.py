@@ -192,7 +192,7 @@ def test_a_file_holds_the_same(place: Path, tmp_path: Path, capsys: pytest.Captu
     [
         (["2"], "decided nothing"),
         (["99"], "there is no turn 99"),
-        (["1", "--format", "28312"], "not one of 'ts28312', 'tmf921'"),
+        (["1", "--format", "28312"], "should be 'ts28312' or 'tmf921'"),
         (["1", "--observation-period-s", "0"], "observation_period_s must be positive"),
         (["1", "--out", "/no/such/folder/x.json"], "does not exist"),
     ],

@@ -374,7 +374,7 @@ def test_repairs_of_the_history_are_no_repairs_of_the_current_slot() -> None:
 
 @pytest.mark.parametrize("estimated", [np.zeros((3, 2), dtype=bool), np.zeros(GAIN.shape)])
 def test_estimated_is_a_switch_for_each_gain(estimated: np.ndarray) -> None:
-    with pytest.raises(InputError, match=r"switches \(bool\) of the gain's shape \(2, 3\); got"):
+    with pytest.raises(InputError, match=r"switches \(bool\) of shape \(2, 3\); got"):
         wa.ChannelObservation(gain=GAIN, estimated=estimated)
 
 

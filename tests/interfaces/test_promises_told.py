@@ -17,6 +17,12 @@ from wirelessagent.explain.words import explain
 from wirelessagent.interfaces.cli import run
 
 
+@pytest.fixture(autouse=True)
+def _wide(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Room for each heading on one line."""
+    monkeypatch.setenv("COLUMNS", "240")
+
+
 @pytest.fixture
 def holed(tmp_path: Path) -> Path:
     """Gains of 8 users on 20 subcarriers, a third of them missing."""

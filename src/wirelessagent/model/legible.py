@@ -39,7 +39,7 @@ def written_out(text: str) -> str:
     r"""The escapes of JSON for every sign of a text.
 
     >>> written_out("é😀")
-    '\u00e9\ud83d\ude00'
+    '\\u00e9\\ud83d\\ude00'
     """
     units = text.encode("utf-16-be", "surrogatepass").hex()
     return "".join(f"\\u{units[place : place + 4]}" for place in range(0, len(units), 4))

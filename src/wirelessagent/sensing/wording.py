@@ -26,8 +26,8 @@ def counted(count: int, singular: str, plural: str = "") -> str:
 def shown(value: object) -> str:
     """A value from a file in at most 40 characters, however long it is or deeply nested.
 
-    >>> shown([[[[[[[[1]]]]]]]]), shown("x")
-    ('[[[[[[...]]]]]]', "'x'")
+    >>> shown([1] * 99), shown("x")
+    ('[1, 1, 1, 1, 1, 1, ...]', "'x'")
     """
     return f"{reprlib.repr(value):.40}"
 
