@@ -71,8 +71,8 @@ def test_sentences_say_how_sure_it_is_and_what_it_cost(language: str, parts: tup
 
 def test_promises_on_the_estimate_as_it_stands_are_called_unsure() -> None:
     said = " ".join(explain(ESTIMATE, reported("min_power", min_rate_bps=3e5)))
-    assert "is kept with a probability of" in said
-    assert "an outage probability makes surer promises" in said
+    assert "asked for without a probability: the least sure one, 300 kbit/s for user 1, is kept with" in said
+    assert "an outage probability makes promises of them" in said
     assert "are committed" not in said
 
 

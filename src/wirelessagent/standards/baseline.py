@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from wirelessagent.model.decision import OPTIMAL_GAP
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.standards.subject import ENERGY_CONSUMPTION, Metric, Subject
 
@@ -84,9 +85,13 @@ def _is_unchanged(subject: Subject) -> bool:
 
 
 def _is_unbeatable(subject: Subject, metric: Metric, current: float) -> bool:
-    """Whether the decision's bound, in the metric's unit, proves that nothing is better than the current value."""
+    """Whether the decision's bound, in the metric's unit, proves that nothing is better than the current value.
+
+    A bound is rounded outward, so that it proves this to the gap at which a decision counts as optimal.
+    """
     decision = subject.decision
     if not np.isfinite(decision.bound):
         return False
     bound = metric.of_figure(subject, decision.bound)
-    return bound >= current if metric is ENERGY_CONSUMPTION else bound <= current
+    room = current - bound if metric is ENERGY_CONSUMPTION else bound - current
+    return room <= OPTIMAL_GAP * abs(bound)
