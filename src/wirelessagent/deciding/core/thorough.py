@@ -26,6 +26,8 @@ from wirelessagent.model.rates import user_rate_bps
 
 _FARTHEST = 80.0
 """Of ln μ at the start; a price beyond is that of power to spare."""
+_TINY = 1e-9
+"""SNR at full power, or nats, below which the rounding of levels (1e-16) is more than the slack of a bound covers."""
 _ROUNDING = 1e-12
 """Share of a bound by which it is widened, beside what levels, which are logarithms, are off by."""
 MOST_SETS = 2000
@@ -67,6 +69,8 @@ def tightened(form: NormalForm, found: Search, most_sets: int = MOST_SETS, enoug
         return dataclasses.replace(found, open=_APPROACHED)
     if form.limit.is_over():
         return dataclasses.replace(found, open=OUT_OF_TIME)
+    if not _is_resolved(form):
+        return dataclasses.replace(found, open=_ROUNDED)
     goal = goal_of(form, program)
     optimum = _search_from(form, goal, found, most_sets, enough)
     if optimum.x == -np.inf:
@@ -81,13 +85,22 @@ def tightened(form: NormalForm, found: Search, most_sets: int = MOST_SETS, enoug
         sign = -1.0 if program.goal == LEAST_POWER or form.objective.direction == "min" else 1.0
         slack = 0.0 if reached == sign * worth else abs(reached - sign * worth) + _ROUNDING * abs(reached)
         bound = shown(form, program, optimum.bound) + sign * slack
-        found = dataclasses.replace(found, bound=tighter(form, program, found.bound, bound))
+        if sign * bound >= _worth(
+            form, program, found.owner, found.power_w
+        ):  # else levels are too small to be told apart
+            found = dataclasses.replace(found, bound=tighter(form, program, found.bound, bound))
     else:
         why = _NO_POWER_LAW
     found = dataclasses.replace(found, open=why)
     if not worth > _worth(form, program, found.owner, found.power_w):
         return found
     return dataclasses.replace(found, owner=own, power_w=power_w, score=float(optimum.x))
+
+
+def _is_resolved(form: NormalForm) -> bool:
+    """Whether levels, which are logarithms, tell the powers apart: not where all SNRs or promised rates are tiny."""
+    limits = np.concatenate([form.promised_nats, form.most_nats])
+    return form.budget_w * float(form.snr_per_w.max()) > _TINY and bool(np.all(limits[limits > 0] > _TINY))
 
 
 def carried(form: NormalForm, least: Search, most_sets: int = MOST_SETS, *, enough: float) -> Search:
