@@ -43,7 +43,7 @@ def test_limits_are_kept_to_the_last_bit_and_bounds_are_not_beaten(name: str, ob
         assert decision.is_usable or decision.reason
         if not decision.is_usable:
             continue
-        promised = np.where(case.problem.serves(users), case.problem.min_rates_bps(users), 0.0)
+        promised = np.where(decision.problem.serves(users), decision.problem.min_rates_bps(users), 0.0)
         assert (decision.rate_bps >= promised).all()
         assert decision.total_power_w <= case.problem.budget_w(case.cell)
         if case.problem.subcarrier_max_power_w is not None:
