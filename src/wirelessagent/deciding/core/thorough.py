@@ -22,6 +22,7 @@ from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.program import HIGHEST_LEVEL, LEAST_POWER, MOST_EFFICIENCY, Program, promises
 from wirelessagent.deciding.core.time_limit import TimeLimit
 from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.decision import OPTIMAL_GAP
 from wirelessagent.model.rates import user_rate_bps
 
 _FARTHEST = 80.0
@@ -85,9 +86,8 @@ def tightened(form: NormalForm, found: Search, most_sets: int = MOST_SETS, enoug
         sign = -1.0 if program.goal == LEAST_POWER or form.objective.direction == "min" else 1.0
         slack = 0.0 if reached == sign * worth else abs(reached - sign * worth) + _ROUNDING * abs(reached)
         bound = shown(form, program, optimum.bound) + sign * slack
-        if sign * bound >= _worth(
-            form, program, found.owner, found.power_w
-        ):  # else levels are too small to be told apart
+        known = _worth(form, program, found.owner, found.power_w)
+        if sign * bound >= known - OPTIMAL_GAP * abs(known):  # else levels are too small to be told apart
             found = dataclasses.replace(found, bound=tighter(form, program, found.bound, bound))
     else:
         why = _NO_POWER_LAW
