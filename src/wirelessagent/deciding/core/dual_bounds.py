@@ -46,7 +46,8 @@ def bounds_of(form: NormalForm, program: Program | Programs, log_price: FloatArr
     weight = float(form.weight.sum())
     if program.goal == HIGHEST_LEVEL:
         worth_w = (worth_w + form.budget_w) * (1.0 + rounding)
-        level = _highest_level(program, log_price, worth_w) * (1.0 + rounding) * form.bps_per_nat
+        with np.errstate(over="ignore"):  # where no power is needed the level has no limit
+            level = _highest_level(program, log_price, worth_w) * (1.0 + rounding) * form.bps_per_nat
         return form.objective.figures(form.objective.utility(level[..., np.newaxis])[..., 0], weight)
     full = _conjugate(form, program, np.zeros(price.shape), rounding)  # the highest rates, whatever they take
     best = full
@@ -109,7 +110,8 @@ def _conjugate(form: NormalForm, program: Program | Programs, price: FloatArray,
     value, rate = form.objective.conjugate(price / weight, low, high)
     value = np.where(counts, weight * value, -price * low)
     paid = price * np.where(counts, np.where(np.isfinite(rate), rate, 0.0), low)
-    return np.asarray(value.sum(axis=-1) + rounding * (np.abs(value) + paid).sum(axis=-1))
+    size = np.where(np.isfinite(value), np.abs(value) + paid, 0.0)
+    return np.asarray(value.sum(axis=-1) + rounding * size.sum(axis=-1))
 
 
 def _groups_worth_w(form: NormalForm, price: FloatArray) -> FloatArray:
