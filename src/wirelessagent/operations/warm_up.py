@@ -121,7 +121,7 @@ def exercises() -> Iterator[Exercise]:
         yield Exercise(f"{name}, in a batch", partial(_decide_batch, now, problem))
 
 
-def _observed(**how: float) -> ChannelObservation:
+def _observed(**how: Any) -> ChannelObservation:
     scene = chain.simulate("rayleigh", seed=1, num_users=4, num_subcarriers=12, snr_db=20.0, **how)
     return scene.observe(random(0.2), seed=1)
 
