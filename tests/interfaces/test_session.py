@@ -275,7 +275,7 @@ def test_what_fits_no_channel_is_asked_about() -> None:
     assert "user 2 can't get at least 2 Mbit/s and at most 1 Mbit/s" in question(
         min_rate_bps={"2": 2e6}, max_rate_bps=1e6
     )
-    assert posed(min_rate_bps=2e6, max_rate_bps={"2": 1e6}, leave_out=("2",)).problem.users == (0, 2, 3, 4)
+    assert posed(min_rate_bps=2e6, max_rate_bps={"2": 1e6}, leave_out=("2",)).problem.user_indices == (0, 2, 3, 4)
     assert "groups of a whole number" in question(resource_block_group_size=2.5)
     assert "Every weight is 0" in question(weights={"all": 0.0})
 

@@ -33,7 +33,7 @@ MOST_SETS = 2000
 OUT_OF_TIME = "the time allowed ended before this was proven to be the best"
 _ROUNDED = "what is better, if anything, is less than rounding: rates or gains lie too far apart"
 _NO_POWER_LAW = (
-    "the objective's utility is no power law of the rate, so that the bound is that of prices of rates, and sets were "
+    "the objective declares no power law of the rate, so that the bound is that of prices of rates, and sets were "
     "searched for with the power law that is nearest at the rates found"
 )
 _APPROACHED = "without circuit power the best efficiency is only approached, and the bound is that of prices of rates"
