@@ -30,7 +30,10 @@ def script(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_script_is_read_to_its_end_or_until_leave_is_taken(script: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_script_is_read_to_its_end_or_until_leave_is_taken(
+    script: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "240")  # room for each heading on one line
     assert run(["chat", *CELL, "--script", str(script)]) == 0
     told = capsys.readouterr().out
     assert [line for line in told.splitlines() if line.startswith("> ")] == [f"> {SAID[0]}", f"> {SAID[2]}", "> quit"]
