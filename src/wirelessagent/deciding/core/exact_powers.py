@@ -22,14 +22,19 @@ _STEP = 4e-16
 
 
 def exact_powers(form: NormalForm, rows: FloatArray, owner: IntArray, power_w: FloatArray) -> FloatArray:
-    """The least powers (subcarrier,) that carry the rates of ``power_w`` on the owners' sets, each within its row."""
+    """The least powers (subcarrier,) that carry the rates of ``power_w`` on the owners' sets, each within its row.
+
+    They are infinite where a set cannot carry what its user must have.
+    """
     from wirelessagent.deciding.core.least_power_kernel import keep_budget, least_power
 
     nats = user_rate_bps(form.estimate.gain, owner, power_w, form.cell) / form.bps_per_nat
-    nats = np.where(nats > 0, np.clip(nats, rows[:, 0], rows[:, 1]), 0.0)
+    nats = np.clip(nats, rows[:, 0], rows[:, 1])
     exact = np.empty(power_w.size)
-    least_power(form.snr_per_w, ceilings(form, form.snr_per_w), nats, owner, exact, np.empty(nats.size))
-    if not form.promised_nats.any():
+    spent_w = least_power(form.snr_per_w, ceilings(form, form.snr_per_w), nats, owner, exact, np.empty(nats.size))
+    if np.isinf(spent_w):
+        exact[:] = np.inf
+    elif not form.promised_nats.any():
         keep_budget(form.budget_w, exact)
     return exact
 

@@ -55,7 +55,10 @@ class Optimum:
     nodes: int
 
     def allocation(self, goal: Goal) -> tuple[IntArray, FloatArray]:
-        """The owner, −1 for nobody, and the power in W of each subcarrier, (subcarrier,); a column has one owner."""
+        """The owner, −1 for nobody, and the power in W of each subcarrier, (subcarrier,); a column has one owner.
+
+        Where rates are tiny, power may be lost to rounding, which its owner is not.
+        """
         from wirelessagent.deciding.core.columns_kernel import spread
 
         market = goal.reaching(self.x)
@@ -63,8 +66,7 @@ class Optimum:
         power_w: FloatArray = spread(
             market.users, market.floor, market.inverse, market.ceiling, market.start, self.log_mu, columns
         )  # fmt: skip
-        used = np.add.reduceat(power_w, market.start[:-1]) > 0
-        return np.repeat(np.where(used, columns, -1), np.diff(market.start)), power_w
+        return np.repeat(columns, np.diff(market.start)), power_w
 
 
 @dataclass(kw_only=True, eq=False)

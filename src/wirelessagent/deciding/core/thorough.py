@@ -138,7 +138,7 @@ def _search_from(form: NormalForm, goal: Goal, found: Search, most_sets: int, en
 def _worth(form: NormalForm, program: Program, owner: IntArray, power_w: FloatArray) -> float:
     """What ``program`` makes of an allocation; more is better."""
     spent_w = float(power_w.sum())
-    if program.goal == LEAST_POWER:
+    if program.goal == LEAST_POWER or not np.isfinite(spent_w):
         return -spent_w
     rate = user_rate_bps(form.estimate.gain, owner, power_w, form.cell)
     value = form.objective.value(rate, spent_w, form.cell, form.weight)
