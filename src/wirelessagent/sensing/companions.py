@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.model.errors import FileFormatError
 from wirelessagent.sensing.formats.contents import Contents, Entry, Kind, sizes
-from wirelessagent.sensing.wording import counted, legible
+from wirelessagent.sensing.wording import counted, whole_characters
 
 
 def truth_of(
@@ -80,7 +80,7 @@ def user_names_of(contents: Contents, num_users: int) -> tuple[str, ...]:
     entry = contents.entry("user_names")
     if entry is None or entry.kind != "text":
         return ()
-    names = tuple(legible(str(name)) for name in entry.read().reshape(-1))
+    names = tuple(whole_characters(str(name)) for name in entry.read().reshape(-1))
     if len(names) != num_users:
         raise FileFormatError(f"has {len(names)} user names for {num_users} users; give one name per user")
     twice = sorted({name for name in names if names.count(name) > 1})

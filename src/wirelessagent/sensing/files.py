@@ -54,7 +54,7 @@ from wirelessagent.sensing.formats.contents import Contents, Entry, check_size
 from wirelessagent.sensing.formats.signature import Format, recognise
 from wirelessagent.sensing.gains import Scale, Unit, doubt, missing_fact, range_fact, shape_fact
 from wirelessagent.sensing.source import ChannelSource
-from wirelessagent.sensing.wording import legible, one_line
+from wirelessagent.sensing.wording import one_line, whole_characters
 
 _CHUNK_BYTES = 2**20
 
@@ -170,7 +170,10 @@ class File(ChannelSource):
             contents, entry, gain, sensed.estimated, lambda stored: scale.gain(arranged(stored))
         )
         return Scene(
-            cell=cell, sensed=sensed, truth=truth, facts={label: legible(text) for label, text in facts.items()}
+            cell=cell,
+            sensed=sensed,
+            truth=truth,
+            facts={label: whole_characters(text) for label, text in facts.items()},
         )
 
 

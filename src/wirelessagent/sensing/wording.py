@@ -32,10 +32,10 @@ def shown(value: object) -> str:
     return f"{reprlib.repr(value):.40}"
 
 
-def legible(text: str) -> str:
+def whole_characters(text: str) -> str:
     """A text from a file without halves of characters (lone surrogates), which nothing could write down again.
 
-    >>> legible("Zo\\ud800ë")
+    >>> whole_characters("Zo\\ud800ë")
     'Zo?ë'
     """
     return text.encode("utf-8", "replace").decode()
@@ -50,5 +50,5 @@ def one_line(message: str) -> str:
     >>> one_line("has no array called 'a\\nb'")
     "has no array called 'a b'"
     """
-    line = " ".join(legible(message).split())
+    line = " ".join(whole_characters(message).split())
     return line if len(line) <= _LONGEST else f"{line[: _LONGEST - 200]} … {line[-197:]}"
