@@ -169,12 +169,8 @@ class File(ChannelSource):
         truth, facts["truth"] = truth_of(
             contents, entry, gain, sensed.estimated, lambda stored: scale.gain(arranged(stored))
         )
-        return Scene(
-            cell=cell,
-            sensed=sensed,
-            truth=truth,
-            facts={label: whole_characters(text) for label, text in facts.items()},
-        )
+        facts = {label: whole_characters(text) for label, text in facts.items()}
+        return Scene(cell=cell, sensed=sensed, truth=truth, facts=facts)
 
 
 def read(path: Path | str, cell: Cell | None = None, **options: Any) -> Scene:
