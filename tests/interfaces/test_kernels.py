@@ -21,6 +21,7 @@ from numba.core import caching
 
 import wirelessagent
 from wirelessagent import kernels
+from wirelessagent.experiments.draws import run_draws
 from wirelessagent.kernels import background, code_cache, supply
 from wirelessagent.kernels.lock import Lock
 from wirelessagent.kernels.twin import twin_of
@@ -253,9 +254,20 @@ def test_large_work_waits_for_its_code(cache_home: Path, monkeypatch: pytest.Mon
     with kernels.work_on(supply.LARGE_GAINS - 1) as work:
         assert one(2.0) == 4.0
     assert (work.ran, waits) == ("interpreted", ["started"])
-    with kernels.work_on(supply.LARGE_GAINS) as work:
+    with kernels.work_on(supply.LARGE_GAINS) as work, kernels.work_on(1):  # a part of large work is large
         assert one(2.0) == 4.0
     assert (work.ran, waits) == ("compiled", ["started", "waited, False"])
+
+
+@pytest.mark.parametrize(("draws", "waits"), [(2, 0), (100, 1)])
+def test_many_draws_are_large_work(cache_home: Path, monkeypatch: pytest.MonkeyPatch, draws: int, waits: int) -> None:
+    monkeypatch.setenv("WIRELESSAGENT_COMPILE", "background")
+    waited: list[bool] = []
+    monkeypatch.setattr(background, "_start", lambda: None)
+    monkeypatch.setattr(background, "wait_for", lambda is_there: waited.append(is_there()))
+    one: Any = kernels.kernel(double)
+    assert run_draws(lambda _: np.array(one(2.0)), draws=draws, seed=1).mean() == 4.0
+    assert len(waited) == waits
 
 
 def test_a_wait_ends_where_nobody_compiles_any_more(cache_home: Path, monkeypatch: pytest.MonkeyPatch) -> None:

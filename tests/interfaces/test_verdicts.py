@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from wirelessagent.experiments import run_time
-from wirelessagent.experiments.catalogue import EXPERIMENTS, Reproduced, judged, reproduce
+from wirelessagent.experiments.catalogue import EXPERIMENTS, judged, reproduce
 from wirelessagent.experiments.claims import CLAIMS
 from wirelessagent.experiments.experiment import Result
 from wirelessagent.experiments.intervals import Measure
@@ -19,8 +19,6 @@ from wirelessagent.experiments.run_time import RunTime, scaling
 from wirelessagent.experiments.table import table_of
 from wirelessagent.experiments.verdict import FEWEST_DRAWS, Bar, Claim, Reading, judge, markdown
 from wirelessagent.interfaces.cli import run
-from wirelessagent.kernels import supply
-from wirelessagent.operations import reproduce as operation
 
 DOCS = Path(__file__).parents[2] / "docs" / "paper.md"
 
@@ -166,20 +164,6 @@ def test_verdicts_are_printed_and_written(tmp_path, capsys):
     assert (states[0], states[-1]) == ("failed", "passed"), "as printed, and the default repairer"
     assert (record["seed"], record["draws"]) == (1, 20)
     assert (tmp_path / "verdicts.md").read_text(encoding="utf-8").startswith("| the paper says | measured")
-
-
-@pytest.mark.parametrize(("asked", "runs"), [("background", "foreground"), ("never", "never")])
-def test_figures_wait_for_machine_code_unless_there_shall_be_none(monkeypatch, tmp_path, asked, runs):
-    modes: list[str] = []
-
-    def made(*_: object, **__: object) -> Reproduced:
-        modes.append(supply.mode())
-        return Reproduced(files={"modes": [tmp_path / "modes.png"]}, verdicts=())
-
-    monkeypatch.setenv("WIRELESSAGENT_COMPILE", asked)
-    monkeypatch.setattr(operation, "reproduce", made)
-    assert run(["reproduce", "--out", str(tmp_path)]) == 0
-    assert modes == [runs]
 
 
 def test_claims_without_all_their_figures_are_left_out(tmp_path):

@@ -18,7 +18,6 @@ from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
-from scipy.special import bdtrc
 
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.run import with_outcome
@@ -190,9 +189,16 @@ def _broken_promises(decision: Decision, outcome: Outcome, tolerance: float, lan
     outage = decision.problem.outage_probability
     unknown = np.isnan(outcome.achieved.user_rate_bps) & (promised > 0)
     missed, served = int(np.count_nonzero(outcome.missed | unknown)), int(np.count_nonzero(promised > 0))
-    if outage is not None and missed and float(bdtrc(missed - 1, served, outage)) < _UNLIKELY:
+    if outage is not None and missed and _chance(missed, served, outage) < _UNLIKELY:
         found.append(say(language, "too_many", missed=missed, served=served, sure=reliability(outage)))
     return found
+
+
+def _chance(missed: int, served: int, outage: float) -> float:
+    """Probability of so many misses or more among as many promises as are served, each missed with this outage."""
+    from scipy.special import bdtrc  # a quarter of a second, and few need it
+
+    return float(bdtrc(missed - 1, served, outage))
 
 
 def _known(rate: FloatArray) -> FloatArray:

@@ -20,7 +20,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from wirelessagent import chain
+from wirelessagent import chain, kernels
 from wirelessagent.experiments.draws import seeds_of
 from wirelessagent.experiments.experiment import Experiment, Progress, Result
 from wirelessagent.experiments.intervals import Measure, exponent
@@ -88,7 +88,8 @@ class RunTime(Experiment):
     ) -> Result:
         del executor  # calls that share the processor with others cannot be timed
         repeats = min(draws, self.most_repeats)
-        times = _times_ms(self._calls(seed), repeats, self.most_seconds, seed, progress)
+        with kernels.work_on(kernels.LARGE_GAINS):  # the times are those of machine code
+            times = _times_ms(self._calls(seed), repeats, self.most_seconds, seed, progress)
         rows: list[tuple[Value, ...]] = []
         for point, found in times.items():
             median, upper = np.percentile(found, (50, 75)).tolist()

@@ -15,9 +15,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import ParamSpec, TypeVar
 
-from wirelessagent.kernels.supply import Ran, work_on
+from wirelessagent.kernels.supply import LARGE_GAINS, Ran, work_on
 
-__all__ = ["Ran", "kernel", "work_on"]
+__all__ = ["LARGE_GAINS", "Ran", "kernel", "work_on"]
 
 P = ParamSpec("P")
 R = TypeVar("R")

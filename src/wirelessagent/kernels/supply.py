@@ -86,8 +86,8 @@ class Work:
 
 @contextmanager
 def work_on(num_gains: int) -> Generator[Work]:
-    """Say how large the work is whose kernels are called now, and see what ran."""
-    token = _is_large.set(num_gains >= LARGE_GAINS)
+    """Say how large the work is whose kernels are called now, and see what ran; a part of large work is large."""
+    token = _is_large.set(_is_large.get() or num_gains >= LARGE_GAINS)
     try:
         yield Work()
     finally:

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
-from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import Field
 
 from wirelessagent.experiments.catalogue import EXPERIMENTS, VERDICTS, reproduce
-from wirelessagent.kernels import supply
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Event, Operation, Progress, Request
@@ -66,8 +63,7 @@ def run(request: ReproduceRequest, progress: Progress) -> ReproduceRecord:
         progress(Event(stage=name, message=EXPERIMENTS[name].summary, done=done, total=total))
 
     names = request.names or list(EXPERIMENTS)
-    with _compiling():
-        made = reproduce(names, out=request.out, draws=request.draws, seed=request.seed, progress=told)
+    made = reproduce(names, out=request.out, draws=request.draws, seed=request.seed, progress=told)
     return ReproduceRecord(
         figures=[
             ReproducedFigure(name=name, summary=EXPERIMENTS[name].summary, files=list(files))
@@ -77,13 +73,6 @@ def run(request: ReproduceRequest, progress: Progress) -> ReproduceRecord:
         verdicts=[one.to_dict() for one in made.verdicts],
         verdict_files=list(made.files.get(VERDICTS, ())),
     )
-
-
-@contextmanager
-def _compiling() -> Generator[None]:
-    """Compile what is missing before it is called: many draws are long work, and times are those of machine code."""
-    with supply.foreground() if supply.mode() == "background" else nullcontext():
-        yield
 
 
 REPRODUCE = Operation(
