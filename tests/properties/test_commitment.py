@@ -12,6 +12,7 @@ from scipy.special import exp1
 import wirelessagent as wa
 from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.fading_posterior import MEAN_LOGS, tabulated
 from wirelessagent.model.rates import user_rate_bps
 
 CELL = wa.Cell()
@@ -139,6 +140,10 @@ def test_forecasts_are_the_same_again() -> None:
     assert first is not None
     assert again is not None
     assert first.committed_bps.tobytes() == again.committed_bps.tobytes()
+
+
+def test_the_table_that_is_kept_is_the_one_that_would_be_made() -> None:
+    assert np.allclose(np.load(MEAN_LOGS), tabulated().factor, rtol=1e-12, atol=0)
 
 
 @pytest.mark.parametrize("posterior", [wa.FadingPosterior, wa.GammaPosterior])

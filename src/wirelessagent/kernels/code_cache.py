@@ -22,10 +22,14 @@ from typing import Any
 import numba
 import platformdirs
 from numba.core import caching, codegen, config
+from numba.core.environment import Environment
+from numba.core.runtime import rtsys
 
 _numba: Any = numba  # neither has types of its own
 _codegen: Any = codegen
 _config: Any = config
+_runtime: Any = rtsys
+_Environment: Any = Environment
 _FunctionCache: Any = caching.FunctionCache
 _CompileResultCacheImpl: Any = caching.CompileResultCacheImpl
 
@@ -71,13 +75,21 @@ class CodeCache(_FunctionCache):
                 name = f"{function.__module__}.{function.__qualname__}"
                 self._filename_base = self.get_filename_base(name, getattr(sys, "abiflags", ""))
 
+            def reduce(self, cres: Any) -> Any:
+                *payload, environments = _CompileResultCacheImpl.reduce(self, cres)
+                return *payload, [(one.globals["__name__"], one.consts, one.env_name) for one in environments]
+
+            def rebuild(self, target_context: Any, payload: Any) -> Any:
+                *payload, environments = payload
+                payload = *payload, [_environment(*one) for one in environments]
+                return _CompileResultCacheImpl.rebuild(self, target_context, payload)
+
         self._impl_class = Files
         self.folder = folder
         _FunctionCache.__init__(self, function)
 
     def has(self, signature: Any, target: Any) -> bool:
         """Whether machine code for a signature is there."""
-        target.refresh()
         try:
             index = self._cache_file._load_index()
         except Exception:  # noqa: BLE001  # what cannot be read will be made anew by :meth:`load_overload`
@@ -85,8 +97,13 @@ class CodeCache(_FunctionCache):
         return self._index_key(signature, target.codegen()) in index
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The machine code for a signature; None where it is not there.
+
+        Numba would load all that it can compile first, half a second; code that is made needs its runtime only.
+        """
         try:
-            return _FunctionCache.load_overload(self, sig, target_context)
+            _runtime.initialize(target_context)
+            return self._load_overload(sig, target_context)
         except Exception as error:  # noqa: BLE001  # a pickle that a crash cut short fails in any way
             _log.info("the kernel cache %s cannot be read and is made anew: %r", self.cache_path, error)
             with contextlib.suppress(OSError):
@@ -98,6 +115,20 @@ class CodeCache(_FunctionCache):
             _FunctionCache.save_overload(self, sig, data)
         except OSError as error:
             _log.info("the kernel cache %s cannot be written: %r", self.cache_path, error)
+
+
+def _environment(module: str, consts: list[Any], name: str) -> Any:
+    """The constants of a function that a kernel was made from.
+
+    Numba would import the function's module, which machine code has no use for; some bring half of SciPy.
+    """
+    found = _Environment._memo.get(name)
+    if found is None:
+        known = sys.modules.get(module)
+        found = _Environment({"__name__": module} if known is None else vars(known))
+        found.consts[:], found.env_name = consts, name
+        _Environment._memo[name] = found
+    return found
 
 
 @functools.cache
@@ -126,11 +157,10 @@ def _is_private(folder: Path) -> bool:
 
 
 def _fingerprint(sources: tuple[Path, ...]) -> str:
-    """A hash of the sources, of how they are compiled, of Numba's and Python's version, and of the processor."""
+    """A hash of the sources, of how they are compiled and kept, of Numba's and Python's version, of the processor."""
     digest = hashlib.sha256(f"numba {_numba.__version__} python {sys.version} {_processor()}".encode())
-    for source in sorted(
-        (Path(__file__).with_name("dispatcher.py"), *sources), key=lambda source: (source.name, source)
-    ):
+    here = Path(__file__)
+    for source in sorted((here, here.with_name("dispatcher.py"), *sources), key=lambda source: (source.name, source)):
         content = source.read_bytes()
         digest.update(f"{source.name} {len(content)} ".encode() + content)
     return digest.hexdigest()[:16]

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -23,6 +24,9 @@ from wirelessagent.model.even_draws import normal_draws
 from wirelessagent.model.mean_log import MeanLogs
 from wirelessagent.model.posterior import Posterior
 from wirelessagent.model.shown import Plain
+
+MEAN_LOGS = Path(__file__).with_name("fading_mean_logs.npy")
+"""The table of :func:`tabulated`, written by ``numpy.save``; a test makes it anew and compares."""
 
 _NODES = 513
 """Nodes of a quantile's table over √(c/m)."""
@@ -150,6 +154,11 @@ def _rician_quantiles(probability: float) -> FloatArray:
     return np.where(wide, exact / 2.0 * chndtrix(probability, 2.0, np.where(wide, 2.0 * known / exact, 0.0)), sharp)
 
 
+def tabulated() -> MeanLogs:
+    """The mean logarithms, made anew: what :data:`MEAN_LOGS` holds, where SciPy is not loaded for it."""
+    return MeanLogs.of(lambda probability, spread: FadingPosterior(np.ones(spread.shape), spread).quantile(probability))
+
+
 @functools.lru_cache(maxsize=1)
 def _mean_logs() -> MeanLogs:
-    return MeanLogs.of(lambda probability, spread: FadingPosterior(np.ones(spread.shape), spread).quantile(probability))
+    return MeanLogs(np.load(MEAN_LOGS))
