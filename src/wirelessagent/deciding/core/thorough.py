@@ -68,6 +68,10 @@ def tightened(form: NormalForm, found: Search, most_sets: int = MOST_SETS, enoug
         return found
     if program.goal == MOST_EFFICIENCY and form.circuit_w <= 0.0:
         return dataclasses.replace(found, open=_APPROACHED)
+    sign = -1.0 if program.goal == LEAST_POWER or form.objective.direction == "min" else 1.0
+    known = _worth(form, program, found.owner, found.power_w)
+    if sign * found.bound - known <= _ROUNDING * abs(known):  # nothing is better
+        return found
     if form.limit.is_over():
         return dataclasses.replace(found, open=OUT_OF_TIME)
     if not _is_resolved(form):
@@ -83,16 +87,14 @@ def tightened(form: NormalForm, found: Search, most_sets: int = MOST_SETS, enoug
     if program.exact:
         # Levels are off by as much as they are for the allocation whose powers are known to the last bit.
         reached = shown(form, program, optimum.x)
-        sign = -1.0 if program.goal == LEAST_POWER or form.objective.direction == "min" else 1.0
         slack = 0.0 if reached == sign * worth else abs(reached - sign * worth) + _ROUNDING * abs(reached)
         bound = shown(form, program, optimum.bound) + sign * slack
-        known = _worth(form, program, found.owner, found.power_w)
         if sign * bound >= known - OPTIMAL_GAP * abs(known):  # else levels are too small to be told apart
             found = dataclasses.replace(found, bound=tighter(form, program, found.bound, bound))
     else:
         why = _NO_POWER_LAW
     found = dataclasses.replace(found, open=why)
-    if not worth > _worth(form, program, found.owner, found.power_w):
+    if not worth > known:
         return found
     return dataclasses.replace(found, owner=own, power_w=power_w, score=float(optimum.x))
 
