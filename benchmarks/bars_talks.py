@@ -1,0 +1,93 @@
+"""What a file of talks makes of the request: lines that change it wrongly, and lines that are missed or asked back.
+
+Run with ``python benchmarks/bars_talks.py FILE.jsonl [--quiet]``. A talk is a line of JSON: ``{"lines": [{"text": …,
+"request": {"objective": …, "constraints": {…}}}]}``, where ``request`` is what holds behind the line, null where
+nothing was asked for yet, and ``"asks": true`` says that asking back is right. A figure may be "radiated*0.5": that
+share of the power of the last decision. A talk is judged up to its first failure. With ``--quiet`` no sentence is
+printed, so that a set can be used again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import collections
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from wirelessagent.agent.session import Session
+from wirelessagent.language.intent import EVERYBODY
+from wirelessagent.operations.chat import ChatRequest
+
+_SAME = 1e-3
+
+
+def plain(value: Any, radiated_w: float) -> Any:
+    """A constraint in one form: figures by user, a figure, or a set of users."""
+    if isinstance(value, str):
+        return radiated_w * float(value.partition("*")[2])
+    if isinstance(value, Mapping):
+        by_user = {str(user).removeprefix("user "): float(figure) for user, figure in value.items()}
+        return by_user[EVERYBODY] if list(by_user) == [EVERYBODY] else by_user
+    if isinstance(value, list | tuple):
+        return {str(user).removeprefix("user ") for user in value}
+    return float(value)
+
+
+def is_same(one: Any, other: Any) -> bool:
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(is_same(one[user], other[user]) for user in one)
+    if isinstance(one, float) and isinstance(other, float):
+        return math.isclose(one, other, rel_tol=_SAME)
+    return one == other
+
+
+def holds(session: Session, expected: Mapping[str, Any] | None, radiated_w: float) -> bool:
+    request = session.request
+    if expected is None or request is None:
+        return expected is None and request is None
+    wanted = {name: plain(value, radiated_w) for name, value in expected["constraints"].items()}
+    found = {name: plain(value, radiated_w) for name, value in request.constraints.items()}
+    same = wanted.keys() == found.keys() and all(is_same(wanted[name], found[name]) for name in wanted)
+    return same and expected["objective"] in (None, request.objective)
+
+
+def judged(talk: Mapping[str, Any], tell: Any) -> list[str]:
+    """``right``, ``wrong`` or ``missed`` for each line up to the first failure."""
+    session = ChatRequest(no_store=True).session(lambda event: None)
+    found: list[str] = []
+    for line in talk["lines"]:
+        decided = session.state.run
+        radiated_w = 0.0 if decided is None else decided.decision.total_power_w
+        before = session.request
+        turn = session.say(line["text"])
+        if holds(session, line["request"], radiated_w):
+            found.append("right")
+            continue
+        found.append("missed" if session.request == before else "wrong")
+        now = session.request
+        tell(f"\n{found[-1].upper()} " + " / ".join(each["text"] for each in talk["lines"][: len(found)]))
+        tell(f"   wanted {line['request']}")
+        tell(f"   got    {None if now is None else (now.objective, dict(now.constraints))} [{turn.stage}]")
+        tell(f"   said   {turn.reply[:300]!r}")
+        break
+    return found
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("file", type=Path)
+    parser.add_argument("--quiet", action="store_true", help="print counts only")
+    asked = parser.parse_args()
+    tell = (lambda _: None) if asked.quiet else print
+    talks = [json.loads(line) for line in asked.file.read_text(encoding="utf-8").splitlines() if line.strip()]
+    found = collections.Counter(one for talk in talks for one in judged(talk, tell))
+    lines = found.total()
+    shares = ", ".join(f"{name} {found[name]} ({found[name] / lines:.1%})" for name in ("right", "wrong", "missed"))
+    print(f"{len(talks)} talks, {lines} lines judged: {shares}")
+
+
+if __name__ == "__main__":
+    main()
