@@ -10,7 +10,7 @@ import pytest
 from tests.support.conversations import LOSS, SCENE, SEED, Scripted, asks, means
 
 import wirelessagent as wa
-from wirelessagent.agent.request import Request
+from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.turn import Turn
 from wirelessagent.explain.report import cannot_be_served

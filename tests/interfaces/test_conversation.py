@@ -11,7 +11,7 @@ from conversations import LOSS, SCENE, SEED, Scripted, asks, means
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wirelessagent.agent.request import Request
+from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
 from wirelessagent.agent.turn_words import all_turn_words

@@ -74,7 +74,7 @@ def test_a_user_who_is_not_there_is_named_at_once() -> None:
     _, turns = talk("user 9 gets 1 Mbit/s", "user 2", "highest total rate")
     assert "no user 9" in turns[0].reply
     held, _ = talk("user 9 gets 1 Mbit/s", "user 2", "highest total rate")
-    assert held == {"min_rate_bps": {"user 2": 1e6}}
+    assert held == {"min_rate_bps": {"2": 1e6}}
     assert talk(HELD, "user 9 gets 1 Mbit/s", "leave user 3 out")[0] == {"max_power_w": 10.0, "leave_out": ("3",)}
 
 

@@ -13,8 +13,8 @@ from conversations import LOSS, SCENE, SEED, Scripted, asks, means
 
 import wirelessagent as wa
 from wirelessagent.agent.acting import carry_out, same_allocation
+from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.posing import pose
-from wirelessagent.agent.request import Request
 from wirelessagent.agent.run import look, plan, with_outcome
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.tools import Tools

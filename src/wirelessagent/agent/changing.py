@@ -10,11 +10,11 @@ from collections.abc import Sequence
 
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import Effect, respects, same_allocation
+from wirelessagent.agent.dialogue import Diff, Request, applied
 from wirelessagent.agent.events import Event
 from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.noting import notes
 from wirelessagent.agent.referring import no_such_turn
-from wirelessagent.agent.request import Request, requested
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.run import applied_line, with_outcome
 from wirelessagent.agent.site import Site
@@ -23,6 +23,7 @@ from wirelessagent.agent.turn import Run, Stage
 from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import joined, say
 from wirelessagent.explain.tables import decision_tables
+from wirelessagent.language.acts import Act, Drop, LeaveOut, Serve, acts_of
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.restating import limits_in_words
 from wirelessagent.model.units import human
@@ -30,12 +31,14 @@ from wirelessagent.model.units import human
 
 def allocate(site: Site, state: State, intent: Intent) -> Reply:
     """Decide on a new or amended request and act on it, or ask before."""
-    request = requested(intent, state.request)
+    acts = acts_of(intent)
+    request, diff = applied(state.request, acts, radiated_w=state.radiated_w)
+    assert request is not None  # an intent that allocates names an aim
     run = site.plan(intent, request)
     new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good, stated=state.stated)
     turn = intent.details.get("turn")
     back = [] if turn is None else [told(intent.language, "back_to_turn", number=turn)]
-    changed = _changed(state.request, request, intent)
+    changed = _changed(state.request, diff, acts, intent)
     assumed = notes(run, noted=state.noted)
     said = joined(intent.language, [*back, restated(request, intent.language), *changed, *assumed, _sentence(run)])
     if not run.decision.is_usable:
@@ -47,19 +50,19 @@ def allocate(site: Site, state: State, intent: Intent) -> Reply:
     return _carry_or_ask(site, new, intent, run, said)
 
 
-def _changed(before: Request | None, request: Request, intent: Intent) -> list[str]:
-    """What a line that names an aim keeps of the limits that held, or what a new request drops of them."""
+def _changed(before: Request | None, diff: Diff, acts: Sequence[Act], intent: Intent) -> list[str]:
+    """What of the limits that held holds no longer though nobody named it, or what stays where an aim is named."""
     if before is None or not before.constraints:
         return []
-    held, language = before.constraints, intent.language
-    gone = {name: value for name, value in held.items() if name not in request.constraints}
-    if gone and not intent.amends:
-        return [told(language, "no_longer", limits=limits_in_words(gone, language))]
-    if request.objective == before.objective and not intent.evidence.get("objective"):
+    language = intent.language
+    if diff.gone and not any(isinstance(act, Drop | Serve | LeaveOut) for act in acts):
+        return [told(language, "no_longer", limits=limits_in_words(diff.gone, language))]
+    if diff.objective[0] == diff.objective[1] and not intent.evidence.get("objective"):
         return []
-    kept = {name: value for name, value in held.items() if request.constraints.get(name) == value}
-    if dict(request.constraints) == dict(held):
+    if not diff.changes:
         return [told(language, "limits_stay")]
+    changed = {one.kind for one in diff.changes}
+    kept = {name: value for name, value in before.constraints.items() if name not in changed}
     return [told(language, "as_before", limits=limits_in_words(kept, language))] if kept else []
 
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import cast
 
 from wirelessagent import plugins
 from wirelessagent.agent import answers
+from wirelessagent.agent.dialogue import Request, applied
 from wirelessagent.agent.figures import side_by_side
 from wirelessagent.agent.noting import notes
 from wirelessagent.agent.refusing import RefusedError
-from wirelessagent.agent.request import Request
 from wirelessagent.agent.restating import goal_words
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply
@@ -21,6 +21,7 @@ from wirelessagent.agent.words import joined, say
 from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import outcome_in_words
 from wirelessagent.explain.reasons import reason_in_words
+from wirelessagent.language.acts import Act, Aim, limits
 from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
 from wirelessagent.model.units import human, reliability
 
@@ -34,9 +35,19 @@ def alternatives(request: Request, intent: Intent) -> list[tuple[str, Request]]:
     stated = [value for value in limits if isinstance(value, Mapping)]
     aims = [aim for aim in str(details.get("aims", "")).split() if aim in plugins.names("objective")]
     return [
-        *((_figures(one), request.amended(one)) for one in stated),
-        *((goal_words(aim, language), request.amended({}, objective=aim)) for aim in aims),
+        *((_figures(one), _with(request, *_stated(one))) for one in stated),
+        *((goal_words(aim, language), _with(request, Aim(objective=aim))) for aim in aims),
     ]
+
+
+def _with(request: Request, *acts: Act) -> Request:
+    changed, _ = applied(request, acts)
+    assert changed is not None
+    return changed
+
+
+def _stated(figures: Mapping[str, Constraint]) -> Iterator[Act]:
+    return (act for name, value in figures.items() for act in limits(name, value))
 
 
 def beside(site: Site, run: Run, intent: Intent, others: Sequence[tuple[str, Request]], *, noted: bool) -> Reply:

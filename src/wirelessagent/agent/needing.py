@@ -6,8 +6,8 @@ import dataclasses
 from typing import cast
 
 from wirelessagent.agent import answers, supposing
+from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.noting import notes
-from wirelessagent.agent.request import Request
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run

@@ -11,7 +11,7 @@ from typing import Any, cast
 import numpy as np
 
 from wirelessagent import plugins
-from wirelessagent.agent.request import ASSUMED_MIN_RATE_BPS, Request
+from wirelessagent.agent.dialogue import ASSUMED_MIN_RATE_BPS, Request
 from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import say
 from wirelessagent.explain.labels import called

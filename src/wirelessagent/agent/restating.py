@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from wirelessagent import plugins
-from wirelessagent.agent.request import Request
+from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.turn_words import told
 from wirelessagent.explain.labels import called
 from wirelessagent.language.replies import GOALS

@@ -22,20 +22,20 @@ from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent import asking, changing, referring, waiting
 from wirelessagent.agent.acting import TOLERANCE
+from wirelessagent.agent.dialogue import Request, stated_by
 from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.agent.noting import noted_after
 from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.refusing import RefusedError
-from wirelessagent.agent.request import Request, stated_by
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Missing, Question, Reply, State
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import joined, say
+from wirelessagent.language.acts import OWN_CHOICE
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
-from wirelessagent.language.conversation.methods import OWN_CHOICE
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser

@@ -10,10 +10,10 @@ from wirelessagent import chain
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent import acting
+from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.events import Event, Progress
 from wirelessagent.agent.posing import pose
 from wirelessagent.agent.refusing import RefusedError
-from wirelessagent.agent.request import Request
 from wirelessagent.agent.run import Sight, look, plan, station_of, with_outcome
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run

@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from wirelessagent.agent.request import Request
+from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.turn import Run, Stage
 from wirelessagent.explain.table import Table
 from wirelessagent.language.intent import Constraint, Intent
@@ -77,6 +77,11 @@ class State(Plain):
         if self.question is not None:
             return "clarification"
         return "nothing" if self.planned is None else "confirmation"
+
+    @property
+    def radiated_w(self) -> float:
+        """Power of the last decision; 0 where there is none."""
+        return 0.0 if self.run is None or not self.run.decision.is_usable else self.run.decision.total_power_w
 
     @property
     def settled(self) -> State:

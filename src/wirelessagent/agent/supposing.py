@@ -9,11 +9,11 @@ from typing import cast
 import numpy as np
 
 from wirelessagent.agent import answers
+from wirelessagent.agent.dialogue import Request, applied
 from wirelessagent.agent.figures import side_by_side
 from wirelessagent.agent.noting import notes
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, user_number
 from wirelessagent.agent.refusing import RefusedError
-from wirelessagent.agent.request import Request
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.run import Sight
 from wirelessagent.agent.site import Site
@@ -26,6 +26,7 @@ from wirelessagent.explain.lexicon import outcome_in_words, value_name
 from wirelessagent.explain.nearest import nearest
 from wirelessagent.explain.nearest_words import nearest_answer
 from wirelessagent.explain.report import cannot_be_served
+from wirelessagent.language.acts import Act, Aim, Drop, limits
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
@@ -84,7 +85,12 @@ def supposed(state: State, intent: Intent) -> Request:
     held = state.request or Request(objective=cast(str, objective))
     if details.get("asked") == "most" and "outage_probability" not in held.constraints:
         constraints.setdefault("outage_probability", ASSUMED_OUTAGE_PROBABILITY)
-    return held.amended(constraints, objective=objective, dropped=tuple(str(details.get("dropped", "")).split()))
+    acts: list[Act] = [] if objective is None else [Aim(objective=objective)]
+    acts += [Drop(kind=name) for name in str(details.get("dropped", "")).split()]
+    acts += [act for name, value in constraints.items() for act in limits(name, value)]
+    request, _ = applied(held, acts, radiated_w=state.radiated_w)
+    assert request is not None
+    return request
 
 
 def _most(state: State, run: Run, intent: Intent) -> str:

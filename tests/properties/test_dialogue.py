@@ -1,0 +1,148 @@
+"""Acts on a request: what they change is what the diff says, and nothing that was asked for vanishes in silence."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from wirelessagent.agent.dialogue import Request, applied, covered, difference, figures_of
+from wirelessagent.language.acts import (
+    Act,
+    Aim,
+    Ask,
+    Command,
+    Drop,
+    Everybody,
+    Forget,
+    LeaveOut,
+    Limit,
+    Named,
+    Others,
+    Prefer,
+    Scale,
+    Serve,
+    Suppose,
+    Whom,
+)  # fmt: skip
+
+USERS = ("1", "2", "3", "4")
+OF_USERS = ("min_rate_bps", "max_rate_bps", "weights")
+OF_THE_CELL = ("max_power_w", "circuit_power_w", "subcarrier_max_power_w")
+AIMS = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
+
+named = st.lists(st.sampled_from(USERS), min_size=1, max_size=2, unique=True).map(lambda users: Named(tuple(users)))
+whom: st.SearchStrategy[Whom] = st.one_of(st.just(Everybody()), st.just(Others()), named)
+figures = st.sampled_from((1.0, 2.0, 5e5, 1e6))
+
+
+def limit_acts() -> st.SearchStrategy[Act]:
+    of_users = st.builds(lambda kind, who, value: Limit(kind=kind, value=value, whom=who),
+                         st.sampled_from(OF_USERS), whom, figures)  # fmt: skip
+    of_the_cell = st.builds(lambda kind, value: Limit(kind=kind, value=value), st.sampled_from(OF_THE_CELL), figures)
+    return of_users | of_the_cell
+
+
+changing: st.SearchStrategy[Act] = st.one_of(
+    st.builds(lambda aim: Aim(objective=aim), st.sampled_from(AIMS)),
+    limit_acts(),
+    st.builds(lambda kind, who: Drop(kind=kind, whom=who), st.sampled_from(OF_USERS), whom),
+    st.builds(lambda kind: Drop(kind=kind), st.sampled_from(OF_THE_CELL)),
+    st.builds(lambda kind, factor, who: Scale(kind=kind, factor=factor, whom=who),
+              st.sampled_from(OF_USERS), st.sampled_from((0.5, 2.0)), whom),
+    st.builds(lambda factor: Scale(kind="max_power_w", factor=factor, reference="radiated"), st.just(0.5)),
+    st.builds(lambda who, alone: Serve(whom=who, alone=alone), named | st.just(Everybody()), st.booleans()),
+    st.builds(lambda who: LeaveOut(whom=who), named),
+    st.builds(lambda name: Prefer(method=name), st.sampled_from(("dual", ""))),
+    st.just(Forget()),
+)  # fmt: skip
+idle: st.SearchStrategy[Act] = st.sampled_from(
+    (Suppose(acts=(Limit(kind="max_power_w", value=1.0),)), Ask(topic="certificate"), Command(topic="status"))
+)
+lines = st.lists(st.lists(changing | idle, min_size=1, max_size=3), min_size=1, max_size=6)
+
+
+def requests_after(said: list[list[Act]]) -> list[tuple[Request | None, list[Act], Request | None]]:
+    before: Request | None = Request(objective="max_rate")
+    found: list[tuple[Request | None, list[Act], Request | None]] = []
+    for acts in said:
+        after, _ = applied(before, acts, radiated_w=3.0)
+        found.append((before, acts, after))
+        before = after
+    return found
+
+
+def same(one: Request | None, other: Request | None) -> bool:
+    """Whether two requests ask for the same, in whatever order their users were named."""
+    if one is None or other is None:
+        return one is other
+    heads = (one.objective, one.method) == (other.objective, other.method)
+    return heads and figures_of(one.constraints) == figures_of(other.constraints)
+
+
+@given(lines)
+def test_the_diff_makes_the_new_request_of_the_old_and_back(said: list[list[Act]]) -> None:
+    for before, acts, after in requests_after(said):
+        _, diff = applied(before, acts, radiated_w=3.0)
+        assert same(diff.after(before), after)
+        assert same(difference(after, before).after(after), before), "undo is an inverse"
+
+
+@given(lines)
+def test_no_limit_goes_without_an_act_that_takes_it_off(said: list[list[Act]]) -> None:
+    for before, acts, _ in requests_after(said):
+        _, diff = applied(before, acts, radiated_w=3.0)
+        assert covered(diff, acts), (diff.gone, acts)
+
+
+@given(lines, st.lists(idle, min_size=1))
+def test_questions_and_suppositions_change_nothing(said: list[list[Act]], acts: list[Act]) -> None:
+    request = requests_after(said)[-1][2]
+    after, diff = applied(request, acts)
+    assert (after, diff.changes) == (request, ())
+
+
+@given(lines, limit_acts())
+def test_a_limit_said_twice_is_a_limit_said_once(said: list[list[Act]], act: Act) -> None:
+    once, _ = applied(requests_after(said)[-1][2], [act])
+    again, diff = applied(once, [act])
+    assert (again, diff.changes) == (once, ())
+
+
+def after(before: dict[str, Any], *acts: Act, radiated_w: float = 0.0) -> dict[str, Any]:
+    request, _ = applied(Request(objective="max_rate", constraints=before), acts, radiated_w=radiated_w)
+    assert request is not None
+    return dict(request.constraints)
+
+
+RATE = "min_rate_bps"
+
+
+@pytest.mark.parametrize(
+    ("before", "act", "expected"),
+    [
+        ({RATE: {"6": 1.5e6}}, Limit(kind=RATE, value=3e5, whom=Others()), {RATE: {"6": 1.5e6, "all": 3e5}}),
+        ({RATE: {"6": 1.5e6, "all": 2e5}}, Limit(kind=RATE, value=3e5), {RATE: 3e5}),
+        ({RATE: 2e5}, Limit(kind=RATE, value=1e6, whom=Named(("user 2",))), {RATE: {"all": 2e5, "2": 1e6}}),
+        ({RATE: 2e5}, Drop(kind=RATE, whom=Named(("2",))), {RATE: {"all": 2e5, "2": 0.0}}),
+        ({RATE: {"2": 2e5}}, Drop(kind=RATE, whom=Named(("2",))), {}),
+        ({"users": ("1", "7")}, LeaveOut(whom=Named(("7",))), {"users": ("1",)}),
+        ({"leave_out": ("1", "7")}, Serve(whom=Named(("7",))), {"leave_out": ("1",)}),
+        ({"users": ("1",)}, Serve(whom=Named(("7",))), {"users": ("1", "7")}),
+        ({"leave_out": ("1",)}, Serve(whom=Named(("2",)), alone=True), {"users": ("2",)}),
+        ({"users": ("1",)}, Serve(whom=Everybody()), {}),
+        ({}, Scale(kind="max_power_w", factor=0.5, reference="radiated"), {"max_power_w": 1.0}),
+        ({RATE: {"all": 1e5, "3": 2e5}}, Scale(kind=RATE, factor=2, whom=Named(("3",))), {RATE: {"all": 1e5, "3": 4e5}}),
+    ],
+)  # fmt: skip
+def test_acts_do_what_they_say(before: dict[str, Any], act: Act, expected: dict[str, Any]) -> None:
+    found = after(before, act, radiated_w=2.0)
+    assert {name: dict(value) if hasattr(value, "items") else value for name, value in found.items()} == expected
+
+
+def test_a_rate_assumed_for_each_user_holds_for_the_others() -> None:
+    request, _ = applied(Request(objective="min_power"), [Limit(kind=RATE, value=1e6, whom=Named(("3",)))])
+    assert request is not None
+    assert request.constraints[RATE] == {"all": 2e5, "3": 1e6}
