@@ -55,7 +55,8 @@ def test_an_answer_loads_nothing_that_it_does_not_need() -> None:
         "compiler.compile = lambda *given: made.append(sys._getframe(2).f_code.co_filename) or compile(*given)\n"
         "from wirelessagent.language.offline import OfflineRecogniser\n"
         "from wirelessagent.interfaces.cli import run; run(['ask', 'Share fairly', '--no-store', '--json'])\n"
-        "loaded = {'scipy.linalg', 'scipy.special', 'scipy.optimize', 'sqlalchemy', 'h5py', 'matplotlib', 'rich.console'} & set(sys.modules)\n"
+        "heavy = ('scipy.linalg', 'scipy.special', 'scipy.optimize', 'sqlalchemy', 'h5py', 'matplotlib', 'rich.console')\n"
+        "loaded = {*heavy} & set(sys.modules)\n"
         "sys.exit(f'{sorted(loaded)} {len(made)}')"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False)

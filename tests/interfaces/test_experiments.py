@@ -334,7 +334,7 @@ def test_repair_by_nncf_cuts_the_error_at_the_nominal_delay_spread_and_the_liter
 
 
 def test_the_literal_rule_needs_users_that_are_alike():
-    result = SMALL["error_versus_user_correlation"].run(draws=40, seed=1)
+    result = SMALL["error_versus_user_correlation"].run(draws=20, seed=1)
     cut = result.table.where(repairer="nncf_paper").numbers("cut_absolute")
 
     assert cut[0] < 0.5 < 0.67 < cut[-1]

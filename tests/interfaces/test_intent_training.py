@@ -62,7 +62,7 @@ def test_a_template_stands_for_its_alternatives() -> None:
 
 def test_the_same_sentences_for_a_seed(drawn: list[tuple[str, str]]) -> None:
     assert drawn == list(sentences(FOLDER))
-    assert drawn != list(sentences(FOLDER, seed=2))
+    assert drawn[:100] != list(itertools.islice(sentences(FOLDER, seed=2), 100))
     assert len(drawn) > 20_000
 
 

@@ -227,7 +227,7 @@ def test_correlated_users_help_each_other() -> None:
     rng = np.random.default_rng(13)
     made = root(exponential(1000e-9))
     errors = np.zeros(3)
-    for _ in range(60):
+    for _ in range(25):
         common, own = normal(rng, (1, SUBCARRIERS)), normal(rng, (USERS, SUBCARRIERS))
         gain = np.abs((np.sqrt(0.9) * common + np.sqrt(0.1) * own) @ made.T) ** 2
         lost = lost_at_random(rng, 0.2)
