@@ -55,7 +55,7 @@ def test_an_answer_loads_nothing_that_it_does_not_need() -> None:
         "compiler.compile = lambda *given: made.append(sys._getframe(2).f_code.co_filename) or compile(*given)\n"
         "from wirelessagent.language.offline import OfflineRecogniser\n"
         "from wirelessagent.interfaces.cli import run; run(['ask', 'Share fairly', '--no-store', '--json'])\n"
-        "heavy = ('scipy.linalg', 'scipy.special', 'scipy.optimize', 'sqlalchemy', 'h5py', 'matplotlib', 'rich.console')\n"
+        "heavy = 'scipy.linalg scipy.special scipy.optimize sqlalchemy h5py matplotlib rich.console'.split()\n"
         "loaded = {*heavy} & set(sys.modules)\n"
         "sys.exit(f'{sorted(loaded)} {len(made)}')"
     )

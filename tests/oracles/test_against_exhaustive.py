@@ -7,8 +7,8 @@ and the default method's value is the best one in the median. Run with -s to see
 from __future__ import annotations
 
 import functools
-import os
 import itertools
+import os
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass

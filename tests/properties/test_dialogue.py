@@ -134,7 +134,7 @@ RATE = "min_rate_bps"
         ({"leave_out": ("1",)}, Serve(whom=Named(("2",)), alone=True), {"users": ("2",)}),
         ({"users": ("1",)}, Serve(whom=Everybody()), {}),
         ({}, Scale(kind="max_power_w", factor=0.5, reference="radiated"), {"max_power_w": 1.0}),
-        ({RATE: {"all": 1.0, "3": 2e5}}, Scale(kind=RATE, factor=2, whom=Named(("3",))), {RATE: {"all": 1.0, "3": 4e5}}),
+        ({RATE: {"all": 1.0, "3": 2.0}}, Scale(kind=RATE, factor=2, whom=Named(("3",))), {RATE: {"all": 1, "3": 4}}),
     ],
 )  # fmt: skip
 def test_acts_do_what_they_say(before: dict[str, Any], act: Act, expected: dict[str, Any]) -> None:
