@@ -37,7 +37,6 @@ bars: $(UV) code  ## the full counts behind the figures in the documentation; ho
 	$(RUN) python benchmarks/bars_history.py
 	$(RUN) python benchmarks/bars_deadline.py
 	$(RUN) python benchmarks/bars_exact.py
-	WIRELESSAGENT_TEST_PROBLEMS=1000 $(RUN) pytest -n auto tests/oracles/test_against_exhaustive.py
 	$(RUN) python benchmarks/bars_decide.py
 	$(RUN) python benchmarks/bars_promises.py
 	$(RUN) python benchmarks/bars_intents.py

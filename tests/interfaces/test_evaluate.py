@@ -41,7 +41,7 @@ def simulated(text: str = "rayleigh:100", **options: Any) -> EvaluatedChannel:
 
 @pytest.fixture(scope="module")
 def result() -> Evaluated:
-    return evaluation().run(draws=30, seed=11)
+    return evaluation().run(draws=60, seed=11)
 
 
 def evaluation(methods: tuple[str, ...] = QUICK, *channels: EvaluatedChannel) -> EvaluateRepair:

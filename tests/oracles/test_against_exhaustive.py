@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import functools
 import itertools
-import os
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -66,8 +65,7 @@ OBJECTIVES: dict[str, wa.Objective] = {name: wa.plugins.objective(name) for name
 }
 every_objective = pytest.mark.parametrize("objective", OBJECTIVES)
 needs_dual = pytest.mark.skipif("dual" not in wa.plugins.names("method"), reason="the method dual is not installed")
-PROBLEMS = int(os.environ.get("WIRELESSAGENT_TEST_PROBLEMS", "330"))
-"""`make bars` asks for 1,000."""
+PROBLEMS = 1000
 SEEDS = -(-PROBLEMS // len(OBJECTIVES))
 SAME = 1e-9
 
