@@ -22,7 +22,7 @@ from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent import asking, changing, referring, waiting
 from wirelessagent.agent.acting import TOLERANCE
-from wirelessagent.agent.dialogue import Request, stated_by
+from wirelessagent.agent.dialogue import Request, difference, stated_by
 from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.agent.noting import noted_after
 from wirelessagent.agent.posing import UnknownUserError, user_number
@@ -124,7 +124,7 @@ class Session:
 
     def say(self, text: str) -> Turn:
         """Take a line from the operator: understand it, do what it asks, and reply."""
-        context = self._context()
+        context, before = self._context(), self.request
         intent = self._gone_back(self._answered(text) or understood(text, context, self._recogniser))
         self._state = dataclasses.replace(self._state, supposed=None)
         self._language = intent.language
@@ -139,9 +139,9 @@ class Session:
             if self._site.telling is not None:
                 broken_off = self._broken_off(self._site.telling, intent)
                 self._take(broken_off, intent)
-                self._kept(text, intent, broken_off)
+                self._kept(text, intent, broken_off, before)
             raise
-        return self._kept(text, intent, reply)
+        return self._kept(text, intent, reply, before)
 
     def _broken_off(self, run: Run, intent: Intent) -> Reply:
         """What holds where something ended a turn after the base station was told a run."""
@@ -261,7 +261,7 @@ class Session:
         self._state = dataclasses.replace(new, noted=noted)
         self._requests.append(new.request)
 
-    def _kept(self, text: str, intent: Intent, reply: Reply) -> Turn:
+    def _kept(self, text: str, intent: Intent, reply: Reply, before: Request | None) -> Turn:
         """The turn, remembered and stored; a store that fails is told of and stops nothing."""
         said = reply.text
         by_another = intent.recogniser not in (self._recogniser.name, READ_HERE)
@@ -282,6 +282,7 @@ class Session:
             tables=reply.tables,
             restored=reply.restored,
             error=reply.error,
+            diff=difference(before, self.request),
         )
         if self._store is not None:
             try:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
+from wirelessagent.agent.dialogue import Diff
 from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.tools import Tools
 from wirelessagent.explain.report import Report
 from wirelessagent.explain.table import Table
+from wirelessagent.language.acts import Act, acts_of
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import WirelessAgentError
@@ -97,6 +99,7 @@ class Turn(Shown):
         tables: figures that belong to the reply.
         restored: what the base station read back after the last good allocation was put back; None where none was.
         error: what the reply tells of, where something could not be done.
+        diff: what the turn changed of what is asked for.
     """
 
     number: int
@@ -113,6 +116,12 @@ class Turn(Shown):
     tables: tuple[Table, ...] = ()
     restored: Outcome | None = None
     error: WirelessAgentError | None = None
+    diff: Diff = field(default_factory=Diff)
+
+    @property
+    def acts(self) -> tuple[Act, ...]:
+        """What the line does to the conversation."""
+        return acts_of(self.intent)
 
     def summary(self) -> Summary:
         reply = [("reply", line) for line in self.reply.split("\n") if line.strip()]

@@ -10,9 +10,9 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, cast
 
-from wirelessagent.language.intent import EVERYBODY, LISTS_OF_USERS, Intent
+from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
 
 OWN_CHOICE = "auto"
 """The method for "the usual method"."""
@@ -187,10 +187,10 @@ def _changes(intent: Intent) -> Iterator[Act]:
         yield Prefer(method="" if named == OWN_CHOICE else named)
 
 
-def limits(name: str, value: Any, words: str = "") -> Iterator[Act]:
+def limits(name: str, value: Constraint, words: str = "") -> Iterator[Act]:
     """The acts that state a constraint, as :class:`~wirelessagent.language.intent.Intent` writes it."""
-    if name in LISTS_OF_USERS:
-        whom = Named(tuple(value))
+    if isinstance(value, tuple):
+        whom = Named(value)
         yield Serve(whom=whom, alone=True, words=words) if name == "users" else LeaveOut(whom=whom, words=words)
     elif isinstance(value, Mapping):
         if EVERYBODY in value:
@@ -206,9 +206,9 @@ def shown(act: Act) -> dict[str, Any]:
     """An act as JSON has it: its name, its fields and its words."""
     fields: dict[str, Any] = {"act": type(act).__name__}
     for field in dataclasses.fields(act):
-        value = getattr(act, field.name)
+        value: Any = getattr(act, field.name)
         if isinstance(value, tuple):
-            value = [shown(each) for each in value]
+            value = [shown(each) for each in cast("tuple[Act, ...]", value)]
         elif isinstance(value, Everybody | Others):
             value = type(value).__name__.lower()
         elif isinstance(value, Named):

@@ -68,12 +68,13 @@ class TurnRecord(Record):
     @classmethod
     def of(cls, turn: Turn, session: Session, stored: int | None) -> TurnRecord:
         from wirelessagent.store.plain import plain
+        from wirelessagent.store.record_of import understood
 
         run, request = turn.run, session.request
         same = ("number", "session", "at_utc", "text", "stage", "reply", "recogniser", "seed", "version")
         return cls(
             **{name: getattr(turn, name) for name in same},
-            intent=plain(turn.intent),
+            intent={**plain(turn.intent), **understood(turn)},
             request=None if request is None else RequestAnswer(**plain(request)),
             awaits=session.state.awaits,
             decision=None if run is None else DecisionAnswer.of(run.decision),

@@ -17,6 +17,7 @@ import numpy as np
 
 from wirelessagent import plugins
 from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.language.acts import shown
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.outcome import Outcome
@@ -47,7 +48,7 @@ def record_of(turn: Turn) -> tuple[dict[str, Any], tuple[Content, ...]]:
     row: dict[str, Any] = {
         **{name: getattr(turn, name) for name in ("session", "at_utc", "text", "recogniser", "reply", "stage")},
         "turn": turn.number,
-        "intent": turn.intent,
+        "intent": {**plain(turn.intent), **understood(turn)},
         "objective": turn.intent.objective,
         "restored": _outcome(turn.restored),
         "seed": turn.seed,
@@ -62,6 +63,11 @@ def record_of(turn: Turn) -> tuple[dict[str, Any], tuple[Content, ...]]:
     outcome = _outcome(turn.run.outcome) if turn.stage in APPLIED else None
     row["applied"] = None if outcome is None else {**outcome, "options": turn.run.tools.base_station_options}
     return _plain_columns(row), contents
+
+
+def understood(turn: Turn) -> dict[str, Any]:
+    """The acts of a turn, and what they changed of what is asked for; ``schema`` counts the forms that this has had."""
+    return {"schema": 2, "acts": [shown(act) for act in turn.acts], "diff": plain(turn.diff)}
 
 
 def _run_columns(run: Run) -> dict[str, Any]:
