@@ -46,8 +46,8 @@ class OfflineRecogniser(Recogniser):
 
     name = NAME
 
-    def recognise(self, text: str, context: Context | None = None) -> Intent:
-        """What the operator means; never raises, whatever the text."""
+    def read(self, text: str, context: Context | None = None) -> Intent:
+        """What the operator may mean, as it is read; never raises, whatever the text."""
         own = own_words()
         language = _language(text[:_MAX_CHARACTERS], context)
         voice = Voice(language, labels_of(own, language))

@@ -59,6 +59,9 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "empty": "Nothing was said. What should the cell aim for: {choices}?",
         "unclear": "I am not sure what you want. What should the cell aim for: {choices}?",
         "weak": "Did you mean {goal}, or rather {choices}?",
+        "mood": "You said “{text}”, so nothing was changed. Shall I do this now: {guess}? Yes or no?",
+        "unknown_name": "I know no user called {text}. Whom do you mean: {users}?",
+        "unknown_name_alone": "Who is {text}? I know users by the names that the cell gives them.",
         "negated": "Understood what not to do. What should the cell aim for instead: {choices}?",
         "contradiction": (
             "You asked for {both}, which pull against each other. Which comes first, or do you want the compromise "
@@ -163,6 +166,9 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "empty": "没有内容。小区应以什么为目标：{choices}？",
         "unclear": "我不确定您的意思。小区应以什么为目标：{choices}？",
         "weak": "您是指{goal}，还是{choices}？",
+        "mood": "您说了“{text}”，所以没有任何更改。现在要这样做吗：{guess}？请回答是或否。",
+        "unknown_name": "没有名为{text}的用户。您指的是谁：{users}？",
+        "unknown_name_alone": "{text}是谁？我只认得小区里的用户名。",
         "negated": "明白不要什么了。那么应以什么为目标：{choices}？",
         "contradiction": "您要求{both}，两者相互矛盾。以哪个为先，还是取两者的折中即能效：{choices}？",
         "rivals": "您同时要求{both}。应以哪一个为目标：{choices}？",

@@ -1,0 +1,207 @@
+"""The guard behind every recogniser: what is not clearly asked for now is asked about, and never done.
+
+A sentence may name an act without asking for it: it refuses, reports, quotes, remembers, plans, supposes, jests, tells
+a wish of somebody else's, speaks of another system, or of a user whom the cell does not have. The words that say so
+are closed classes, as data by language (``moods/<language>.toml``). A word of such a class that the act accounts for
+says nothing: "no more than 10 W" is a limit, "without user 3" leaves one out, "from now on" is now. Any other word
+whose reach (its clause, its sentence or the whole text) touches the act makes a question of it, with the act for a
+plain yes. What an ordinary word may hide ("my users complain", a name in small letters) is not seen here.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import re
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import resources
+from typing import TYPE_CHECKING, Any
+
+from wirelessagent.language.clauses import clause_end, clause_start
+from wirelessagent.language.followups import dropped_in
+from wirelessagent.language.intent import Intent
+from wirelessagent.language.linear_model import shipped_model
+from wirelessagent.language.replies import Voice
+from wirelessagent.language.sentence import Sentence, labels_of, own_words
+from wirelessagent.language.text import language_of, normalise
+
+if TYPE_CHECKING:
+    from wirelessagent.language.recogniser import Context
+
+LANGUAGES = ("en", "zh", "es", "fr", "de")
+MOODS = (
+    "negation", "refusal", "report", "quotation", "past", "time", "condition", "irony", "others", "elsewhere",
+)  # fmt: skip
+"""The classes whose words make a question of an act."""
+CHANGING = ("apply", "undo", "reset")
+"""Commands that change something."""
+
+Span = tuple[int, int]
+
+_QUOTED = re.compile(r"\"[^\"]+\"|“[^”]+[”\"]|„[^“”]+[“”]|«[^»]+»|‹[^›]+›|「[^」]+」|『[^』]+』|《[^》]+》|(?<!\w)'[^']+'(?!\w)")
+_SENTENCE_END = re.compile(r"[!?;\n。；…]|\.(?!\d)")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Doubt:
+    """A word of a mood that nothing accounts for, where it stands."""
+
+    mood: str
+    start: int
+    end: int
+
+
+def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
+    """The intent, or a question back about it where its sentence does not clearly ask for it now."""
+    acts = intent.kind == "allocate" or (intent.kind == "command" and intent.topic in CHANGING)
+    if not acts and not (intent.kind == "clarify" and intent.pending):
+        return intent
+    plain = normalise(text)
+    voice = Voice(intent.language, labels_of(own_words(), intent.language))
+    name = stranger(plain, context)
+    if name is not None:
+        users = voice.users(context.user_names if context is not None else ())
+        key = "unknown_name" if users else "unknown_name_alone"
+        return _asking(intent, voice.say(key, text=text[slice(*name)], users=users))
+    doubt = doubted(text, context, intent) if acts else None
+    if doubt is None:
+        return intent
+    guess = intent.reply.rstrip(" .。")
+    reply = voice.say("mood", text=text[doubt.start : doubt.end].strip(), guess=guess[:1].lower() + guess[1:])
+    return dataclasses.replace(_asking(intent, reply), guess=intent)
+
+
+def _asking(intent: Intent, reply: str) -> Intent:
+    return Intent(
+        kind="clarify", objective=None, constraints={}, language=intent.language, confidence=intent.confidence,
+        evidence={}, reply=reply, recogniser=intent.recogniser,
+    )  # fmt: skip
+
+
+def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[str] = MOODS) -> Doubt | None:
+    """The first word of a mood that reaches the act of an intent and that nothing accounts for."""
+    plain, language = normalise(text), language_of(text)
+    table = _table(language)
+    hits = [Doubt(mood=mood, start=start, end=end) for mood in moods for start, end in _places(table, mood, plain)]
+    if "quotation" in moods:
+        hits += [Doubt(mood="quotation", start=match.start(), end=match.end()) for match in _QUOTED.finditer(plain)]
+    if not hits:
+        return None
+    known = _Known(plain, context, intent, language)
+    reached = (hit for hit in hits if not known.accounts_for(hit) and known.is_reached(hit, table))
+    return min(reached, key=lambda hit: hit.start, default=None)
+
+
+class _Known:
+    """What the reader made of a sentence: where the act stands, and the words that it accounts for."""
+
+    def __init__(self, plain: str, context: Context | None, intent: Intent, language: str) -> None:
+        names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
+        sentence = Sentence(plain, own_words(), names=names, max_power_w=limit)
+        self._plain, self._language = plain, language
+        self._figures = sentence.reading.masked
+        self._spans = [
+            *self._figures, *sentence.reading.counted, *sentence.goal.spans, *dropped_in(plain, context)[1],
+            *_places(_table(language), "own", plain),
+        ]  # fmt: skip
+        self._act = list(_evident(plain, intent))
+
+    def accounts_for(self, hit: Doubt) -> bool:
+        """Whether a word is a part of what was read, or denies an order beside a figure: "mustn't exceed 10 W"."""
+        if any(start <= hit.start and hit.end <= end for start, end in self._spans):
+            return True
+        if hit.mood != "negation":
+            return False
+        start, end = self._clause(hit)
+        figure = any(start <= first < end for first, _ in self._figures)
+        return figure and any(_places(_table(self._language), "order", self._plain[start:end]))
+
+    def is_reached(self, hit: Doubt, table: Mapping[str, Any]) -> bool:
+        """Whether the act stands where a word reaches; a quotation reaches what stands in it."""
+        scope = table[hit.mood]["scope"]
+        if _QUOTED.fullmatch(self._plain, hit.start, hit.end):
+            start, end = hit.start, hit.end
+        elif scope == "text":
+            return True
+        else:
+            start, end = self._clause(hit) if scope == "clause" else self._sentence(hit)
+        return any(first < end and start < last for first, last in self._act)
+
+    def _clause(self, hit: Doubt) -> Span:
+        return clause_start(self._plain, hit.start), clause_end(self._plain, hit.end)
+
+    def _sentence(self, hit: Doubt) -> Span:
+        ends = [match.end() for match in _SENTENCE_END.finditer(self._plain)]
+        start = max((end for end in ends if end <= hit.start), default=0)
+        return start, min((end for end in ends if end > hit.start), default=len(self._plain))
+
+
+def _evident(plain: str, intent: Intent) -> Iterator[Span]:
+    """Where the words stand that an act came from; all of the sentence where that is not known."""
+    found = False
+    for name, words in intent.evidence.items():
+        for part in words.split(" … ") if name != "not_used" else ():
+            place = plain.find(normalise(part))
+            if place >= 0 and part:
+                found = True
+                yield place, place + len(part)
+    if not found:
+        yield 0, len(plain)
+
+
+def stranger(plain: str, context: Context | None) -> Span | None:
+    """The name of somebody who is no user of the cell, where one is to be served, promised or left out.
+
+    >>> start, end = stranger("at least 1 Mbit/s for Brenda", None)
+    >>> "at least 1 Mbit/s for Brenda"[start:end]
+    'Brenda'
+    """
+    own = " ".join(context.user_names).casefold() if context is not None else ""
+    for match in _names(language_of(plain)).finditer(plain):
+        form = match.lastgroup or ""
+        name = match[form].casefold()
+        if name not in own and (form == "titled" or not shipped_model().familiarity(name)):
+            return match.span() if form == "titled" else match.span(form)
+    return None
+
+
+@functools.cache
+def _table(language: str) -> Mapping[str, Any]:
+    file = resources.files("wirelessagent.language").joinpath("moods", f"{language}.toml")
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def _places(table: Mapping[str, Any], name: str, plain: str) -> Iterator[Span]:
+    return (match.span() for match in _pattern(tuple(table[name]["words"])).finditer(plain))
+
+
+@functools.cache
+def _pattern(words: tuple[str, ...]) -> re.Pattern[str]:
+    """Any of these words, the longest first; "*" stands for any ending, "#" for a number."""
+    ordered = sorted(words, key=len, reverse=True)
+    return re.compile("|".join(map(_written, ordered)), re.IGNORECASE)
+
+
+def _written(word: str) -> str:
+    body = re.escape(word).replace(r"\ ", r"\s+").replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
+    if "\u3400" <= word[-1] <= "\u9fff" or "\u3400" <= word[0] <= "\u9fff":
+        return body
+    return (r"(?<![^\W_])" if word[0].isalnum() else "") + body + (r"(?![^\W_])" if word[-1].isalnum() else "")
+
+
+@functools.cache
+def _names(language: str) -> re.Pattern[str]:
+    """Names: behind a title, or written large beside a word that somebody is named by."""
+    data = _table(language)["names"]
+    listed = {key: "|".join(sorted(map(re.escape, words), key=len, reverse=True)) for key, words in data.items()}
+    if language == "zh":
+        surname = f"[{data['surnames']}]"
+        called = rf"(?<![最缩减变大太过较很])[{data['nicknames']}](?:{surname}|[{data['given']}])|{surname}(?:{listed['titles']})"
+        return re.compile(rf"(?P<titled>{called})")
+    large = r"[A-ZÀ-Þ][a-zß-ÿ]+"
+    return re.compile(
+        rf"\b(?i:{listed['titles']})\b\.?\s+(?P<titled>{large})|\b(?i:{listed['before']})\s+(?P<behind>{large})|"
+        rf"\b(?P<ahead>{large})\s+(?i:{listed['after']})\b"
+    )
