@@ -38,9 +38,22 @@ MOODS = (
 CHANGING = ("apply", "undo", "reset")
 """Commands that change something."""
 
+_OF_COMMANDS = tuple(mood for mood in MOODS if mood not in ("negation", "past"))  # "no, as it was before" undoes
+
+_OF_AIMS = (
+    "direct", "rate", "stream", "power", "battery", "efficiency", "worst", "up", "down", "want", "keep", "waste", "fair",
+    "fairly", "same", "balance", "both", "share",
+)  # fmt: skip
+"""Concepts by whose words an aim is placed that no phrase names."""
+
+_READ = ("negation", "refusal", "past", "time", "condition")
+"""Moods whose words may be a part of a limit or of an aim that was read."""
+
 Span = tuple[int, int]
 
 _QUOTED = re.compile(r"\"[^\"]+\"|“[^”]+[”\"]|„[^“”]+[“”]|«[^»]+»|‹[^›]+›|「[^」]+」|『[^』]+』|《[^》]+》|(?<!\w)'[^']+'(?!\w)")
+_LETTER = r"[0-9A-Za-zÀ-ɏ]"
+_DASH = re.compile(r"\s[-–—]+\s|:\s")
 _SENTENCE_END = re.compile(r"[!?;\n。；…]|\.(?!\d)")
 
 
@@ -49,6 +62,7 @@ class Doubt:
     """A word of a mood that nothing accounts for, where it stands."""
 
     mood: str
+    reach: str
     start: int
     end: int
 
@@ -65,7 +79,7 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
         users = voice.users(context.user_names if context is not None else ())
         key = "unknown_name" if users else "unknown_name_alone"
         return _asking(intent, voice.say(key, text=text[slice(*name)], users=users))
-    doubt = doubted(text, context, intent) if acts else None
+    doubt = doubted(text, context, intent, MOODS if intent.kind == "allocate" else _OF_COMMANDS) if acts else None
     if doubt is None:
         return intent
     guess = intent.reply.rstrip(" .。")
@@ -84,13 +98,18 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
     """The first word of a mood that reaches the act of an intent and that nothing accounts for."""
     plain, language = normalise(text), language_of(text)
     table = _table(language)
-    hits = [Doubt(mood=mood, start=start, end=end) for mood in moods for start, end in _places(table, mood, plain)]
+    hits = [
+        Doubt(mood=mood, reach=reach, start=start, end=end)
+        for mood in moods
+        for reach, words in table[mood].items()
+        for start, end in _places(words, plain)
+    ]
     if "quotation" in moods:
-        hits += [Doubt(mood="quotation", start=match.start(), end=match.end()) for match in _QUOTED.finditer(plain)]
+        hits += [Doubt(mood="quotation", reach="inside", start=m.start(), end=m.end()) for m in _QUOTED.finditer(plain)]
     if not hits:
         return None
     known = _Known(plain, context, intent, language)
-    reached = (hit for hit in hits if not known.accounts_for(hit) and known.is_reached(hit, table))
+    reached = (hit for hit in hits if not known.accounts_for(hit) and known.is_reached(hit))
     return min(reached, key=lambda hit: hit.start, default=None)
 
 
@@ -100,34 +119,54 @@ class _Known:
     def __init__(self, plain: str, context: Context | None, intent: Intent, language: str) -> None:
         names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
         sentence = Sentence(plain, own_words(), names=names, max_power_w=limit)
-        self._plain, self._language = plain, language
+        table, self._language = _table(language), language
+        self._plain = plain = _DASH.sub(lambda cut: ",".ljust(len(cut[0])), plain)
         self._figures = sentence.reading.masked
-        self._spans = [
+        self._own = list(_places(table["own"]["words"], plain))
+        self._read = [
             *self._figures, *sentence.reading.counted, *sentence.goal.spans, *dropped_in(plain, context)[1],
-            *_places(_table(language), "own", plain),
         ]  # fmt: skip
-        self._act = list(_evident(plain, intent))
+        self._act, self._placed = list(_evident(plain, intent)), True
+        if (0, len(plain)) in self._act:  # an aim that no phrase names stands where a word of consequence begins it
+            start = max((place for place, _ in _places(table["so"]["words"], plain) if self._begins(place)), default=0)
+            meant = [(item.start, item.end) for item in sentence.found if item.term.concept in _OF_AIMS]
+            placed = [span for span in self._act if span != (0, len(plain))]
+            self._act = [*placed, *([(start, len(plain))] if start else meant or [(0, len(plain))])]
+            self._placed = bool(placed)
 
     def accounts_for(self, hit: Doubt) -> bool:
         """Whether a word is a part of what was read, or denies an order beside a figure: "mustn't exceed 10 W"."""
-        if any(start <= hit.start and hit.end <= end for start, end in self._spans):
+        spans = [*self._own, *self._read] if hit.mood in _READ else self._own
+        if any(start <= hit.start and hit.end <= end for start, end in spans):
             return True
         if hit.mood != "negation":
             return False
         start, end = self._clause(hit)
         figure = any(start <= first < end for first, _ in self._figures)
-        return figure and any(_places(_table(self._language), "order", self._plain[start:end]))
+        return figure and any(_places(_table(self._language)["order"]["words"], self._plain[start:end]))
 
-    def is_reached(self, hit: Doubt, table: Mapping[str, Any]) -> bool:
-        """Whether the act stands where a word reaches; a quotation reaches what stands in it."""
-        scope = table[hit.mood]["scope"]
-        if _QUOTED.fullmatch(self._plain, hit.start, hit.end):
-            start, end = hit.start, hit.end
-        elif scope == "text":
+    def is_reached(self, hit: Doubt) -> bool:
+        """Whether the act stands where a word reaches: a negation ahead of itself, a quotation into its marks."""
+        if hit.reach == "text":
             return True
-        else:
-            start, end = self._clause(hit) if scope == "clause" else self._sentence(hit)
-        return any(first < end and start < last for first, last in self._act)
+        start, end = (hit.start, hit.end) if hit.reach == "inside" else self._clause(hit)
+        if hit.reach in ("ahead", "sentence"):
+            first, end = self._sentence(hit)
+            start = start if hit.reach == "ahead" else first
+        act = self._act
+        if hit.mood == "negation":
+            last_word = not any(sign.isalpha() for sign in self._plain[hit.end : end])
+            start = start if last_word else hit.end
+            act = act if self._placed or self._is_one_clause else []
+        return any(first < end and start < last for first, last in act)
+
+    def _begins(self, place: int) -> bool:
+        """Whether a clause begins at a place."""
+        return not any(sign.isalnum() for sign in self._plain[clause_start(self._plain, place) : place])
+
+    @property
+    def _is_one_clause(self) -> bool:
+        return clause_end(self._plain, 0) >= len(self._plain.rstrip(" .!?。"))
 
     def _clause(self, hit: Doubt) -> Span:
         return clause_start(self._plain, hit.start), clause_end(self._plain, hit.end)
@@ -173,8 +212,8 @@ def _table(language: str) -> Mapping[str, Any]:
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
-def _places(table: Mapping[str, Any], name: str, plain: str) -> Iterator[Span]:
-    return (match.span() for match in _pattern(tuple(table[name]["words"])).finditer(plain))
+def _places(words: Sequence[str], plain: str) -> Iterator[Span]:
+    return (match.span() for match in _pattern(tuple(words)).finditer(plain))
 
 
 @functools.cache
@@ -188,7 +227,7 @@ def _written(word: str) -> str:
     body = re.escape(word).replace(r"\ ", r"\s+").replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
     if "\u3400" <= word[-1] <= "\u9fff" or "\u3400" <= word[0] <= "\u9fff":
         return body
-    return (r"(?<![^\W_])" if word[0].isalnum() else "") + body + (r"(?![^\W_])" if word[-1].isalnum() else "")
+    return (rf"(?<!{_LETTER})" if word[0].isalnum() else "") + body + (rf"(?!{_LETTER})" if word[-1].isalnum() else "")
 
 
 @functools.cache
@@ -203,5 +242,5 @@ def _names(language: str) -> re.Pattern[str]:
     large = r"[A-ZÀ-Þ][a-zß-ÿ]+"
     return re.compile(
         rf"\b(?i:{listed['titles']})\b\.?\s+(?P<titled>{large})|\b(?i:{listed['before']})\s+(?P<behind>{large})|"
-        rf"\b(?P<ahead>{large})\s+(?i:{listed['after']})\b"
+        rf"(?:^|[,;.:!?]\s)\s*(?P<ahead>{large})\s+(?i:{listed['after']})\b"
     )
