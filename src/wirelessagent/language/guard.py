@@ -35,19 +35,18 @@ MOODS = (
     "negation", "refusal", "report", "quotation", "past", "time", "condition", "irony", "others", "elsewhere",
 )  # fmt: skip
 """The classes whose words make a question of an act."""
-CHANGING = ("apply", "undo", "reset")
-"""Commands that change something."""
+CHANGING = ("undo", "reset")
+"""Commands that change something; to apply a plan has a closed grammar of its own (``conversation.assent``)."""
 
-_OF_COMMANDS = tuple(mood for mood in MOODS if mood not in ("negation", "past"))  # "no, as it was before" undoes
 
-_OF_AIMS = (
-    "direct", "rate", "stream", "power", "battery", "efficiency", "worst", "up", "down", "want", "keep", "waste", "fair",
-    "fairly", "same", "balance", "both", "share",
-)  # fmt: skip
-"""Concepts by whose words an aim is placed that no phrase names."""
+_OF_AIMS = (("direct", "up", "down", "fair", "fairly", "balance"), ("rate", "power", "efficiency", "worst"))
+"""Concepts by whose words an aim is placed that no phrase names, the surer ones first."""
 
 _READ = ("negation", "refusal", "past", "time", "condition")
 """Moods whose words may be a part of a limit or of an aim that was read."""
+
+READ_IN_A_TALK = "conversation"
+"""Who reads what a line is because of its conversation."""
 
 Span = tuple[int, int]
 
@@ -79,12 +78,20 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
         users = voice.users(context.user_names if context is not None else ())
         key = "unknown_name" if users else "unknown_name_alone"
         return _asking(intent, voice.say(key, text=text[slice(*name)], users=users))
-    doubt = doubted(text, context, intent, MOODS if intent.kind == "allocate" else _OF_COMMANDS) if acts else None
+    doubt = doubted(text, context, intent, _moods_of(intent)) if acts else None
     if doubt is None:
         return intent
     guess = intent.reply.rstrip(" .。")
     reply = voice.say("mood", text=text[doubt.start : doubt.end].strip(), guess=guess[:1].lower() + guess[1:])
     return dataclasses.replace(_asking(intent, reply), guess=intent)
+
+
+def _moods_of(intent: Intent) -> Sequence[str]:
+    """The moods that nothing but the guard has looked for: patterns of whole lines read their own denials."""
+    whole = intent.recogniser == READ_IN_A_TALK
+    if intent.kind == "command":  # "no, as it was before" undoes
+        return () if whole else [mood for mood in MOODS if mood not in ("negation", "past")]
+    return [mood for mood in MOODS if mood not in ("negation", "refusal")] if whole else MOODS
 
 
 def _asking(intent: Intent, reply: str) -> Intent:
@@ -127,12 +134,15 @@ class _Known:
             *self._figures, *sentence.reading.counted, *sentence.goal.spans, *dropped_in(plain, context)[1],
         ]  # fmt: skip
         self._act, self._placed = list(_evident(plain, intent)), True
-        if (0, len(plain)) in self._act:  # an aim that no phrase names stands where a word of consequence begins it
-            start = max((place for place, _ in _places(table["so"]["words"], plain) if self._begins(place)), default=0)
-            meant = [(item.start, item.end) for item in sentence.found if item.term.concept in _OF_AIMS]
+        if (0, len(plain)) in self._act:
+            meant = [
+                [(item.start, item.end) for item in sentence.found if item.term.concept in concepts]
+                for concepts in _OF_AIMS
+            ]
             placed = [span for span in self._act if span != (0, len(plain))]
-            self._act = [*placed, *([(start, len(plain))] if start else meant or [(0, len(plain))])]
-            self._placed = bool(placed)
+            self._act, self._placed = [*placed, *(meant[0] or meant[1])] or self._act, bool(placed)
+        so = max((place for place, _ in _places(table["so"]["words"], plain) if self._begins(place)), default=0)
+        self._behind_so = [span for span in self._act if span[1] > so] or [(so, len(plain))]
 
     def accounts_for(self, hit: Doubt) -> bool:
         """Whether a word is a part of what was read, or denies an order beside a figure: "mustn't exceed 10 W"."""
@@ -153,8 +163,10 @@ class _Known:
         if hit.reach in ("ahead", "sentence"):
             first, end = self._sentence(hit)
             start = start if hit.reach == "ahead" else first
-        act = self._act
+        act = self._behind_so if hit.reach == "clause" else self._act
         if hit.mood == "negation":
+            turned = next(_places(_table(self._language)["contrast"]["words"], self._plain[hit.end : end]), None)
+            end = end if turned is None else hit.end + turned[0]
             last_word = not any(sign.isalpha() for sign in self._plain[hit.end : end])
             start = start if last_word else hit.end
             act = act if self._placed or self._is_one_clause else []
