@@ -25,7 +25,7 @@ from wirelessagent.language.intent import Intent
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words
-from wirelessagent.language.text import language_of, normalise
+from wirelessagent.language.text import languages_of, normalise
 
 if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Context
@@ -45,6 +45,8 @@ _OF_AIMS = (("direct", "up", "down", "fair", "fairly", "balance"), ("rate", "pow
 _READ = ("negation", "refusal", "past", "time", "condition")
 """Moods whose words may be a part of a limit or of an aim that was read."""
 
+_STORIES = ("report", "others")
+"""Moods of what may only lead up to a wish that follows in words of its own."""
 READ_IN_A_TALK = "conversation"
 """Who reads what a line is because of its conversation."""
 
@@ -103,37 +105,43 @@ def _asking(intent: Intent, reply: str) -> Intent:
 
 def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[str] = MOODS) -> Doubt | None:
     """The first word of a mood that reaches the act of an intent and that nothing accounts for."""
-    plain, language = normalise(text), language_of(text)
-    table = _table(language)
-    hits = [
-        Doubt(mood=mood, reach=reach, start=start, end=end)
-        for mood in moods
-        for reach, words in table[mood].items()
-        for start, end in _places(words, plain)
-    ]
-    if "quotation" in moods:
-        hits += [Doubt(mood="quotation", reach="inside", start=m.start(), end=m.end()) for m in _QUOTED.finditer(plain)]
-    if not hits:
-        return None
-    known = _Known(plain, context, intent, language)
-    reached = (hit for hit in hits if not known.accounts_for(hit) and known.is_reached(hit))
-    return min(reached, key=lambda hit: hit.start, default=None)
+    plain = normalise(text)
+    sentence: Sentence | None = None
+    for language in languages_of(text):
+        hits = [
+            Doubt(mood=mood, reach=reach, start=start, end=end)
+            for mood in moods
+            for reach, words in _table(language)[mood].items()
+            for start, end in _places(words, plain)
+        ]
+        if "quotation" in moods:
+            marks = (match.span() for match in _QUOTED.finditer(plain))
+            hits += [Doubt(mood="quotation", reach="inside", start=start, end=end) for start, end in marks]
+        if hits:
+            names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
+            sentence = sentence or Sentence(plain, own_words(), names=names, max_power_w=limit)
+            known = _Known(sentence, dropped_in(plain, context)[1], intent, language)
+            reached = (hit for hit in hits if not known.accounts_for(hit) and known.is_reached(hit))
+            first = min(reached, key=lambda hit: hit.start, default=None)
+            if first is not None:
+                return first
+    return None
 
 
 class _Known:
     """What the reader made of a sentence: where the act stands, and the words that it accounts for."""
 
-    def __init__(self, plain: str, context: Context | None, intent: Intent, language: str) -> None:
-        names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
-        sentence = Sentence(plain, own_words(), names=names, max_power_w=limit)
+    def __init__(self, sentence: Sentence, dropped: Sequence[Span], intent: Intent, language: str) -> None:
         table, self._language = _table(language), language
-        self._plain = plain = _DASH.sub(lambda cut: ",".ljust(len(cut[0])), plain)
+        self._plain = plain = _DASH.sub(lambda cut: ",".ljust(len(cut[0])), sentence.plain)
         self._figures = sentence.reading.masked
         self._own = list(_places(table["own"]["words"], plain))
         self._read = [
-            *self._figures, *sentence.reading.counted, *sentence.goal.spans, *dropped_in(plain, context)[1],
+            *self._figures, *sentence.reading.counted, *sentence.goal.spans, *dropped,
         ]  # fmt: skip
-        self._act, self._placed = list(_evident(plain, intent)), True
+        self._act, self._placed = list(_evident(plain, intent.evidence)), True
+        aims = {"objective": intent.evidence.get("objective", "")}
+        self._aims = [span for span in _evident(plain, aims) if span != (0, len(plain))]
         if (0, len(plain)) in self._act:
             meant = [
                 [(item.start, item.end) for item in sentence.found if item.term.concept in concepts]
@@ -164,10 +172,14 @@ class _Known:
             first, end = self._sentence(hit)
             start = start if hit.reach == "ahead" else first
         act = self._behind_so if hit.reach == "clause" else self._act
+        if hit.mood in _STORIES and any(first >= end for first, _ in self._aims):
+            act = [span for span in act if span not in self._aims]  # "my users complain about speed, raise it"
         if hit.mood == "negation":
             turned = next(_places(_table(self._language)["contrast"]["words"], self._plain[hit.end : end]), None)
             end = end if turned is None else hit.end + turned[0]
             last_word = not any(sign.isalpha() for sign in self._plain[hit.end : end])
+            if last_word and not self._plain[start : hit.start].strip() and not self._plain[end:].strip(" .!。"):
+                return True  # "max rate? no"
             start = start if last_word else hit.end
             act = act if self._placed or self._is_one_clause else []
         return any(first < end and start < last for first, last in act)
@@ -189,10 +201,10 @@ class _Known:
         return start, min((end for end in ends if end > hit.start), default=len(self._plain))
 
 
-def _evident(plain: str, intent: Intent) -> Iterator[Span]:
+def _evident(plain: str, evidence: Mapping[str, str]) -> Iterator[Span]:
     """Where the words stand that an act came from; all of the sentence where that is not known."""
     found = False
-    for name, words in intent.evidence.items():
+    for name, words in evidence.items():
         for part in words.split(" … ") if name != "not_used" else ():
             place = plain.find(normalise(part))
             if place >= 0 and part:
@@ -210,7 +222,7 @@ def stranger(plain: str, context: Context | None) -> Span | None:
     'Brenda'
     """
     own = " ".join(context.user_names).casefold() if context is not None else ""
-    for match in _names(language_of(plain)).finditer(plain):
+    for match in (match for language in languages_of(plain) for match in _names(language).finditer(plain)):
         form = match.lastgroup or ""
         name = match[form].casefold()
         if name not in own and (form == "titled" or not shipped_model().familiarity(name)):

@@ -100,12 +100,22 @@ def language_of(text: str) -> str:
     >>> language_of("boost 速度"), language_of("boost the speed"), language_of("la potencia más baja")
     ('zh', 'en', 'es')
     """
+    likely = languages_of(text)
+    return "en" if "en" in likely else likely[0]
+
+
+def languages_of(text: str) -> tuple[str, ...]:
+    """The languages that a sentence may be in, which its small words and letters speak for alike.
+
+    >>> languages_of("save the power"), languages_of("10 W")
+    (('en',), ('en', 'es', 'fr', 'de'))
+    """
     if has_chinese(text):
-        return "zh"
+        return ("zh",)
     small = text.lower()
     words = _WORD.findall(small)
     counts = {language: sum(word in known for word in words) for language, known in _SMALL_WORDS.items()}
     for language, letters in _LETTERS.items():
         counts[language] += 2 * sum(small.count(letter) for letter in letters)
-    best = max(counts, key=lambda language: counts[language])
-    return best if counts[best] > counts["en"] else "en"
+    best = max(counts.values())
+    return tuple(language for language, count in counts.items() if count == best)

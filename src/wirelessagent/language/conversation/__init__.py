@@ -21,7 +21,6 @@ from wirelessagent.language.conversation.methods import beside_method, by_method
 from wirelessagent.language.conversation.needing import read_needed
 from wirelessagent.language.conversation.promisable import read_promisable
 from wirelessagent.language.conversation.relative import read_relative
-from wirelessagent.language.conversation.reports import only_told
 from wirelessagent.language.conversation.shares import read_share
 from wirelessagent.language.conversation.unanswered import Unanswered, leaves_the_question, unanswered
 from wirelessagent.language.conversation.wondering import is_worked_out, only_supposed, supposed, wondered
@@ -72,7 +71,7 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
         )  # fmt: skip
     intent = recogniser.read(text, context)
-    read = only_told(line, intent) or asked_instead(line, intent) or by_method(line, intent)
+    read = asked_instead(line, intent) or by_method(line, intent)
     return given_instead(line, read)
 
 
