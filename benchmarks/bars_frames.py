@@ -1,10 +1,10 @@
 """The bars of the guard: how often is acted upon what must not be, and how often is a plain wish asked back about.
 
-Run with ``python benchmarks/bars_frames.py FILE.jsonl [--quiet]``. Each line is ``{"text", "language", "frame", "act",
-"objective", "constraints"}``; each sentence is said first, in a fresh conversation with users 1 to 8, or, with ``--later``, where a request holds
-(figures are then those of the sentence alone). A file of
-``wirelessagent evaluate intents`` is read as well: its kind says what may act. ``--quiet`` prints no sentence, for
-sets that nobody is to read.
+Run with ``python benchmarks/bars_frames.py FILE.jsonl [--quiet] [--later]``. Each line is ``{"text", "language",
+"frame", "act", "objective", "constraints"}``; each sentence is said first, in a fresh conversation with users 1 to 8,
+or, with ``--later``, where a request holds (figures are then those of the sentence alone). A file of ``wirelessagent
+evaluate intents`` is read as well: its kind says what may act. ``--quiet`` prints no sentence, for sets that nobody is
+to read.
 """
 
 from __future__ import annotations

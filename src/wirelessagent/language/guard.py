@@ -17,7 +17,7 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.followups import dropped_in
@@ -37,7 +37,8 @@ MOODS = (
 """The classes whose words make a question of an act."""
 CHANGING = ("undo", "reset")
 """Commands that change something; to apply a plan has a closed grammar of its own (``conversation.assent``)."""
-
+READ_IN_A_TALK = "conversation"
+"""Who reads what a line is because of its conversation."""
 
 _OF_AIMS = (("direct", "up", "down", "fair", "fairly", "balance"), ("rate", "power", "efficiency", "worst"))
 """Concepts by whose words an aim is placed that no phrase names, the surer ones first."""
@@ -47,12 +48,14 @@ _READ = ("negation", "refusal", "past", "time", "condition")
 
 _STORIES = ("report", "others")
 """Moods of what may only lead up to a wish that follows in words of its own."""
-READ_IN_A_TALK = "conversation"
-"""Who reads what a line is because of its conversation."""
+
+_NAMES_SHOWN = 12
 
 Span = tuple[int, int]
 
-_QUOTED = re.compile(r"\"[^\"]+\"|“[^”]+[”\"]|„[^“”]+[“”]|«[^»]+»|‹[^›]+›|「[^」]+」|『[^』]+』|《[^》]+》|(?<!\w)'[^']+'(?!\w)")
+_QUOTED = re.compile(
+    r"\"[^\"]+\"|“[^”]+[”\"]|„[^“”]+[“”]|«[^»]+»|‹[^›]+›|「[^」]+」|『[^』]+』|《[^》]+》|(?<!\w)'[^']+'(?!\w)"
+)
 _LETTER = r"[0-9A-Za-zÀ-ɏ]"
 _DASH = re.compile(r"\s[-–—]+\s|:\s")
 _SENTENCE_END = re.compile(r"[!?;\n。；…]|\.(?!\d)")
@@ -77,7 +80,7 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
     voice = Voice(intent.language, labels_of(own_words(), intent.language))
     name = stranger(plain, context)
     if name is not None:
-        users = voice.users(context.user_names if context is not None else ())
+        users = ", ".join(context.user_names[:_NAMES_SHOWN]) if context is not None else ""
         key = "unknown_name" if users else "unknown_name_alone"
         return _asking(intent, voice.say(key, text=text[slice(*name)], users=users))
     doubt = doubted(text, context, intent, _moods_of(intent)) if acts else None
@@ -111,7 +114,7 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
         hits = [
             Doubt(mood=mood, reach=reach, start=start, end=end)
             for mood in moods
-            for reach, words in _table(language)[mood].items()
+            for reach, words in table_of(language)[mood].items()
             for start, end in _places(words, plain)
         ]
         if "quotation" in moods:
@@ -132,13 +135,11 @@ class _Known:
     """What the reader made of a sentence: where the act stands, and the words that it accounts for."""
 
     def __init__(self, sentence: Sentence, dropped: Sequence[Span], intent: Intent, language: str) -> None:
-        table, self._language = _table(language), language
+        table, self._language = table_of(language), language
         self._plain = plain = _DASH.sub(lambda cut: ",".ljust(len(cut[0])), sentence.plain)
         self._figures = sentence.reading.masked
         self._own = list(_places(table["own"]["words"], plain))
-        self._read = [
-            *self._figures, *sentence.reading.counted, *sentence.goal.spans, *dropped,
-        ]  # fmt: skip
+        self._read = [*self._figures, *sentence.reading.counted, *sentence.goal.spans, *dropped]
         self._act, self._placed = list(_evident(plain, intent.evidence)), True
         aims = {"objective": intent.evidence.get("objective", "")}
         self._aims = [span for span in _evident(plain, aims) if span != (0, len(plain))]
@@ -161,7 +162,7 @@ class _Known:
             return False
         start, end = self._clause(hit)
         figure = any(start <= first < end for first, _ in self._figures)
-        return figure and any(_places(_table(self._language)["order"]["words"], self._plain[start:end]))
+        return figure and any(_places(table_of(self._language)["order"]["words"], self._plain[start:end]))
 
     def is_reached(self, hit: Doubt) -> bool:
         """Whether the act stands where a word reaches: a negation ahead of itself, a quotation into its marks."""
@@ -175,7 +176,7 @@ class _Known:
         if hit.mood in _STORIES and any(first >= end for first, _ in self._aims):
             act = [span for span in act if span not in self._aims]  # "my users complain about speed, raise it"
         if hit.mood == "negation":
-            turned = next(_places(_table(self._language)["contrast"]["words"], self._plain[hit.end : end]), None)
+            turned = next(_places(table_of(self._language)["contrast"]["words"], self._plain[hit.end : end]), None)
             end = end if turned is None else hit.end + turned[0]
             last_word = not any(sign.isalpha() for sign in self._plain[hit.end : end])
             if last_word and not self._plain[start : hit.start].strip() and not self._plain[end:].strip(" .!。"):
@@ -221,7 +222,7 @@ def stranger(plain: str, context: Context | None) -> Span | None:
     >>> "at least 1 Mbit/s for Brenda"[start:end]
     'Brenda'
     """
-    own = " ".join(context.user_names).casefold() if context is not None else ""
+    own = re.findall(r"\w+", " ".join(context.user_names).casefold()) if context is not None else []
     for match in (match for language in languages_of(plain) for match in _names(language).finditer(plain)):
         form = match.lastgroup or ""
         name = match[form].casefold()
@@ -231,9 +232,10 @@ def stranger(plain: str, context: Context | None) -> Span | None:
 
 
 @functools.cache
-def _table(language: str) -> Mapping[str, Any]:
+def table_of(language: str) -> Mapping[str, Mapping[str, Sequence[str]]]:
+    """The classes of a language: words by class and by how far they reach."""
     file = resources.files("wirelessagent.language").joinpath("moods", f"{language}.toml")
-    return tomllib.loads(file.read_text(encoding="utf-8"))
+    return cast("dict[str, dict[str, list[str]]]", tomllib.loads(file.read_text(encoding="utf-8")))
 
 
 def _places(words: Sequence[str], plain: str) -> Iterator[Span]:
@@ -244,7 +246,7 @@ def _places(words: Sequence[str], plain: str) -> Iterator[Span]:
 def _pattern(words: tuple[str, ...]) -> re.Pattern[str]:
     """Any of these words, the longest first; "*" stands for any ending, "#" for a number."""
     ordered = sorted(words, key=len, reverse=True)
-    return re.compile("|".join(map(_written, ordered)), re.IGNORECASE)
+    return re.compile("|".join(map(_written, ordered)) or "(?!)", re.IGNORECASE)
 
 
 def _written(word: str) -> str:
@@ -257,13 +259,13 @@ def _written(word: str) -> str:
 @functools.cache
 def _names(language: str) -> re.Pattern[str]:
     """Names: behind a title, or written large beside a word that somebody is named by."""
-    data = _table(language)["names"]
+    data = table_of(language)["names"]
     listed = {key: "|".join(sorted(map(re.escape, words), key=len, reverse=True)) for key, words in data.items()}
     if language == "zh":
-        surname = f"[{data['surnames']}]"
-        called = rf"(?<![最缩减变大太过较很])[{data['nicknames']}](?:{surname}|[{data['given']}])|{surname}(?:{listed['titles']})"
-        return re.compile(rf"(?P<titled>{called})")
-    large = r"[A-ZÀ-Þ][a-zß-ÿ]+"
+        familiar = f"(?:{listed['nicknames']})(?:{listed['surnames']}|{listed['given']})"
+        titled = f"(?:{listed['surnames']})(?:{listed['titles']})"
+        return re.compile(f"(?P<titled>(?<![最缩减变大太过较很]){familiar}|{titled})")
+    large = rf"(?!(?i:{listed['titles']})\b)[A-ZÀ-Þ][a-zß-ÿ]+"
     return re.compile(
         rf"\b(?i:{listed['titles']})\b\.?\s+(?P<titled>{large})|\b(?i:{listed['before']})\s+(?P<behind>{large})|"
         rf"(?:^|[,;.:!?]\s)\s*(?P<ahead>{large})\s+(?i:{listed['after']})\b"
