@@ -141,6 +141,8 @@ class _Known:
         self._own = list(_places(table["own"]["words"], plain))
         self._read = [*self._figures, *sentence.reading.counted, *sentence.goal.spans, *dropped]
         self._act, self._placed = list(_evident(plain, intent.evidence)), True
+        left_out = intent.evidence.get("leave_out")
+        self._left_out = [] if left_out is None else list(_evident(plain, {"leave_out": left_out}))
         aims = {"objective": intent.evidence.get("objective", "")}
         self._aims = [span for span in _evident(plain, aims) if span != (0, len(plain))]
         if (0, len(plain)) in self._act:
@@ -151,16 +153,18 @@ class _Known:
             placed = [span for span in self._act if span != (0, len(plain))]
             self._act, self._placed = [*placed, *(meant[0] or meant[1])] or self._act, bool(placed)
         so = max((place for place, _ in _places(table["so"]["words"], plain) if self._begins(place)), default=0)
-        self._behind_so = [span for span in self._act if span[1] > so] or [(so, len(plain))]
+        self._behind_so = [(max(first, so), last) for first, last in self._act if last > so] or [(so, len(plain))]
 
     def accounts_for(self, hit: Doubt) -> bool:
-        """Whether a word is a part of what was read, or denies an order beside a figure: "mustn't exceed 10 W"."""
+        """Whether a word is a part of what was read, or denies an order or service: "mustn't exceed 10 W"."""
         spans = [*self._own, *self._read] if hit.mood in _READ else self._own
         if any(start <= hit.start and hit.end <= end for start, end in spans):
             return True
         if hit.mood != "negation":
             return False
         start, end = self._clause(hit)
+        if any(first < end and start < last for first, last in self._left_out):
+            return True
         figure = any(start <= first < end for first, _ in self._figures)
         return figure and any(_places(table_of(self._language)["order"]["words"], self._plain[start:end]))
 
