@@ -176,6 +176,8 @@ class _Known:
         if hit.reach in ("ahead", "sentence"):
             first, end = self._sentence(hit)
             start = start if hit.reach == "ahead" else first
+        if hit.mood in _STORIES and hit.reach == "clause" and self._goes_on(end):
+            end = self._sentence(hit)[1]  # "he told me, that …"
         act = self._behind_so if hit.reach == "clause" else self._act
         if hit.mood in _STORIES and any(first >= end for first, _ in self._aims):
             act = [span for span in act if span not in self._aims]  # "my users complain about speed, raise it"
@@ -188,6 +190,12 @@ class _Known:
             start = start if last_word else hit.end
             act = act if self._placed or self._is_one_clause else []
         return any(first < end and start < last for first, last in act)
+
+    def _goes_on(self, end: int) -> bool:
+        """Whether the clause behind a place begins with a word that makes it the object of the one before."""
+        start = re.compile(r"[,\uff0c]?\s*").match(self._plain, end)
+        words = table_of(self._language)["that"]["words"]
+        return start is not None and any(first == 0 for first, _ in _places(words, self._plain[start.end() :]))
 
     def _begins(self, place: int) -> bool:
         """Whether a clause begins at a place."""
