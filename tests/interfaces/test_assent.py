@@ -55,7 +55,7 @@ class Eager(Recogniser):
     def __init__(self, topic: str) -> None:
         self.topic = topic
 
-    def recognise(self, text: str, context: Context | None = None) -> Intent:
+    def read(self, text: str, context: Context | None = None) -> Intent:
         return asks("max_rate", max_power_w=10.0) if text == TEN else means("command", topic=self.topic)
 
 

@@ -88,7 +88,7 @@ class Knowing(Recogniser):
     def __init__(self, intents: Sequence[Intent]) -> None:
         self.next = intents[0]
 
-    def recognise(self, text: str, context: Context | None = None) -> Intent:
+    def read(self, text: str, context: Context | None = None) -> Intent:
         return self.next
 
 

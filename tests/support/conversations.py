@@ -40,7 +40,7 @@ class Scripted(Recogniser):
         self._intents = list(intents)
         self.contexts: list[Context | None] = []
 
-    def recognise(self, text: str, context: Context | None = None) -> Intent:
+    def read(self, text: str, context: Context | None = None) -> Intent:
         self.contexts.append(context)
         return self._intents.pop(0)
 

@@ -162,6 +162,7 @@ class Session:
             pending_objective=question.objective,
             pending_users=question.users,
             offered=question.offered,
+            guess=question.guess,
             stated=state.stated,
             supposed_objective=None if supposed is None else supposed.objective,
             supposed={} if supposed is None else supposed.constraints,
@@ -208,7 +209,7 @@ class Session:
             left = unanswered(text, intent, context)
             if waiting.is_about_the_plan(state, text, left):
                 return waiting.asked_again(site, state, intent)
-            question = Question(
+            question = Question(guess=intent.guess) if intent.guess is not None else Question(
                 pending=left.pending, objective=left.objective, users=left.users, offered=left.offered
             )  # fmt: skip
             asked = dataclasses.replace(state, planned=None, question=question)

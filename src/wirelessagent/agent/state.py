@@ -33,6 +33,7 @@ class Question:
         objective: the aim that was named; None where none was.
         users: users who were named, and of whom nothing was understood.
         offered: the objective or the command that a yes means; None where it is no question of yes or no.
+        guess: what a yes carries out; None where it is no question of yes or no.
         missing: the user who is not there, where the question is about one.
     """
 
@@ -40,6 +41,7 @@ class Question:
     objective: str | None = None
     users: tuple[str, ...] = ()
     offered: str | None = None
+    guess: Intent | None = None
     missing: Missing | None = None
 
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS, Constraint
-from wirelessagent.language.recogniser import Context
 from wirelessagent.language.stated import Reading
+
+if TYPE_CHECKING:
+    from wirelessagent.language.recogniser import Context
 
 _GO = (
     r"(?:without|drop|remove|lift|forget(?:\s+about)?|no\s+more|no|cancel|get\s+rid\s+of|take\s+away|delete|ignore|"

@@ -304,6 +304,7 @@ def _blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
 def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     """Signals with those turned off that a negation refers to; a negated wish for less rate is one for rate."""
     turned_off: set[int] = set()
+    first = min((item.start for item in found if item.term.concept in ("not", "isnt", "undo")), default=0)
     named = [item for item in found if item.term.concept in (*_OBJECTS, "direct", "same", "fairly")]
     joins = [item.first for item in found if item.term.concept == "join"]
     for item in found:
@@ -322,7 +323,8 @@ def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
         if hit and signal.objective in _UNSERVED:
             if signal.objective in ("less_rate", "waste_power"):
                 wish = "max_rate" if signal.objective == "less_rate" else "min_power"
-                result.append(replace(signal, objective=wish, weight=0.8))
+                start = min(first, signal.start)  # "don't waste power": the negation is a part of the wish
+                result.append(replace(signal, objective=wish, weight=0.8, start=start))
             continue
         result.append(replace(signal, negated=hit))
     return result

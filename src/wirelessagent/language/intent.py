@@ -64,6 +64,7 @@ class Intent:
         details: figures and names of a command or question, such as ``{"user": "3"}``, ``{"missing_share": 0.4}``,
             ``{"power_w": 1.0}``, and ``{"constraints": {…}}`` for what-if.
         pending: constraints that were read although the sentence leads to a question back; the answer may use them.
+        guess: what a plain yes to the question back carries out; None where it asks for more than that.
         language: the operator's, as in "en" or "zh".
         confidence: 0 to 1; of the kind and the objective together.
         evidence: the operator's words that each field came from, separate places joined by " … ". The key "not_used"
@@ -85,6 +86,7 @@ class Intent:
     topic: str | None = None
     details: Mapping[str, Detail] = field(default_factory=dict[str, Detail])
     pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    guess: Intent | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in get_args(IntentKind):

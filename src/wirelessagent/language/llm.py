@@ -51,10 +51,10 @@ class LlmRecogniser(Recogniser):
         self._settings = settings or LlmSettings.read()
         self._offline = offline or OfflineRecogniser()
 
-    def recognise(self, text: str, context: Context | None = None) -> Intent:
-        """What the operator means; never raises, whatever the text."""
+    def read(self, text: str, context: Context | None = None) -> Intent:
+        """What the operator may mean, as it is read; never raises, whatever the text."""
         known = context or Context()
-        offline = self._offline.recognise(text, known)
+        offline = self._offline.read(text, known)
         if not text.strip() or len(text) > _MAX_CHARACTERS or too_many_figures(normalise(text)):
             return offline
         offers = offered()

@@ -37,7 +37,6 @@ _DEFAULT_CONFIDENCE = 0.75
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
 _UNFAIR_OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency")
 _FAIR_WORDS = {"fair", "same", "fairly"}
-_REFUSED = deferred(r"(?i)[,.?!;:\uff0c。]\s*(?:no|not|nope|never|不|不要|不是|不行|不用)[\s.!。]*$")  # "max rate? no"
 _ASKED = deferred(r"[?\uff1f]\s*$")
 
 
@@ -46,8 +45,8 @@ class OfflineRecogniser(Recogniser):
 
     name = NAME
 
-    def recognise(self, text: str, context: Context | None = None) -> Intent:
-        """What the operator means; never raises, whatever the text."""
+    def read(self, text: str, context: Context | None = None) -> Intent:
+        """What the operator may mean, as it is read; never raises, whatever the text."""
         own = own_words()
         language = _language(text[:_MAX_CHARACTERS], context)
         voice = Voice(language, labels_of(own, language))
@@ -168,8 +167,6 @@ class _Understanding:
         return None
 
     def _request(self) -> Intent:
-        if _REFUSED.search(self._sentence.plain):
-            return self._answer.ask("negated", pending=self._reading.values)
         goal, judged, default = self._goal, self._judged, self._default()
         if default is not None and (judged.objective == "max_rate" or not judged.acts):
             return default

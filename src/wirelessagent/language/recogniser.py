@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal, TypeAlias
 
+from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Constraint, Intent
 
 Awaited: TypeAlias = Literal["nothing", "confirmation", "clarification"]
@@ -25,6 +26,7 @@ class Context:
         pending_objective: the aim that was named before it; None where none was.
         pending_users: users who were named before it, and of whom nothing was understood.
         offered: the objective or the command that a yes to the question means; None where it has no such meaning.
+        guess: what a yes to the question carries out; None where it has no such meaning.
         stated: what the last request stated, which "it" and "that" refer to.
         supposed_objective, supposed: the request of a what-if right before; None and empty where there was none.
         ways: whether the line right before was told that it can't be met, and what can be met instead.
@@ -42,6 +44,7 @@ class Context:
     pending_objective: str | None = None
     pending_users: tuple[str, ...] = ()
     offered: str | None = None
+    guess: Intent | None = None
     stated: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     supposed_objective: str | None = None
     supposed: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
@@ -57,5 +60,9 @@ class Recogniser(ABC):
     name: ClassVar[str]
 
     @abstractmethod
+    def read(self, text: str, context: Context | None = None) -> Intent:
+        """What the operator may mean, as it is read; never raises, whatever the text."""
+
     def recognise(self, text: str, context: Context | None = None) -> Intent:
-        """What the operator means; never raises, whatever the text."""
+        """What the operator means, with the guard behind it; never raises, whatever the text."""
+        return guarded(text, context, self.read(text, context))

@@ -59,6 +59,9 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "empty": "Nothing was said. What should the cell aim for: {choices}?",
         "unclear": "I am not sure what you want. What should the cell aim for: {choices}?",
         "weak": "Did you mean {goal}, or rather {choices}?",
+        "mood": "You said “{text}”, so nothing was changed. Shall I do this now: {guess}? Yes or no?",
+        "unknown_name": "I know no user called {text}. Whom do you mean: {users}?",
+        "unknown_name_alone": "Who is {text}? I know users by the names that the cell gives them.",
         "negated": "Understood what not to do. What should the cell aim for instead: {choices}?",
         "contradiction": (
             "You asked for {both}, which pull against each other. Which comes first, or do you want the compromise "
@@ -71,7 +74,6 @@ _SENTENCES: dict[str, dict[str, str]] = {
             "How much should each user get at least, so that nobody goes without: say for example “{goal}, 500 kbit/s "
             "each”. Or should I share instead, as {both}?"
         ),
-        "unsupported_with_goal": "I can't steer {text}. Shall I go on without it, for {goal} alone?",
         "unread": (
             "I can use plain figures with a unit: a power (W, dBm), a rate (bit/s, Mbit/s) or an outage (%). "
             "What is {text}?"
@@ -107,7 +109,6 @@ _SENTENCES: dict[str, dict[str, str]] = {
             "for, {choices}?",
         "exact_power": "Exactly {text} and the least power don't go together. Did you mean at most {text}?",
         "no_rate_to_change": "There is no such rate to change yet. What should each user get, at least or at most?",
-        "only_told": "Noted; nothing was changed. Should that hold from now on: {constraints}?",
         "welcome": "You're welcome.",
         "nothing_left_of_it": "That would leave nothing of it. What should the limit be?",
         "no_limit_of_its_own": "Nothing of that kind is promised to {users} or asked of them. What should change?",
@@ -163,13 +164,15 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "empty": "没有内容。小区应以什么为目标：{choices}？",
         "unclear": "我不确定您的意思。小区应以什么为目标：{choices}？",
         "weak": "您是指{goal}，还是{choices}？",
+        "mood": "您说了“{text}”，所以没有任何更改。现在要这样做吗：{guess}？请回答是或否。",
+        "unknown_name": "没有名为{text}的用户。您指的是谁：{users}？",
+        "unknown_name_alone": "{text}是谁？我只认得小区里的用户名。",
         "negated": "明白不要什么了。那么应以什么为目标：{choices}？",
         "contradiction": "您要求{both}，两者相互矛盾。以哪个为先，还是取两者的折中即能效：{choices}？",
         "rivals": "您同时要求{both}。应以哪一个为目标：{choices}？",
         "opposite": "不能以{goal}本身为目标。应以什么为目标：{choices}？",
         "fairness": "怎样才算公平：{both}？",
         "starving": "为了不让任何人落空，每个用户至少多少？例如“{goal}，每人至少500 kbit/s”。还是改为分享：{both}？",
-        "unsupported_with_goal": "我不能控制{text}。是否不考虑它，只求{goal}？",
         "unread": "{text} 指什么？可用带单位的数值：功率（W、dBm）、速率（bit/s）或中断概率（%），是哪个？",
         "calculated": "我不会用 {text} 做运算。结果应是哪个数值？",
         "whose_power": "{text} 是小区发射功率的上限，还是别的功率？",
@@ -197,7 +200,6 @@ _SENTENCES: dict[str, dict[str, str]] = {
         "named_user": "{text}要怎样：速率、权重、不服务，还是只服务它？小区应以什么为目标：{choices}？",
         "exact_power": "正好 {text} 与功率最低不能并存。您是指不超过 {text} 吗？",
         "no_rate_to_change": "目前没有可以更改的速率要求。每个用户的速率应是多少，至少还是不超过？",
-        "only_told": "已知悉，没有任何更改。今后要求{constraints}吗？",
         "welcome": "不客气。",
         "nothing_left_of_it": "这样就什么都不剩了。限制应是多少？",
         "no_limit_of_its_own": "{users}没有这样的要求。应更改什么？",

@@ -27,6 +27,8 @@ _TABLE = str.maketrans(_SAME_LENGTH)
 
 CJK = "\u3400-\u9fff\uf900-\ufaff"
 
+_TELLING = 2
+"""Small words by which a language is told from the others."""
 _WORD = deferred(r"[^\W\d_]+")
 _SMALL: dict[str, str] = {
     "en": (
@@ -102,10 +104,29 @@ def language_of(text: str) -> str:
     """
     if has_chinese(text):
         return "zh"
+    counts = _counts(text)
+    best = max(counts, key=lambda language: counts[language])
+    return best if counts[best] > counts["en"] else "en"
+
+
+def languages_of(text: str) -> tuple[str, ...]:
+    """The languages that a sentence may be in: all of them where its small words hardly tell.
+
+    >>> languages_of("save the power"), languages_of("10 W")
+    (('en',), ('en', 'es', 'fr', 'de'))
+    """
+    if has_chinese(text):
+        return ("zh",)
+    counts = _counts(text)
+    best = max(counts.values())
+    return tuple(language for language, count in counts.items() if count == best or best < _TELLING)
+
+
+def _counts(text: str) -> dict[str, int]:
+    """How much the small words and letters of a sentence speak for each language."""
     small = text.lower()
     words = _WORD.findall(small)
     counts = {language: sum(word in known for word in words) for language, known in _SMALL_WORDS.items()}
     for language, letters in _LETTERS.items():
         counts[language] += 2 * sum(small.count(letter) for letter in letters)
-    best = max(counts, key=lambda language: counts[language])
-    return best if counts[best] > counts["en"] else "en"
+    return counts

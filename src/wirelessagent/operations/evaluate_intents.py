@@ -128,7 +128,8 @@ def load_seconds(times: int = 3) -> float:
 
 def _shipped_bytes() -> int:
     """What the offline recogniser brings along beside its code: two models and the base words."""
-    return sum(path.stat().st_size for path in (MODEL_FILE, ROLES_FILE, *base_words.FOLDER.glob("*.tsv")))
+    listed = (*base_words.FOLDER.glob("*.tsv"), *base_words.FOLDER.with_name("moods").glob("*.toml"))
+    return sum(path.stat().st_size for path in (MODEL_FILE, ROLES_FILE, *listed))
 
 
 def _record(

@@ -21,10 +21,10 @@ from wirelessagent.language.conversation.methods import beside_method, by_method
 from wirelessagent.language.conversation.needing import read_needed
 from wirelessagent.language.conversation.promisable import read_promisable
 from wirelessagent.language.conversation.relative import read_relative
-from wirelessagent.language.conversation.reports import only_told
 from wirelessagent.language.conversation.shares import read_share
 from wirelessagent.language.conversation.unanswered import Unanswered, leaves_the_question, unanswered
 from wirelessagent.language.conversation.wondering import is_worked_out, only_supposed, supposed, wondered
+from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
 
@@ -43,16 +43,16 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     """What a line means in its conversation; never raises, whatever the text.
 
     Nothing that is only supposed is asked for, what holds stays where another aim is named, and a command that changes
-    something is all that its line says.
+    something is all that its line says. What is not clearly asked for now is asked about.
     """
     line = Line.of(text[:_LONGEST], context)
     intent = made_certain(line, _read(text, line, context, recogniser), text)
-    return keeping_what_holds(line, only_supposed(line, intent))
+    return guarded(text, context, keeping_what_holds(line, only_supposed(line, intent)))
 
 
 def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> Intent:
     if len(text) > _LONGEST:
-        return recogniser.recognise(text, context)
+        return recogniser.read(text, context)
     beside = beside_method(text)
     if beside is not None:
         rest, name = beside
@@ -70,8 +70,8 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         context = dataclasses.replace(
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
         )  # fmt: skip
-    intent = recogniser.recognise(text, context)
-    read = only_told(line, intent) or asked_instead(line, intent) or by_method(line, intent)
+    intent = recogniser.read(text, context)
+    read = asked_instead(line, intent) or by_method(line, intent)
     return given_instead(line, read)
 
 
@@ -82,8 +82,8 @@ def _possible(line: Line, asked: str, recogniser: Recogniser) -> Intent:
         intent = read(plain)
         if intent is not None and intent.kind == "allocate":
             return supposed(line, intent)
-    whole = recogniser.recognise(line.text, line.context)
+    whole = recogniser.read(line.text, line.context)
     if whole.kind in ("allocate", "command") or is_worked_out(whole):
         return supposed(line, whole)
-    intent = recogniser.recognise(asked, line.context)
+    intent = recogniser.read(asked, line.context)
     return supposed(line, intent) if intent.kind == "allocate" and (intent.constraints or intent.dropped) else whole

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language import forms
+from wirelessagent.language.conversation.assent import is_assent
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.returning import read_return
 from wirelessagent.language.deferred import deferred
@@ -118,6 +119,8 @@ def read_amendment(line: Line) -> Intent | None:
 def _agreed(line: Line) -> Intent | None:
     """A yes to "did you mean …?"."""
     context = line.context
+    if context.guess is not None:
+        return context.guess if is_assent(line.text) else None
     if context.offered is None or forms.plain_command(line.shape) != "confirm":
         return None
     if context.offered in COMMANDS:

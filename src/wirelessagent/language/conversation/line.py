@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.guard import READ_IN_A_TALK
 from wirelessagent.language.intent import Constraint, Detail, Intent, IntentKind
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import Quantity, parse_quantities
@@ -18,7 +19,7 @@ from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words
 from wirelessagent.language.text import language_of, normalise
 
-NAME = "conversation"
+NAME = READ_IN_A_TALK
 _WORD = deferred(r"[^\W\d_]{3,}")
 _POLITE = deferred(
     r"^(?:(?:(?:ok(?:ay)?|please|hey|well|then|so|now|and|(?:could|can|would|will) you|let's|let us)\b|请|"

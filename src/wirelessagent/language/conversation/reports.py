@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.intent import Intent
 
 _PAST = deferred(
     r"\b(?:yesterday|last\s+(?:week|month|night|year|time)|previously|formerly|ago|used\s+to|in\s+the\s+past)\b|"
@@ -26,10 +25,3 @@ def is_report(line: Line) -> bool:
     said = line.shape
     past = _PAST.search(said) is not None
     return (past or (bool(_REPORTED.search(said)) and bool(_HAS.search(said)))) and not _DIRECTS.search(said)
-
-
-def only_told(line: Line, intent: Intent) -> Intent | None:
-    """A question back whether what a report states should hold, where it was read as a request; else None."""
-    if intent.kind != "allocate" or not intent.constraints or not is_report(line):
-        return None
-    return line.ask("only_told", intent.constraints, constraints=line.voice.constraints(intent.constraints))

@@ -62,13 +62,9 @@ def _offered(intent: Intent, line: Line) -> str | None:
     for topic in COMMANDS:
         if intent.reply == voice.say("unsure_command", text=voice.say(f"command.{topic}")):
             return topic
-    if intent.pending and intent.reply == voice.say("only_told", constraints=voice.constraints(intent.pending)):
-        return line.context.objective
     for name in voice.labels:
         goal = voice.label(name)
         if intent.reply == voice.say("weak", goal=goal, choices=voice.choices(without=name)):
-            return name
-        if intent.reply.endswith(voice.ending("unsupported_with_goal", goal=goal)):
             return name
     return None
 

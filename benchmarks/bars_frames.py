@@ -1,0 +1,94 @@
+"""The bars of the guard: how often is acted upon what must not be, and how often is a plain wish asked back about.
+
+Run with ``python benchmarks/bars_frames.py FILE.jsonl [--quiet] [--later]``. Each line is ``{"text", "language",
+"frame", "act", "objective", "constraints"}``; each sentence is said first, in a fresh conversation with users 1 to 8,
+or, with ``--later``, where a request holds (figures are then those of the sentence alone). A file of ``wirelessagent
+evaluate intents`` is read as well: its kind says what may act. ``--quiet`` prints no sentence, for sets that nobody is
+to read.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections import Counter
+from pathlib import Path
+from typing import Any, cast
+
+from wirelessagent.experiments.evaluate_intents import same_constraints
+from wirelessagent.language.conversation import understood
+from wirelessagent.language.followups import numbers_of
+from wirelessagent.language.guard import CHANGING
+from wirelessagent.language.intent import EVERYBODY, Constraint, Intent, checked_constraints
+from wirelessagent.language.offline import OfflineRecogniser
+from wirelessagent.language.recogniser import Context
+
+USERS = tuple(f"user {number}" for number in range(1, 9))
+FIRST = Context(user_names=USERS)
+LATER = Context(user_names=USERS, objective="proportional_fairness", constraints={"max_power_w": 16.0}, language="en")
+RECOGNISER = OfflineRecogniser()
+
+
+def read(path: Path) -> list[dict[str, Any]]:
+    """The sentences of a file, each with its frame and whether it acts."""
+    rows = [cast("dict[str, Any]", json.loads(line)) for line in path.read_text(encoding="utf-8").splitlines() if line]
+    for row in rows:
+        row.setdefault("act", row.get("kind") in ("allocate", "command"))
+        row.setdefault("frame", "plain" if row.get("kind") == "allocate" else str(row.get("kind")))
+    return rows
+
+
+def acts(intent: Intent) -> bool:
+    """Whether something would change; a session asks who is meant where a user is named whom the cell does not have."""
+    named = {user for value in intent.constraints.values() if not isinstance(value, float) for user in value}
+    known = all(isinstance(user, int) for user in numbers_of(named - {EVERYBODY}, USERS))
+    return (intent.kind == "allocate" and known) or (intent.kind == "command" and intent.topic in CHANGING)
+
+
+def verdict(row: dict[str, Any], intent: Intent) -> str:
+    """ "right", "wrong act", "asked" or "wrong figures"."""
+    if not row["act"]:
+        return "wrong act" if acts(intent) else "right"
+    if row["frame"] != "plain":
+        return "right"
+    if intent.kind != "allocate":
+        return "asked"
+    meant = {name: _value(value) for name, value in row.get("constraints", {}).items()}
+    aim = row.get("objective") in (None, intent.objective)
+    return "right" if aim and same_constraints(intent.constraints, checked_constraints(meant)) else "wrong figures"
+
+
+def _value(value: Any) -> Constraint:
+    return tuple(str(user) for user in cast("list[Any]", value)) if isinstance(value, list) else value
+
+
+def score(rows: list[dict[str, Any]], context: Context = FIRST) -> list[tuple[dict[str, Any], str]]:
+    """What comes of each sentence."""
+    return [(row, verdict(row, understood(row["text"], context, RECOGNISER))) for row in rows]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("file", type=Path)
+    parser.add_argument("--quiet", action="store_true")
+    parser.add_argument("--later", action="store_true", help="say each sentence where a request holds already")
+    given = parser.parse_args()
+    scored = score(read(given.file), LATER if given.later else FIRST)
+    total = Counter[tuple[str, str]]()
+    for row, said in scored:
+        for group in (row["frame"], row["language"], "all"):
+            total[group, "sentences"] += 1
+            total[group, said] += 1
+    columns = ("sentences", "wrong act", "asked", "wrong figures")
+    print(f"{'':16}" + "".join(f"{column:>15}" for column in columns))
+    for group in dict.fromkeys(group for group, _ in total):
+        print(f"{group:16}" + "".join(f"{total[group, column]:15}" for column in columns))
+    share = 100 * total["all", "wrong act"] / max(len(scored), 1)
+    print(f"acted upon wrongly: {share:.1f} % of all sentences (bar: at most 3 %)")
+    for row, said in () if given.quiet else scored:
+        if said != "right":
+            print(f"{said:14}{row['frame']:14}{row['text']}")
+
+
+if __name__ == "__main__":
+    main()

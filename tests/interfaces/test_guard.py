@@ -1,0 +1,187 @@
+"""The guard: what is not clearly asked for now is asked about, first and in talks, whoever recognises."""
+
+from __future__ import annotations
+
+from importlib import resources
+
+import pytest
+from conversations import asks
+from llm_stub import StubLlm, meaning
+
+import wirelessagent as wa
+from wirelessagent.agent.session import Session
+from wirelessagent.language import guard
+from wirelessagent.language.conversation import understood
+from wirelessagent.language.guard import LANGUAGES, MOODS, doubted, stranger
+from wirelessagent.language.llm import LlmRecogniser
+from wirelessagent.language.llm_settings import LlmSettings
+from wirelessagent.language.offline import OfflineRecogniser, recognise
+from wirelessagent.language.recogniser import Context
+
+USERS = tuple(f"user {number}" for number in range(1, 5))
+SCENE = wa.simulate("rayleigh", num_users=4, num_subcarriers=16, seed=3)
+HELD = Context(user_names=USERS, objective="proportional_fairness", constraints={"max_power_w": 12.0}, language="en")
+NOT_ASKED = {
+    "negation": (
+        "Max total rate, but user 3 is not to get 2 Mbit/s", "最大总速率，用户3不要给2 Mbit/s了",
+        "No gastes menos potencia",
+    ),
+    "refusal": (
+        "I refuse to go for max total rate", "我拒绝最大总速率", "Me niego a la máxima velocidad total",
+        "Je refuse le débit total maximal", "Maximale Summenrate kommt nicht in Frage", "Max total rate? No.",
+    ),
+    "report": (
+        "The boss told me: max total rate with 10 W", "据说这里用的是最大总速率",
+        "Según el registro, máxima velocidad total",
+        "Il paraît qu'on a le débit total maximal", "Angeblich läuft maximale Summenrate",
+    ),
+    "quotation": (
+        'The note reads "max total rate"', "牌子上写着“最大总速率”", "El letrero: «máxima velocidad total»",
+        "Le panneau : « débit total maximal »", "Auf dem Zettel: „maximale Summenrate“",
+    ),
+    "past": (
+        "Yesterday we had max total rate", "昨天是最大总速率", "Ayer usábamos la máxima velocidad total",
+        "Hier on avait le débit total maximal", "Gestern hatten wir maximale Summenrate",
+    ),
+    "time": (
+        "Tomorrow at nine, max total rate", "明天再最大总速率", "El lunes, máxima velocidad total",
+        "Demain, débit total maximal", "Nächste Woche maximale Summenrate",
+    ),
+    "condition": (
+        "If the crowd comes, max total rate", "如果人多，就最大总速率", "Si viene gente, máxima velocidad total",
+        "Si la foule arrive, débit total maximal", "Wenn viele kommen, maximale Summenrate",
+    ),
+    "irony": (
+        "Max total rate for the cows, haha", "呵呵，最大总速率", "Qué gran idea, máxima velocidad total",
+        "Bravo, débit total maximal", "Na toll, maximale Summenrate",
+    ),
+    "others": (
+        "Marketing wants max total rate", "市场部想要最大总速率", "La directora quiere la máxima velocidad total",
+        "Le voisin souhaite le débit total maximal", "Der Vertrieb verlangt maximale Summenrate",
+    ),
+    "elsewhere": (
+        "Max total rate on the uplink", "隔壁小区要最大总速率", "Máxima velocidad total en la celda vecina",
+        "Débit total maximal pour la cellule voisine", "Maximale Summenrate für das WLAN",
+    ),
+}  # fmt: skip
+ASKED_FOR = (
+    "From now on max total rate, no more than 10 W", "Max total rate, the power must not exceed 10 W",
+    "Max total rate without user 3", "Max total rate, nobody below 200 kbit/s", "Don't serve user 3, max total rate",
+    "Everyone except user 3 gets 300 kbit/s, max total rate", "Max total rate, no minimum for user 4, 1 Mbit/s each",
+    "Not speed but power saving", "Don't waste power", "I'd like max total rate, if possible with 10 W",
+    "Why not go for max total rate",
+    "The board wants results, so maximise the total rate", "从现在起最大总速率，不超过10瓦", "不服务用户3，最大总速率",
+    "Máxima velocidad total desde ahora, sin pasar de 10 W", "Débit total maximal dès maintenant, pas plus de 10 W",
+    "Ab sofort maximale Summenrate, keiner unter 200 kbit/s",
+)  # fmt: skip
+
+
+def session(**options: object) -> Session:
+    return Session(SCENE, seed=1, confirm=False, **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("mood", "said"), [(mood, said) for mood, listed in NOT_ASKED.items() for said in listed])
+@pytest.mark.parametrize("context", [Context(user_names=USERS), HELD], ids=["first", "later"])
+def test_what_is_not_asked_for_now_is_asked_about(mood: str, said: str, context: Context) -> None:
+    assert understood(said, context, OfflineRecogniser()).kind != "allocate", mood
+
+
+@pytest.mark.parametrize("said", ASKED_FOR)
+def test_a_word_that_the_act_accounts_for_asks_nothing(said: str) -> None:
+    assert recognise(said).kind == "allocate"
+    assert understood(said, HELD, OfflineRecogniser()).kind == "allocate"
+
+
+@pytest.mark.parametrize("mood", MOODS)
+def test_each_class_finds_its_words_by_itself(mood: str) -> None:
+    intent = asks("max_rate")
+    assert any(doubted(said, None, intent, [mood]) for said in NOT_ASKED[mood])
+    assert doubted("max total rate, now", None, intent, [mood]) is None
+
+
+def test_every_language_has_the_same_classes() -> None:
+    folder = resources.files("wirelessagent.language").joinpath("moods")
+    assert {file.name for file in folder.iterdir() if file.name.endswith(".toml")} == {f"{x}.toml" for x in LANGUAGES}
+    tables = {language: guard.table_of(language) for language in LANGUAGES}
+    assert all(list(table) == list(tables["en"]) for table in tables.values())
+    for table in tables.values():
+        assert set(MOODS) < set(table)
+        for mood in MOODS:
+            assert set(table[mood]) <= {"clause", "ahead", "sentence", "text"}
+            assert all(word and word == word.strip() for words in table[mood].values() for word in words)
+            assert any(table[mood].values())
+
+
+def test_a_yes_takes_the_guess_up_and_a_no_drops_it() -> None:
+    for lines in ((), ("proportional fairness",)):
+        for answer in ("yes", "yes, please", "ok"):
+            talk = session()
+            for line in lines:
+                talk.say(line)
+            held = talk.request
+            turn = talk.say("Tomorrow at eight, minimum power with 100 kbit/s each")
+            assert turn.stage == "asked"
+            assert "Tomorrow" in turn.reply
+            assert "100 kbit/s" in turn.reply
+            assert talk.request == held
+            assert talk.say(answer).stage == "applied"
+            assert talk.request is not None
+            assert (talk.request.objective, dict(talk.request.constraints)) == ("min_power", {"min_rate_bps": 1e5})
+        talk = session()
+        for line in lines:
+            talk.say(line)
+        held = talk.request
+        talk.say("明天最小功率，每人100 kbit/s")
+        assert talk.say("不").stage == "nothing"
+        assert talk.say("yes").stage != "applied"
+        assert talk.request == held
+
+
+def test_a_guess_leaves_no_figure_behind() -> None:
+    talk = session()
+    talk.say("Yesterday it was max total rate at 3 W")
+    talk.say("proportional fairness")
+    assert talk.request is not None
+    assert not talk.request.constraints
+
+
+@pytest.mark.parametrize(
+    ("said", "who"),
+    [
+        ("Least power, 200 kbit/s for Brenda", "Brenda"), ("Promise Mr. Okafor 200 kbit/s", "Okafor"),
+        ("给张经理保证200 kbit/s，总速率最大", "张经理"),
+        ("Débit total maximal, 200 kbit/s pour Madame Lefèvre", "Lefèvre"),
+        ("Max total rate, leave out Pedro", "Pedro"),
+    ],
+)  # fmt: skip
+def test_somebody_who_is_no_user_never_becomes_everybody(said: str, who: str) -> None:
+    talk = session()
+    turn = talk.say(said)
+    assert turn.stage == "asked"
+    assert who in turn.reply
+    assert not turn.intent.pending
+    assert talk.say("yes").stage != "applied"
+    assert recognise(said).kind == "clarify"
+
+
+def test_a_user_of_the_cell_is_no_stranger() -> None:
+    assert stranger("at least 1 Mbit/s for Brenda", Context(user_names=("Ada", "Brenda"))) is None
+    assert stranger("at least 1 Mbit/s for Brenda", Context(user_names=("Ada", "Bob"))) is not None
+    assert stranger("minimum power for everyone, please", None) is None
+
+
+def test_the_guard_stands_behind_a_language_model_too() -> None:
+    pytest.importorskip("pydantic_ai")
+    said = "If the crowd comes, max total rate"
+    filled = {"kind": "allocate", "objective": "max_rate", "objective_words": "max total rate"}
+    with StubLlm(lambda _: meaning(**filled)) as stub:
+        recogniser = LlmRecogniser(LlmSettings(base_url=stub.url, model="m"))
+        first = recogniser.recognise(said)
+        talk = session(recogniser=recogniser)
+        asked = talk.say(said)
+        assert (first.kind, asked.stage) == ("clarify", "asked")
+        assert first.guess is not None
+        assert first.guess.objective == "max_rate"
+        assert talk.say("yes").stage == "applied"
+        assert talk.request is not None
+        assert talk.request.objective == "max_rate"
