@@ -33,7 +33,7 @@ from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.words import joined, say
-from wirelessagent.language.acts import OWN_CHOICE
+from wirelessagent.language.acts import OWN_CHOICE, Act, Ask, Command, Suppose
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
@@ -170,7 +170,16 @@ class Session:
             share_of=cast("Mapping[str, Constraint]", before.get("share_of") or {}),
             share_how=str(before.get("share_how", "of")),
             language=self._language,
+            acts=self._last_acts(),
         )
+
+    def _last_acts(self) -> tuple[Act, ...]:
+        """The acts of the last line that changed something, or of the very last one where that supposed something."""
+        for turn in reversed(self._turns):
+            acts = tuple(act for act in turn.acts if not isinstance(act, Ask | Command))
+            if acts and (turn is self._turns[-1] or not any(isinstance(act, Suppose) for act in acts)):
+                return acts
+        return ()
 
     def _unmet(self) -> Run | None:
         """What the line before asked for or supposed, where that can't be met; questions why lie between."""

@@ -145,6 +145,8 @@ Changing: TypeAlias = Aim | Limit | Scale | Drop | Serve | LeaveOut | Prefer | F
 
 def acts_of(intent: Intent) -> tuple[Act, ...]:
     """What an intent does to a conversation; nothing where it asks back."""
+    if intent.acts:
+        return intent.acts
     if intent.kind == "allocate":
         return tuple(_changes(intent))
     if intent.kind == "question":

@@ -6,9 +6,12 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Literal, TypeAlias, cast, get_args
+from typing import TYPE_CHECKING, Literal, TypeAlias, cast, get_args
 
 from wirelessagent.model.errors import InputError
+
+if TYPE_CHECKING:
+    from wirelessagent.language.acts import Act
 
 IntentKind: TypeAlias = Literal["allocate", "question", "command", "clarify", "out_of_scope"]
 
@@ -65,6 +68,7 @@ class Intent:
             ``{"power_w": 1.0}``, and ``{"constraints": {…}}`` for what-if.
         pending: constraints that were read although the sentence leads to a question back; the answer may use them.
         guess: what a plain yes to the question back carries out; None where it asks for more than that.
+        acts: what the sentence does, where the other fields don't say all of it.
         language: the operator's, as in "en" or "zh".
         confidence: 0 to 1; of the kind and the objective together.
         evidence: the operator's words that each field came from, separate places joined by " … ". The key "not_used"
@@ -87,6 +91,7 @@ class Intent:
     details: Mapping[str, Detail] = field(default_factory=dict[str, Detail])
     pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     guess: Intent | None = None
+    acts: tuple[Act, ...] = ()
 
     def __post_init__(self) -> None:
         if self.kind not in get_args(IntentKind):

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal, TypeAlias
 
+from wirelessagent.language.acts import Act
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Constraint, Intent
 
@@ -32,6 +33,7 @@ class Context:
         ways: whether the line right before was told that it can't be met, and what can be met instead.
         share_of, share_how: what the line right before changed by a share or an amount, as it was before, and whether
             it became that share "of" it, or that much "less" or "more"; empty where it did not.
+        acts: those of the last line that changed or supposed something.
         language: of the conversation so far; "" at its start.
     """
 
@@ -51,6 +53,7 @@ class Context:
     ways: bool = False
     share_of: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     share_how: str = "of"
+    acts: tuple[Act, ...] = ()
     language: str = ""
 
 

@@ -15,6 +15,7 @@ from wirelessagent.language.conversation.assent import read_assent
 from wirelessagent.language.conversation.certain import made_certain
 from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.comparing import read_comparison
+from wirelessagent.language.conversation.fragments import read_fragment
 from wirelessagent.language.conversation.holding import keeping_what_holds
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.methods import beside_method, by_method, read_method, with_method
@@ -60,7 +61,7 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         if by is not None:
             return by
     asked = wondered(text) if context.objective is not None else None
-    for read in _READERS:
+    for read in (read_fragment, *_READERS):
         intent = read(line)
         if intent is not None:
             return intent

@@ -1,0 +1,434 @@
+"""Lines that are a part of a sentence: "and 3 too", "make it 9", "the others 400k", "20 % more for user 4".
+
+Such a line takes what it does not say from the last act of its conversation. Every word of it is a figure, a user, or
+in a class of ``fragment_words/<language>.toml``; with one word that is not, it is no such line, and left to who reads
+sentences. So nothing is done that a word of the line may not have meant.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib import resources
+from typing import Any, cast
+
+from wirelessagent.language.acts import (
+    Act,
+    Drop,
+    Everybody,
+    LeaveOut,
+    Limit,
+    Named,
+    Others,
+    Scale,
+    Serve,
+    Suppose,
+    Undo,
+    Whom,
+)  # fmt: skip
+from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
+from wirelessagent.language.mentions import mentions
+from wirelessagent.language.numerals import numbers
+from wirelessagent.language.quantities import Quantity, parse_quantities
+from wirelessagent.language.text import CJK, languages_of, normalise
+from wirelessagent.model.units import human
+
+_UNITS: Mapping[str, tuple[str, ...]] = {
+    "power": ("max_power_w", "subcarrier_max_power_w", "circuit_power_w"),
+    "rate": ("min_rate_bps", "max_rate_bps"),
+    "ratio": ("outage_probability",),
+}
+"""Limits that a figure with such a unit may be."""
+
+_NOUNS: Mapping[str, tuple[str, ...]] = {
+    "power": ("max_power_w",),
+    "limit": ("max_power_w", "max_rate_bps", "subcarrier_max_power_w"),
+    "rate": ("min_rate_bps", "max_rate_bps"),
+    "promise": ("min_rate_bps",),
+    "weight": ("weights",),
+    "certainty": ("outage_probability",),
+    "circuit": ("circuit_power_w",),
+    "subcarrier": ("subcarrier_max_power_w",),
+    "group": ("resource_block_group_size",),
+}
+"""Limits that a noun may name."""
+
+_SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…-]+")
+_FIGURE = re.compile(r"^[-+\d.,\s]+")
+_ASKED = re.compile(r"[?？]\s*$|[呢吗]\s*[?？]?\s*$")
+_LONGEST = 120
+_ONES = frozenset(
+    {
+        "one",
+        "a",
+        "an",
+        "un",
+        "uno",
+        "una",
+        "une",
+        "ein",
+        "eine",
+        "einen",
+        "eins",
+        "一",
+        "两",
+        "half",
+        "demi",
+        "medio",
+        "halb",
+    }
+)
+"""Number words that mostly count nothing."""
+
+
+@dataclass(frozen=True)
+class Token:
+    """A word, a figure or users, and the classes that it is in."""
+
+    classes: frozenset[str]
+    figure: Quantity | None = None
+    users: tuple[str, ...] = ()
+    factor: float | None = None
+
+
+def read_fragment(line: Line) -> Intent | None:
+    """What a line does that leans on the last act; None for any other line."""
+    context = line.context
+    if context.objective is None or context.awaits == "clarification" or len(line.text) > _LONGEST:
+        return None
+    for language in languages_of(line.text) if not context.language else (context.language, *languages_of(line.text)):
+        tokens = _tokens(line, language)
+        if tokens:
+            found = _Fragment(line, tokens).intent()
+            if found is not None:
+                return found
+    return None
+
+
+class _Fragment:
+    """The tokens of a line in its conversation."""
+
+    def __init__(self, line: Line, tokens: Sequence[Token]) -> None:
+        self.line, self.tokens, self.last = line, tokens, line.context.acts
+        self.figures = [token.figure for token in tokens if token.figure is not None]
+        self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
+        self.held = line.context.constraints
+
+    def has(self, name: str) -> bool:
+        return any(name in token.classes for token in self.tokens)
+
+    def only(self, *names: str) -> bool:
+        """Whether every token is in one of these classes, or says nothing."""
+        allowed = {"skip", *names}
+        return all(token.classes & allowed for token in self.tokens)
+
+    def intent(self) -> Intent | None:
+        return (
+            self._again() or self._taken_up() or self._dropped() or self._served() or self._scaled() or self._stated()
+        )
+
+    def _again(self) -> Intent | None:
+        """ "once more" behind an undo."""
+        if self.has("again") and self.only("again", "lead") and self._last(Undo):
+            return self.line.command("undo", steps=1.0)
+        return None
+
+    def _taken_up(self) -> Intent | None:
+        """ "do that" behind a what-if: what was supposed is asked for."""
+        context = self.line.context
+        if context.supposed_objective is None or self.figures or not self.has("take") or not self.only("take", "it"):
+            return None
+        return self.line.allocate(context.supposed_objective, context.supposed, amends=False)
+
+    def _dropped(self) -> Intent | None:
+        """ "remove the cap again", "all weights equal"."""
+        whom = self._whom()
+        if self.has("equal") and self.has("weight") and self.only("equal", "weight", "every", "make", "again", "lead"):
+            return self._acts([Drop(kind="weights")]) if "weights" in self.held else None
+        if (
+            self.figures
+            or not self.has("remove")
+            or not self.only("remove", "users", "every", "again", "lead", *_NOUNS)
+        ):
+            return None
+        kinds = [kind for kind in self._named_kinds() if kind in self.held]
+        if len(kinds) > 1:
+            kinds = [act.kind for act in self._last(Limit) if act.kind in kinds][-1:]
+        return self._acts([Drop(kind=kinds[0], whom=whom or Everybody())]) if len(kinds) == 1 else None
+
+    def _served(self) -> Intent | None:
+        """ "take 7 off the list", "user 7 back in", and users of whom the same is said as of the last ones."""
+        users = self.users or self._counted()
+        if self.has("every") and self.has("serve") and self.only("every", "serve", "again", "lead", "take", "make"):
+            return self._acts([Serve(whom=Everybody())]) if {"users", "leave_out"} & self.held.keys() else None
+        if not users or (self.figures and self.users):
+            return None
+        whom, lists = Named(users), [*self._last(LeaveOut), *self._last(Serve)]
+        said = ("users", "bare", "lead", "again")
+        if self.has("serve") and self.only("serve", "too", "take", "make", *said) and not self._serves(users):
+            return self._acts([Serve(whom=whom)])
+        if self.has("leave") and self.only("leave", "too", "take", *said) and (lists or self.has("users")):
+            return self._acts([LeaveOut(whom=whom)])
+        if not (self.has("too") or self.has("lead")) or not self.only("too", "pronoun", "it", "correct", *said):
+            return None
+        if not (self.has("too") or self.users):
+            return None
+        model = self._as_another()
+        if model is not None:
+            return model
+        again = [dataclasses.replace(act, whom=whom) for act in self._last(Limit, Drop, LeaveOut, Scale, Serve)
+                 if isinstance(act.whom, Named)]  # fmt: skip
+        again = [dataclasses.replace(act, alone=False) if isinstance(act, Serve) else act for act in again]
+        return self._acts(again) if len(set(again)) == 1 else None
+
+    def _as_another(self) -> Intent | None:
+        """ "user 8 the same as user 3": the one figure of a user, for another one too."""
+        named = [token.users for token in self.tokens if token.users]
+        if len(named) != 2 or len(named[1]) != 1:
+            return None
+        figures = [(kind, value[named[1][0]]) for kind in FIGURES_OF_USERS
+                   if isinstance(value := self.held.get(kind), Mapping) and named[1][0] in value]  # fmt: skip
+        acts = [Limit(kind=kind, value=value, whom=Named(named[0])) for kind, value in figures]
+        return self._acts(acts) if len(acts) == 1 else None
+
+    def _serves(self, users: tuple[str, ...]) -> bool:
+        served, out = self.held.get("users"), self.held.get("leave_out")
+        listed = cast("tuple[str, ...]", served if served is not None else ())
+        return (served is None and not set(users) & set(cast("tuple[str, ...]", out or ()))) or set(users) <= {*listed}
+
+    def _scaled(self) -> Intent | None:
+        """ "double his rate", "20 % more for user 4", "halve the power"."""
+        factor = self._factor()
+        said = ("users", "every", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
+                "promise", "power", "limit", "again")  # fmt: skip
+        if factor is None or not self.only(*said):
+            return None
+        if self.has("weight") or (self.users and [act.kind for act in self._last(Limit)] == ["weights"] and factor > 1):
+            return self._acts([Limit(kind="weights", value=factor, whom=Named(self.users))]) if self.users else None
+        if self.has("power"):
+            return self._acts([Scale(kind="max_power_w", factor=factor, reference="radiated")])
+        named = self._named_kinds() or [act.kind for act in self._last(Limit)] or [*_UNITS["rate"]]
+        kinds = list(dict.fromkeys(kind for kind in named if kind in self.held))
+        if len(kinds) != 1 or kinds[0] not in ("max_power_w", "min_rate_bps", "max_rate_bps"):
+            return None
+        whom = self._whom() or self._last_whom()
+        if not isinstance(whom, Named) and self.has("pronoun"):
+            return None
+        return self._acts(
+            [Scale(kind=kinds[0], factor=factor, whom=whom if kinds[0] in FIGURES_OF_USERS else Everybody())]
+        )
+
+    def _factor(self) -> float | None:
+        factors = [token.factor for token in self.tokens if token.factor is not None]
+        ratios = [figure.value for figure in self.figures if figure.kind == "ratio"]
+        if len(factors) == 1 and not self.figures:
+            return factors[0]
+        if len(ratios) != 1 or len(self.figures) != 1 or factors or self.has("more") == self.has("less"):
+            return None
+        return 1 + ratios[0] if self.has("more") else 1 - ratios[0] if ratios[0] < 1 else None
+
+    def _stated(self) -> Intent | None:
+        """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
+        said = (
+            "users", "every", "others", "pronoun", "it", "lead", "make", "correct", "suppose", "take", "too",
+            "power", "rate", "ratio", "bare", *_NOUNS,
+        )  # fmt: skip
+        if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
+            return self.line.ask("what_changes")
+        if len(self.figures) != 1 or not self.only(*said):
+            return None
+        figure = self.figures[0]
+        supposed = [act for one in self._last(Suppose) for act in one.acts if isinstance(act, Limit)]
+        before = supposed or [*self._last(Limit), *map(self._as_held, self._last(Scale))]
+        kinds = self._kinds_of(figure, before)
+        if len(kinds) != 1:
+            return None
+        kind = kinds[0]
+        model = next((act for act in reversed(before) if act.kind == kind), None)
+        leans = any(self.has(name) for name in ("make", "correct", "take", "others", "suppose", "lead", "subcarrier"))
+        value = _value(figure, kind, model)
+        whom = self._whom() or (model.whom if model is not None else Everybody())
+        if value is None or not leans or (self.users and not self.has("lead") and not self.has("correct")):
+            return None
+        if kind not in FIGURES_OF_USERS:
+            if self.users or self.has("others"):
+                return None
+            whom = Everybody()
+        wondered = bool(_ASKED.search(self.line.text)) or self.has("suppose")
+        if (wondered or supposed) and not (self.has("take") or self.has("make") or self.has("correct")):
+            return self._wondered(kind, value, whom) if self.has("suppose") or supposed else None
+        return self._acts([Limit(kind=kind, value=value, whom=whom, words=_words(figure, value, kind, model))])
+
+    def _as_held(self, act: Scale) -> Limit:
+        """A figure that was scaled, as it holds."""
+        held = self.held.get(act.kind)
+        users = act.whom.users if isinstance(act.whom, Named) else (EVERYBODY,)
+        value = held.get(users[0], held.get(EVERYBODY, 1.0)) if isinstance(held, Mapping) else held
+        return Limit(kind=act.kind, value=value if isinstance(value, float) else 1.0, whom=act.whom)
+
+    def _kinds_of(self, figure: Quantity, before: Sequence[Limit]) -> list[str]:
+        """The limits that a figure may be, the closest first by what was said last."""
+        fitting = _UNITS.get(figure.kind, ())
+        named = self._named_kinds()
+        possible = [kind for kind in named if not fitting or kind in fitting] if named else list(fitting)
+        last = [act.kind for act in before if not (named or fitting) or act.kind in possible][-1:]
+        if figure.kind == "bare" and not named:
+            return last
+        held = [kind for kind in possible if kind in self.held]
+        if last or len(held) == 1:
+            return last or held
+        return possible[:1] if figure.kind == "rate" or (named and len(possible) == 1) else []
+
+    def _wondered(self, kind: str, value: float, whom: Whom) -> Intent | None:
+        if isinstance(whom, Others):
+            return None
+        users = dict.fromkeys(whom.users, value) if isinstance(whom, Named) else value
+        return self.line.question("what_if", constraints={kind: users})
+
+    def _named_kinds(self) -> list[str]:
+        """Limits that the nouns of the line name together."""
+        sets = [set(_NOUNS[name]) for name in _NOUNS if self.has(name)]
+        both = set.intersection(*sets) if sets else set[str]()
+        return [kind for kinds in _NOUNS.values() for kind in kinds if kind in both]
+
+    def _whom(self) -> Whom | None:
+        if self.users:
+            return Named(self.users)
+        if self.has("others"):
+            return Others()
+        if self.has("pronoun") and isinstance(self._last_whom(), Named):
+            return self._last_whom()
+        return Everybody() if self.has("every") else None
+
+    def _last_whom(self) -> Whom:
+        last = self._last(Limit, Scale, Drop)
+        return last[-1].whom if last else Everybody()
+
+    def _counted(self) -> tuple[str, ...]:
+        """Users named by their number alone: "and 3 too"."""
+        found = [token.figure for token in self.tokens if "bare" in token.classes and token.figure is not None]
+        names = {str(number) for number in range(1, len(self.line.context.user_names) + 1)}
+        users = tuple(f"{figure.value:g}" for figure in found)
+        if not users or len(found) != len(self.figures) or not set(users) <= names:
+            return ()
+        named = any(isinstance(act.whom, Named) for act in self._last(Limit, Drop, LeaveOut, Serve, Scale))
+        return users if named or self.has("leave") or self.has("serve") else ()
+
+    def _last(self, *kinds: type[Any]) -> list[Any]:
+        return [act for act in self.last if isinstance(act, kinds)]
+
+    def _acts(self, acts: Sequence[Act]) -> Intent:
+        """A change of the request by these acts."""
+        stated: dict[str, Constraint] = {}
+        for act in acts:
+            if isinstance(act, Limit):
+                users = act.whom.users if isinstance(act.whom, Named) else (EVERYBODY,)
+                stated[act.kind] = dict.fromkeys(users, act.value) if isinstance(act.whom, Named) else act.value
+            elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
+                stated["leave_out"] = act.whom.users
+        dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
+        intent = self.line.allocate(str(self.line.context.objective), stated, amends=True, dropped=dropped)
+        return dataclasses.replace(intent, acts=tuple(acts))
+
+
+def _value(figure: Quantity, kind: str, model: Limit | None) -> float | None:
+    """A figure in SI units; one without a unit has that of the figure in whose place it is."""
+    if figure.kind != "bare" or kind in ("weights", "resource_block_group_size"):
+        value = figure.value
+    else:
+        unit = None if model is None else _unit(model)
+        found = [] if unit is None else parse_quantities(f"{figure.value:g} {unit}")
+        value = found[0].value if found and found[0].kind != "bare" else math.nan
+    if kind == "outage_probability":
+        value = 1 - value if value > 0.5 else value
+        value = round(value, 12)
+        return value if 0 < value < 1 else None
+    return value if value > 0 and math.isfinite(value) else None
+
+
+def _unit(model: Limit) -> str:
+    """The unit in which a limit was said, or in which it is shown."""
+    for one in parse_quantities(model.words):
+        if one.kind in _UNITS and (one.value == model.value or one.kind == "ratio"):
+            return _FIGURE.sub("", one.text).strip() or "W"
+    if model.kind == "outage_probability":
+        return "%"
+    return _FIGURE.sub("", human(model.value, "W" if model.kind.endswith("_w") else "bit/s")).strip()
+
+
+def _words(figure: Quantity, value: float, kind: str, model: Limit | None) -> str:
+    if figure.kind != "bare" or model is None or kind in ("weights", "resource_block_group_size"):
+        return figure.text
+    return f"{figure.value:g} {_unit(model)}" if value else figure.text
+
+
+def _tokens(line: Line, language: str) -> list[Token] | None:
+    """The line as words that are known here; None where one is not."""
+    plain = normalise(line.text).lower()
+    names = line.context.user_names
+    taken = [(figure.start, figure.end) for figure in parse_quantities(line.text) if figure.kind != "bare"]
+    named = [each for each in mentions(normalise(line.text), names, taken) if each.role == "named"]
+    spans: dict[int, tuple[int, Token]] = {
+        each.start: (each.end, Token(frozenset({"users"}), users=each.users)) for each in named
+    }
+    figures = [figure for figure in parse_quantities(line.text) if figure.kind != "bare"]
+    taken = [(each.start, each.end) for each in (*named, *figures)]
+    for number in numbers(plain):
+        clear = not any(start < number.end and number.start < end for start, end in taken)
+        text = plain[number.start : number.end]
+        if number.value is not None and clear and text not in _ONES:
+            at = {"start": number.start, "end": number.end, "phrase_start": number.start, "phrase_end": number.end}
+            figures.append(Quantity(value=float(number.value), kind="bare", text=text, **at))
+    for figure in figures:
+        spans[figure.start] = (figure.end, Token(frozenset({figure.kind}), figure=figure))
+    return _segmented(plain, spans, language)
+
+
+def _segmented(plain: str, spans: Mapping[int, tuple[int, Token]], language: str) -> list[Token] | None:
+    found: list[Token] = []
+    words, longest = _table(language)
+    place = 0
+    while place < len(plain):
+        space = _SPACE.match(plain, place)
+        if space is not None:
+            place = space.end()
+        elif place in spans:
+            place, token = spans[place]
+            found.append(token)
+        else:
+            ends = range(min(len(plain), place + longest), place, -1)
+            end = next((end for end in ends if plain[place:end] in words and _is_whole(plain, place, end)), None)
+            if end is None or any(place < start < end for start in spans):
+                return None
+            found.append(words[plain[place:end]])
+            place = end
+    return found
+
+
+def _is_whole(plain: str, start: int, end: int) -> bool:
+    """Whether no word goes on at either end; in Chinese words are not parted."""
+    if re.match(f"[{CJK}]", plain[end - 1]):
+        return True
+    return not (end < len(plain) and plain[end].isalnum() and not re.match(f"[{CJK}]", plain[end]))
+
+
+@functools.cache
+def _table(language: str) -> tuple[Mapping[str, Token], int]:
+    """The words of a language with their classes, and the length of the longest."""
+    text = resources.files("wirelessagent.language").joinpath("fragment_words", f"{language}.toml").read_text("utf-8")
+    table = tomllib.loads(text)
+    factors = cast("dict[str, float]", table.pop("factors"))
+    classes: dict[str, set[str]] = {}
+    for name, words in table.items():
+        for word in cast("list[str]", words):
+            classes.setdefault(word, set()).add(name)
+    for word in factors:
+        classes.setdefault(word, set()).add("factor")
+    tokens = {word: Token(frozenset(names), factor=factors.get(word)) for word, names in classes.items()}
+    return tokens, max(map(len, tokens))
