@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -143,7 +144,7 @@ def _after(request: Request | None, act: Act, radiated_w: float) -> Request | No
     elif isinstance(act, Scale):
         _scale(figures, act, radiated_w)
     elif isinstance(act, Drop):
-        _drop(figures, act.kind, act.whom)
+        _drop(figures, act)
     elif isinstance(act, Serve):
         _serve(figures, act)
     elif isinstance(act, LeaveOut):
@@ -173,8 +174,9 @@ def _set(figures: dict[Key, float], kind: str, whom: Whom, value: float) -> None
 
 def _scale(figures: dict[Key, float], act: Scale, radiated_w: float) -> None:
     if act.reference == "radiated":
+        held = figures.get((act.kind, EVERYBODY), math.nan)
         if radiated_w > 0:
-            figures[act.kind, EVERYBODY] = radiated_w * act.factor
+            figures[act.kind, EVERYBODY] = act.factor * (held if math.isclose(held, radiated_w) else radiated_w)
         return
     if isinstance(act.whom, Named):
         for user in act.whom.users:
@@ -188,11 +190,12 @@ def _scale(figures: dict[Key, float], act: Scale, radiated_w: float) -> None:
             figures[key] *= act.factor
 
 
-def _drop(figures: dict[Key, float], kind: str, whom: Whom) -> None:
+def _drop(figures: dict[Key, float], act: Drop) -> None:
+    kind, whom = act.kind, act.whom
     if isinstance(whom, Named):
         for user in whom.users:
             figures.pop((kind, _name(user)), None)
-            if kind == "min_rate_bps" and (kind, EVERYBODY) in figures:
+            if kind == "min_rate_bps" and (kind, EVERYBODY) in figures and not act.own:
                 figures[kind, _name(user)] = 0.0  # to whom nothing is promised
         return
     for key in _of(figures, kind):

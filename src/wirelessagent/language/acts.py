@@ -76,10 +76,11 @@ class Scale(Act):
 
 @dataclass(frozen=True, kw_only=True)
 class Drop(Act):
-    """Take a limit off."""
+    """Take a limit off; ``own`` takes off a user's own figure, so that everybody's holds for that user again."""
 
     kind: str
     whom: Whom = Everybody()
+    own: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,6 +12,7 @@ import functools
 import math
 import re
 import tomllib
+import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
@@ -63,6 +64,10 @@ _SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…-]+")
 _FIGURE = re.compile(r"^[-+\d.,\s]+")
 _ASKED = re.compile(r"[?？]\s*$|[呢吗]\s*[?？]?\s*$")
 _LONGEST = 120
+_SHORT = 40
+_LAST_CLAUSE = re.compile(r"[,，;；.。!！]\s*([^,，;；.。!！]+)[.。!！\s]*$")
+_FAR = 20.0
+"""How many times a figure may change where its unit is left out."""
 _ONES = frozenset(
     {
         "one",
@@ -100,15 +105,41 @@ class Token:
 def read_fragment(line: Line) -> Intent | None:
     """What a line does that leans on the last act; None for any other line."""
     context = line.context
-    if context.objective is None or context.awaits == "clarification" or len(line.text) > _LONGEST:
+    open_ = context.pending or context.pending_objective or context.pending_users or context.offered or context.guess
+    if context.objective is None or (context.awaits == "clarification" and open_) or len(line.text) > _LONGEST:
         return None
+    if _takes_back(line):
+        return line.command("undo", steps=1.0)
     for language in languages_of(line.text) if not context.language else (context.language, *languages_of(line.text)):
         tokens = _tokens(line, language)
-        if tokens:
+        if tokens and not _denies(tokens):
             found = _Fragment(line, tokens).intent()
             if found is not None:
                 return found
     return None
+
+
+def _takes_back(line: Line) -> bool:
+    """Whether the last clause of a short line is an undo and nothing else: "call's over, undo that"."""
+    clause = _LAST_CLAUSE.search(line.text)
+    if clause is None or len(line.text) > _SHORT or _ASKED.search(line.text):
+        return False
+    last = Line.of(clause[1], line.context)
+    for language in languages_of(line.text):
+        tokens = _tokens(last, language)
+        if tokens and any("undo" in token.classes for token in tokens):
+            return all(token.classes & {"undo", "skip", "it", "again"} for token in tokens)
+    return False
+
+
+def _denies(tokens: Sequence[Token]) -> bool:
+    """Whether a word that corrects what was said before stands where it denies what this line says."""
+    said = [place for place, token in enumerate(tokens) if not token.classes & {"correct", "skip", "lead"}]
+    return (
+        any("correct" in token.classes and not token.classes & {"skip", "lead"} for token in tokens[said[0] :])
+        if said
+        else False
+    )
 
 
 class _Fragment:
@@ -129,9 +160,34 @@ class _Fragment:
         return all(token.classes & allowed for token in self.tokens)
 
     def intent(self) -> Intent | None:
-        return (
-            self._again() or self._taken_up() or self._dropped() or self._served() or self._scaled() or self._stated()
-        )
+        if _ASKED.search(self.line.text):
+            return self._stated()
+        readers = (
+            self._undone, self._moved, self._again, self._taken_up, self._dropped, self._served, self._scaled,
+            self._stated,
+        )  # fmt: skip
+        return next((found for read in readers if (found := read()) is not None), None)
+
+    def _undone(self) -> Intent | None:
+        """ "nah, undo that"."""
+        if self.has("undo") and self.only("undo", "correct", "it", "lead", "again"):
+            return self.line.command("undo", steps=1.0)
+        return None
+
+    def _moved(self) -> Intent | None:
+        """ "no, user 5", "I mean user 6, not 3": what was said last of one user, of another."""
+        last = [act for act in self._last(Limit, LeaveOut, Serve) if isinstance(act.whom, Named)]
+        if len(last) != 1 or not self.has("correct") or not self.only("users", "bare", "correct", "lead", "it"):
+            return None
+        old = last[0].whom
+        denied = [f"{figure.value:g}" for figure in self.figures]
+        users = tuple(user for user in self.users if user not in old.users)
+        if len(users) != 1 or not {*denied, *self.users} - {*users} <= {*old.users}:
+            return None
+        back: Act = LeaveOut(whom=old) if isinstance(last[0], Serve) else Serve(whom=old)
+        if isinstance(last[0], Limit):
+            back = Drop(kind=last[0].kind, whom=old, own=True)
+        return self._acts([back, dataclasses.replace(last[0], whom=Named(users))])
 
     def _again(self) -> Intent | None:
         """ "once more" behind an undo."""
@@ -151,12 +207,11 @@ class _Fragment:
         whom = self._whom()
         if self.has("equal") and self.has("weight") and self.only("equal", "weight", "every", "make", "again", "lead"):
             return self._acts([Drop(kind="weights")]) if "weights" in self.held else None
-        if (
-            self.figures
-            or not self.has("remove")
-            or not self.only("remove", "users", "every", "again", "lead", *_NOUNS)
-        ):
+        said = ("remove", "users", "bare", "every", "again", "lead", "correct", "more", *_NOUNS)
+        users = self._counted() if self.figures else ()
+        if (self.figures and not users) or not self.has("remove") or not self.only(*said):
             return None
+        whom = Named(users) if users else whom
         kinds = [kind for kind in self._named_kinds() if kind in self.held]
         if len(kinds) > 1:
             kinds = [act.kind for act in self._last(Limit) if act.kind in kinds][-1:]
@@ -203,33 +258,45 @@ class _Fragment:
         return (served is None and not set(users) & set(cast("tuple[str, ...]", out or ()))) or set(users) <= {*listed}
 
     def _scaled(self) -> Intent | None:
-        """ "double his rate", "20 % more for user 4", "halve the power"."""
-        factor = self._factor()
+        """ "double his rate", "20 % more for user 4", "halve the power", "no, by 30 %"."""
+        factor, corrected = self._factor(), self.has("correct") and bool(self._last(Scale))
         said = ("users", "every", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
-                "promise", "power", "limit", "again")  # fmt: skip
-        if factor is None or not self.only(*said):
+                "promise", "power", "limit", "again", "by")  # fmt: skip
+        if factor is None or not self.only(*said, *(("correct",) if corrected else ())):
             return None
-        if self.has("weight") or (self.users and [act.kind for act in self._last(Limit)] == ["weights"] and factor > 1):
-            return self._acts([Limit(kind="weights", value=factor, whom=Named(self.users))]) if self.users else None
+        if factor < 1 and self.has("by") and self.has("less") and not self.figures:
+            factor = 1 - factor
+        if corrected:
+            last = self._last(Scale)[-1]
+            return self._acts([Scale(kind=last.kind, factor=factor / last.factor, whom=last.whom)])
+        weighed = [act for act in self._last(Limit) if act.kind == "weights"]
+        if self.has("weight") or (weighed and len(weighed) == len(self._last(Limit)) and factor > 1):
+            whom = self._whom() or (weighed[-1].whom if len(weighed) == 1 else None)
+            return self._acts([Limit(kind="weights", value=factor, whom=whom)]) if isinstance(whom, Named) else None
         if self.has("power"):
             return self._acts([Scale(kind="max_power_w", factor=factor, reference="radiated")])
         named = self._named_kinds() or [act.kind for act in self._last(Limit)] or [*_UNITS["rate"]]
         kinds = list(dict.fromkeys(kind for kind in named if kind in self.held))
+        whom = self._whom() or self._last_whom()
         if len(kinds) != 1 or kinds[0] not in ("max_power_w", "min_rate_bps", "max_rate_bps"):
             return None
-        whom = self._whom() or self._last_whom()
-        if not isinstance(whom, Named) and self.has("pronoun"):
+        if self.has("pronoun") and not isinstance(whom, Named):
             return None
-        return self._acts(
-            [Scale(kind=kinds[0], factor=factor, whom=whom if kinds[0] in FIGURES_OF_USERS else Everybody())]
-        )
+        of_users = kinds[0] in FIGURES_OF_USERS
+        return self._acts([Scale(kind=kinds[0], factor=factor, whom=whom if of_users else Everybody())])
 
     def _factor(self) -> float | None:
         factors = [token.factor for token in self.tokens if token.factor is not None]
         ratios = [figure.value for figure in self.figures if figure.kind == "ratio"]
         if len(factors) == 1 and not self.figures:
             return factors[0]
-        if len(ratios) != 1 or len(self.figures) != 1 or factors or self.has("more") == self.has("less"):
+        if len(ratios) != 1 or len(self.figures) != 1 or factors:
+            return None
+        last = self._last(Scale)
+        if self.has("correct") and last and not self.has("more") and not self.has("less"):
+            is_less = last[-1].factor < 1 and not self.has("to")
+            return 1 - ratios[0] if is_less else ratios[0] if self.has("to") else 1 + ratios[0]
+        if self.has("more") == self.has("less"):
             return None
         return 1 + ratios[0] if self.has("more") else 1 - ratios[0] if ratios[0] < 1 else None
 
@@ -237,7 +304,7 @@ class _Fragment:
         """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
         said = (
             "users", "every", "others", "pronoun", "it", "lead", "make", "correct", "suppose", "take", "too",
-            "power", "rate", "ratio", "bare", *_NOUNS,
+            "power", "rate", "ratio", "bare", "with", "by", *_NOUNS,
         )  # fmt: skip
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
             return self.line.ask("what_changes")
@@ -250,11 +317,22 @@ class _Fragment:
         if len(kinds) != 1:
             return None
         kind = kinds[0]
-        model = next((act for act in reversed(before) if act.kind == kind), None)
-        leans = any(self.has(name) for name in ("make", "correct", "take", "others", "suppose", "lead", "subcarrier"))
+        models = [act for act in before if act.kind == kind]
+        model = models[-1] if models else None
+        several = len({act.whom for act in models}) > 1 and not (self.users or self.has("others") or self.has("every"))
+        if several or (self.has("correct") and self.line.context.share_of):
+            return None
+        leaning = ["correct", "take", "others", "subcarrier", "pronoun"]
+        leaning += ["make", "lead", "with", "suppose"] if figure.kind == "bare" or supposed else []
+        if len(self._named_kinds()) == 1:
+            leaning.append("make")
+        alone = model is not None and all(token.figure or token.classes & {"skip"} for token in self.tokens)
+        leans = alone or any(self.has(name) for name in leaning)
+        leans = leans and not (self.has("by") and self.has("make"))
         value = _value(figure, kind, model)
         whom = self._whom() or (model.whom if model is not None else Everybody())
-        if value is None or not leans or (self.users and not self.has("lead") and not self.has("correct")):
+        led = any(self.has(name) for name in ("lead", "correct", "with", "make"))
+        if value is None or not leans or (self.users and not led):
             return None
         if kind not in FIGURES_OF_USERS:
             if self.users or self.has("others"):
@@ -345,6 +423,8 @@ def _value(figure: Quantity, kind: str, model: Limit | None) -> float | None:
         unit = None if model is None else _unit(model)
         found = [] if unit is None else parse_quantities(f"{figure.value:g} {unit}")
         value = found[0].value if found and found[0].kind != "bare" else math.nan
+        if model is None or not model.value / _FAR < value < model.value * _FAR:  # another unit may be meant
+            return None
     if kind == "outage_probability":
         value = 1 - value if value > 0.5 else value
         value = round(value, 12)
@@ -370,7 +450,7 @@ def _words(figure: Quantity, value: float, kind: str, model: Limit | None) -> st
 
 def _tokens(line: Line, language: str) -> list[Token] | None:
     """The line as words that are known here; None where one is not."""
-    plain = normalise(line.text).lower()
+    plain = _unmarked(normalise(line.text).lower())
     names = line.context.user_names
     taken = [(figure.start, figure.end) for figure in parse_quantities(line.text) if figure.kind != "bare"]
     named = [each for each in mentions(normalise(line.text), names, taken) if each.role == "named"]
@@ -411,6 +491,11 @@ def _segmented(plain: str, spans: Mapping[int, tuple[int, Token]], language: str
     return found
 
 
+def _unmarked(text: str) -> str:
+    """The text without marks on its letters, which quick fingers leave out: each letter stays one."""
+    return "".join(unicodedata.normalize("NFD", letter)[:1] for letter in text)
+
+
 def _is_whole(plain: str, start: int, end: int) -> bool:
     """Whether no word goes on at either end; in Chinese words are not parted."""
     if re.match(f"[{CJK}]", plain[end - 1]):
@@ -427,7 +512,8 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
     classes: dict[str, set[str]] = {}
     for name, words in table.items():
         for word in cast("list[str]", words):
-            classes.setdefault(word, set()).add(name)
+            classes.setdefault(_unmarked(word), set()).add(name)
+    factors = {_unmarked(word): factor for word, factor in factors.items()}
     for word in factors:
         classes.setdefault(word, set()).add("factor")
     tokens = {word: Token(frozenset(names), factor=factors.get(word)) for word, names in classes.items()}
