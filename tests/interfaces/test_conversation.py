@@ -504,8 +504,8 @@ def test_any_line_is_read_at_once_and_nothing_is_raised(words: list[str], betwee
     "said",
     [
         "turn it off", "turn the power down to 5 W", "use the power better", "serve only user 2", "drop user 2",
-        "user 3", "user 2 needs 2 Mbit/s", "make it fast", "undo", "cancel the power limit", "取消功率限制", "不要3号",
-        "highest total rate for user 3 instead", "double user 2's weight", "2号权重翻倍", "只服务2号", "降低功率",
+        "user 3", "user 2 needs 2 Mbit/s", "make it fast", "undo", "cancel the power limit", "取消功率限制",
+        "highest total rate for user 3 instead", "只服务2号", "降低功率",
         "compare with greedy", "history", "explain the result", "do more for user 2", "what if user 3 were gone?",
         "double the rate with half the power", "取消上一次改动", "是", "no",
     ],

@@ -47,6 +47,9 @@ _UNITS: Mapping[str, tuple[str, ...]] = {
 }
 """Limits that a figure with such a unit may be."""
 
+_CLASS = {"power": "figure", "rate": "figure"}
+"""What a figure with a unit is called, beside nouns."""
+
 _NOUNS: Mapping[str, tuple[str, ...]] = {
     "power": ("max_power_w",),
     "limit": ("max_power_w", "max_rate_bps", "subcarrier_max_power_w"),
@@ -169,8 +172,9 @@ class _Fragment:
         return next((found for read in readers if (found := read()) is not None), None)
 
     def _undone(self) -> Intent | None:
-        """ "nah, undo that"."""
-        if self.has("undo") and self.only("undo", "correct", "it", "lead", "again"):
+        """ "nah, undo that"; a bare command is a sentence of its own where recognisers read it."""
+        plain = self.line.voice.language in ("en", "zh") and not self.has("correct")
+        if not plain and self.has("undo") and self.only("undo", "correct", "it", "lead", "again"):
             return self.line.command("undo", steps=1.0)
         return None
 
@@ -212,10 +216,14 @@ class _Fragment:
         if (self.figures and not users) or not self.has("remove") or not self.only(*said):
             return None
         whom = Named(users) if users else whom
+        own = [name for name, value in self.held.items() if isinstance(value, Mapping) and isinstance(whom, Named)
+               and set(whom.users) <= value.keys()]  # fmt: skip
         kinds = [kind for kind in self._named_kinds() if kind in self.held]
         if len(kinds) > 1:
             kinds = [act.kind for act in self._last(Limit) if act.kind in kinds][-1:]
-        return self._acts([Drop(kind=kinds[0], whom=whom or Everybody())]) if len(kinds) == 1 else None
+        if len(kinds) != 1 or (isinstance(whom, Named) and kinds[0] not in own and kinds[0] != "min_rate_bps"):
+            return None
+        return self._acts([Drop(kind=kinds[0], whom=whom or Everybody())])
 
     def _served(self) -> Intent | None:
         """ "take 7 off the list", "user 7 back in", and users of whom the same is said as of the last ones."""
@@ -245,6 +253,7 @@ class _Fragment:
     def _as_another(self) -> Intent | None:
         """ "user 8 the same as user 3": the one figure of a user, for another one too."""
         named = [token.users for token in self.tokens if token.users]
+        named += [self._counted()] if len(named) == 1 and self._counted() else []
         if len(named) != 2 or len(named[1]) != 1:
             return None
         figures = [(kind, value[named[1][0]]) for kind in FIGURES_OF_USERS
@@ -303,8 +312,8 @@ class _Fragment:
     def _stated(self) -> Intent | None:
         """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
         said = (
-            "users", "every", "others", "pronoun", "it", "lead", "make", "correct", "suppose", "take", "too",
-            "power", "rate", "ratio", "bare", "with", "by", *_NOUNS,
+            "users", "every", "others", "pronoun", "it", "lead", "make", "correct", "suppose", "take", "figure",
+            "ratio", "bare", "with", "by", *_NOUNS,
         )  # fmt: skip
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
             return self.line.ask("what_changes")
@@ -322,7 +331,7 @@ class _Fragment:
         several = len({act.whom for act in models}) > 1 and not (self.users or self.has("others") or self.has("every"))
         if several or (self.has("correct") and self.line.context.share_of):
             return None
-        leaning = ["correct", "take", "others", "subcarrier", "pronoun"]
+        leaning = ["correct", "take", "others", "subcarrier", "group", "pronoun"]
         leaning += ["make", "lead", "with", "suppose"] if figure.kind == "bare" or supposed else []
         if len(self._named_kinds()) == 1:
             leaning.append("make")
@@ -356,6 +365,8 @@ class _Fragment:
         named = self._named_kinds()
         possible = [kind for kind in named if not fitting or kind in fitting] if named else list(fitting)
         last = [act.kind for act in before if not (named or fitting) or act.kind in possible][-1:]
+        if not named and any(self.has(name) for name in _NOUNS):
+            return []
         if figure.kind == "bare" and not named:
             return last
         held = [kind for kind in possible if kind in self.held]
@@ -466,7 +477,7 @@ def _tokens(line: Line, language: str) -> list[Token] | None:
             at = {"start": number.start, "end": number.end, "phrase_start": number.start, "phrase_end": number.end}
             figures.append(Quantity(value=float(number.value), kind="bare", text=text, **at))
     for figure in figures:
-        spans[figure.start] = (figure.end, Token(frozenset({figure.kind}), figure=figure))
+        spans[figure.start] = (figure.end, Token(frozenset({_CLASS.get(figure.kind, figure.kind)}), figure=figure))
     return _segmented(plain, spans, language)
 
 
