@@ -176,7 +176,7 @@ class Session:
     def _last_acts(self) -> tuple[Act, ...]:
         """The acts of the last line that changed something, or of the very last one where that supposed something."""
         for turn in reversed(self._turns):
-            acts = tuple(act for act in turn.acts if not isinstance(act, Ask | Command))
+            acts = tuple(act for act in turn.acts if not isinstance(act, Ask | Command) and act != Suppose())
             if acts and (turn is self._turns[-1] or not any(isinstance(act, Suppose) for act in acts)):
                 return acts
         return ()

@@ -157,6 +157,11 @@ class _Fragment:
     def has(self, name: str) -> bool:
         return any(name in token.classes for token in self.tokens)
 
+    @property
+    def _is_read(self) -> bool:
+        """Whether recognisers read whole sentences of the language well, so that those are theirs."""
+        return self.line.voice.language in ("en", "zh")
+
     def only(self, *names: str) -> bool:
         """Whether every token is in one of these classes, or says nothing."""
         allowed = {"skip", *names}
@@ -166,15 +171,18 @@ class _Fragment:
         if _ASKED.search(self.line.text):
             return self._stated()
         readers = (
-            self._undone, self._moved, self._again, self._taken_up, self._dropped, self._served, self._scaled,
-            self._stated,
+            self._undone, self._moved, self._as_another, self._again, self._taken_up, self._dropped, self._served,
+            self._scaled, self._stated,
         )  # fmt: skip
         return next((found for read in readers if (found := read()) is not None), None)
 
     def _undone(self) -> Intent | None:
         """ "nah, undo that"; a bare command is a sentence of its own where recognisers read it."""
-        plain = self.line.voice.language in ("en", "zh") and not self.has("correct")
-        if not plain and self.has("undo") and self.only("undo", "correct", "it", "lead", "again"):
+        if (
+            (self.has("correct") or not self._is_read)
+            and self.has("undo")
+            and self.only("undo", "correct", "it", "lead", "again")
+        ):
             return self.line.command("undo", steps=1.0)
         return None
 
@@ -236,15 +244,12 @@ class _Fragment:
         said = ("users", "bare", "lead", "again")
         if self.has("serve") and self.only("serve", "too", "take", "make", *said) and not self._serves(users):
             return self._acts([Serve(whom=whom)])
-        if self.has("leave") and self.only("leave", "too", "take", *said) and (lists or self.has("users")):
+        if self.has("leave") and self.only("leave", "too", "take", *said) and (lists or not self._is_read):
             return self._acts([LeaveOut(whom=whom)])
         if not (self.has("too") or self.has("lead")) or not self.only("too", "pronoun", "it", "correct", *said):
             return None
         if not (self.has("too") or self.users):
             return None
-        model = self._as_another()
-        if model is not None:
-            return model
         again = [dataclasses.replace(act, whom=whom) for act in self._last(Limit, Drop, LeaveOut, Scale, Serve)
                  if isinstance(act.whom, Named)]  # fmt: skip
         again = [dataclasses.replace(act, alone=False) if isinstance(act, Serve) else act for act in again]
@@ -252,6 +257,9 @@ class _Fragment:
 
     def _as_another(self) -> Intent | None:
         """ "user 8 the same as user 3": the one figure of a user, for another one too."""
+        said = ("users", "bare", "too", "lead", "equal", "weight", "rate", "promise", "again")
+        if not (self.has("too") or self.has("equal")) or not self.only(*said):
+            return None
         named = [token.users for token in self.tokens if token.users]
         named += [self._counted()] if len(named) == 1 and self._counted() else []
         if len(named) != 2 or len(named[1]) != 1:
@@ -329,13 +337,17 @@ class _Fragment:
         models = [act for act in before if act.kind == kind]
         model = models[-1] if models else None
         several = len({act.whom for act in models}) > 1 and not (self.users or self.has("others") or self.has("every"))
-        if several or (self.has("correct") and self.line.context.share_of):
+        if several or (self.has("correct") and (self.line.context.share_of or (model is None and self._last(Drop)))):
             return None
         leaning = ["correct", "take", "others", "subcarrier", "group", "pronoun"]
         leaning += ["make", "lead", "with", "suppose"] if figure.kind == "bare" or supposed else []
         if len(self._named_kinds()) == 1:
             leaning.append("make")
-        alone = model is not None and all(token.figure or token.classes & {"skip"} for token in self.tokens)
+        alone = (
+            model is not None
+            and self.line.context.awaits == "nothing"
+            and all(token.figure or token.classes & {"skip"} for token in self.tokens)
+        )
         leans = alone or any(self.has(name) for name in leaning)
         leans = leans and not (self.has("by") and self.has("make"))
         value = _value(figure, kind, model)
@@ -384,7 +396,7 @@ class _Fragment:
         """Limits that the nouns of the line name together."""
         sets = [set(_NOUNS[name]) for name in _NOUNS if self.has(name)]
         both = set.intersection(*sets) if sets else set[str]()
-        return [kind for kinds in _NOUNS.values() for kind in kinds if kind in both]
+        return list(dict.fromkeys(kind for kinds in _NOUNS.values() for kind in kinds if kind in both))
 
     def _whom(self) -> Whom | None:
         if self.users:
