@@ -295,5 +295,6 @@ def _takes_off(act: Act, change: Change) -> bool:
         return change.kind in LISTS_OF_USERS
     if isinstance(act, Drop | Limit):  # a figure for everybody is in the place of those of named users
         named = isinstance(act.whom, Named) and change.user not in [_name(user) for user in act.whom.users]
-        return act.kind == change.kind and not named and not isinstance(act.whom, Others)
+        others = isinstance(act.whom, Others) and (isinstance(act, Limit) or change.user != EVERYBODY)
+        return act.kind == change.kind and not named and not others
     return False

@@ -36,6 +36,8 @@ from wirelessagent.agent.words import joined, say
 from wirelessagent.language.acts import OWN_CHOICE, Act, Ask, Command, Suppose
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
+from wirelessagent.language.conversation.fragments import named_alone
+from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -321,11 +323,11 @@ class Session:
         """The intent that waits for a user, with the one that this line names; None where it names none."""
         question, said = self._state.question, text.strip()
         missing = None if question is None else question.missing
-        match = _USER.fullmatch(said) if missing is not None and len(said) <= _LONGEST_NAME else None
-        if missing is None or match is None:
+        if missing is None or len(said) > _LONGEST_NAME:
             return None
+        match, named = _USER.fullmatch(said), named_alone(Line.of(said, self._context()))
         try:
-            number, _ = user_number(match[1], self._site.user_names)
+            number, _ = user_number(named[0] if len(named) == 1 else match[1] if match else "", self._site.user_names)
         except UnknownUserError:
             return None
         return _with_user(missing, self._site.user_names[number])

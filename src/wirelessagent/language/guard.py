@@ -73,6 +73,8 @@ class Doubt:
 
 def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
     """The intent, or a question back about it where its sentence does not clearly ask for it now."""
+    if intent.acts and intent.recogniser == READ_IN_A_TALK:  # each word of its line is known
+        return intent
     acts = intent.kind == "allocate" or (intent.kind == "command" and intent.topic in CHANGING)
     if not acts and not (intent.kind == "clarify" and intent.pending):
         return intent

@@ -15,7 +15,7 @@ from wirelessagent.language.conversation.assent import read_assent
 from wirelessagent.language.conversation.certain import made_certain
 from wirelessagent.language.conversation.commands import read_command
 from wirelessagent.language.conversation.comparing import read_comparison
-from wirelessagent.language.conversation.fragments import read_fragment
+from wirelessagent.language.conversation.fragments import read_fragment, referred
 from wirelessagent.language.conversation.holding import keeping_what_holds
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.methods import beside_method, by_method, read_method, with_method
@@ -48,7 +48,7 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     """
     line = Line.of(text[:_LONGEST], context)
     intent = made_certain(line, _read(text, line, context, recogniser), text)
-    return guarded(text, context, keeping_what_holds(line, only_supposed(line, intent)))
+    return guarded(text, context, referred(line, keeping_what_holds(line, only_supposed(line, intent))))
 
 
 def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> Intent:

@@ -31,6 +31,7 @@ from wirelessagent.language.acts import (
     Suppose,
     Undo,
     Whom,
+    acts_of,
 )  # fmt: skip
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
@@ -65,6 +66,7 @@ _NOUNS: Mapping[str, tuple[str, ...]] = {
 
 _SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…-]+")
 _FIGURE = re.compile(r"^[-+\d.,\s]+")
+_WORD = re.compile(r"[^\W\d_]+")
 _ASKED = re.compile(r"[?？]\s*$|[呢吗]\s*[?？]?\s*$")
 _LONGEST = 120
 _SHORT = 40
@@ -115,11 +117,52 @@ def read_fragment(line: Line) -> Intent | None:
         return line.command("undo", steps=1.0)
     for language in languages_of(line.text) if not context.language else (context.language, *languages_of(line.text)):
         tokens = _tokens(line, language)
-        if tokens and not _denies(tokens):
+        if tokens:
             found = _Fragment(line, tokens).intent()
             if found is not None:
                 return found
     return None
+
+
+def referred(line: Line, intent: Intent) -> Intent:
+    """A figure for everybody as one for whom the line refers to: "the rest", or "her" behind a line about user 2."""
+    context = line.context
+    kinds = [kind for kind in FIGURES_OF_USERS if isinstance(intent.constraints.get(kind), float)]
+    if intent.kind != "allocate" or context.objective is None or intent.acts or not kinds:
+        return intent
+    plain = normalise(line.text)
+    roles = {each.role for each in mentions(plain, context.user_names)}
+    last = {
+        act.whom for act in context.acts if isinstance(act, Limit | Scale | LeaveOut) and isinstance(act.whom, Named)
+    }
+    whom: Whom | None = Others() if roles == {"others"} else None
+    if not roles and len(last) == 1 and _speaks_of_one(plain):
+        whom = last.pop()
+    if whom is None:
+        return intent
+    acts = [dataclasses.replace(act, whom=whom) if isinstance(act, Limit) and act.kind in kinds else act
+            for act in acts_of(intent)]  # fmt: skip
+    return dataclasses.replace(intent, acts=tuple(acts))
+
+
+def _speaks_of_one(plain: str) -> bool:
+    """Whether a pronoun of one user is among the words."""
+    words = set(_WORD.findall(_unmarked(plain.lower())))
+    return any(
+        word in words if word.isascii() else word in plain
+        for language in languages_of(plain)
+        for word, token in _table(language)[0].items()
+        if "pronoun" in token.classes and " " not in word
+    )
+
+
+def named_alone(line: Line) -> tuple[str, ...]:
+    """The users that a line names and nothing else: "excuse me, I meant user 2"."""
+    for language in languages_of(line.text):
+        tokens = _tokens(line, language) or ()
+        if tokens and all(token.classes & {"users", "correct", "skip", "lead", "it"} for token in tokens):
+            return tuple(user for token in tokens for user in token.users)
+    return ()
 
 
 def _takes_back(line: Line) -> bool:
@@ -171,13 +214,18 @@ class _Fragment:
         if _ASKED.search(self.line.text):
             return self._stated()
         readers = (
-            self._undone, self._moved, self._as_another, self._again, self._taken_up, self._dropped, self._served,
+            self._moved, self._undone, self._as_another, self._again, self._taken_up, self._dropped, self._served,
             self._scaled, self._stated,
         )  # fmt: skip
+        readers = readers[: 1 if _denies(self.tokens) else None]
         return next((found for read in readers if (found := read()) is not None), None)
 
     def _undone(self) -> Intent | None:
         """ "nah, undo that"; a bare command is a sentence of its own where recognisers read it."""
+        what = ("more", "less", "factor", "make", "rate", "limit", "promise", "power", "weight")
+        named = any(self.has(name) for name in ("more", "less", "make")) and not self.has("factor")  # "undo the raise"
+        if named and self.has("undo") and self.only("undo", "lead", *what) and not self.figures and not self.users:
+            return self.line.command("undo", steps=1.0)
         if (
             (self.has("correct") or not self._is_read)
             and self.has("undo")
@@ -219,7 +267,7 @@ class _Fragment:
         whom = self._whom()
         if self.has("equal") and self.has("weight") and self.only("equal", "weight", "every", "make", "again", "lead"):
             return self._acts([Drop(kind="weights")]) if "weights" in self.held else None
-        said = ("remove", "users", "bare", "every", "again", "lead", "correct", "more", *_NOUNS)
+        said = ("remove", "users", "bare", "every", "again", "lead", "correct", "more", "by", *_NOUNS)
         users = self._counted() if self.figures else ()
         if (self.figures and not users) or not self.has("remove") or not self.only(*said):
             return None
@@ -501,13 +549,14 @@ def _segmented(plain: str, spans: Mapping[int, tuple[int, Token]], language: str
         space = _SPACE.match(plain, place)
         if space is not None:
             place = space.end()
-        elif place in spans:
-            place, token = spans[place]
-            found.append(token)
         else:
             ends = range(min(len(plain), place + longest), place, -1)
             end = next((end for end in ends if plain[place:end] in words and _is_whole(plain, place, end)), None)
-            if end is None or any(place < start < end for start in spans):
+            if place in spans and (end is None or words[plain[place:end]].factor is None or end <= spans[place][0]):
+                place, token = spans[place]
+                found.append(token)
+                continue
+            if end is None or (place not in spans and any(place < start < end for start in spans)):
                 return None
             found.append(words[plain[place:end]])
             place = end
