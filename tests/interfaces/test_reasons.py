@@ -12,7 +12,6 @@ import wirelessagent as wa
 from wirelessagent.agent.figures import certificate_line, side_by_side
 from wirelessagent.agent.session import ask
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.nearest import nearest
 from wirelessagent.explain.nearest_words import nearest_answer
 from wirelessagent.explain.reasons import reason_in_words
@@ -21,6 +20,7 @@ from wirelessagent.explain.tables import figures_of_infeasibility
 from wirelessagent.explain.words import explain
 from wirelessagent.model.decision import Bracket
 from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import called
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)

@@ -12,9 +12,9 @@ import pytest
 import wirelessagent as wa
 from wirelessagent.explain import roster
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.roster import owner_answer, rank_answer, subcarriers_answer
 from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import called
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=5, num_subcarriers=16, seed=6)

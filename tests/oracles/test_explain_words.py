@@ -15,13 +15,13 @@ from wirelessagent.deciding.objectives.max_rate import MaxRate
 from wirelessagent.explain import glossary, lexicon, nearest_words, proof_words, reasons, step_words, user_words
 from wirelessagent.explain.answering import answered
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.nearest import nearest
 from wirelessagent.explain.proof import certificate
 from wirelessagent.explain.steps import power_step, rate_step
 from wirelessagent.explain.users import account
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human, percent
+from wirelessagent.telling.catalogue import called
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import Lexicon, paragraph
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.units import db, human
+from wirelessagent.telling.catalogue import called
 
 _SHOWN_DB = 0.1
 """A band that shows in one decimal."""

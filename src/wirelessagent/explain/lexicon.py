@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.report import name_of_figure
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import called
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ import dataclasses
 import numpy as np
 
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import Lexicon, listed, paragraph, value_name
 from wirelessagent.explain.prices import marginal_prices
 from wirelessagent.model.units import human, percent
+from wirelessagent.telling.catalogue import called
 
 _AT_THE_CAP = 1e-6
 _WORTH_TELLING = 1e-3

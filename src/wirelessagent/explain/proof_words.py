@@ -7,7 +7,6 @@ import numpy as np
 from wirelessagent.explain.case import Case
 from wirelessagent.explain.certainty import Certainty, certainty
 from wirelessagent.explain.contested import Contested
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import Lexicon, listed, paragraph, place, value_name
 from wirelessagent.explain.prices import MarginalPrices, marginal_prices
 from wirelessagent.explain.proof import Certificate, basis, certificate
@@ -15,6 +14,7 @@ from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.table import Table
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.telling.catalogue import called
 
 _STEP_BPS = 100e3
 _SHOWN_DB, _SHOWN_COST = 0.005, 1e-6

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.deciding.core.closed_form import APPROACHED
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import Lexicon
 from wirelessagent.explain.shortage import Shortage, shortage_of
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.telling.catalogue import called
 
 BEYOND_W = 1e6
 """Powers beyond this are not told in figures: no cell radiates them."""

@@ -10,7 +10,6 @@ from typing import Any, ClassVar
 import numpy as np
 
 from wirelessagent import chain, plugins
-from wirelessagent.explain.labels import worded
 from wirelessagent.explain.sentences import sentences
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.metrics import LinkMetrics, jain_index, metrics_of_rates
@@ -19,14 +18,15 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human, reliability
+from wirelessagent.telling.catalogue import message
 
 _FIGURES = (
-    ("Sum rate", "sum_rate_bps", "bit/s"),
-    ("Goodput", "goodput_bps", "bit/s"),
-    ("Radiated power", "power_w", "W"),
-    ("Energy efficiency", "energy_efficiency_bit_per_j", "bit/J"),
-    ("Spectral efficiency", "spectral_efficiency_bps_per_hz", "bit/s/Hz"),
-    ("Jain's fairness index", "jain_index", ""),
+    ("sum_rate_bps", "bit/s"),
+    ("goodput_bps", "bit/s"),
+    ("power_w", "W"),
+    ("energy_efficiency_bit_per_j", "bit/J"),
+    ("spectral_efficiency_bps_per_hz", "bit/s/Hz"),
+    ("jain_index", ""),
 )
 
 
@@ -77,8 +77,11 @@ class Report(Shown):
         """
         known = [self.predicted, self.achieved, *([] if self.perfect is None else [predicted_metrics(self.perfect)])]
         rows = [
-            (worded(language, label), *("–" if one is None else human(getattr(one, name), unit) for one in known))
-            for label, name, unit in _FIGURES
+            (
+                message(language, f"label.{name}"),
+                *("–" if one is None else human(getattr(one, name), unit) for one in known),
+            )
+            for name, unit in _FIGURES
         ]
         rows = [*self._decided(language), *self._promises(language), *rows]
         if not name_of_figure(self.decision, language):
@@ -90,8 +93,8 @@ class Report(Shown):
     def _own_label(self, language: str) -> str:
         """What the objective's own figure is called in a table."""
         measure = _objective(self.decision).measure
-        plain = {"power": "Radiated power", "efficiency": "Energy efficiency"}.get(measure, "Sum rate")
-        name = name_of_figure(self.decision, language) or worded(language, plain)
+        plain = {"power": "power_w", "efficiency": "energy_efficiency_bit_per_j"}.get(measure, "sum_rate_bps")
+        name = name_of_figure(self.decision, language) or message(language, f"label.{plain}")
         return name[:1].upper() + name[1:] if name.isascii() else name  # a capital α reads as an A
 
     def _decided(self, language: str) -> list[tuple[str, ...]]:
@@ -101,9 +104,9 @@ class Report(Shown):
         told_by_promises = promised and not name_of_figure(decision, language) and decision.unit == "bit/s"
         if not decision.is_usable or told_by_promises or value == human(self._value(self.predicted), decision.unit):
             return []
-        key = "{}, at the promised rates" if promised else "{}, as decided on"
+        key = "label.at_promised" if promised else "label.as_decided"
         perfect = () if self.perfect is None else (human(self.perfect.value, self.perfect.unit),)
-        return [(worded(language, key, self._own_label(language)), value, "–", *perfect)]
+        return [(message(language, key, figure=self._own_label(language)), value, "–", *perfect)]
 
     def _promises(self, language: str) -> list[tuple[str, ...]]:
         """What is promised with which probability, beside how many promises were kept; nothing without an outage."""
@@ -111,8 +114,9 @@ class Report(Shown):
         if decision.problem.outage_probability is None:
             return []
         served = decision.rate_bps > 0
-        kept = worded(language, "{} of {} kept", int(served.sum()) - len(self.missed_users), int(served.sum()))
-        label = worded(language, "Promised at {}", reliability(decision.problem.outage_probability))
+        count = int(served.sum())
+        kept = message(language, "label.kept_of", kept=count - len(self.missed_users), served=count)
+        label = message(language, "label.promised_at_head", sure=reliability(decision.problem.outage_probability))
         perfect = () if self.perfect is None else (human(float(self.perfect.rate_bps.sum()), "bit/s"),)
         return [
             (label, human(float(decision.rate_bps.sum()), "bit/s"), "–" if self.achieved is None else kept, *perfect)
@@ -223,8 +227,12 @@ def name_of_figure(decision: Decision, language: str = "en") -> str:
     if named or not weighted or not isinstance(objective, Objective):
         return named
     if objective.measure == "efficiency":
-        return worded(language, "weighted energy efficiency")
-    return worded(language, "weighted total rate") if (objective.measure, decision.unit) == ("utility", "bit/s") else ""
+        return message(language, "label.weighted_energy_efficiency")
+    return (
+        message(language, "label.weighted_total_rate")
+        if (objective.measure, decision.unit) == ("utility", "bit/s")
+        else ""
+    )
 
 
 def predicted_metrics(decision: Decision) -> LinkMetrics:

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import Lexicon, listed, paragraph
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import called
 
 _SAME = 1e-3
 """A share of a figure that does not show in it."""

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import Lexicon, outcome_in_words, paragraph, value_name
 from wirelessagent.explain.prices import marginal_prices
 from wirelessagent.explain.reaching import Reach, for_the_total, has_reach, reach
 from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.steps import Step
 from wirelessagent.model.units import human, percent
+from wirelessagent.telling.catalogue import called
 
 _NOTHING = 1e-9
 

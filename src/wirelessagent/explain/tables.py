@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from wirelessagent.explain.labels import called, worded
 from wirelessagent.explain.reasons import power_in_words
 from wirelessagent.explain.report import Report
 from wirelessagent.explain.table import Table
@@ -12,6 +11,7 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.forecast import Forecast
 from wirelessagent.model.units import human, percent, prefixed, reliability
+from wirelessagent.telling.catalogue import called, message
 
 _ROUNDED_UP = 1.0005
 """So that what rounds to 1000 of a unit is 1 of the next."""
@@ -28,12 +28,12 @@ def figures_of_infeasibility(decision: Decision, language: str = "en") -> Table:
     """What the request would need and what could be had, each from both sides."""
     rows: list[tuple[str, ...]] = []
     if decision.needed_power_w is not None:
-        need, label = decision.needed_power_w, worded(language, "power that the rates asked for need")
+        need, label = decision.needed_power_w, message(language, "label.power_of_rates")
         rows.append((label, *(power_in_words(one, language) for one in (need.at_least, need.at_most))))
     if decision.rate_scaling is not None:
-        scale, label = decision.rate_scaling, worded(language, "largest common scaling of the rates asked for")
+        scale, label = decision.rate_scaling, message(language, "label.scaling_of_rates")
         rows.append((label, f"{scale.at_least:.3g}", f"{scale.at_most:.3g}"))
-    return _table(language, "What it would take", ("figure", "at least", "at most"), rows)
+    return _table(language, "needed_title", ("figure", "at_least", "at_most"), rows)
 
 
 def report_table(report: Report, language: str = "en") -> Table:
@@ -41,29 +41,30 @@ def report_table(report: Report, language: str = "en") -> Table:
     rows = report.figures(language)
     if report.achieved is None:
         certain = report.decision.forecast is None
-        rows = [row[:2] for row in rows if not (certain and row[0] == worded(language, "Goodput"))]
-        return _table(language, "Predicted on the estimate", ("figure", "predicted"), rows)
-    columns = ("figure", "predicted", "achieved", *([] if report.perfect is None else ["all gains known"]))
-    return _table(language, "Predicted on the estimate, achieved on the true channel", columns, rows)
+        rows = [row[:2] for row in rows if not (certain and row[0] == message(language, "label.goodput_bps"))]
+        return _table(language, "predicted_title", ("figure", "predicted"), rows)
+    columns = ("figure", "predicted", "achieved", *([] if report.perfect is None else ["all_gains_known"]))
+    return _table(language, "achieved_title", columns, rows)
 
 
 def user_table(report: Report, estimate: ChannelEstimate | None = None, language: str = "en") -> Table:
     """Each user's subcarriers, power and rates: predicted, how sure, committed and achieved."""
     decision = report.decision
     unsure, judged = decision.forecast is not None, decision.expected_rate_bps.size > 0
-    kind = "asked for (kept with)" if decision.problem.promises_rates else "committed (kept with)"
+    kind = "asked_for" if decision.problem.promises_rates else "committed"
     columns = [
         "user",
         "subcarriers",
-        *([] if estimate is None else ["of them repaired"]),
+        *([] if estimate is None else ["of_them_repaired"]),
         "power",
-        *([worded(language, "promised at {}", reliability(decision.problem.outage_probability or 0.0))] * judged),
-        "predicted rate (90 % band)" if unsure else "predicted rate",
+        *(["promised_at"] * judged),
+        "predicted_band" if unsure else "predicted_rate",
         *([kind] * (unsure and not judged)),
-        *([] if report.achieved is None else ["achieved rate"]),
+        *([] if report.achieved is None else ["achieved_rate"]),
     ]
     rows = [_user(report, estimate, language, user) for user in range(len(decision.user_names))]
-    return _table(language, "Users", columns, rows)
+    sure = reliability(decision.problem.outage_probability or 0.0)
+    return _table(language, "users_title", columns, rows, sure=sure)
 
 
 def _user(report: Report, estimate: ChannelEstimate | None, language: str, user: int) -> tuple[str, ...]:
@@ -81,11 +82,15 @@ def _user(report: Report, estimate: ChannelEstimate | None, language: str, user:
     row.append(human(predicted, "bit/s") if forecast is None else _banded(forecast, user, predicted))
     if forecast is not None and not judged:
         rate, sure = decision.committed_bps[user], f"{100 * forecast.carried[user]:.0f} %"
-        row.append(worded(language, "{} ({})", human(rate, "bit/s"), sure) if rate > 0 else human(rate, "bit/s"))
+        row.append(
+            message(language, "label.with", value=human(rate, "bit/s"), beside=sure)
+            if rate > 0
+            else human(rate, "bit/s")
+        )
     if report.achieved is not None:
         achieved = human(report.achieved.user_rate_bps[user], "bit/s")
         short = percent(_shortfall(report, user)) if user in report.missed_users else ""
-        row.append(worded(language, "{} ({} short)", achieved, short) if short else achieved)
+        row.append(message(language, "label.short", value=achieved, short=short) if short else achieved)
     return tuple(row)
 
 
@@ -102,6 +107,8 @@ def _banded(forecast: Forecast, user: int, rate_bps: float) -> str:
     return f"{rate} {unit}" if low == high else f"{rate} ({low}–{high}) {unit}"
 
 
-def _table(language: str, title: str, columns: Sequence[str], rows: Sequence[tuple[str, ...]]) -> Table:
-    names = tuple(worded(language, column) for column in columns)
-    return Table(title=worded(language, title), columns=names, rows=tuple(rows))
+def _table(
+    language: str, title: str, columns: Sequence[str], rows: Sequence[tuple[str, ...]], **places: object
+) -> Table:
+    heads = tuple(message(language, f"label.{column}", **places) for column in columns)
+    return Table(title=message(language, f"label.{title}"), columns=heads, rows=tuple(rows))

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.lexicon import Lexicon, paragraph, place, value_name
 from wirelessagent.explain.prices import marginal_prices
 from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.step_words import change_in_words
 from wirelessagent.explain.users import PROMISE_BPS, Account, Loss, account, share
 from wirelessagent.model.units import human, percent
+from wirelessagent.telling.catalogue import called
 
 _TIE_DB = 0.05
 _KNOWN_DB = 0.1

@@ -8,7 +8,6 @@ from collections.abc import Mapping
 import numpy as np
 
 from wirelessagent import chain
-from wirelessagent.explain.labels import called
 from wirelessagent.explain.proof_words import rests_on
 from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.explain.report import Report, cannot_be_served, name_of_figure
@@ -18,6 +17,7 @@ from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import db, human, percent, reliability
+from wirelessagent.telling.catalogue import called
 
 _SURE = 0.95
 """The probability from which a promise without an outage probability goes without a warning."""

@@ -6,33 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.restating import limits_in_words, users_in_words
-
-GOALS: dict[str, dict[str, str]] = {
-    "en": {
-        "max_rate": "the highest total rate",
-        "min_power": "the least power",
-        "max_energy_efficiency": "the most bits per joule (energy efficiency)",
-        "proportional_fairness": "a fair share for everyone (proportional fairness)",
-        "max_min_rate": "the highest rate for the slowest user (max-min)",
-        "less_fairness": "less fairness",
-        "less_rate": "less rate",
-        "more_power": "more power",
-        "less_efficiency": "fewer bits per joule",
-        "waste_power": "wasting power",
-    },
-    "zh": {
-        "max_rate": "总速率最高",
-        "min_power": "功率最低",
-        "max_energy_efficiency": "能效最高（每焦耳比特数最多）",
-        "proportional_fairness": "公平分配（比例公平）",
-        "max_min_rate": "最慢用户的速率最高（最大最小公平）",
-        "less_fairness": "降低公平性",
-        "less_rate": "降低速率",
-        "more_power": "增加功率",
-        "less_efficiency": "降低能效",
-        "waste_power": "浪费功率",
-    },
-}
+from wirelessagent.telling.catalogue import has_message, message
 
 _DROPPED = {
     "en": {
@@ -274,7 +248,8 @@ class Voice:
         return self._listed([self.label(name) for name in self.labels if name != without], last)
 
     def label(self, objective: str) -> str:
-        return GOALS[self.language].get(objective) or self.labels.get(objective, objective)
+        key = f"goal.{objective}"
+        return message(self.language, key) if has_message(self.language, key) else self.labels.get(objective, objective)
 
     def both(self, objectives: Sequence[str], last: str = "and") -> str:
         return self._listed([self.label(name) for name in objectives], last)
