@@ -22,7 +22,6 @@ import numpy as np
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.run import with_outcome
 from wirelessagent.agent.turn import Run
-from wirelessagent.explain.report import name_of_figure
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
@@ -31,6 +30,7 @@ from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.parts import name_of_figure
 
 TOLERANCE = 0.1
 """Share by which what is achieved may fall short of what was promised or of what there was before."""

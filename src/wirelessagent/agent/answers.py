@@ -1,4 +1,4 @@
-"""Questions about a decision, answered by what :mod:`wirelessagent.explain` computes."""
+"""Questions about a decision, answered by what :mod:`wirelessagent.telling` computes."""
 
 from __future__ import annotations
 
@@ -6,18 +6,16 @@ import numpy as np
 
 from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.turn import Run
-from wirelessagent.explain.answering import answered
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.channel_words import gain_answer
-from wirelessagent.explain.glossary import explained
-from wirelessagent.explain.limits import limits_answer
-from wirelessagent.explain.roster import owner_answer, rank_answer, subcarriers_answer
-from wirelessagent.explain.table import Table
-from wirelessagent.explain.tables import user_table
-from wirelessagent.explain.words import explain
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import called, message
+from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.glossary import explained
+from wirelessagent.telling.prices import limits_answer
+from wirelessagent.telling.questions import answered
+from wirelessagent.telling.roster import gain_answer, owner_answer, rank_answer, subcarriers_answer
+from wirelessagent.telling.tables import Table, user_table
 
 
 def explanation(run: Run, language: str) -> str:

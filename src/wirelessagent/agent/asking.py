@@ -9,7 +9,7 @@ from datetime import datetime
 from typing import cast
 
 from wirelessagent.agent import answers, comparing
-from wirelessagent.agent.figures import certificate_line, side_by_side
+from wirelessagent.agent.figures import side_by_side
 from wirelessagent.agent.premises import corrected
 from wirelessagent.agent.refusing import able
 from wirelessagent.agent.restating import restated
@@ -17,12 +17,12 @@ from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.supposing import what_if
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.explain.table import Table
-from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.tables import Table, decision_tables
 
 _SHOWN = 60
 """Characters of a sentence that the history shows."""

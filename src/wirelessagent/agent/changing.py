@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import Effect, respects, same_allocation
 from wirelessagent.agent.events import Event
-from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.noting import notes
 from wirelessagent.agent.referring import no_such_turn
 from wirelessagent.agent.request import Request, requested
@@ -20,11 +19,12 @@ from wirelessagent.agent.run import applied_line, with_outcome
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run, Stage
-from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.restating import limits_in_words
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import joined, message
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.tables import decision_tables
 
 
 def allocate(site: Site, state: State, intent: Intent) -> Reply:

@@ -16,11 +16,11 @@ from wirelessagent.agent.restating import goal_words
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply
 from wirelessagent.agent.turn import Run
-from wirelessagent.explain.lexicon import outcome_in_words
-from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
 from wirelessagent.model.units import human, reliability
 from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.parts import outcome_in_words
+from wirelessagent.telling.reasons import reason_in_words
 
 Column = tuple[str, Run]
 

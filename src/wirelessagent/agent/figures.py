@@ -8,39 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wirelessagent.agent.restating import goal_words
-from wirelessagent.explain.reasons import power_in_words, reason_in_words
-from wirelessagent.explain.report import cannot_be_served, name_of_figure
-from wirelessagent.explain.table import Table
-from wirelessagent.model.decision import Decision
-from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.model.units import human, percent
 from wirelessagent.telling.catalogue import called, message
+from wirelessagent.telling.parts import name_of_figure
+from wirelessagent.telling.reasons import power_in_words
+from wirelessagent.telling.tables import Table
 
 if TYPE_CHECKING:
     from wirelessagent.agent.turn import Run
-
-
-def certificate_line(decision: Decision, language: str = "en") -> str:
-    """Status, value, bound and gap in one line."""
-    status, method = message(language, f"status.{decision.status}"), called(language, decision.method)
-    if not decision.is_usable:
-        reason = reason_in_words(decision, language)
-        return message(language, "certificate.unusable", status=status, reason=reason, method=method)
-    value = message(
-        language,
-        "certificate.figure",
-        figure=name_of_figure(decision, language),
-        value=human(decision.value, decision.unit),
-    ).strip()
-    if np.isnan(decision.gap):
-        return message(language, "certificate.no_bound", status=status, value=value, method=method)
-    outage = decision.problem.outage_probability
-    line = message(
-        language, "certificate.line" if outage is None else "certificate.line_outage", status=status, value=value,
-        bound=human(decision.bound, decision.unit), gap=percent(decision.gap), sure=reliability(outage or 0.0),
-        method=method,
-    )  # fmt: skip
-    left_out = cannot_be_served(decision, language)
-    return message(language, "certificate.noted", line=line, note=left_out) if left_out else line
 
 
 def side_by_side(runs: Sequence[tuple[str, Run]], language: str = "en") -> Table:

@@ -11,11 +11,11 @@ from wirelessagent.agent.request import Request
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run
-from wirelessagent.explain.nearest import more_power
-from wirelessagent.explain.reasons import BEYOND_W, reason_in_words
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import joined, message
+from wirelessagent.telling.facts.nearest import more_power
+from wirelessagent.telling.reasons import BEYOND_W, reason_in_words
 
 _OTHER_AIMS = ("weights", "max_rate_bps", "max_power_w")
 """What the least power knows nothing of, or is asked for instead of."""

@@ -9,9 +9,9 @@ import numpy as np
 from wirelessagent.agent import answers
 from wirelessagent.agent.posing import user_number
 from wirelessagent.agent.turn import Run
-from wirelessagent.explain.roster import rank_answer
 from wirelessagent.language.intent import Intent
 from wirelessagent.telling.catalogue import called, message
+from wirelessagent.telling.roster import rank_answer
 
 _RANKS = (
     ("least", re.compile(r"(?i)\b(?:least|lowest|slowest|worst)\b|最少|最慢|最低|最差")),

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 
 from wirelessagent.agent import asking, needing, supposing
 from wirelessagent.agent.acting import same_allocation
-from wirelessagent.agent.figures import certificate_line, side_by_side
+from wirelessagent.agent.figures import side_by_side
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.agent.waiting import plan_named
 from wirelessagent.language.intent import Detail, Intent
 from wirelessagent.telling.catalogue import joined, message
+from wirelessagent.telling.certificates import certificate_line
 
 
 def what_if(site: Site, state: State, intent: Intent) -> Reply:

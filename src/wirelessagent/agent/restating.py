@@ -18,7 +18,7 @@ def restated(request: Request, language: str = "en") -> str:
     said = goal[:1].upper() + goal[1:]
     if request.method is not None:
         by = message(language, "request.by_method", method=called(language, request.method))
-        limits = f"{limits}{message(language, 'text.between')}{by}" if limits else by
+        limits = message(language, "text.between").join(part for part in (limits, by) if part)
     return message(language, "request.whole" if limits else "request.aim_alone", goal=said, limits=limits)
 
 

@@ -12,12 +12,9 @@ import numpy as np
 from wirelessagent import chain, plugins
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.events import Event, Progress, silent
-from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.posing import Posed
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run
-from wirelessagent.explain.report import report
-from wirelessagent.explain.words import explain
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
@@ -25,6 +22,9 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.model.units import percent
 from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.report import report
 
 
 @dataclass(frozen=True, kw_only=True)

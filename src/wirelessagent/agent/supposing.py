@@ -19,14 +19,13 @@ from wirelessagent.agent.run import Sight
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run
-from wirelessagent.explain.lexicon import outcome_in_words, value_name
-from wirelessagent.explain.nearest import nearest
-from wirelessagent.explain.nearest_words import nearest_answer
-from wirelessagent.explain.report import cannot_be_served
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.facts.nearest import nearest
+from wirelessagent.telling.parts import cannot_be_served, outcome_in_words, value_name
+from wirelessagent.telling.remedies import nearest_answer
 
 _SAME = 1e-6
 """A share of the power that nobody sees."""

@@ -6,10 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
-from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.tools import Tools
-from wirelessagent.explain.report import Report
-from wirelessagent.explain.table import Table
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import WirelessAgentError
@@ -19,6 +16,9 @@ from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.report import Report
+from wirelessagent.telling.tables import Table
 
 Stage: TypeAlias = Literal["answered", "asked", "planned", "applied", "reverted", "undone", "nothing"]
 """What a turn came to: answered (a question; nothing was to be applied), asked (a question back), planned (a decision

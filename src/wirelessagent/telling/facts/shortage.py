@@ -15,8 +15,8 @@ from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.outage_channel import UncertainChannel
 from wirelessagent.deciding.core.rate_proof import ceilings, one_each, usable_groups
 from wirelessagent.deciding.methods.dual import Dual
-from wirelessagent.explain.case import Case
 from wirelessagent.model.decision import Decision
+from wirelessagent.telling.facts.case import Case
 
 Kind: TypeAlias = Literal["no_subcarrier", "too_few", "one_user", "together", "places"]
 """A user can use no subcarrier; there are too few for all users; one user's subcarriers carry too little; all together

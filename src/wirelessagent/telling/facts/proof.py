@@ -9,9 +9,9 @@ import numpy as np
 
 from wirelessagent import chain
 from wirelessagent.deciding.core.closed_form import nats_worth
-from wirelessagent.explain.case import Case
 from wirelessagent.model.decision import OPTIMAL_GAP
 from wirelessagent.model.objective import Objective
+from wirelessagent.telling.facts.case import Case
 
 Proof: TypeAlias = Literal["closed_form", "bound", "nothing", "infeasible", "undecided"]
 """By a closed form that the bound equals, by a bound alone, not at all, or as something that cannot be, or may be."""

@@ -9,11 +9,11 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from wirelessagent.explain.bids import Bids, bids
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.steps import Step, promise_step
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
+from wirelessagent.telling.facts.bids import Bids, bids
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.steps import Step, promise_step
 
 Standing: TypeAlias = Literal[
     "served", "left_out", "nothing_decided", "no_gain", "no_weight", "no_promise", "no_room", "outbid"

@@ -18,10 +18,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.explain.case import Case
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.problem import Problem
+from wirelessagent.telling.facts.case import Case
 
 _SAFE = 1.0 - 1e-7
 """Part of the largest factor found that is asked for, so that rounding does not decide."""

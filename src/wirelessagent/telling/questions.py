@@ -5,26 +5,20 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.contested import contested
-from wirelessagent.explain.lexicon import paragraph
-from wirelessagent.explain.nearest import nearest
-from wirelessagent.explain.nearest_words import feasible_answer, nearest_answer
-from wirelessagent.explain.proof_words import (
-    certificate_answer,
-    contested_table,
-    prices_answer,
-    prices_table,
-    uncertainty_answer,
-)
-from wirelessagent.explain.reaching import has_reach
-from wirelessagent.explain.report import Report
-from wirelessagent.explain.step_words import no_power_answer, reach_answer, step_answer, total_answer
-from wirelessagent.explain.steps import power_step, rate_step
-from wirelessagent.explain.table import Table
-from wirelessagent.explain.tables import user_table
-from wirelessagent.explain.user_words import more_users_answer, share_answer, user_answer
-from wirelessagent.explain.users import account
+from wirelessagent.telling.catalogue import joined
+from wirelessagent.telling.certificates import certificate_answer, uncertainty_answer
+from wirelessagent.telling.facts.accounts import account
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.contests import contested
+from wirelessagent.telling.facts.nearest import nearest
+from wirelessagent.telling.facts.reach import has_reach
+from wirelessagent.telling.facts.steps import power_step, rate_step
+from wirelessagent.telling.prices import contested_table, prices_answer, prices_table
+from wirelessagent.telling.remedies import feasible_answer, nearest_answer
+from wirelessagent.telling.report import Report
+from wirelessagent.telling.step_effects import no_power_answer, reach_answer, step_answer, total_answer
+from wirelessagent.telling.tables import Table, user_table
+from wirelessagent.telling.user_account import more_users_answer, share_answer, user_answer
 
 Answer = tuple[str, tuple[Table, ...]]
 
@@ -90,7 +84,7 @@ def _more_rate(case: Case, language: str, figures: Mapping[str, float]) -> str:
     said = [step_answer(case, rate_step(case, each), language)] if promised > 0 or not usable else []
     if total > 0:
         said.append(total_answer(case, figures["rate_bps"] if share is None else share * total, language))
-    return paragraph(said, language)
+    return joined(language, said)
 
 
 def _contests(case: Case, language: str) -> Table | None:

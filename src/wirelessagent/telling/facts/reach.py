@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent import chain
-from wirelessagent.explain.case import Case
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
+from wirelessagent.telling.facts.case import Case
 
 _ACCURACY = 1e-3
 _FARTHEST = 1e4

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 
-from wirelessagent import chain, plugins
-from wirelessagent.explain.sentences import sentences
 from wirelessagent.model.decision import Decision
-from wirelessagent.model.metrics import LinkMetrics, jain_index, metrics_of_rates
+from wirelessagent.model.metrics import LinkMetrics
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
-from wirelessagent.model.phrases import phrases
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human, reliability
 from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.facts.performance import (
+    among_served,
+    predicted_metrics,
+    ungrouped_bound,
+    with_perfect_knowledge,
+)
+from wirelessagent.telling.parts import name_of_figure
 
 _FIGURES = (
     ("sum_rate_bps", "bit/s"),
@@ -42,6 +45,7 @@ class Report(Shown):
         missed_users: numbers of the users whose true rate fell short of the commitment, counted from 0.
         perfect: what would have been decided, and achieved, with every gain known; None where the truth is not known,
             or was.
+        ungrouped_bound: what nothing does better than where subcarriers are assigned one by one; NaN where they are.
     """
 
     decision: Decision
@@ -49,6 +53,7 @@ class Report(Shown):
     achieved: LinkMetrics | None
     missed_users: tuple[int, ...]
     perfect: Decision | None = None
+    ungrouped_bound: float = np.nan
 
     @property
     def regret(self) -> float:
@@ -176,87 +181,14 @@ def report(decision: Decision, outcome: Outcome | None = None) -> Report:
     return Report(
         decision=decision,
         predicted=predicted_metrics(decision),
-        achieved=None if outcome is None else _among_served(outcome.achieved, decision),
+        achieved=None if outcome is None else among_served(outcome.achieved, decision),
         missed_users=() if outcome is None else tuple(int(user) for user in np.flatnonzero(outcome.missed)),
-        perfect=None if outcome is None else _with_perfect_knowledge(decision, outcome),
+        perfect=None if outcome is None else with_perfect_knowledge(decision, outcome),
+        ungrouped_bound=ungrouped_bound(decision),
     )
-
-
-def _with_perfect_knowledge(decision: Decision, outcome: Outcome) -> Decision | None:
-    """The decision on the true channel; None where that is not known, was known, or carries no such decision."""
-    estimate, truth = decision.estimate, outcome.true_gain
-    if estimate is None or truth is None or np.array_equal(estimate.gain, truth):
-        return None
-    registered = {one.name for one in plugins.plugins("method")}
-    made = chain.decide(
-        chain.certain(truth, estimate.user_names),
-        decision.problem,
-        decision.cell,
-        decision.method if decision.method in registered else None,
-    )
-    return made if made.is_usable else None
 
 
 def _objective(decision: Decision) -> Objective:
     objective = decision.problem.objective
     assert isinstance(objective, Objective)
     return objective
-
-
-def cannot_be_served(decision: Decision, language: str = "en") -> str:
-    """How many users get no rate, where that makes the decision worthless; empty where it does not."""
-    objective = decision.problem.objective
-    if decision.value != 0 or not isinstance(objective, Objective) or objective.measure == "power":
-        return ""
-    counts = decision.problem.weights_of(decision.rate_bps.size) > 0
-    starved = np.flatnonzero(counts & (decision.rate_bps <= 0))
-    if not starved.size:
-        return ""
-    words = sentences(language)
-    users, size = int(np.count_nonzero(counts)), decision.problem.resource_block_group_size
-    places, kind = -(-decision.owner.size // size), words["subcarriers" if size == 1 else "groups_of"]
-    key = "cannot_serve_places" if places < users else "cannot_serve"
-    return words[key].format(left=starved.size, users=users, places=places, kind=kind)
-
-
-def name_of_figure(decision: Decision, language: str = "en") -> str:
-    """What the decision's value is called, as in "lowest rate"; empty where its unit says it all."""
-    objective, weighted = decision.problem.objective, decision.problem.weights is not None
-    names = objective.figure_name if isinstance(objective, Objective) else phrases()
-    named = (names.get(language) or names.get("en") or next(iter(names.values()), ("",)))[0]
-    if named or not weighted or not isinstance(objective, Objective):
-        return named
-    if objective.measure == "efficiency":
-        return message(language, "label.weighted_energy_efficiency")
-    return (
-        message(language, "label.weighted_total_rate")
-        if (objective.measure, decision.unit) == ("utility", "bit/s")
-        else ""
-    )
-
-
-def predicted_metrics(decision: Decision) -> LinkMetrics:
-    """What is expected of the decision on the true channel, by what is known of it."""
-    rate, carried = decision.rate_bps, np.ones(decision.rate_bps.size)
-    if decision.expected_rate_bps.size:
-        rate, carried = decision.expected_rate_bps, 1.0 - decision.outage
-    elif decision.forecast is not None:
-        rate, carried = decision.forecast.mean_bps, decision.forecast.carried
-    metrics = metrics_of_rates(
-        rate,
-        goodput_bps=float((carried * decision.committed_bps).sum()),
-        power_w=decision.total_power_w,
-        num_subcarriers=decision.owner.size,
-        cell=decision.cell,
-    )
-    served = _among_served(metrics, decision)
-    assert served is not None
-    return served
-
-
-def _among_served(metrics: LinkMetrics | None, decision: Decision) -> LinkMetrics | None:
-    """The metrics with the fairness of those users that are to be served: who is left out on purpose is not starved."""
-    if metrics is None or decision.problem.users is None:
-        return metrics
-    rate = metrics.user_rate_bps
-    return dataclasses.replace(metrics, jain_index=jain_index(rate[decision.problem.serves(rate.size)]))

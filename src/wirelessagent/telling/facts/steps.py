@@ -12,11 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.prices import marginal_prices, prices_of_promises
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.marginal_prices import marginal_prices, prices_of_promises
+
+_AT_THE_CEILING = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,6 +114,19 @@ def promise_step(case: Case, user: int, rate_bps: float) -> Step:
     promised = case.promised_bps.copy()
     step, promised[user] = rate_bps - float(promised[user]), rate_bps
     return _promised(case, promised, np.array([user]), step)
+
+
+def without_ceilings(case: Case) -> tuple[tuple[int, ...], Decision] | None:
+    """The users who have all that they may have, and the decision if they might have more; None where nobody has."""
+    decision, most = case.decision, case.problem.max_rates_bps(case.num_users)
+    full = np.flatnonzero(case.served & np.isfinite(most) & (decision.rate_bps >= most * (1 - _AT_THE_CEILING)))
+    if not full.size:
+        return None
+    without = most.copy()
+    without[full] = np.inf
+    limited = bool(np.isfinite(without).any())
+    problem = dataclasses.replace(case.problem, max_rate_bps=without if limited else None)
+    return tuple(int(user) for user in full), case.otherwise(problem)
 
 
 def _promised(case: Case, promised: FloatArray, users: IntArray, step: float) -> Step:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.explain.case import Case
+from wirelessagent.telling.facts.case import Case
 
 _LEAST, _MOST = 0.05, 0.95
 

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from wirelessagent import chain
-from wirelessagent.explain.case import Case
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
+from wirelessagent.telling.facts.case import Case
 
 _ROUNDING = 1e-9
 FIRST_BPS = 1e3

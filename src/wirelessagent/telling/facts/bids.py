@@ -19,8 +19,8 @@ from wirelessagent import chain
 from wirelessagent.deciding.core.closed_form import nats_worth
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.priced_worth import priced_worth_w
-from wirelessagent.explain.case import Case
 from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.telling.facts.case import Case
 
 _HALVINGS = 60
 _FARTHEST_DB = 120.0

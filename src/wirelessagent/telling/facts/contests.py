@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent.explain.bids import Bids, Contest, bids, contests
-from wirelessagent.explain.case import Case
+from wirelessagent.telling.facts.bids import Bids, Contest, bids, contests
+from wirelessagent.telling.facts.case import Case
 
 _SHOWN = 5
 
