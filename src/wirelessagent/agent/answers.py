@@ -15,7 +15,8 @@ from wirelessagent.telling.glossary import explained
 from wirelessagent.telling.prices import limits_answer
 from wirelessagent.telling.questions import answered
 from wirelessagent.telling.roster import gain_answer, owner_answer, rank_answer, subcarriers_answer
-from wirelessagent.telling.tables import Table, user_table
+from wirelessagent.telling.tables import user_table
+from wirelessagent.telling.text_table import Table
 
 
 def explanation(run: Run, language: str) -> str:

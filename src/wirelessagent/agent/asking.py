@@ -22,7 +22,8 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import called, joined, message
 from wirelessagent.telling.certificates import certificate_line
-from wirelessagent.telling.tables import Table, decision_tables
+from wirelessagent.telling.tables import decision_tables
+from wirelessagent.telling.text_table import Table
 
 _SHOWN = 60
 """Characters of a sentence that the history shows."""

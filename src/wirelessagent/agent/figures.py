@@ -12,7 +12,7 @@ from wirelessagent.model.units import human, percent
 from wirelessagent.telling.catalogue import called, message
 from wirelessagent.telling.parts import name_of_figure
 from wirelessagent.telling.reasons import power_in_words
-from wirelessagent.telling.tables import Table
+from wirelessagent.telling.text_table import Table
 
 if TYPE_CHECKING:
     from wirelessagent.agent.turn import Run

@@ -13,7 +13,7 @@ from wirelessagent.language.recogniser import Awaited
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Plain
-from wirelessagent.telling.tables import Table
+from wirelessagent.telling.text_table import Table
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,7 +18,7 @@ from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.report import Report
-from wirelessagent.telling.tables import Table
+from wirelessagent.telling.text_table import Table
 
 Stage: TypeAlias = Literal["answered", "asked", "planned", "applied", "reverted", "undone", "nothing"]
 """What a turn came to: answered (a question; nothing was to be applied), asked (a question back), planned (a decision

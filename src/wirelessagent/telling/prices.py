@@ -11,7 +11,7 @@ from wirelessagent.telling.facts.contests import Contested
 from wirelessagent.telling.facts.marginal_prices import MarginalPrices, marginal_prices
 from wirelessagent.telling.facts.steps import without_ceilings
 from wirelessagent.telling.parts import value_name
-from wirelessagent.telling.tables import Table
+from wirelessagent.telling.text_table import Table
 
 _STEP_BPS = 100e3
 _WORTH_TELLING = 1e-3

@@ -17,7 +17,8 @@ from wirelessagent.telling.prices import contested_table, prices_answer, prices_
 from wirelessagent.telling.remedies import feasible_answer, nearest_answer
 from wirelessagent.telling.report import Report
 from wirelessagent.telling.step_effects import no_power_answer, reach_answer, step_answer, total_answer
-from wirelessagent.telling.tables import Table, user_table
+from wirelessagent.telling.tables import user_table
+from wirelessagent.telling.text_table import Table
 from wirelessagent.telling.user_account import more_users_answer, share_answer, user_answer
 
 Answer = tuple[str, tuple[Table, ...]]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
@@ -12,18 +11,10 @@ from wirelessagent.model.units import human, percent, prefixed, reliability
 from wirelessagent.telling.catalogue import called, message
 from wirelessagent.telling.reasons import power_in_words
 from wirelessagent.telling.report import Report
+from wirelessagent.telling.text_table import Table
 
 _ROUNDED_UP = 1.0005
 """So that what rounds to 1000 of a unit is 1 of the next."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Table:
-    """All cells are text; numbers come with their units in the column's name or in the cell."""
-
-    title: str
-    columns: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
 
 
 def decision_tables(report: Report, estimate: ChannelEstimate | None, language: str = "en") -> list[Table]:
