@@ -14,8 +14,8 @@ from wirelessagent.telling.catalogue import called, has_message, joined, languag
 PACKAGE = Path(__file__).parents[2] / "src" / "wirelessagent"
 KEYS = sorted(messages("en"))
 
-_BY_NAME = {key for key in KEYS if key.startswith("name.")}
-"""Said for whatever has that name."""
+_BY_NAME = {key for key in KEYS if key.startswith(("name.", "term."))}
+"""Said for whatever has that name, or is asked about."""
 
 
 def places(text: str) -> dict[str, str]:

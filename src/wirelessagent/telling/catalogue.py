@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from wirelessagent.model.legible import legible
 
@@ -74,8 +75,16 @@ def messages(language: str) -> Mapping[str, str]:
         return {}
     import tomllib  # which whoever asks for help only need not wait for
 
-    topics = tomllib.loads((_MESSAGES / f"{language}.toml").read_text(encoding="utf-8"))
-    return {f"{topic}.{name}": text for topic, texts in topics.items() for name, text in texts.items()}
+    return dict(_flat(tomllib.loads((_MESSAGES / f"{language}.toml").read_text(encoding="utf-8"))))
+
+
+def _flat(topics: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str]]:
+    """The messages of nested tables by dotted keys."""
+    for name, held in topics.items():
+        if isinstance(held, str):
+            yield above + name, held
+        else:
+            yield from _flat(held, f"{above}{name}.")
 
 
 @functools.cache
