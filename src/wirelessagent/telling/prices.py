@@ -9,7 +9,7 @@ from wirelessagent.telling.catalogue import called, joined, listed, message
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.contests import Contested
 from wirelessagent.telling.facts.marginal_prices import MarginalPrices, marginal_prices
-from wirelessagent.telling.facts.steps import without_ceilings
+from wirelessagent.telling.facts.steps import WithoutCeilings, without_ceilings
 from wirelessagent.telling.parts import value_name
 from wirelessagent.telling.text_table import Table
 
@@ -19,9 +19,9 @@ _SHOWN_DB, _SHOWN_COST = 0.005, 1e-6
 """A contest of less margin that costs no larger share of the value either way is none."""
 
 
-def prices_answer(case: Case, language: str) -> str:
+def prices_answer(case: Case, prices: MarginalPrices, language: str) -> str:
     """The prices of power and of the dearest promise."""
-    prices, figure = marginal_prices(case), value_name(case, language)
+    figure = value_name(case, language)
     said = [_power_price(case, prices, figure, language)]
     cost = np.abs(np.where(case.promised_bps > 0, prices.rate, 0.0))
     if np.nanmax(cost, initial=0.0) > 0:
@@ -47,12 +47,12 @@ def _power_price(case: Case, prices: MarginalPrices, figure: str, language: str)
     return message(language, "price.power_idle", spent=spent, budget=budget)
 
 
-def prices_table(case: Case, language: str) -> Table | None:
+def prices_table(case: Case, prices: MarginalPrices, language: str) -> Table | None:
     """What 100 kbit/s more would cost for each user with a promise; None where nobody has one."""
     users = np.flatnonzero(case.promised_bps > 0)
     if not users.size:
         return None
-    rate, unit = marginal_prices(case).rate, case.decision.unit
+    rate, unit = prices.rate, case.decision.unit
     rows = tuple(
         (
             called(language, case.estimate.user_names[user]),
@@ -89,50 +89,41 @@ def contested_table(case: Case, found: list[Contested], language: str) -> Table 
 
 def limits_answer(case: Case, language: str) -> str:
     """What holds the value back, each with what it would be worth to have more of it."""
-    said = [
-        *_caps(case, language),
-        *_power_held(case, language),
-        *_promise(case, language),
-        *_most_power(case, language),
-    ]
-    return joined(language, said or [message(language, "hindrance.nothing")])
+    prices, ceilings = marginal_prices(case), without_ceilings(case)
+    said = [*_caps(case, ceilings, language), *_power_held(case, prices, language), *_promise(case, prices, language)]
+    return joined(language, [*said, *_most_power(case, language)] or [message(language, "hindrance.nothing")])
 
 
-def _caps(case: Case, language: str) -> list[str]:
+def _caps(case: Case, found: WithoutCeilings | None, language: str) -> list[str]:
     """Who has all that it may have, and what the value would be if it might have more, solved anew."""
-    decision, found = case.decision, without_ceilings(case)
     if found is None:
         return []
-    users, free = found
-    names = listed(language, case.named(users))
-    told = {"names": names, "figure": value_name(case, language), "value": human(decision.value, decision.unit)}
+    decision, free = case.decision, found.decision
+    names, figure = listed(language, case.named(found.users)), value_name(case, language)
     gained = abs(free.value - decision.value) > _WORTH_TELLING * abs(decision.value)
+    told = {"names": names, "figure": figure, "value": human(decision.value, decision.unit)}
     if not free.is_usable or not gained:
         return [message(language, "hindrance.caps_idle", **told)]
     return [message(language, "hindrance.caps", **told, free=human(free.value, decision.unit))]
 
 
-def _power_held(case: Case, language: str) -> list[str]:
+def _power_held(case: Case, prices: MarginalPrices, language: str) -> list[str]:
     if case.objective.measure == "power":
         return []
-    prices, budget = marginal_prices(case), human(case.problem.budget_w(case.cell), "W")
+    budget = human(case.problem.budget_w(case.cell), "W")
     if prices.binds and prices.power > 0:
-        price = human(prices.power, case.decision.unit)
-        return [message(language, "hindrance.power", budget=budget, figure=value_name(case, language), price=price)]
+        price, figure = human(prices.power, case.decision.unit), value_name(case, language)
+        return [message(language, "hindrance.power", budget=budget, figure=figure, price=price)]
     return [message(language, "hindrance.power_free", budget=budget, spent=human(case.decision.total_power_w, "W"))]
 
 
-def _promise(case: Case, language: str) -> list[str]:
-    cost = np.nan_to_num(np.abs(np.where(case.promised_bps > 0, marginal_prices(case).rate, 0.0)))
+def _promise(case: Case, prices: MarginalPrices, language: str) -> list[str]:
+    cost = np.nan_to_num(np.abs(np.where(case.promised_bps > 0, prices.rate, 0.0)))
     if not cost.any():
         return []
     dearest = int(cost.argmax())
-    return [
-        message(
-            language, "hindrance.promise", name=called(language, case.estimate.user_names[dearest]),
-            figure=value_name(case, language), price=human(float(cost[dearest]) * _STEP_BPS, case.decision.unit),
-        )
-    ]  # fmt: skip
+    price, name = human(float(cost[dearest]) * _STEP_BPS, case.decision.unit), case.estimate.user_names[dearest]
+    return [message(language, "hindrance.promise", name=name, figure=value_name(case, language), price=price)]
 
 
 def _most_power(case: Case, language: str) -> list[str]:

@@ -7,8 +7,7 @@ import numpy as np
 from wirelessagent.model.units import human, percent
 from wirelessagent.telling.catalogue import called, joined, message
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.marginal_prices import marginal_prices
-from wirelessagent.telling.facts.reach import Reach, for_the_total, has_reach, reach
+from wirelessagent.telling.facts.reach import Reach
 from wirelessagent.telling.facts.steps import Step
 from wirelessagent.telling.parts import outcome_in_words, value_name
 from wirelessagent.telling.reasons import reason_in_words
@@ -16,8 +15,8 @@ from wirelessagent.telling.reasons import reason_in_words
 _NOTHING = 1e-9
 
 
-def step_answer(case: Case, step: Step, language: str) -> str:
-    """What a step changes, in a paragraph."""
+def step_answer(case: Case, step: Step, kept: Reach | None, language: str) -> str:
+    """What a step changes, and what power would keep the value, in a paragraph."""
     before, after = step.before, step.after
     said: list[str] = []
     if not (before.is_usable and after.is_usable):
@@ -28,7 +27,8 @@ def step_answer(case: Case, step: Step, language: str) -> str:
         change = change_in_words(case, step, language)
         said.append(message(language, "step.rate", who=_who(case, step, language), level=_level(step), change=change))
     if before.is_usable and after.is_usable:
-        said += _kept(case, step, language)
+        budget = case.problem.budget_w(case.cell)
+        said += [] if kept is None else [_reached(case, kept, "step.kept", language, before_w=budget)]
         said += _marginal(step, language)
         said += _bound(case, step, language)
     if after.is_usable and not np.isnan(step.limit_w):
@@ -36,23 +36,13 @@ def step_answer(case: Case, step: Step, language: str) -> str:
     return joined(language, said)
 
 
-def reach_answer(case: Case, step: float, language: str) -> str:
-    """What power it takes that the value is larger by ``step``, or what a smaller one saves."""
-    return _reach(case, case.decision.value, step, case.problem.budget_w(case.cell), language)
-
-
-def total_answer(case: Case, step_bps: float, language: str) -> str:
-    """What power a total rate takes that is larger by ``step_bps``, whatever the aim is."""
-    now, spent = float(case.decision.rate_bps.sum()), case.decision.total_power_w
-    return _reach(for_the_total(case), now, step_bps, spent, language)
-
-
-def _reach(case: Case, now: float, step: float, spent_w: float, language: str) -> str:
+def reach_answer(case: Case, found: Reach | None, now: float, step: float, spent_w: float, language: str) -> str:
+    """What power it takes that a value is larger by ``step``, or what a smaller one saves; None if nothing is left."""
     unit, figure = case.decision.unit, value_name(case, language)
     more = message(language, "step.rate_more" if step > 0 else "step.rate_less", step=human(abs(step), unit))
-    if not now + step > 0:
+    if found is None:
         return message(language, "step.nothing_left", step=more, figure=figure, before=human(now, unit))
-    return _reached(case, reach(case, now + step), "step.reached", language, before_w=spent_w, step=more)
+    return _reached(case, found, "step.reached", language, before_w=spent_w, step=more)
 
 
 def _reached(case: Case, found: Reach, key: str, language: str, *, before_w: float, step: str = "") -> str:
@@ -69,18 +59,6 @@ def _reached(case: Case, found: Reach, key: str, language: str, *, before_w: flo
     )  # fmt: skip
     beyond = [] if np.isnan(found.limit_w) else [message(language, "step.limit", limit=human(found.limit_w, "W"))]
     return joined(language, [said, *beyond])
-
-
-def _kept(case: Case, step: Step, language: str) -> list[str]:
-    """What power would keep the value where it was in spite of what more is promised."""
-    if step.of_power or not has_reach(case) or step.change >= -_NOTHING * abs(step.before.value):
-        return []
-    found = reach(case, step.before.value, step.problem)
-    return (
-        []
-        if np.isnan(found.power_w)
-        else [_reached(case, found, "step.kept", language, before_w=case.problem.budget_w(case.cell))]
-    )
 
 
 def no_power_answer(case: Case, step_w: float, language: str) -> str:
@@ -104,7 +82,7 @@ def change_in_words(case: Case, step: Step, language: str) -> str:
 
 def _power(case: Case, step: Step, language: str) -> str:
     level, before = human(step.level, "W"), human(case.problem.budget_w(case.cell), "W")
-    if abs(step.change) <= _NOTHING * abs(step.before.value) and not marginal_prices(case).binds:
+    if abs(step.change) <= _NOTHING * abs(step.before.value) and not case.spends_all:
         key = "step.power_least" if case.objective.measure == "power" else "step.power_idle"
         spent = human(step.before.total_power_w, "W")
         return message(language, key, level=level, before=before, spent=spent)

@@ -6,9 +6,8 @@ import numpy as np
 
 from wirelessagent.model.units import human, percent
 from wirelessagent.telling.catalogue import called, joined, message
-from wirelessagent.telling.facts.accounts import PROMISE_BPS, Account, Loss, account, share
+from wirelessagent.telling.facts.accounts import PROMISE_BPS, Account, Loss, share
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.marginal_prices import marginal_prices
 from wirelessagent.telling.parts import place, value_name
 from wirelessagent.telling.reasons import reason_in_words
 from wirelessagent.telling.step_effects import change_in_words
@@ -41,16 +40,11 @@ def share_answer(case: Case, user: int, language: str) -> str:
     return joined(language, [*said, *(_served(case, found, language) if found.standing == "served" else [])])
 
 
-def more_users_answer(case: Case, language: str) -> str:
+def newcomer_answer(case: Case, found: Account | None, language: str) -> str:
     """What one more user would bring: the one of those left out with whom the value is best."""
-    left = [int(user) for user in np.flatnonzero(~case.served)]
-    if not left:
+    if found is None:
         return message(language, "account.all_served", users=case.num_users)
-    sign = 1.0 if case.objective.direction == "max" else -1.0
-    accounts = [account(case, user) for user in left]
-    met = [one for one in accounts if one.included is not None and one.included.is_usable]
-    best = max(met, key=lambda one: sign * one.included.value if one.included else 0.0, default=accounts[0])
-    return _head(case, best, called(language, case.estimate.user_names[best.user]), language)
+    return _head(case, found, called(language, case.estimate.user_names[found.user]), language)
 
 
 def _head(case: Case, found: Account, name: str, language: str) -> str:
@@ -98,7 +92,7 @@ def _served(case: Case, found: Account, language: str) -> list[str]:
         low, high = (human(float(one[user]), "bit/s") for one in (forecast.low_bps, forecast.high_bps))
         said += [message(language, "account.band", low=low, high=high)] if low != high else []
     if found.promised_bps > 0:
-        price = abs(float(marginal_prices(case).rate[user])) * _STEP_BPS
+        price = found.price_per_bps * _STEP_BPS
         exactly = not found.rate_bps > found.promised_bps * _FACTOR
         key = "account.beyond" if not price > 0 else "account.binds" if exactly else "account.above"
         promised, cost = human(found.promised_bps, "bit/s"), human(price, case.decision.unit)

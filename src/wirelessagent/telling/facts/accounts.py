@@ -13,6 +13,7 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.telling.facts.bids import Bids, bids
 from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.marginal_prices import marginal_prices
 from wirelessagent.telling.facts.steps import Step, promise_step
 
 Standing: TypeAlias = Literal[
@@ -72,6 +73,7 @@ class Account:
         subcarriers: how many carry its power.
         resting: how many of them rest on a gain that was not measured.
         promised_bps: what it must get; 0 for no promise.
+        price_per_bps: what one bit/s more promised to it costs at the margin, where it is served and promised a rate.
         repaired, entries: gains of its own that were not measured, and all.
         losses: groups that it came closest to winning, the closest first.
         winning_gain_db: by how much all its gains would have to be higher for it to get something, by solving anew.
@@ -87,6 +89,7 @@ class Account:
     subcarriers: int = 0
     resting: int = 0
     promised_bps: float = 0.0
+    price_per_bps: float = 0.0
     repaired: int = 0
     entries: int = 0
     losses: tuple[Loss, ...] = ()
@@ -117,17 +120,30 @@ def share(case: Case, user: int) -> Account:
     """The account of a user, from 0, without what would have won it something."""
     decision, estimate = case.decision, case.estimate
     own = (decision.owner == user) & (decision.power_w > 0)
+    standing, promised = _standing(case, user, bool(own.any())), float(case.promised_bps[user])
+    priced = standing == "served" and promised > 0
     return Account(
         user=user,
-        standing=_standing(case, user, bool(own.any())),
+        standing=standing,
+        price_per_bps=abs(float(marginal_prices(case).rate[user])) if priced else 0.0,
         rate_bps=float(case.rate_bps[user]),
         power_w=float(decision.power_w[own].sum()),
         subcarriers=int(own.sum()),
         resting=int((own & estimate.repaired[user]).sum()),
-        promised_bps=float(case.promised_bps[user]),
+        promised_bps=promised,
         repaired=int(estimate.repaired[user].sum()),
         entries=estimate.num_subcarriers,
     )
+
+
+def newcomer(case: Case) -> Account | None:
+    """The account of the user with whom the value is best of those who are left out; None where nobody is."""
+    left = [int(user) for user in np.flatnonzero(~case.served)]
+    sign = 1.0 if case.objective.direction == "max" else -1.0
+    accounts = [account(case, user) for user in left]
+    met = [one for one in accounts if one.included is not None and one.included.is_usable]
+    first = accounts[0] if accounts else None
+    return max(met, key=lambda one: sign * one.included.value if one.included else 0.0, default=first)
 
 
 def _included(case: Case, user: int) -> Decision:

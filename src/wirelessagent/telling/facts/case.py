@@ -22,6 +22,8 @@ from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.problem import Problem
 
+_ROUNDING = 1e-9
+
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
@@ -70,6 +72,11 @@ class Case:
     def promised_bps(self) -> FloatArray:
         """The rate that each served user must get, shape (user,)."""
         return np.where(self.served, self.problem.min_rates_bps(self.num_users), 0.0)
+
+    @property
+    def spends_all(self) -> bool:
+        """Whether the whole budget is used."""
+        return self.decision.total_power_w >= self.problem.budget_w(self.cell) * (1 - _ROUNDING)
 
     @property
     def rate_bps(self) -> FloatArray:

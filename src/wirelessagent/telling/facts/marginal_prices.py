@@ -17,7 +17,6 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.telling.facts.case import Case
 
-_ROUNDING = 1e-9
 FIRST_BPS = 1e3
 """A promise so low that its price is that of the first bits."""
 
@@ -48,8 +47,7 @@ def marginal_prices(case: Case) -> MarginalPrices:
         rate = rate if rate.size else priced.price_of_rate
     if not rate.size:
         rate = np.full(case.num_users, np.nan if case.promised_bps.any() else 0.0)
-    spent, budget = decision.total_power_w, case.problem.budget_w(case.cell)
-    return MarginalPrices(power=power, rate=rate, binds=spent >= budget * (1 - _ROUNDING))
+    return MarginalPrices(power=power, rate=rate, binds=case.spends_all)
 
 
 def prices_of_promises(case: Case, users: IntArray) -> FloatArray:

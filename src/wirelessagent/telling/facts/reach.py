@@ -14,11 +14,13 @@ from wirelessagent import chain
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
 from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.steps import Step
 
 _ACCURACY = 1e-3
 _FARTHEST = 1e4
 """How many times more or less than the budget is tried."""
 _STRIDE = 4.0
+_NOTHING = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,6 +49,14 @@ def for_the_total(case: Case) -> Case:
     """The case of the highest total rate under the same limits: what a total takes at least, whatever the aim is."""
     problem = chain.resolve(dataclasses.replace(case.problem, objective="max_rate", weights=None))
     return dataclasses.replace(case, decision=case.otherwise(problem), method=None, options={})
+
+
+def kept_by(case: Case, step: Step) -> Reach | None:
+    """What power would keep the value where it was in spite of what more is promised; None where that is no matter."""
+    if step.of_power or not has_reach(case) or step.change >= -_NOTHING * abs(step.before.value):
+        return None
+    found = reach(case, step.before.value, step.problem)
+    return None if np.isnan(found.power_w) else found
 
 
 def reach(case: Case, target: float, problem: Problem | None = None) -> Reach:

@@ -116,8 +116,16 @@ def promise_step(case: Case, user: int, rate_bps: float) -> Step:
     return _promised(case, promised, np.array([user]), step)
 
 
-def without_ceilings(case: Case) -> tuple[tuple[int, ...], Decision] | None:
-    """The users who have all that they may have, and the decision if they might have more; None where nobody has."""
+@dataclass(frozen=True, kw_only=True)
+class WithoutCeilings:
+    """Users who have all that they may have, and the decision if they might have more."""
+
+    users: tuple[int, ...]
+    decision: Decision
+
+
+def without_ceilings(case: Case) -> WithoutCeilings | None:
+    """What those who have all that they may have would get; None where nobody has."""
     decision, most = case.decision, case.problem.max_rates_bps(case.num_users)
     full = np.flatnonzero(case.served & np.isfinite(most) & (decision.rate_bps >= most * (1 - _AT_THE_CEILING)))
     if not full.size:
@@ -126,7 +134,7 @@ def without_ceilings(case: Case) -> tuple[tuple[int, ...], Decision] | None:
     without[full] = np.inf
     limited = bool(np.isfinite(without).any())
     problem = dataclasses.replace(case.problem, max_rate_bps=without if limited else None)
-    return tuple(int(user) for user in full), case.otherwise(problem)
+    return WithoutCeilings(users=tuple(int(user) for user in full), decision=case.otherwise(problem))
 
 
 def _promised(case: Case, promised: FloatArray, users: IntArray, step: float) -> Step:
