@@ -9,6 +9,11 @@ from pathlib import Path
 
 import pytest
 
+import wirelessagent as wa
+from wirelessagent.agent.session import Session
+from wirelessagent.language.conversation import understood
+from wirelessagent.language.offline import OfflineRecogniser
+from wirelessagent.language.recogniser import Context
 from wirelessagent.telling.catalogue import called, has_message, joined, languages, message, messages
 
 PACKAGE = Path(__file__).parents[2] / "src" / "wirelessagent"
@@ -80,6 +85,49 @@ def test_every_message_can_be_said(language: str) -> None:
 @pytest.mark.parametrize("key", KEYS)
 def test_every_message_is_said_somewhere(key: str) -> None:
     assert is_used(key) or key in _BY_NAME
+
+
+_QUOTED = {"zh": "“([^”]+)”", "es": "«([^»]+)»", "fr": "« ([^»]+) »", "de": "„([^“]+)“", "en": "'([^']{2,60})'"}
+"""What the agent tells people that they may say."""
+_NOT_FOR_THE_READER = {"quit"}
+_HELD = Context(
+    objective="max_rate",
+    constraints={"max_power_w": 10.0},
+    user_names=tuple(f"user {number}" for number in range(1, 9)),
+)
+
+
+@pytest.mark.parametrize("language", sorted(languages()))
+def test_what_people_are_told_to_say_is_understood(language: str) -> None:
+    texts = [
+        text for key, text in messages(language).items() if key.startswith(("assumed", "plan", "reply", "refused"))
+    ]
+    texts.append(messages(language)["about.help"])
+    offered = {said for text in texts for said in re.findall(_QUOTED[language], text) if "{" not in said}
+    assert len(offered) >= 5
+    read = {said: understood(said, _HELD, OfflineRecogniser()) for said in offered}
+    unclear = {said for said, intent in read.items() if intent.kind in ("clarify", "out_of_scope")}
+    assert unclear <= _NOT_FOR_THE_READER
+
+
+@pytest.mark.parametrize(
+    ("language", "wish", "change"),
+    [
+        ("es", "máxima tasa total, como máximo 10 W", "al menos 100 Mbit/s para cada usuario"),
+        ("fr", "débit total maximal, au plus 10 W", "au moins 100 Mbit/s pour chaque utilisateur"),
+        ("de", "höchste Gesamtrate, höchstens 10 W", "mindestens 100 Mbit/s für jeden Nutzer"),
+    ],
+)
+def test_spanish_french_and_german_operators_are_answered_in_their_language(
+    language: str, wish: str, change: str
+) -> None:
+    scene = wa.simulate("rayleigh", wa.Cell(max_power_w=20), num_users=4, num_subcarriers=8, seed=6)
+    session = Session(scene, seed=1)
+    replies = [session.say(line).reply for line in (wish, change)]
+    assert message(language, "status.optimal") in replies[0].lower()
+    assert message(language, "status.infeasible") in replies[1].lower()
+    for reply in replies:
+        assert not re.search(r"\b(?:the|of|and|is|with|radiated|users?|rates?)\b", reply), reply
 
 
 def test_a_language_that_has_no_message_falls_back_to_english() -> None:
