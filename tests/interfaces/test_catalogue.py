@@ -19,7 +19,7 @@ from wirelessagent.telling.catalogue import called, has_message, joined, languag
 PACKAGE = Path(__file__).parents[2] / "src" / "wirelessagent"
 KEYS = sorted(messages("en"))
 
-_BY_NAME = {key for key in KEYS if key.startswith(("name.", "term."))}
+_BY_NAME = {key for key in KEYS if key.startswith(("name.", "legend.", "term."))}
 """Said for whatever has that name, or is asked about."""
 
 
