@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from wirelessagent.deciding.core.certificate import certified
     from wirelessagent.deciding.core.normal_form import NormalForm
     from wirelessagent.deciding.method import Method
-    from wirelessagent.explain.report import Report, report
     from wirelessagent.kernels import kernel
     from wirelessagent.model import units
     from wirelessagent.model.batch_decision import BatchDecision
@@ -57,6 +56,7 @@ if TYPE_CHECKING:
     from wirelessagent.sensing import loss
     from wirelessagent.sensing.files import read
     from wirelessagent.sensing.source import ChannelSource
+    from wirelessagent.telling.report import Report, report
 
 __version__ = "0.2.0"
 
@@ -85,7 +85,7 @@ _HOMES = {
     "Prices": "model.decision",
     "Problem": "model.problem",
     "Repairer": "repairing.repairer",
-    "Report": "explain.report",
+    "Report": "telling.report",
     "Run": "agent.turn",
     "Scene": "model.scene",
     "Session": "agent.session",
@@ -107,7 +107,7 @@ _HOMES = {
     "plugins": "",
     "read": "sensing.files",
     "repair": "chain",
-    "report": "explain.report",
+    "report": "telling.report",
     "simulate": "chain",
     "testing": "",
     "units": "model",

@@ -13,9 +13,9 @@ import wirelessagent as wa
 from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.restating import restated
 from wirelessagent.agent.turn import Turn
-from wirelessagent.explain.report import cannot_be_served
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.units import human
+from wirelessagent.telling.parts import cannot_be_served
 
 _FIGURE_OR_UNIT = re.compile(r"Mbit|kbit|bit|µW|mW|MW|kW|dB|Hz|Jain|PF|ts28312|tmf921|TMF921|TS|GPP|quit|CSI")
 

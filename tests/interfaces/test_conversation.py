@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import string
 from collections.abc import Mapping
 from typing import Any
 
@@ -14,7 +13,6 @@ from hypothesis import strategies as st
 from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
-from wirelessagent.agent.turn_words import all_turn_words
 from wirelessagent.language.conversation import understood
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import Intent
@@ -467,17 +465,6 @@ def test_who_read_a_line_is_told_in_plain_words() -> None:
 
 def _fields(intent: Intent) -> dict[str, Any]:
     return {name: getattr(intent, name) for name in intent.__dataclass_fields__}
-
-
-def test_both_languages_tell_the_same_of_turns() -> None:
-    english, chinese = all_turn_words()
-    assert english.keys() == chinese.keys()
-    for key, sentence in english.items():
-        assert _names(sentence) == _names(chinese[key]), key
-
-
-def _names(sentence: str) -> set[str]:
-    return {name for _, name, _, _ in string.Formatter().parse(sentence) if name}
 
 
 _WORDS = (

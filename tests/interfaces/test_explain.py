@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.agent.figures import certificate_line
 from wirelessagent.deciding.objectives.max_rate import MaxRate
 from wirelessagent.deciding.objectives.proportional_fairness import ProportionalFairness
-from wirelessagent.explain.words import explain
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.explanation import explain
 
 SCENE = wa.simulate("rayleigh", num_users=4, seed=1)
 ESTIMATE = wa.perfect(SCENE)

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.tables import decision_tables
-from wirelessagent.explain.user_words import share_answer
-from wirelessagent.explain.words import explain
 from wirelessagent.interfaces.cli import run
+from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.tables import decision_tables
+from wirelessagent.telling.user_account import share_answer
 
 
 @pytest.fixture(autouse=True)

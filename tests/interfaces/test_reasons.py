@@ -9,18 +9,19 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.agent.figures import certificate_line, side_by_side
+from wirelessagent.agent.figures import side_by_side
 from wirelessagent.agent.session import ask
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
-from wirelessagent.explain.nearest import nearest
-from wirelessagent.explain.nearest_words import nearest_answer
-from wirelessagent.explain.reasons import reason_in_words
-from wirelessagent.explain.shortage import shortage_of
-from wirelessagent.explain.tables import figures_of_infeasibility
-from wirelessagent.explain.words import explain
 from wirelessagent.model.decision import Bracket
 from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import called
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.nearest import nearest
+from wirelessagent.telling.facts.shortage import shortage_of
+from wirelessagent.telling.reasons import reason_in_words
+from wirelessagent.telling.remedies import nearest_answer
+from wirelessagent.telling.tables import figures_of_infeasibility
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)

@@ -17,10 +17,10 @@ from wirelessagent.deciding.core.program import Program
 from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.deciding.objectives.max_rate import MaxRate
 from wirelessagent.deciding.objectives.min_power import MinPower
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.proof_words import certificate_answer
-from wirelessagent.explain.words import explain
 from wirelessagent.model.errors import PluginError, UnsupportedProblemError
+from wirelessagent.telling.certificates import certificate_answer
+from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.facts.case import Case
 from wirelessagent.testing.judge import verdict_on
 from wirelessagent.testing.kinked import KinkedLogarithm
 

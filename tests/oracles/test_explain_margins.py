@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.explain.bids import bids, contests
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.contested import contested
-from wirelessagent.explain.users import account
+from wirelessagent.telling.facts.accounts import account
+from wirelessagent.telling.facts.bids import bids, contests
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.contests import contested
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)

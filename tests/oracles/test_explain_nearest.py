@@ -10,9 +10,9 @@ import pytest
 from scipy.optimize import brentq
 
 import wirelessagent as wa
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.nearest import Nearest, nearest
 from wirelessagent.model.arrays import FloatArray
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.nearest import Nearest, nearest
 
 CELL = wa.Cell(max_power_w=5.0)
 USERS, SUBCARRIERS = 3, 5
@@ -128,7 +128,7 @@ def _second(_case: Case, rest: list[int], _left: list[int]) -> int:
 
 
 def test_a_bad_order_is_mended_by_trying_all(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("wirelessagent.explain.nearest._dearest", _cheapest)
+    monkeypatch.setattr("wirelessagent.telling.facts.nearest._dearest", _cheapest)
     answer = found(1)[2].fewer_users
     assert answer is not None
     assert answer.left_out == (0,)
@@ -136,8 +136,8 @@ def test_a_bad_order_is_mended_by_trying_all(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_whoever_fits_after_all_is_taken_back(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("wirelessagent.explain.nearest._dearest", _second)
-    monkeypatch.setattr("wirelessagent.explain.nearest._MOST_SETS", 0)
+    monkeypatch.setattr("wirelessagent.telling.facts.nearest._dearest", _second)
+    monkeypatch.setattr("wirelessagent.telling.facts.nearest._MOST_SETS", 0)
     answer = found(3)[2].fewer_users
     assert answer is not None
     assert answer.left_out == (2,)
@@ -145,7 +145,7 @@ def test_whoever_fits_after_all_is_taken_back(monkeypatch: pytest.MonkeyPatch) -
 
 def test_what_was_not_tried_is_not_said_to_be_proven(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found(2)[2].fewer_users.is_fewest  # type: ignore[union-attr]
-    monkeypatch.setattr("wirelessagent.explain.nearest._MOST_SETS", 0)
+    monkeypatch.setattr("wirelessagent.telling.facts.nearest._MOST_SETS", 0)
     answer = found(2)[2].fewer_users
     assert answer is not None
     assert len(answer.left_out) == 2

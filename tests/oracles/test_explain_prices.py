@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.prices import FIRST_BPS, marginal_prices, prices_of_promises
-from wirelessagent.explain.steps import power_step, promise_step, rate_step
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.marginal_prices import FIRST_BPS, marginal_prices, prices_of_promises
+from wirelessagent.telling.facts.steps import power_step, promise_step, rate_step
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.explain.answering import answered
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.reaching import for_the_total, has_reach, reach
-from wirelessagent.explain.steps import rate_step
 from wirelessagent.model.units import human
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.reach import for_the_total, has_reach, reach
+from wirelessagent.telling.facts.steps import rate_step
+from wirelessagent.telling.questions import answered
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import string
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,16 +11,16 @@ import pytest
 import wirelessagent as wa
 from wirelessagent import plugins
 from wirelessagent.deciding.objectives.max_rate import MaxRate
-from wirelessagent.explain import glossary, lexicon, nearest_words, proof_words, reasons, step_words, user_words
-from wirelessagent.explain.answering import answered
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.labels import called
-from wirelessagent.explain.nearest import nearest
-from wirelessagent.explain.proof import certificate
-from wirelessagent.explain.steps import power_step, rate_step
-from wirelessagent.explain.users import account
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human, percent
+from wirelessagent.telling import glossary
+from wirelessagent.telling.catalogue import called, message
+from wirelessagent.telling.facts.accounts import account
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.nearest import nearest
+from wirelessagent.telling.facts.proof import certificate
+from wirelessagent.telling.facts.steps import power_step, rate_step
+from wirelessagent.telling.questions import answered
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
@@ -39,18 +38,6 @@ def told(case: Case, topic: str, language: str = "en", user: int | None = None, 
     assert found is not None
     assert any("\u4e00" <= sign <= "\u9fff" for sign in found[0]) == (language == "zh") or not found[0]
     return found[0]
-
-
-def places(sentence: str) -> set[str]:
-    return {name for _, name, _, _ in string.Formatter().parse(sentence) if name is not None}
-
-
-@pytest.mark.parametrize("module", [lexicon, nearest_words, proof_words, reasons, step_words, user_words])
-def test_both_languages_say_the_same(module: Any) -> None:
-    words = module.WORDS
-    assert words.english.keys() == words.chinese.keys()
-    for key, sentence in words.english.items():
-        assert places(sentence) == places(words.chinese[key]), key
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -160,7 +147,7 @@ def test_how_sure_it_is_comes_from_the_posterior(language: str) -> None:
     assert f"{int(SEEN.repaired.sum())}" in said
     assert human(forecast.sum_high_bps, "bit/s") in said
     sure = case_of("max_rate", wa.perfect(SCENE))
-    assert told(sure, "uncertainty", language) == proof_words.WORDS.say(language, "all_known")
+    assert told(sure, "uncertainty", language) == message(language, "certainty.all_known")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -203,11 +190,10 @@ def test_terms_are_found_as_people_say_them() -> None:
 
 
 def test_every_term_is_found_by_each_of_its_names_and_told_in_both_languages() -> None:
-    for entry in (*glossary.ENTRIES, *glossary.objectives()):
-        assert any("\u4e00" <= sign <= "\u9fff" for sign in entry.zh)
+    for entry in glossary.entries():
+        assert any("\u4e00" <= sign <= "\u9fff" for sign in entry.told("zh"))
         for name in entry.names:
-            assert glossary.explained(name, "en"), name
-            assert entry.en in glossary.explained(name, "en"), name
+            assert entry.told("en") in glossary.explained(name, "en"), name
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,8 +22,6 @@ import numpy as np
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.run import with_outcome
 from wirelessagent.agent.turn import Run
-from wirelessagent.agent.words import say
-from wirelessagent.explain.report import name_of_figure
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
@@ -31,6 +29,8 @@ from wirelessagent.model.metrics import RATE_TOLERANCE
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.parts import name_of_figure
 
 TOLERANCE = 0.1
 """Share by which what is achieved may fall short of what was promised or of what there was before."""
@@ -76,7 +76,7 @@ def carry_out(run: Run, station: BaseStation, last_good: Run | None, tolerance: 
         try:
             done = with_outcome(run, outcome)
         except Exception:  # noqa: BLE001  # figures of any kind may be read back
-            outcome, failure = None, say(language, "misread", station=station.name)
+            outcome, failure = None, message(language, "station.misread", station=station.name)
     amiss = [failure] if outcome is None else _differences(run.decision, outcome, station, language)
     faults = list(amiss)
     if outcome is not None and not amiss:
@@ -86,7 +86,7 @@ def carry_out(run: Run, station: BaseStation, last_good: Run | None, tolerance: 
     try:
         restored, trouble = put_back(last_good, station, language)
     except InputError as error:  # something was applied before, so what is in effect has to be told
-        restored, trouble = None, say(language, "station_failed", station=station.name, why=_plain(error))
+        restored, trouble = None, message(language, "station.failed", station=station.name, why=_plain(error))
     return Effect(run=done, faults=tuple(faults), restored=restored, trouble=trouble, as_decided=not amiss)
 
 
@@ -121,9 +121,9 @@ def _applied(station: BaseStation, decision: Decision, language: str) -> tuple[O
     except InputError:  # what it was made with, or was given, cannot be used; nothing was touched
         raise
     except (Exception, SystemExit) as error:  # noqa: BLE001  # equipment of any make must not end the conversation
-        return None, say(language, "station_failed", station=station.name, why=_plain(error))
+        return None, message(language, "station.failed", station=station.name, why=_plain(error))
     if not _is_readable(outcome, decision):
-        return None, say(language, "misread", station=station.name)
+        return None, message(language, "station.misread", station=station.name)
     return outcome, ""
 
 
@@ -163,16 +163,16 @@ def _differences(decision: Decision, outcome: Outcome, station: BaseStation, lan
     """How what was read back differs from what was decided, beyond the steps in which the base station sets power."""
     count = decision.owner.size
     if outcome.owner.shape != decision.owner.shape or outcome.power_w.shape != decision.power_w.shape:
-        return [say(language, "other_shape", read=outcome.owner.size, planned=count)]
+        return [message(language, "station.other_shape", read=outcome.owner.size, planned=count)]
     found: list[str] = []
     away = np.abs(outcome.power_w - decision.power_w)
     off = np.where(away <= station.power_resolution_w, 0.0, away)
     if not off.sum() <= _SAME_POWER * decision.total_power_w:  # NaN is a difference too
         read, planned = float(outcome.power_w.sum()), decision.total_power_w
-        found.append(say(language, "other_power", read=human(read, "W"), planned=human(planned, "W")))
+        found.append(message(language, "station.other_power", read=human(read, "W"), planned=human(planned, "W")))
     moved = int(np.count_nonzero((_in_use(outcome) != _in_use(decision)) & (outcome.power_w > 0)))
     if moved:
-        found.append(say(language, "other_owner", moved=moved, total=count))
+        found.append(message(language, "station.other_owner", moved=moved, total=count))
     return found
 
 
@@ -185,12 +185,12 @@ def _broken_promises(decision: Decision, outcome: Outcome, tolerance: float, lan
     total = float(decision.committed_bps.sum())
     if not carried >= total * (1 - tolerance):  # NaN is not kept
         short, of = percent(1 - carried / total), human(total, "bit/s")
-        found.append(say(language, "too_little", carried=human(carried, "bit/s"), promised=of, short=short))
+        found.append(message(language, "station.too_little", carried=human(carried, "bit/s"), promised=of, short=short))
     outage = decision.problem.outage_probability
     unknown = np.isnan(outcome.achieved.user_rate_bps) & (promised > 0)
     missed, served = int(np.count_nonzero(outcome.missed | unknown)), int(np.count_nonzero(promised > 0))
     if outage is not None and missed and _chance(missed, served, outage) < _UNLIKELY:
-        found.append(say(language, "too_many", missed=missed, served=served, sure=reliability(outage)))
+        found.append(message(language, "station.too_many", missed=missed, served=served, sure=reliability(outage)))
     return found
 
 
@@ -217,8 +217,10 @@ def _worse(run: Run, good: Run | None, tolerance: float) -> list[str]:
     if lost <= 0:  # NaN is worse
         return []
     language, unit = run.intent.language, run.decision.unit
-    figure = name_of_figure(run.decision, language) or say(language, "value")
-    return [say(language, "worse_than_before", figure=figure, now=human(now, unit), before=human(before, unit))]
+    figure = name_of_figure(run.decision, language) or message(language, "text.value")
+    return [
+        message(language, "station.worse_than_before", figure=figure, now=human(now, unit), before=human(before, unit))
+    ]
 
 
 def _worth(run: Run, outcome: Outcome) -> float:

@@ -1,4 +1,4 @@
-"""Questions about a decision, answered by what :mod:`wirelessagent.explain` computes."""
+"""Questions about a decision, answered by what :mod:`wirelessagent.telling` computes."""
 
 from __future__ import annotations
 
@@ -6,19 +6,17 @@ import numpy as np
 
 from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.turn import Run
-from wirelessagent.agent.turn_words import told
-from wirelessagent.explain.answering import answered
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.channel_words import gain_answer
-from wirelessagent.explain.glossary import explained
-from wirelessagent.explain.labels import called
-from wirelessagent.explain.limits import limits_answer
-from wirelessagent.explain.roster import owner_answer, rank_answer, subcarriers_answer
-from wirelessagent.explain.table import Table
-from wirelessagent.explain.tables import user_table
-from wirelessagent.explain.words import explain
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import called, message
+from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.glossary import explained
+from wirelessagent.telling.prices import limits_answer
+from wirelessagent.telling.questions import answered
+from wirelessagent.telling.roster import gain_answer, owner_answer, rank_answer, subcarriers_answer
+from wirelessagent.telling.tables import user_table
+from wirelessagent.telling.text_table import Table
 
 
 def explanation(run: Run, language: str) -> str:
@@ -66,7 +64,7 @@ def _looked_up(case: Case, intent: Intent, user_names: tuple[str, ...]) -> str:
     if intent.details["asked"] == "limits":
         return limits_answer(case, language)
     if intent.details["asked"] == "duration":
-        return told(language, "no_duration", method=called(language, case.decision.method))
+        return message(language, "about.no_duration", method=called(language, case.decision.method))
     return gain_answer(case, _user(intent, user_names), int(place) if isinstance(place, float) else None, language)
 
 
@@ -93,7 +91,7 @@ def _dearest(case: Case, language: str) -> str:
         return ""
     user = int(rated[np.argmax(power_w[rated] / decision.rate_bps[rated])])
     rate, power = human(float(decision.rate_bps[user]), "bit/s"), human(float(power_w[user]), "W")
-    return told(language, "dearest", user=called(language, decision.user_names[user]), rate=rate, power=power)
+    return message(language, "about.dearest", user=called(language, decision.user_names[user]), rate=rate, power=power)
 
 
 def _user(intent: Intent, user_names: tuple[str, ...]) -> int | None:

@@ -9,7 +9,7 @@ from datetime import datetime
 from typing import cast
 
 from wirelessagent.agent import answers, comparing
-from wirelessagent.agent.figures import certificate_line, side_by_side
+from wirelessagent.agent.figures import side_by_side
 from wirelessagent.agent.premises import corrected
 from wirelessagent.agent.refusing import able
 from wirelessagent.agent.restating import restated
@@ -17,14 +17,13 @@ from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.supposing import what_if
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.agent.turn_words import told
-from wirelessagent.agent.words import joined, say
-from wirelessagent.explain.labels import called, worded
-from wirelessagent.explain.table import Table
-from wirelessagent.explain.tables import decision_tables
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.tables import decision_tables
+from wirelessagent.telling.text_table import Table
 
 _SHOWN = 60
 """Characters of a sentence that the history shows."""
@@ -34,7 +33,7 @@ def compare(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> 
     """The decision that holds beside the last other one, or beside what other methods and repairers make of it."""
     language = intent.language
     if state.run is None or state.request is None:
-        return Reply(text=say(language, "nothing_yet"))
+        return Reply(text=message(language, "refused.nothing_yet"))
     others = comparing.alternatives(state.request, intent)
     if others:
         return comparing.beside(site, state.run, intent, others, noted=state.noted)
@@ -50,13 +49,13 @@ def _with_last(run: Run, language: str, turns: Sequence[Turn]) -> Reply:
     own = next((turn.number for turn in reversed(made) if _same(turn.run, run)), len(turns))
     earlier = [turn for turn in made if not _same(turn.run, run)]
     if not earlier:
-        return Reply(text=say(language, "nothing_to_compare"))
+        return Reply(text=message(language, "compared.nothing"))
     last = earlier[-1]
     assert last.run is not None
     columns = [
-        (say(language, "turn_column", number=number), one) for number, one in ((own, run), (last.number, last.run))
+        (message(language, "turn.column", number=number), one) for number, one in ((own, run), (last.number, last.run))
     ]
-    text = say(language, "compared_last", turn=last.number, line=certificate_line(last.run.decision, language))
+    text = message(language, "compared.last", turn=last.number, line=certificate_line(last.run.decision, language))
     return Reply(text=text, tables=(side_by_side(columns, language),))
 
 
@@ -69,36 +68,38 @@ def status(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> R
     """What is asked for, what was decided, and what is in effect."""
     language = intent.language
     if state.request is None and state.on_air is None and not site.touched:
-        return Reply(text=say(language, "status_none"))
+        return Reply(text=message(language, "in_effect.none"))
     said: list[str] = []
     if state.request is not None:
-        said.append(say(language, "status", request=restated(state.request, language)))
+        said.append(message(language, "in_effect.asked_for", request=restated(state.request, language)))
     if state.run is not None:
-        said.append(say(language, "status_run", certificate=certificate_line(state.run.decision, language)))
+        said.append(message(language, "in_effect.decided", certificate=certificate_line(state.run.decision, language)))
     unknown = state.on_air is None and site.touched
     said.append(_unknown(site.read_last, language) if unknown else _on_air(state.on_air, language, turns))
     if state.planned is not None:
-        said.append(say(language, "status_waits"))
+        said.append(message(language, "in_effect.waits"))
     return Reply(text="\n".join(said))
 
 
 def _unknown(read: Outcome | None, language: str) -> str:
     """That it is not known what is in effect, and what was read back last."""
     if read is None:
-        return say(language, "status_unknown", read=say(language, "status_read_nothing"))
+        return message(language, "in_effect.unknown", read=message(language, "in_effect.read_nothing"))
     used, total = int((read.power_w > 0).sum()), read.power_w.size
     power = human(float(read.power_w.sum()), "W")
-    return say(language, "status_unknown", read=say(language, "status_read", power=power, used=used, total=total))
+    return message(
+        language, "in_effect.unknown", read=message(language, "in_effect.read", power=power, used=used, total=total)
+    )
 
 
 def _on_air(run: Run | None, language: str, turns: Sequence[Turn]) -> str:
     if run is None:
-        return say(language, "status_off_air")
+        return message(language, "in_effect.off_air")
     number = next((turn.number for turn in reversed(turns) if turn.run is run), len(turns))
     promised = run.decision.rate_bps if run.outcome is None else run.outcome.promised_bps
     served = int((promised > 0).sum())
-    return say(
-        language, "status_on_air_one" if served == 1 else "status_on_air", turn=number, served=served,
+    return message(
+        language, "in_effect.on_air_one" if served == 1 else "in_effect.on_air", turn=number, served=served,
         power=human(run.decision.total_power_w, "W"), rate=human(float(promised.sum()), "bit/s"),
     )  # fmt: skip
 
@@ -107,20 +108,20 @@ def history(intent: Intent, turns: Sequence[Turn]) -> Reply:
     """The turns so far, or one of them."""
     language, number = intent.language, intent.details.get("number")
     if not turns:
-        return Reply(text=say(language, "history_none"))
+        return Reply(text=message(language, "turn.none"))
     if number is None:
         rows = tuple(
-            (str(turn.number), _short(turn.text), say(language, f"{turn.stage}_stage"), _value(turn.run))
+            (str(turn.number), _short(turn.text), message(language, f"came_to.{turn.stage}"), _value(turn.run))
             for turn in turns
         )
-        columns = tuple(worded(language, label) for label in ("turn", "said", "came to", "value"))
-        table = Table(title=say(language, "history_title"), columns=columns, rows=rows)
-        return Reply(text=say(language, "history_so_far", count=len(turns)), tables=(table,))
+        columns = tuple(message(language, f"label.{label}") for label in ("turn", "said", "came_to", "value"))
+        table = Table(title=message(language, "turn.title"), columns=columns, rows=rows)
+        return Reply(text=message(language, "turn.so_far", count=len(turns)), tables=(table,))
     chosen = next((turn for turn in turns if turn.number == number), None)
     if chosen is None:
         asked = f"{cast(float, number):g}"
-        return Reply(text=say(language, "history_unknown", number=asked, last=len(turns)), stage="asked")
-    text = say(language, "history_turn", number=chosen.number, text=_short(chosen.text), reply=chosen.reply)
+        return Reply(text=message(language, "turn.unknown", number=asked, last=len(turns)), stage="asked")
+    text = message(language, "turn.said", number=chosen.number, text=_short(chosen.text), reply=chosen.reply)
     return Reply(text=text, tables=chosen.tables)
 
 
@@ -137,7 +138,7 @@ def explain(state: State, intent: Intent) -> Reply:
     """The decision that holds in words, with its tables."""
     run = state.run
     if run is None:
-        return Reply(text=say(intent.language, "nothing_yet"))
+        return Reply(text=message(intent.language, "refused.nothing_yet"))
     text = answers.explanation(run, intent.language)
     return Reply(text=text, tables=tuple(decision_tables(run.report, run.estimate, intent.language)))
 
@@ -149,11 +150,11 @@ def export(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
 
     language, name, run = intent.language, str(intent.details.get("format", "ts28312")), state.run
     if name not in ("ts28312", "tmf921"):
-        return Reply(text=say(language, "export_unknown", format=name), stage="asked")
+        return Reply(text=message(language, "ask_back.export_unknown", format=name), stage="asked")
     done = [turn for turn in turns if turn.stage not in ("answered", "asked")]
     made = [turn for turn in done if run is not None and _same(turn.run, run)]
     if run is None or not made:
-        return Reply(text=say(language, "nothing_yet"))
+        return Reply(text=message(language, "refused.nothing_yet"))
     last, on_air = made[-1], state.on_air
     subject = Subject(
         name=f"{last.session}-{last.number}",
@@ -185,19 +186,19 @@ def question(site: Site, state: State, intent: Intent, text: str) -> Reply:
     """A question about a term, or about the decision that holds; one that states figures is solved for them."""
     language, stated = intent.language, _wondered(intent)
     if intent.topic == "concept":
-        return Reply(text=answers.concept(text, language) or say(language, "help"))
+        return Reply(text=answers.concept(text, language) or message(language, "about.help"))
     if stated:
         return what_if(site, state, dataclasses.replace(intent, details={"constraints": stated}))
     if state.run is None:
-        return Reply(text=say(language, "nothing_yet"))
+        return Reply(text=message(language, "refused.nothing_yet"))
     run, spoken_of = _spoken_of(state.run, state.on_air, intent)
     if intent.details.get("listed") == "methods":
         decision = state.run.decision
-        used = told(language, "method_in_use", method=called(language, decision.method))
+        used = message(language, "about.method_in_use", method=called(language, decision.method))
         return Reply(text=joined(language, [used, able(decision.problem, language)]))
     said, tables = answers.answer(run, intent, site.user_names)
     said = joined(language, [one for one in (corrected(run, intent, text), said) if one])
-    return Reply(text=told(language, spoken_of, answer=said) if spoken_of else said, tables=tables)
+    return Reply(text=message(language, spoken_of, answer=said) if spoken_of else said, tables=tables)
 
 
 def _spoken_of(run: Run, on_air: Run | None, intent: Intent) -> tuple[Run, str]:
@@ -208,7 +209,7 @@ def _spoken_of(run: Run, on_air: Run | None, intent: Intent) -> tuple[Run, str]:
     if run.decision.is_usable or on_air is None or not on_air.decision.is_usable:
         return run, ""
     of_it = intent.topic in ("why_infeasible", "step", "what_if") or intent.details.get("listed") == "dearest"
-    return (run, "") if of_it else (on_air, "in_effect")
+    return (run, "") if of_it else (on_air, "about.in_effect")
 
 
 def _wondered(intent: Intent) -> dict[str, Constraint]:

@@ -16,14 +16,12 @@ from wirelessagent.agent.restating import goal_words
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply
 from wirelessagent.agent.turn import Run
-from wirelessagent.agent.turn_words import told
-from wirelessagent.agent.words import joined, say
-from wirelessagent.explain.labels import called
-from wirelessagent.explain.lexicon import outcome_in_words
-from wirelessagent.explain.reasons import reason_in_words
 from wirelessagent.language.acts import Act, Aim, limits
 from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
 from wirelessagent.model.units import human, reliability
+from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.parts import outcome_in_words
+from wirelessagent.telling.reasons import reason_in_words
 
 Column = tuple[str, Run]
 
@@ -55,9 +53,9 @@ def beside(site: Site, run: Run, intent: Intent, others: Sequence[tuple[str, Req
     language = intent.language
     columns = [(name, site.foreseen(site.plan(intent, request))) for name, request in others]
     if len(columns) == 1:
-        columns.insert(0, (say(language, "now_column"), site.foreseen(run)))
+        columns.insert(0, (message(language, "compared.now"), site.foreseen(run)))
     assumed = dict.fromkeys(note for _, one in columns for note in notes(one, noted=noted, before=run.notes))
-    text = joined(language, [*assumed, *lines(columns, language), say(language, "nothing_changed")])
+    text = joined(language, [*assumed, *lines(columns, language), message(language, "plan.nothing_changed")])
     return Reply(text=text, tables=(side_by_side(columns, language),))
 
 
@@ -75,21 +73,21 @@ def with_tools(site: Site, run: Run, request: Request, intent: Intent, names: Se
             sight = site.sight_by(tools, language)
         else:
             known = {f"{kind}s": ", ".join(plugins.names(kind)) for kind in ("method", "repairer")}
-            return Reply(text=say(language, "not_installed", name=name, **known), stage="asked")
+            return Reply(text=message(language, "ask_back.not_installed", name=name, **known), stage="asked")
         try:
             columns.append((name, site.foreseen(site.plan(intent, request, sight=sight, tools=tools))))
         except RefusedError as refusal:
             refusals.append(refusal.why)
-    listed = say(language, "comma").join(called(language, name) for name in names)
+    listed = message(language, "text.comma").join(called(language, name) for name in names)
     told_lines = lines(columns, language) if len(columns) > 1 else []
-    text = "\n".join([joined(language, [say(language, "compared", names=listed), *told_lines]), *refusals])
+    text = "\n".join([joined(language, [message(language, "compared.by", names=listed), *told_lines]), *refusals])
     return Reply(text=text, tables=(side_by_side(columns, language),) if len(columns) > 1 else ())
 
 
 def lines(columns: Sequence[Column], language: str) -> list[str]:
     """What each of the runs comes to, one sentence each."""
     return [
-        told(language, "column", name=_capital(called(language, name)), outcome=_outcome(run, language))
+        message(language, "compared.outcome", name=_capital(called(language, name)), outcome=_outcome(run, language))
         for name, run in columns
     ]
 
@@ -101,8 +99,8 @@ def _capital(name: str) -> str:
 def _outcome(run: Run, language: str) -> str:
     if run.decision.is_usable:
         return outcome_in_words(answers.case_of(run), run.decision, language)
-    return say(language, run.decision.status) + told(
-        language, "because", reason=reason_in_words(run.decision, language)
+    return message(language, f"status.{run.decision.status}") + message(
+        language, "compared.because", reason=reason_in_words(run.decision, language)
     )
 
 

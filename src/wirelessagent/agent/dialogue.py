@@ -86,7 +86,10 @@ class Diff:
     @property
     def gone(self) -> dict[str, Constraint]:
         """What no longer holds, and has nothing in its place."""
-        return constraints_of({(one.kind, one.user): one.before for one in self.changes if one.after is None})
+        return constraints_of({
+            (one.kind, one.user): one.before
+            for one in self.changes if one.after is None and one.before is not None
+        })  # fmt: skip
 
     def after(self, before: Request | None) -> Request | None:
         """The request that this diff makes of the one before it."""
@@ -132,7 +135,7 @@ def _after(request: Request | None, act: Act, radiated_w: float) -> Request | No
     if isinstance(act, Forget):
         return None
     if isinstance(act, Aim):
-        held = {} if request is None else request.constraints
+        held: Mapping[str, Constraint] = {} if request is None else request.constraints
         return Request(objective=act.objective, constraints=held, method=request and request.method)
     if request is None:
         return None

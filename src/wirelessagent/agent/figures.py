@@ -8,45 +8,23 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wirelessagent.agent.restating import goal_words
-from wirelessagent.agent.words import say
-from wirelessagent.explain.labels import called, worded
-from wirelessagent.explain.reasons import power_in_words, reason_in_words
-from wirelessagent.explain.report import cannot_be_served, name_of_figure
-from wirelessagent.explain.table import Table
-from wirelessagent.model.decision import Decision
-from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.model.units import human, percent
+from wirelessagent.telling.catalogue import called, message
+from wirelessagent.telling.parts import name_of_figure
+from wirelessagent.telling.reasons import power_in_words
+from wirelessagent.telling.text_table import Table
 
 if TYPE_CHECKING:
     from wirelessagent.agent.turn import Run
 
 
-def certificate_line(decision: Decision, language: str = "en") -> str:
-    """Status, value, bound and gap in one line."""
-    status, method = say(language, decision.status), called(language, decision.method)
-    if not decision.is_usable:
-        reason = reason_in_words(decision, language)
-        return say(language, "certificate_unusable", status=status, reason=reason, method=method)
-    value = say(
-        language, "figure", figure=name_of_figure(decision, language), value=human(decision.value, decision.unit)
-    ).strip()
-    if np.isnan(decision.gap):
-        return say(language, "certificate_no_bound", status=status, value=value, method=method)
-    outage = decision.problem.outage_probability
-    line = say(
-        language, "certificate" if outage is None else "certificate_outage", status=status, value=value, method=method,
-        bound=human(decision.bound, decision.unit), gap=percent(decision.gap), sure=reliability(outage or 0.0),
-    )  # fmt: skip
-    left_out = cannot_be_served(decision, language)
-    return say(language, "certificate_note", line=line, note=left_out) if left_out else line
-
-
 def side_by_side(runs: Sequence[tuple[str, Run]], language: str = "en") -> Table:
     """Runs beside each other: what each is worth, takes and keeps."""
-    columns = [worded(language, "figure"), *(called(language, name) for name, _ in runs)]
+    columns = [message(language, "label.figure"), *(called(language, name) for name, _ in runs)]
     cells = [_cells(run, language) for _, run in runs]
     known = [label for label in cells[0] if any(cell[label] != "–" for cell in cells)]
-    rows = [(worded(language, label), *(cell[label] for cell in cells)) for label in known]
-    return Table(title=worded(language, "Side by side"), columns=tuple(columns), rows=tuple(rows))
+    rows = [(message(language, f"label.{label}"), *(cell[label] for cell in cells)) for label in known]
+    return Table(title=message(language, "label.side_by_side"), columns=tuple(columns), rows=tuple(rows))
 
 
 def _cells(run: Run, language: str) -> dict[str, str]:
@@ -57,18 +35,18 @@ def _cells(run: Run, language: str) -> dict[str, str]:
     figure = name_of_figure(decision, language)
     served = decision.problem.serves(decision.rate_bps.size)
     value = human(decision.value, decision.unit)
-    value = worded(language, "{} ({})", value, figure) if figure else value
+    value = message(language, "label.with", value=value, beside=figure) if figure else value
     missed = "–" if run.outcome is None or run.outcome.achieved is None else str(int(run.outcome.missed.sum()))
     return {
         "objective": goal_words(objective.name, language),
-        "status": say(language, decision.status),
+        "status": message(language, f"status.{decision.status}"),
         "value": value if usable else "–",
         "bound": human(decision.bound, decision.unit),
         "gap": percent(decision.gap),
         "power": human(decision.total_power_w, "W") if usable else "–",
-        "power needed": "–" if need is None else power_in_words(need.at_least, language),
-        "Sum rate": human(float(decision.rate_bps.sum()), "bit/s") if usable else "–",
-        "lowest rate": human(float(decision.rate_bps[served].min()), "bit/s") if usable else "–",
-        "users served": str(int(np.count_nonzero(decision.rate_bps > 0))) if usable else "–",
-        "promises missed": missed,
+        "power_needed": "–" if need is None else power_in_words(need.at_least, language),
+        "sum_rate_bps": human(float(decision.rate_bps.sum()), "bit/s") if usable else "–",
+        "lowest_rate": human(float(decision.rate_bps[served].min()), "bit/s") if usable else "–",
+        "users_served": str(int(np.count_nonzero(decision.rate_bps > 0))) if usable else "–",
+        "promises_missed": missed,
     }

@@ -11,12 +11,11 @@ from wirelessagent.agent.noting import notes
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run
-from wirelessagent.agent.turn_words import told
-from wirelessagent.agent.words import joined, say
-from wirelessagent.explain.nearest import more_power
-from wirelessagent.explain.reasons import BEYOND_W, reason_in_words
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import joined, message
+from wirelessagent.telling.facts.nearest import more_power
+from wirelessagent.telling.reasons import BEYOND_W, reason_in_words
 
 _OTHER_AIMS = ("weights", "max_rate_bps", "max_power_w")
 """What the least power knows nothing of, or is asked for instead of."""
@@ -30,7 +29,7 @@ def needed(site: Site, state: State, intent: Intent) -> Reply:
     if not promises and isinstance(enough_w, float):
         return supposing.what_if(site, state, _limited(intent, enough_w))
     if not promises:
-        return Reply(text=told(language, "needs_nothing"))
+        return Reply(text=message(language, "needs.nothing"))
     limits: dict[str, Constraint] = {k: v for k, v in request.constraints.items() if k not in _OTHER_AIMS}
     run = site.plan(intent, Request(objective="min_power", constraints=limits))
     power_w = _power(run)
@@ -38,7 +37,7 @@ def needed(site: Site, state: State, intent: Intent) -> Reply:
     if isinstance(enough_w, float):
         said.append(_judged(run, power_w, enough_w, str(intent.details.get("judged")), language))
         said += _of_the_aim(site, state, request, intent, enough_w, power_w)
-    return Reply(text=joined(language, [*said, say(language, "nothing_changed")]), run=run)
+    return Reply(text=joined(language, [*said, message(language, "plan.nothing_changed")]), run=run)
 
 
 def _power(run: Run) -> float | None:
@@ -58,19 +57,23 @@ def _least(run: Run) -> float:
 
 def _taken(run: Run, power_w: float | None, language: str) -> str:
     if power_w is None:
-        return told(language, "needs_too_much", reason=reason_in_words(run.decision, language))
+        return message(language, "needs.too_much", reason=reason_in_words(run.decision, language))
     power, least = human(power_w, "W"), human(_least(run), "W")
-    said = told(language, "needs_exactly" if power == least else "needs", power=power, least=least)
+    said = message(language, "needs.exactly" if power == least else "needs.takes", power=power, least=least)
     limit = run.decision.cell.max_power_w
-    return said if power_w <= limit else joined(language, [said, told(language, "needs_more", limit=human(limit, "W"))])
+    return (
+        said
+        if power_w <= limit
+        else joined(language, [said, message(language, "needs.beyond_limit", limit=human(limit, "W"))])
+    )
 
 
 def _judged(run: Run, power_w: float | None, enough_w: float, asked: str, language: str) -> str:
     """Whether a power does."""
     if power_w is not None and enough_w >= power_w:
-        return told(language, f"{asked}_enough", enough=human(enough_w, "W"), power=human(power_w, "W"))
-    key = "not_enough" if enough_w < _least(run) or power_w is None else "perhaps_enough"
-    return told(language, key, enough=human(enough_w, "W"))
+        return message(language, f"needs.{asked}_enough", enough=human(enough_w, "W"), power=human(power_w, "W"))
+    key = "needs.not_enough" if enough_w < _least(run) or power_w is None else "needs.perhaps_enough"
+    return message(language, key, enough=human(enough_w, "W"))
 
 
 def _of_the_aim(

@@ -6,15 +6,15 @@ from collections.abc import Sequence
 
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY
 from wirelessagent.agent.turn import Run
-from wirelessagent.agent.words import say
 from wirelessagent.model.units import reliability
+from wirelessagent.telling.catalogue import message
 
 
 def notes(run: Run, *, noted: bool, before: Sequence[str] = ()) -> list[str]:
     """The notes of a run as sentences, without those of ``before`` and, where it was ``noted``, without the 95 %."""
     language = run.intent.language
     known = {*before, *([_assumed(language)] if noted else [])}
-    return [say(language, "note", note=note[:1].upper() + note[1:]) for note in run.notes if note not in known]
+    return [message(language, "text.note", note=note[:1].upper() + note[1:]) for note in run.notes if note not in known]
 
 
 def noted_after(run: Run | None, *, noted: bool, requested: bool) -> bool:
@@ -27,4 +27,4 @@ def noted_after(run: Run | None, *, noted: bool, requested: bool) -> bool:
 
 
 def _assumed(language: str) -> str:
-    return say(language, "assumed_outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))
+    return message(language, "assumed.outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))

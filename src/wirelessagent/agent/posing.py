@@ -12,15 +12,13 @@ import numpy as np
 
 from wirelessagent import plugins
 from wirelessagent.agent.dialogue import ASSUMED_MIN_RATE_BPS, Request
-from wirelessagent.agent.turn_words import told
-from wirelessagent.agent.words import say
-from wirelessagent.explain.labels import called
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError, UnclearRequestError
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.units import human, reliability
+from wirelessagent.telling.catalogue import called, message
 
 ASSUMED_OUTAGE_PROBABILITY = 0.05
 """Accepted where rates are promised and nobody named a probability: promised as estimated, half of them would fail."""
@@ -45,10 +43,12 @@ class UnknownUserError(UnclearRequestError):
 
     def __init__(self, reference: str, user_names: tuple[str, ...], language: str) -> None:
         more = len(user_names) - _NAMES_SHOWN
-        names = say(language, "comma").join(called(language, name) for name in user_names[:_NAMES_SHOWN])
-        known = say(language, "names_and_more", names=names, more=more) if more > 0 else names
+        names = message(language, "text.comma").join(called(language, name) for name in user_names[:_NAMES_SHOWN])
+        known = message(language, "ask_back.names_and_more", names=names, more=more) if more > 0 else names
         user = f"user {reference}" if reference.isdigit() else reference
-        super().__init__(say(language, "unknown_user" if reference else "which_user", user=user, known=known))
+        super().__init__(
+            message(language, "ask_back.unknown_user" if reference else "ask_back.which_user", user=user, known=known)
+        )
         self.reference = reference
 
 
@@ -91,11 +91,11 @@ class _Posing:
             problem = Problem(self._objective, **fields).for_users(self._names)
             problem.weights_of(len(self._names))
         except InputError as error:
-            raise UnclearRequestError(self._say("impossible", why=error)) from error
+            raise UnclearRequestError(self._say("ask_back.impossible", why=error)) from error
         return Posed(problem=problem, cell=self._cell, notes=tuple(self._notes))
 
     def _say(self, key: str, **names: object) -> str:
-        return say(self._language, key, **names)
+        return message(self._language, key, **names)
 
     def _note(self, key: str, **names: object) -> None:
         self._notes[self._say(key, **names)] = None
@@ -105,21 +105,21 @@ class _Posing:
         limit = self._cell.max_power_w
         if asked is not None and asked > limit:
             self._given["max_power_w"] = limit
-            self._note("above_the_limit", asked=human(asked, "W"), limit=human(limit, "W"))
+            self._note("assumed.above_the_limit", asked=human(asked, "W"), limit=human(limit, "W"))
 
     def _check_rates(self) -> None:
         if self._objective.measure != "power":
             return
         if "min_rate_bps" not in self._given:
             self._given["min_rate_bps"] = ASSUMED_MIN_RATE_BPS
-            self._note("assumed_rate", rate=human(ASSUMED_MIN_RATE_BPS, "bit/s"))
+            self._note("assumed.rate", rate=human(ASSUMED_MIN_RATE_BPS, "bit/s"))
         if self._given.pop("weights", None) is not None:
-            self._note("weights_mean_nothing")
+            self._note("assumed.weights_mean_nothing")
 
     def _check_outage(self) -> None:
         if "min_rate_bps" in self._given and "outage_probability" not in self._given:
             self._given["outage_probability"] = ASSUMED_OUTAGE_PROBABILITY
-            self._note("assumed_outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))
+            self._note("assumed.outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))
 
     def _served(self) -> tuple[int, ...] | None:
         """The users to serve, as indices; None for all."""
@@ -129,7 +129,7 @@ class _Posing:
         numbers = set(range(len(self._names))) if wanted is None else self._numbers(wanted)
         numbers -= set[int]() if unwanted is None else self._numbers(unwanted)
         if not numbers:
-            raise UnclearRequestError(self._say("nobody_left"))
+            raise UnclearRequestError(self._say("ask_back.nobody_left"))
         return tuple(sorted(numbers))
 
     def _numbers(self, references: Constraint) -> set[int]:
@@ -138,7 +138,7 @@ class _Posing:
     def _number(self, reference: str) -> int:
         number, by_place = user_number(reference, self._names, self._language)
         if by_place:
-            self._note("user_by_place", number=reference, name=self._names[number])
+            self._note("assumed.user_by_place", number=reference, name=self._names[number])
         return number
 
     def _by_user(self, name: str, value: Constraint) -> float | FloatArray:
@@ -159,7 +159,7 @@ class _Posing:
         if crossed:
             user = crossed[0]
             low, high = (human(float(rate[user]), "bit/s") for rate in (least, most))
-            raise UnclearRequestError(self._say("rates_crossed", user=self._names[user], low=low, high=high))
+            raise UnclearRequestError(self._say("ask_back.rates_crossed", user=self._names[user], low=low, high=high))
 
     def _check_promised(self, served: tuple[int, ...] | None) -> None:
         """Refuse a rate that is promised by name to somebody who is not served."""
@@ -170,7 +170,7 @@ class _Posing:
             if rate > 0 and reference != EVERYBODY and self._number(reference) not in served:
                 user = called(self._language, self._names[self._number(reference)])
                 raise UnclearRequestError(
-                    told(self._language, "promised_and_left_out", user=user, rate=human(rate, "bit/s"))
+                    message(self._language, "ask_back.promised_and_left_out", user=user, rate=human(rate, "bit/s"))
                 )
 
     def _check_group(self, fields: dict[str, Any]) -> None:
@@ -178,7 +178,7 @@ class _Posing:
         if size is None:
             return
         if size != int(size):
-            raise UnclearRequestError(self._say("whole_groups", size=f"{size:g}"))
+            raise UnclearRequestError(self._say("ask_back.whole_groups", size=f"{size:g}"))
         fields["resource_block_group_size"] = int(size)
 
     def _check_weights(self, fields: Mapping[str, Any], served: tuple[int, ...] | None) -> None:
@@ -188,7 +188,7 @@ class _Posing:
         count = len(self._names)
         weights = np.broadcast_to(fields["weights"], count)[list(range(count) if served is None else served)]
         if not weights.any():
-            raise UnclearRequestError(self._say("no_weight"))
+            raise UnclearRequestError(self._say("ask_back.no_weight"))
 
 
 def user_number(reference: str, user_names: tuple[str, ...], language: str = "en") -> tuple[int, bool]:

@@ -9,10 +9,9 @@ import numpy as np
 from wirelessagent.agent import answers
 from wirelessagent.agent.posing import user_number
 from wirelessagent.agent.turn import Run
-from wirelessagent.agent.turn_words import told
-from wirelessagent.explain.labels import called
-from wirelessagent.explain.roster import rank_answer
 from wirelessagent.language.intent import Intent
+from wirelessagent.telling.catalogue import called, message
+from wirelessagent.telling.roster import rank_answer
 
 _RANKS = (
     ("least", re.compile(r"(?i)\b(?:least|lowest|slowest|worst)\b|最少|最慢|最低|最差")),
@@ -34,7 +33,7 @@ def corrected(run: Run, intent: Intent, text: str) -> str:
     user = user_number(reference, names, language)[0]
     name = called(language, names[user])
     if rates[user] > 0 and _NOTHING.search(text):
-        return told(language, "not_nothing", user=name)
+        return message(language, "about.not_nothing", user=name)
     rank = next((rank for rank, words in _RANKS if words.search(text)), "")
     served = rates[decision.problem.serves(rates.size)]
     if not rank or not served.size:
@@ -43,4 +42,6 @@ def corrected(run: Run, intent: Intent, text: str) -> str:
     alone = np.ptp(served) > _SAME * np.max(served)
     if alone and abs(rates[user] - edge) <= _SAME * edge:
         return ""
-    return told(language, f"not_{rank}", user=name, who=rank_answer(answers.case_of(run), rank, "rate", language))
+    return message(
+        language, f"about.not_{rank}", user=name, who=rank_answer(answers.case_of(run), rank, "rate", language)
+    )

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 
 from wirelessagent.agent import asking, needing, supposing
 from wirelessagent.agent.acting import same_allocation
-from wirelessagent.agent.figures import certificate_line, side_by_side
+from wirelessagent.agent.figures import side_by_side
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.agent.turn_words import told
 from wirelessagent.agent.waiting import plan_named
-from wirelessagent.agent.words import joined, say
 from wirelessagent.language.intent import Detail, Intent
+from wirelessagent.telling.catalogue import joined, message
+from wirelessagent.telling.certificates import certificate_line
 
 
 def what_if(site: Site, state: State, intent: Intent) -> Reply:
@@ -26,8 +26,8 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
         return reply
     text, request = reply.text, None if "missing_share" in details else supposing.supposed(state, intent)
     if state.planned is not None and state.request is not None:
-        key = "plan_still_waits" if request is None else "plan_or_what_if"
-        text = joined(language, [text, told(language, key, request=plan_named(state, language))])
+        key = "plan.still_waits" if request is None else "plan.or_what_if"
+        text = joined(language, [text, message(language, key, request=plan_named(state, language))])
     return dataclasses.replace(
         reply, text=text, state=dataclasses.replace(state, question=None, supposed=request)
     )  # fmt: skip
@@ -42,15 +42,15 @@ def compare(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
         chosen = turn_of(turns, intent.details[key])
         if chosen is None or chosen.run is None:
             return _no_decision(intent.details[key], chosen, language, turns)
-        columns.append((say(language, "turn_column", number=chosen.number), chosen.run))
+        columns.append((message(language, "turn.column", number=chosen.number), chosen.run))
     if len(columns) == 1:
         if state.run is None:
-            return Reply(text=say(language, "nothing_yet"))
+            return Reply(text=message(language, "refused.nothing_yet"))
         if same_allocation(columns[0][1].decision, state.run.decision):
-            return Reply(text=told(language, "compared_with_itself", turn=columns[0][0]))
-        columns.insert(0, (say(language, "now_column"), state.run))
+            return Reply(text=message(language, "compared.itself", turn=columns[0][0]))
+        columns.insert(0, (message(language, "compared.now"), state.run))
     turn, run = columns[-1]
-    text = told(language, "compared_turn", turn=turn, line=certificate_line(run.decision, language))
+    text = message(language, "compared.turn", turn=turn, line=certificate_line(run.decision, language))
     return Reply(text=text, tables=(side_by_side(columns, language),))
 
 
@@ -81,11 +81,11 @@ def turn_of(turns: Sequence[Turn], number: Detail) -> Turn | None:
 def no_such_turn(number: Detail, count: int, language: str) -> str:
     """What to say to a line about a turn that there is not, in a conversation of so many turns."""
     name = f"{number:g}" if isinstance(number, float) else str(number)
-    key = "no_turn" if count > 1 else "no_turn_but_one" if count else "no_turns"
-    return told(language, key, number=name, last=count)
+    key = "turn.no_such" if count > 1 else "turn.only_one" if count else "turn.none_yet"
+    return message(language, key, number=name, last=count)
 
 
 def _no_decision(number: Detail, chosen: Turn | None, language: str, turns: Sequence[Turn]) -> Reply:
     if chosen is None:
         return Reply(text=no_such_turn(number, len(turns), language), stage="asked")
-    return Reply(text=told(language, "turn_without_decision", number=chosen.number), stage="asked")
+    return Reply(text=message(language, "turn.without_decision", number=chosen.number), stage="asked")

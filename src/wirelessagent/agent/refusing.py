@@ -6,11 +6,9 @@ from typing import Any
 
 from wirelessagent import chain, plugins
 from wirelessagent.agent.restating import goal_words
-from wirelessagent.agent.turn_words import told
-from wirelessagent.agent.words import joined, say
-from wirelessagent.explain.labels import called
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.problem import Problem
+from wirelessagent.telling.catalogue import called, joined, message
 
 
 class RefusedError(UnsupportedProblemError):
@@ -26,20 +24,20 @@ def refused(name: str, problem: Problem, language: str) -> str:
     method, objective = plugins.load("method", name), problem.objective
     assert not isinstance(objective, str)
     if method.objectives is not None and objective.name not in method.objectives:
-        return say(language, "refused_objective", name=name, goal=goal_words(objective.name, language))
+        return message(language, "refused.objective", name=name, goal=goal_words(objective.name, language))
     stated: dict[str, Any] = {
         name: value for name, value in problem.constraints().items() if name != "outage_probability"
     }
     surplus = [limit for limit, value in stated.items() if not _solves(name, Problem(objective, **{limit: value}))]
-    limits = say(language, "comma").join(say(language, f"limit_{limit}") for limit in surplus)
-    return say(language, "refused_limits", name=name, limits=limits) if limits else ""
+    limits = message(language, "text.comma").join(message(language, f"limit.{limit}") for limit in surplus)
+    return message(language, "refused.limits", name=name, limits=limits) if limits else ""
 
 
 def able(problem: Problem, language: str) -> str:
     """The methods that solve a problem, in a sentence; empty where none does."""
     names = [name for name in plugins.names("method") if _solves(name, problem)]
-    listed = say(language, "comma").join(called(language, name) for name in names)
-    return told(language, "able", methods=listed) if names else ""
+    listed = message(language, "text.comma").join(called(language, name) for name in names)
+    return message(language, "refused.able", methods=listed) if names else ""
 
 
 def _solves(name: str, problem: Problem) -> bool:

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from wirelessagent import plugins
 from wirelessagent.agent.dialogue import Request
-from wirelessagent.agent.turn_words import told
-from wirelessagent.explain.labels import called
-from wirelessagent.language.replies import GOALS
 from wirelessagent.language.restating import limits_in_words
+from wirelessagent.telling.catalogue import called, has_message, message
 
 
 def restated(request: Request, language: str = "en") -> str:
@@ -19,15 +17,14 @@ def restated(request: Request, language: str = "en") -> str:
     goal, limits = goal_words(request.objective, language), limits_in_words(request.constraints, language)
     said = goal[:1].upper() + goal[1:]
     if request.method is not None:
-        by = told(language, "by_method", method=called(language, request.method))
-        limits = f"{limits}{told(language, 'between')}{by}" if limits else by
-    if language == "zh":
-        return f"{said}：{limits}。" if limits else f"{said}。"
-    return f"{said}: {limits}." if limits else f"{said}."
+        by = message(language, "request.by_method", method=called(language, request.method))
+        limits = message(language, "text.between").join(part for part in (limits, by) if part)
+    return message(language, "request.whole" if limits else "request.aim_alone", goal=said, limits=limits)
 
 
 def goal_words(objective: str, language: str) -> str:
     """What an objective is called: in the built-in words, else by its own first phrase."""
     own = plugins.objective(objective).phrases
     spoken = own.get(language) or own.get("en") or next(iter(own.values()), (objective.replace("_", " "),))
-    return GOALS.get(language, GOALS["en"]).get(objective) or spoken[0]
+    key = f"goal.{objective}"
+    return message(language, key) if has_message(language, key) else spoken[0]

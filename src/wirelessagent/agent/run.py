@@ -12,19 +12,19 @@ import numpy as np
 from wirelessagent import chain, plugins
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.events import Event, Progress, silent
-from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.posing import Posed
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run
-from wirelessagent.agent.words import say
-from wirelessagent.explain.report import report
-from wirelessagent.explain.words import explain
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.model.units import percent
+from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.report import report
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +44,9 @@ def look(
     progress(Event(stage="sense", message=describe(seen, language)))
     estimate = chain.repair(seen, tools.repairer, **tools.repairer_options)
     missing = int(seen.missing.sum())
-    repaired = say(language, "repaired" if missing else "complete", missing=missing, method=estimate.method)
+    repaired = message(
+        language, "stage.repaired" if missing else "stage.complete", missing=missing, method=estimate.method
+    )
     progress(Event(stage="repair", message=repaired))
     return Sight(scene=scene, observation=seen, estimate=estimate)
 
@@ -52,10 +54,10 @@ def look(
 def describe(seen: ChannelObservation, language: str = "en") -> str:
     """The size of an observation and what is missing, in one sentence."""
     missing = int(seen.missing.sum())
-    history = say(language, "history", slots=seen.num_slots) if seen.num_slots > 1 else ""
-    return say(
-        language, "sensed", users=seen.num_users, subcarriers=seen.num_subcarriers, history=history, missing=missing,
-        entries=seen.missing.size, share=percent(missing / seen.missing.size),
+    history = message(language, "stage.slots", slots=seen.num_slots) if seen.num_slots > 1 else ""
+    return message(
+        language, "stage.sensed", users=seen.num_users, subcarriers=seen.num_subcarriers, history=history,
+        missing=missing, entries=seen.missing.size, share=percent(missing / seen.missing.size),
     )  # fmt: skip
 
 
@@ -98,10 +100,10 @@ def applied_line(run: Run) -> str:
     language, outcome = run.intent.language, run.outcome
     assert outcome is not None
     if outcome.written_to is not None:
-        return say(language, "written", path=outcome.written_to)
+        return message(language, "applied.written", path=outcome.written_to)
     if outcome.achieved is None:
-        return say(language, "applied", station=outcome.base_station)
+        return message(language, "applied.unmeasured", station=outcome.base_station)
     promised = outcome.promised_bps > 0
     kept, served = int(np.count_nonzero(promised & ~outcome.missed)), int(np.count_nonzero(promised))
-    key = f"applied_{run.decision.problem.firmness}"
-    return say(language, key, station=outcome.base_station, kept=kept, served=served)
+    key = f"applied.{run.decision.problem.firmness}"
+    return message(language, key, station=outcome.base_station, kept=kept, served=served)

@@ -31,8 +31,6 @@ from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Missing, Question, Reply, State
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.agent.turn_words import told
-from wirelessagent.agent.words import joined, say
 from wirelessagent.language.acts import OWN_CHOICE, Act, Ask, Command, Suppose
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
@@ -43,6 +41,7 @@ from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
+from wirelessagent.telling.catalogue import joined, message
 
 _USER = re.compile(
     r"(?i)\s*(?:(?:no|sorry|i mean|i meant|make it|我是说|是)[,，\s]*)*"
@@ -132,8 +131,10 @@ class Session:
         self._language = intent.language
         if intent.kind == "allocate":
             sure = f"{intent.confidence:.0%}"
-            message = say(intent.language, "understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure)
-            self._progress(Event(stage="understand", message=message))
+            read = message(
+                intent.language, "stage.understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure
+            )
+            self._progress(Event(stage="understand", message=read))
         try:
             reply = waiting.naming_the_plan(self._reply(intent, text, context), self._state, intent)
             self._take(reply, intent)
@@ -148,7 +149,7 @@ class Session:
     def _broken_off(self, run: Run, intent: Intent) -> Reply:
         """What holds where something ended a turn after the base station was told a run."""
         unknown = dataclasses.replace(self._state.settled, on_air=None)
-        return Reply(text=say(intent.language, "broken_off"), stage="nothing", state=unknown, run=run)
+        return Reply(text=message(intent.language, "station.broken_off"), stage="nothing", state=unknown, run=run)
 
     def _context(self) -> Context:
         state, request, supposed = self._state, self._state.request, self._state.supposed
@@ -205,10 +206,10 @@ class Session:
             if self._raises:
                 raise
             if isinstance(error, RefusedError):
-                text = joined(intent.language, [str(error), say(intent.language, "nothing_changed")])
+                text = joined(intent.language, [str(error), message(intent.language, "plan.nothing_changed")])
             else:
-                key = "unsupported" if isinstance(error, UnsupportedProblemError) else "failed"
-                text = say(intent.language, key, why=error)
+                key = "refused.unsupported" if isinstance(error, UnsupportedProblemError) else "refused.failed"
+                text = message(intent.language, key, why=error)
             return Reply(text=text, stage="nothing", error=error)
 
     def _handled(self, intent: Intent, text: str, context: Context) -> Reply:
@@ -242,8 +243,8 @@ class Session:
             "status": lambda: asking.status(site, state, intent, self._turns),
             "what_if": lambda: referring.what_if(site, state, intent),
             "export": lambda: asking.export(state, intent, self._turns),
-            "help": lambda: Reply(text=say(intent.language, "help")),
-            "capabilities": lambda: Reply(text=say(intent.language, "help")),
+            "help": lambda: Reply(text=message(intent.language, "about.help")),
+            "capabilities": lambda: Reply(text=message(intent.language, "about.help")),
         }
         of_turns: Mapping[str, Callable[[], Reply]] = {
             "compare": lambda: referring.compare(state, intent, self._turns),
@@ -300,7 +301,7 @@ class Session:
             try:
                 self._store.append(turn)
             except WirelessAgentError as error:
-                said = joined(intent.language, [said, say(intent.language, "not_recorded", why=error)])
+                said = joined(intent.language, [said, message(intent.language, "stage.not_recorded", why=error)])
                 turn = dataclasses.replace(turn, reply=said)
         self._turns.append(turn)
         return turn
@@ -313,7 +314,7 @@ class Session:
         request = self._requests[int(turn) - 1]
         if request is None:
             return intent
-        reply = told(intent.language, "back_to_turn", number=turn)
+        reply = message(intent.language, "request.back_to_turn", number=turn)
         return dataclasses.replace(
             intent, kind="allocate", objective=request.objective, constraints=request.constraints, topic=None,
             reply=reply, details={**intent.details, "method": request.method or OWN_CHOICE},
@@ -336,7 +337,7 @@ class Session:
 def _read_by(intent: Intent) -> str:
     """Who read the line in the recogniser's place: in its own note at the end of the reply where it made one."""
     note = _NOTE.search(intent.reply) if " (" in intent.recogniser else None
-    return say(intent.language, "fallen_back", recogniser=intent.recogniser) if note is None else note[0]
+    return message(intent.language, "stage.fallen_back", recogniser=intent.recogniser) if note is None else note[0]
 
 
 def _stated(after: State, before: State, intent: Intent) -> Mapping[str, Constraint]:

@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 
 from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.turn import Run, Stage
-from wirelessagent.explain.table import Table
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.language.recogniser import Awaited
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Plain
+from wirelessagent.telling.text_table import Table
 
 
 @dataclass(frozen=True, kw_only=True)

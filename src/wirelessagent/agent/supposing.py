@@ -19,17 +19,14 @@ from wirelessagent.agent.run import Sight
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run
-from wirelessagent.agent.turn_words import told
-from wirelessagent.agent.words import joined, say
-from wirelessagent.explain.labels import called
-from wirelessagent.explain.lexicon import outcome_in_words, value_name
-from wirelessagent.explain.nearest import nearest
-from wirelessagent.explain.nearest_words import nearest_answer
-from wirelessagent.explain.report import cannot_be_served
 from wirelessagent.language.acts import Act, Aim, Drop, limits
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.facts.nearest import nearest
+from wirelessagent.telling.parts import cannot_be_served, outcome_in_words, value_name
+from wirelessagent.telling.remedies import nearest_answer
 
 _SAME = 1e-6
 """A share of the power that nobody sees."""
@@ -41,13 +38,15 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
     share = details.get("missing_share")
     objective = details.get("objective")
     if details.get("of") == "channel":
-        return Reply(text=told(language, "channel_given"), stage="asked")
+        return Reply(text=message(language, "ask_back.channel_given"), stage="asked")
     if share is None and not any(details.get(name) for name in ("constraints", "objective", "dropped")):
-        return Reply(text=say(language, "what_if_nothing"), stage="asked")
+        return Reply(text=message(language, "ask_back.what_if_nothing"), stage="asked")
     if state.request is None and objective is None:
-        return Reply(text=say(language, "nothing_yet"))
+        return Reply(text=message(language, "refused.nothing_yet"))
     if share is not None and not 0 <= cast(float, share) < 1:
-        return Reply(text=say(language, "what_if_missing_share", share=percent(cast(float, share))), stage="asked")
+        return Reply(
+            text=message(language, "ask_back.what_if_missing_share", share=percent(cast(float, share))), stage="asked"
+        )
     request = supposed(state, intent)
     sight = None if share is None else site.sight_missing(cast(float, share), language)
     run, otherwise = _planned(site, intent, request, sight)
@@ -56,12 +55,12 @@ def what_if(site: Site, state: State, intent: Intent) -> Reply:
         text = joined(language, [*otherwise, _most(state, run, intent)])
     elif share is None:
         asked = restated(request, language)
-        text = say(language, "what_if", request=asked[:1].lower() + asked[1:], answer=answer)
+        text = message(language, "what_if.answer", request=asked[:1].lower() + asked[1:], answer=answer)
     else:
-        text = say(language, "what_if_seen", share=percent(cast(float, share)), answer=answer)
-    runs = [(say(language, "what_if_column"), run)]
+        text = message(language, "what_if.seen", share=percent(cast(float, share)), answer=answer)
+    runs = [(message(language, "what_if.column"), run)]
     if state.run is not None:
-        runs.insert(0, (say(language, "now_column"), site.foreseen(state.run)))
+        runs.insert(0, (message(language, "compared.now"), site.foreseen(state.run)))
     return Reply(text=text, run=run, tables=(side_by_side(runs, language),))
 
 
@@ -74,7 +73,7 @@ def _planned(site: Site, intent: Intent, request: Request, sight: Sight | None) 
             raise
         run = site.foreseen(site.plan(intent, dataclasses.replace(request, method=None), sight=sight))
         method = called(intent.language, run.decision.method)
-        return run, [refusal.why, told(intent.language, "solved_by", method=method)]
+        return run, [refusal.why, message(intent.language, "refused.solved_by", method=method)]
 
 
 def supposed(state: State, intent: Intent) -> Request:
@@ -97,21 +96,29 @@ def _most(state: State, run: Run, intent: Intent) -> str:
     """The most that can be promised to everybody or to a user, with its certificate."""
     decision, language, user = run.decision, intent.language, intent.details.get("user")
     served = decision.problem.serves(decision.rate_bps.size)
-    who = told(language, "every_user", count=int(served.sum()))
+    who = message(language, "what_if.every_user", count=int(served.sum()))
     if user is not None:
         who = called(language, decision.user_names[user_number(str(user), decision.user_names, language)[0]])
-    said = told(
-        language, "most_promised", rate=human(decision.value, decision.unit), who=who,
+    said = message(
+        language, "what_if.most_promised", rate=human(decision.value, decision.unit), who=who,
         power=human(decision.problem.budget_w(decision.cell), "W"),
         sure=reliability(decision.problem.outage_probability or 0.0),
     )  # fmt: skip
-    proven = told(language, "most_proven", bound=human(decision.bound, decision.unit), gap=percent(decision.gap))
+    proven = message(
+        language, "what_if.most_proven", bound=human(decision.bound, decision.unit), gap=percent(decision.gap)
+    )
     left_out = cannot_be_served(decision, language)
-    warned = [say(language, "note", note=left_out)] if left_out else []
+    warned = [message(language, "text.note", note=left_out)] if left_out else []
     assumed = notes(run, noted=state.noted)
     return joined(
         language,
-        [said, *([] if np.isnan(decision.gap) else [proven]), *assumed, *warned, say(language, "nothing_changed")],
+        [
+            said,
+            *([] if np.isnan(decision.gap) else [proven]),
+            *assumed,
+            *warned,
+            message(language, "plan.nothing_changed"),
+        ],
     )
 
 
@@ -119,17 +126,17 @@ def _verdict(state: State, run: Run, language: str) -> str:
     """Whether a request can be met and with what, or what can be met instead; and what was assumed only here."""
     now, case = state.run, answers.case_of(run)
     assumed = notes(run, noted=state.noted, before=() if now is None else now.notes)
-    nothing = say(language, "nothing_changed")
+    nothing = message(language, "plan.nothing_changed")
     if not run.decision.is_usable:
         return joined(language, [*assumed, f"{nearest_answer(case, nearest(case), language)}\n{nothing}"])
     outcome = outcome_in_words(case, run.decision, language)
-    met = say(language, "what_if_met", outcome=outcome)
+    met = message(language, "what_if.met", outcome=outcome)
     if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
-        met = say(language, "what_if_now", outcome=outcome, **_beside(now.decision, run.decision, language))
+        met = message(language, "what_if.now", outcome=outcome, **_beside(now.decision, run.decision, language))
     elif now is not None and now.decision.is_usable:
         met = joined(language, [met, outcome_beside(state, run, language)])
     left_out = cannot_be_served(run.decision, language)
-    warned = [say(language, "note", note=left_out)] if left_out else []
+    warned = [message(language, "text.note", note=left_out)] if left_out else []
     return joined(language, [*assumed, met, *_unused(now, run, language), *warned, nothing])
 
 
@@ -138,13 +145,13 @@ def outcome_beside(state: State, run: Run, language: str) -> str:
     then, now = _figures(run.decision, language), None if state.run is None else state.run.decision
     if now is None or not now.is_usable or not run.decision.is_usable:
         return ""
-    return told(language, "beside_now", then=then, now=_figures(now, language))
+    return message(language, "what_if.beside_now", then=then, now=_figures(now, language))
 
 
 def _figures(decision: Decision, language: str) -> str:
     rate = decision.rate_bps[decision.problem.serves(decision.rate_bps.size)]
-    return told(
-        language, "beside_figures", total=human(float(decision.rate_bps.sum()), "bit/s"),
+    return message(
+        language, "what_if.beside_figures", total=human(float(decision.rate_bps.sum()), "bit/s"),
         lowest=human(float(rate.min()), "bit/s"), power=human(decision.total_power_w, "W"),
     )  # fmt: skip
 
@@ -158,7 +165,7 @@ def _unused(now: Run | None, run: Run, language: str) -> list[str]:
     same = abs(spent - before) <= _SAME * before and budgets[0] != budgets[1]
     if not same or max(spent, before) >= min(budgets) * (1 - _SAME):
         return []
-    return [told(language, "budget_unused", budget=human(budgets[0], "W"), spent=human(spent, "W"))]
+    return [message(language, "what_if.budget_unused", budget=human(budgets[0], "W"), spent=human(spent, "W"))]
 
 
 def _beside(now: Decision, then: Decision, language: str) -> dict[str, str]:
@@ -167,8 +174,8 @@ def _beside(now: Decision, then: Decision, language: str) -> dict[str, str]:
     if not now.value or value == human(then.value, then.unit):
         return {"now": value, "change": ""}
     size, share = human(abs(change), now.unit), percent(abs(change / now.value))
-    key = "what_if_more" if change > 0 else "what_if_less"
-    return {"now": value, "change": say(language, key, size=size, share=share)}
+    key = "what_if.more" if change > 0 else "what_if.less"
+    return {"now": value, "change": message(language, key, size=size, share=share)}
 
 
 def _figure_of(run: Run, language: str) -> tuple[str, str]:

@@ -7,10 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
 from wirelessagent.agent.dialogue import Diff
-from wirelessagent.agent.figures import certificate_line
 from wirelessagent.agent.tools import Tools
-from wirelessagent.explain.report import Report
-from wirelessagent.explain.table import Table
 from wirelessagent.language.acts import Act, acts_of
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.decision import Decision
@@ -21,6 +18,9 @@ from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.report import Report
+from wirelessagent.telling.text_table import Table
 
 Stage: TypeAlias = Literal["answered", "asked", "planned", "applied", "reverted", "undone", "nothing"]
 """What a turn came to: answered (a question; nothing was to be applied), asked (a question back), planned (a decision

@@ -13,14 +13,13 @@ from wirelessagent.agent.restating import restated
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Turn
-from wirelessagent.agent.turn_words import told
-from wirelessagent.agent.words import joined, say
 from wirelessagent.language.conversation.assent import assent, is_assent, speaks_of_applying
 from wirelessagent.language.conversation.unanswered import Unanswered
 from wirelessagent.language.intent import Intent
+from wirelessagent.telling.catalogue import joined, message
 
 _YES = ("apply", "confirm")
-_NAMED = ("plan_still_waits", "plan_or_what_if")
+_NAMED = ("plan.still_waits", "plan.or_what_if")
 """Sentences that name the plan at the end of a reply."""
 
 
@@ -56,15 +55,17 @@ def asked_again(site: Site, state: State, intent: Intent) -> Reply:
     """The question whether to apply what waits, or what was decided and never applied, by its name."""
     language, run = intent.language, state.planned or state.run
     if run is None or state.request is None:
-        return Reply(text=say(language, "nothing_yet"))
+        return Reply(text=message(language, "refused.nothing_yet"))
     if run is state.on_air:
-        return Reply(text=say(language, "already"), stage="nothing")
+        return Reply(text=message(language, "plan.already"), stage="nothing")
     fresh = run.outcome is None and run.decision.is_usable and site.station(run) is not None
     if state.planned is None and not fresh:
-        return Reply(text=say(language, "nothing_to_confirm"))
+        return Reply(text=message(language, "plan.nothing_to_confirm"))
     waiting = dataclasses.replace(state, planned=run, question=None)
     return Reply(
-        text=told(language, "shall_i_apply", request=plan_named(state, language)), stage="asked", state=waiting
+        text=message(language, "ask_back.shall_i_apply", request=plan_named(state, language)),
+        stage="asked",
+        state=waiting,
     )
 
 
@@ -72,7 +73,7 @@ def left_waiting(site: Site, state: State, intent: Intent) -> Reply:
     """What waits goes on waiting."""
     if state.planned is None:
         return asked_again(site, state, intent)
-    text = told(intent.language, "left_waiting", request=plan_named(state, intent.language))
+    text = message(intent.language, "plan.left_waiting", request=plan_named(state, intent.language))
     return Reply(text=text, stage="nothing", state=dataclasses.replace(state, question=None))
 
 
@@ -89,7 +90,7 @@ def naming_the_plan(reply: Reply, before: State, intent: Intent) -> Reply:
     if not waits or reply.stage not in ("answered", "nothing") or intent.topic in ("export", "status"):
         return reply
     plan = plan_named(after, language)
-    if any(told(language, key, request=plan) in reply.text for key in (*_NAMED, "left_waiting")):
+    if any(message(language, key, request=plan) in reply.text for key in (*_NAMED, "plan.left_waiting")):
         return reply
-    text = joined(language, [reply.text, told(language, _NAMED[0], request=plan)])
+    text = joined(language, [reply.text, message(language, _NAMED[0], request=plan)])
     return dataclasses.replace(reply, text=text)

@@ -21,14 +21,13 @@ from typing import Any
 
 import numba
 import platformdirs
-from numba.core import caching, codegen, config
+from numba.core import caching, codegen, config, runtime
 from numba.core.environment import Environment
-from numba.core.runtime import rtsys
 
 _numba: Any = numba  # neither has types of its own
 _codegen: Any = codegen
 _config: Any = config
-_runtime: Any = rtsys
+_runtime: Any = runtime
 _Environment: Any = Environment
 _FunctionCache: Any = caching.FunctionCache
 _CompileResultCacheImpl: Any = caching.CompileResultCacheImpl
@@ -102,7 +101,7 @@ class CodeCache(_FunctionCache):
         Numba would load all that it can compile first, half a second; code that is made needs its runtime only.
         """
         try:
-            _runtime.initialize(target_context)
+            _runtime.rtsys.initialize(target_context)
             return self._load_overload(sig, target_context)
         except Exception as error:  # noqa: BLE001  # a pickle that a crash cut short fails in any way
             _log.info("the kernel cache %s cannot be read and is made anew: %r", self.cache_path, error)

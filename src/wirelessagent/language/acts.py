@@ -170,7 +170,8 @@ def _asked(intent: Intent) -> Act:
     stated = details.get("constraints")
     acts: list[Act] = [Aim(objective=aim)] if isinstance(aim, str) else []
     acts += [Drop(kind=name) for name in str(details.get("dropped", "")).split()]
-    for name, value in (stated if isinstance(stated, Mapping) else {}).items():
+    supposed: Mapping[str, Constraint] = stated if isinstance(stated, Mapping) else {}
+    for name, value in supposed.items():
         acts += limits(name, value)
     return Suppose(acts=tuple(acts), missing_share=share if isinstance(share, float) else None)
 

@@ -16,7 +16,7 @@ import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from importlib import resources
+from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from wirelessagent.language.clauses import clause_end, clause_start
@@ -248,7 +248,7 @@ def stranger(plain: str, context: Context | None) -> Span | None:
 @functools.cache
 def table_of(language: str) -> Mapping[str, Mapping[str, Sequence[str]]]:
     """The classes of a language: words by class and by how far they reach."""
-    file = resources.files("wirelessagent.language").joinpath("moods", f"{language}.toml")
+    file = Path(__file__).with_name("moods") / f"{language}.toml"
     return cast("dict[str, dict[str, list[str]]]", tomllib.loads(file.read_text(encoding="utf-8")))
 
 

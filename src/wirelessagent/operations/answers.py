@@ -10,11 +10,11 @@ from pydantic import Field
 from wirelessagent.operations.record import Integers, Matrix, Record, SwitchMatrix, Vector
 
 if TYPE_CHECKING:
-    from wirelessagent.explain.report import Report
     from wirelessagent.model.decision import Bracket, Decision
     from wirelessagent.model.estimate import ChannelEstimate
     from wirelessagent.model.forecast import Forecast
     from wirelessagent.model.metrics import LinkMetrics
+    from wirelessagent.telling.report import Report
 
 
 class EstimateAnswer(Record):
@@ -155,7 +155,7 @@ class ReportAnswer(Record):
 
     @classmethod
     def of(cls, report: Report) -> ReportAnswer:
-        from wirelessagent.explain.report import predicted_metrics
+        from wirelessagent.telling.facts.performance import predicted_metrics
 
         return cls(
             predicted=MetricsAnswer.of(report.predicted),

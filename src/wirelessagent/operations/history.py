@@ -11,9 +11,6 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 import numpy as np
 from pydantic import Field
 
-from wirelessagent.agent.figures import certificate_line
-from wirelessagent.explain.report import report
-from wirelessagent.explain.tables import decision_tables
 from wirelessagent.model.arrays import whole
 from wirelessagent.model.atomic import writable_target, write_atomically
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
@@ -28,6 +25,9 @@ from wirelessagent.store.export import exported
 from wirelessagent.store.plain import canonical
 from wirelessagent.store.rebuilt import decision_of, outcome_of
 from wirelessagent.store.stored import StoredTurn, number_of
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.report import report
+from wirelessagent.telling.tables import decision_tables
 
 if TYPE_CHECKING:
     from wirelessagent.store.store import Store

@@ -14,6 +14,7 @@ from wirelessagent.operations.fields import Positional
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.recognisers import RecogniserOption
 from wirelessagent.operations.record import Block, Conclusion, Record, Table
+from wirelessagent.telling.catalogue import message
 
 if TYPE_CHECKING:
     from wirelessagent.language.intent import Constraint, Detail, Intent
@@ -60,7 +61,8 @@ class IntentRecord(Record):
     def blocks(self) -> list[Block]:
         rows = [("objective", self.objective or "–", self.evidence.get("objective", ""))]
         rows += [(name, shown(value), self.evidence.get(name, "")) for name, value in self.constraints.items()]
-        table = Table(title="Understood", columns=("field", "value", "from the words"), rows=tuple(rows))
+        columns = tuple(message(self.language, f"label.{column}") for column in ("field", "given", "from_the_words"))
+        table = Table(title=message(self.language, "label.understood"), columns=columns, rows=tuple(rows))
         reply = tuple(self.reply.split("\n"))
         return [table, reply] if self.kind == "allocate" else [reply]
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
-from wirelessagent.explain.table import Table
+from wirelessagent.telling.text_table import Table
 
 Lines: TypeAlias = tuple[str, ...]
 

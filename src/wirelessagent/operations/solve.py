@@ -69,10 +69,10 @@ class SolveRecord(DecisionAnswer):
 def run(request: SolveRequest, progress: Progress) -> SolveRecord:
     from wirelessagent import chain
     from wirelessagent.acting.file import FileBaseStation
-    from wirelessagent.agent.figures import certificate_line
-    from wirelessagent.explain.report import report
-    from wirelessagent.explain.tables import decision_tables
-    from wirelessagent.explain.words import explain
+    from wirelessagent.telling.certificates import certificate_line
+    from wirelessagent.telling.explanation import explain
+    from wirelessagent.telling.report import report
+    from wirelessagent.telling.tables import decision_tables
 
     check_allocation(request.out)
     check_picture(request.plot)

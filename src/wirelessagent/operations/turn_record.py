@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
 
-from wirelessagent.explain.table import Table
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.answers import DecisionAnswer, ReportAnswer
 from wirelessagent.operations.record import Block, Conclusion, Integers, Record, Vector, of_decision
+from wirelessagent.telling.text_table import Table
 
 if TYPE_CHECKING:
     from wirelessagent.agent.session import Session

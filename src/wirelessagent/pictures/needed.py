@@ -7,9 +7,10 @@ from collections.abc import Iterable
 
 from wirelessagent.model.decision import Bracket, Decision
 from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import message
 
 
-def needed_lines(decisions: Iterable[Decision]) -> list[str]:
+def needed_lines(decisions: Iterable[Decision], language: str = "en") -> list[str]:
     """The power that the promised rates need and the part of them that can be had: the tightest that any decision on
     one problem knows, and nothing where none knows.
     """
@@ -18,10 +19,10 @@ def needed_lines(decisions: Iterable[Decision]) -> list[str]:
     scaling = _tightest(decision.rate_scaling for decision in found)
     lines: list[str] = []
     if math.isfinite(power.at_least):
-        most = f", at most {human(power.at_most, 'W')}" if math.isfinite(power.at_most) else ""
-        lines.append(f"The rates asked for need at least {human(power.at_least, 'W')}{most}.")
+        key = "needed.between" if math.isfinite(power.at_most) else "needed.at_least"
+        lines.append(message(language, key, least=human(power.at_least, "W"), most=human(power.at_most, "W")))
     if math.isfinite(scaling.at_most):
-        lines.append(f"The budget carries {scaling.at_least:.3g} to {scaling.at_most:.3g} times these rates.")
+        lines.append(message(language, "needed.scaling", least=scaling.at_least, most=scaling.at_most))
     return lines
 
 

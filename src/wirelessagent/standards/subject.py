@@ -9,8 +9,6 @@ from datetime import datetime
 
 import numpy as np
 
-from wirelessagent.explain.case import Case
-from wirelessagent.explain.nearest import lower_rates, more_power
 from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Bracket, Decision
@@ -18,6 +16,8 @@ from wirelessagent.model.errors import InputError
 from wirelessagent.model.metrics import energy_efficiency_bit_per_j
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.nearest import lower_rates, more_power
 
 JOULES_PER_KWH = 3.6e6
 

@@ -8,13 +8,13 @@ from wirelessagent import __version__, chain, plugins
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run, Stage, Turn
-from wirelessagent.explain.report import report
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.scene import Loss, Scene
+from wirelessagent.telling.report import report
 
 SENTENCES = (
     "higher speed",

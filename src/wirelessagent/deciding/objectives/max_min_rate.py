@@ -22,7 +22,9 @@ class MaxMinRate(Objective):
     aliases = ("max-min",)
     unit = "bit/s"
     joined = "min"
-    figure_name = phrases(en=["lowest rate"], zh=["最低速率"])
+    figure_name = phrases(
+        en=["lowest rate"], zh=["最低速率"], es=["tasa más baja"], fr=["débit le plus bas"], de=["niedrigste Rate"]
+    )
     phrases = phrases(
         en=["the same rate for everyone", "max-min fairness", "make the slowest user as fast as possible"],
         zh=["所有用户速率相同", "最大最小公平", "让最慢的用户尽可能快"],

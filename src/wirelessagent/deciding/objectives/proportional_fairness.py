@@ -37,7 +37,13 @@ class ProportionalFairness(Objective):
     name = "proportional_fairness"
     aliases = ("PF",)
     unit = "bit/s"
-    figure_name = phrases(en=["geometric mean rate"], zh=["几何平均速率"])
+    figure_name = phrases(
+        en=["geometric mean rate"],
+        zh=["几何平均速率"],
+        es=["media geométrica de las tasas"],
+        fr=["moyenne géométrique des débits"],
+        de=["geometrisches Mittel der Raten"],
+    )
     phrases = phrases(
         en=["proportional fairness", "share fairly", "a fair share for everyone"],
         zh=["比例公平", "公平分配", "公平地共享"],

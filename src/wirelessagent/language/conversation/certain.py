@@ -58,8 +58,7 @@ def made_certain(line: Line, intent: Intent, text: str) -> Intent:
 
 def _names_none(line: Line, text: str) -> bool:
     """Whether a line about a request that holds has no word that stands for a command alone."""
-    known = line.voice.language in ("en", "zh") and line.context.objective is not None
-    return known and _NAMED.search(normalise(text)) is None
+    return line.context.objective is not None and _NAMED.search(normalise(text)) is None
 
 
 def is_only_a_command(text: str) -> bool:

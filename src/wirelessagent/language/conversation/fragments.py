@@ -15,7 +15,7 @@ import tomllib
 import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from importlib import resources
+from pathlib import Path
 from typing import Any, cast
 
 from wirelessagent.language.acts import (
@@ -40,6 +40,8 @@ from wirelessagent.language.numerals import numbers
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.text import CJK, languages_of, normalise
 from wirelessagent.model.units import human
+
+_WORDS = Path(__file__).parents[1] / "fragment_words"
 
 _UNITS: Mapping[str, tuple[str, ...]] = {
     "power": ("max_power_w", "subcarrier_max_power_w", "circuit_power_w"),
@@ -442,9 +444,8 @@ class _Fragment:
 
     def _named_kinds(self) -> list[str]:
         """Limits that the nouns of the line name together."""
-        sets = [set(_NOUNS[name]) for name in _NOUNS if self.has(name)]
-        both = set.intersection(*sets) if sets else set[str]()
-        return list(dict.fromkeys(kind for kinds in _NOUNS.values() for kind in kinds if kind in both))
+        sets = [_NOUNS[name] for name in _NOUNS if self.has(name)]
+        return [kind for kind in dict.fromkeys(sets[0]) if all(kind in kinds for kinds in sets)] if sets else []
 
     def _whom(self) -> Whom | None:
         if self.users:
@@ -492,7 +493,7 @@ def _value(figure: Quantity, kind: str, model: Limit | None) -> float | None:
         value = figure.value
     else:
         unit = None if model is None else _unit(model)
-        found = [] if unit is None else parse_quantities(f"{figure.value:g} {unit}")
+        found = parse_quantities(f"{figure.value:g} {unit}" if unit else "")
         value = found[0].value if found and found[0].kind != "bare" else math.nan
         if model is None or not model.value / _FAR < value < model.value * _FAR:  # another unit may be meant
             return None
@@ -534,8 +535,17 @@ def _tokens(line: Line, language: str) -> list[Token] | None:
         clear = not any(start < number.end and number.start < end for start, end in taken)
         text = plain[number.start : number.end]
         if number.value is not None and clear and text not in _ONES:
-            at = {"start": number.start, "end": number.end, "phrase_start": number.start, "phrase_end": number.end}
-            figures.append(Quantity(value=float(number.value), kind="bare", text=text, **at))
+            figures.append(
+                Quantity(
+                    value=float(number.value),
+                    kind="bare",
+                    text=text,
+                    start=number.start,
+                    end=number.end,
+                    phrase_start=number.start,
+                    phrase_end=number.end,
+                )  # fmt: skip
+            )
     for figure in figures:
         spans[figure.start] = (figure.end, Token(frozenset({_CLASS.get(figure.kind, figure.kind)}), figure=figure))
     return _segmented(plain, spans, language)
@@ -578,7 +588,7 @@ def _is_whole(plain: str, start: int, end: int) -> bool:
 @functools.cache
 def _table(language: str) -> tuple[Mapping[str, Token], int]:
     """The words of a language with their classes, and the length of the longest."""
-    text = resources.files("wirelessagent.language").joinpath("fragment_words", f"{language}.toml").read_text("utf-8")
+    text = (_WORDS / f"{language}.toml").read_text("utf-8")
     table = tomllib.loads(text)
     factors = cast("dict[str, float]", table.pop("factors"))
     classes: dict[str, set[str]] = {}

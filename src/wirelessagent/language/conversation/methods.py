@@ -101,7 +101,8 @@ def with_method(line: Line, intent: Intent, name: str) -> Intent | None:
         return dataclasses.replace(intent, details={**intent.details, "method": name})
     if intent.kind != "clarify":
         return None
-    return dataclasses.replace(intent, reply=f"{intent.reply} {line.voice.say('method_later', name=name)}")
+    later = line.voice.say("method_later", method_name=name)
+    return dataclasses.replace(intent, reply=f"{intent.reply} {later}")
 
 
 def by_method(line: Line, intent: Intent) -> Intent:

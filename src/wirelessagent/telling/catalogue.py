@@ -1,0 +1,93 @@
+"""All that the agent says, by key: one file of messages for each language, and one function that says them.
+
+``messages/<language>.toml`` holds sentences with ``{place}`` fields, in tables by topic. English has every message;
+another language may have some of them only, and the rest is said in English. A language more is one more file.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from wirelessagent.model.legible import legible
+
+_MESSAGES = Path(__file__).with_name("messages")
+_NAMES = frozenset({"user", "name", "station", "method", "recogniser"})
+"""Places for what has a name of its own."""
+_NUMBERED = re.compile(r"(?i)user\s*(\d+)")
+
+
+def message(language: str, key: str, /, **places: object) -> str:
+    """The message of this key in the operator's language, with its places filled in.
+
+    >>> message("en", "stage.repaired", missing=3, method="dual"), message("zh", "status.optimal")
+    ('3 gains filled by dual', '最优')
+    """
+    filled = {
+        place: called(language, value) if place in _NAMES and isinstance(value, str) else value
+        for place, value in places.items()
+    }
+    return _text(language, key).format(**filled)
+
+
+def has_message(language: str, key: str) -> bool:
+    """Whether there is something to say for a key."""
+    return key in messages(language) or key in messages("en")
+
+
+def _text(language: str, key: str) -> str:
+    own = messages(language)
+    return own[key] if key in own else messages("en")[key]
+
+
+def called(language: str, name: str) -> str:
+    """A user, a method or the like by name, as the operator's language calls it where it has no name of its own.
+
+    A name stays within its line, so that none can add a line to what is said.
+
+    >>> called("zh", "user 3"), called("zh", "Ada"), called("en", "user 3"), called("zh", "dual")
+    ('用户3', 'Ada', 'user 3', '对偶法')
+    """
+    name, own = legible(name, keep=""), messages(language)
+    number = _NUMBERED.fullmatch(name)
+    if number is not None and language != "en" and "name.user" in own:
+        return own["name.user"].format(number=number[1])
+    return own.get(f"name.{name}", name)
+
+
+def joined(language: str, sentences: Iterable[str]) -> str:
+    """Sentences one after the other, as the language sets them."""
+    return _text(language, "text.gap").join(one for one in sentences if one)
+
+
+def listed(language: str, names: Iterable[str]) -> str:
+    """Users, methods or the like in a row."""
+    return message(language, "text.comma").join(called(language, name) for name in names)
+
+
+@functools.cache
+def messages(language: str) -> Mapping[str, str]:
+    """The messages that the file of a language holds, by key; none where there is no such file."""
+    if language not in languages():
+        return {}
+    import tomllib  # which whoever asks for help only need not wait for
+
+    return dict(_flat(tomllib.loads((_MESSAGES / f"{language}.toml").read_text(encoding="utf-8"))))
+
+
+def _flat(topics: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str]]:
+    """The messages of nested tables by dotted keys."""
+    for name, held in topics.items():
+        if isinstance(held, str):
+            yield above + name, held
+        else:
+            yield from _flat(held, f"{above}{name}.")
+
+
+@functools.cache
+def languages() -> frozenset[str]:
+    """The languages that there are messages in."""
+    return frozenset(file.stem for file in _MESSAGES.glob("*.toml"))

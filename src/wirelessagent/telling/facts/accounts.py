@@ -1,0 +1,267 @@
+"""One user's account: what it gets, where it lost, and what would have won it something."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.decision import Decision
+from wirelessagent.telling.facts.bids import Bids, bids
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.marginal_prices import marginal_prices
+from wirelessagent.telling.facts.steps import Step, promise_step
+
+Standing: TypeAlias = Literal[
+    "served", "left_out", "nothing_decided", "no_gain", "no_weight", "no_promise", "no_room", "outbid"
+]
+"""Why a user has what it has: it is served; it is not to be; nothing was decided at all; no subcarrier reaches it; its
+rate counts for nothing; the power is to be least and it is promised nothing; there are too few subcarriers; or others
+bid more everywhere."""
+
+PROMISE_BPS = 100e3
+"""The minimum rate that is tried for a user without any."""
+_LOSSES = 3
+_LEAST_BAND, _MOST_BAND = 0.05, 0.95
+_DRAWS, _SEED = 4000, 5
+_ACCURACY = 1.01
+_MOST_FACTOR = 1e6
+_CERTAIN = 1e-12
+
+
+@dataclass(frozen=True, kw_only=True)
+class Loss:
+    """A group of subcarriers that a user did not get.
+
+    Attributes:
+        first, last: its subcarriers, from 0.
+        winner: who got it.
+        behind_db: the factor by which the user's gains there are too low; below 0 where it bids more.
+        bid_w, winning_bid_w: what it is worth to either at the prices, in W.
+        bid_value, winning_bid_value: the same in the decision's unit; NaN where power has no price in it.
+        repaired: whether any of the user's gains there was not measured.
+        low_db, high_db: the 90 % band of the user's gain there around the one that counts, in dB; 0 for certain gains.
+        chance: the probability that the true gains there are high enough to win; NaN where nothing is uncertain.
+    """
+
+    first: int
+    last: int
+    winner: int
+    behind_db: float
+    bid_w: float
+    winning_bid_w: float
+    bid_value: float
+    winning_bid_value: float
+    repaired: bool
+    low_db: float
+    high_db: float
+    chance: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Account:
+    """What a user has, and why.
+
+    Attributes:
+        user: number, from 0.
+        standing: see :data:`Standing`.
+        rate_bps, power_w: what it gets.
+        subcarriers: how many carry its power.
+        resting: how many of them rest on a gain that was not measured.
+        promised_bps: what it must get; 0 for no promise.
+        price_per_bps: what one bit/s more promised to it costs at the margin, where it is served and promised a rate.
+        repaired, entries: gains of its own that were not measured, and all.
+        losses: groups that it came closest to winning, the closest first.
+        winning_gain_db: by how much all its gains would have to be higher for it to get something, by solving anew.
+        winning_weight: the factor on its weight that would do, likewise. Both NaN where it is not known or not enough.
+        promise: what a small minimum rate would give it and cost; None where it has something.
+        included: the decision if it were served too; None where it is, or is not left out.
+    """
+
+    user: int
+    standing: Standing
+    rate_bps: float = 0.0
+    power_w: float = 0.0
+    subcarriers: int = 0
+    resting: int = 0
+    promised_bps: float = 0.0
+    price_per_bps: float = 0.0
+    repaired: int = 0
+    entries: int = 0
+    losses: tuple[Loss, ...] = ()
+    winning_gain_db: float = np.nan
+    winning_weight: float = np.nan
+    promise: Step | None = None
+    included: Decision | None = None
+
+
+def account(case: Case, user: int) -> Account:
+    """The account of a user, from 0."""
+    plain = share(case, user)
+    standing = plain.standing
+    found = bids(case) if standing in ("served", "outbid", "no_weight") else None
+    losses = () if found is None else _losses(case, found, user)
+    outbid = standing == "outbid"
+    return dataclasses.replace(
+        plain,
+        losses=losses,
+        winning_gain_db=_winning_gain_db(case, user, losses) if outbid else np.nan,
+        winning_weight=_winning_weight(case, user) if outbid else np.nan,
+        included=_included(case, user) if standing == "left_out" else None,
+        promise=promise_step(case, user, PROMISE_BPS) if standing in ("outbid", "no_weight", "no_promise") else None,
+    )
+
+
+def share(case: Case, user: int) -> Account:
+    """The account of a user, from 0, without what would have won it something."""
+    decision, estimate = case.decision, case.estimate
+    own = (decision.owner == user) & (decision.power_w > 0)
+    standing, promised = _standing(case, user, bool(own.any())), float(case.promised_bps[user])
+    priced = standing == "served" and promised > 0
+    return Account(
+        user=user,
+        standing=standing,
+        price_per_bps=abs(float(marginal_prices(case).rate[user])) if priced else 0.0,
+        rate_bps=float(case.rate_bps[user]),
+        power_w=float(decision.power_w[own].sum()),
+        subcarriers=int(own.sum()),
+        resting=int((own & estimate.repaired[user]).sum()),
+        promised_bps=promised,
+        repaired=int(estimate.repaired[user].sum()),
+        entries=estimate.num_subcarriers,
+    )
+
+
+def newcomer(case: Case) -> Account | None:
+    """The account of the user with whom the value is best of those who are left out; None where nobody is."""
+    left = [int(user) for user in np.flatnonzero(~case.served)]
+    sign = 1.0 if case.objective.direction == "max" else -1.0
+    accounts = [account(case, user) for user in left]
+    met = [one for one in accounts if one.included is not None and one.included.is_usable]
+    first = accounts[0] if accounts else None
+    return max(met, key=lambda one: sign * one.included.value if one.included else 0.0, default=first)
+
+
+def _included(case: Case, user: int) -> Decision:
+    """The decision for the same users and this one."""
+    return case.solved(
+        dataclasses.replace(case.problem, users=case.named([*np.flatnonzero(case.served).tolist(), user]))
+    )
+
+
+def _standing(case: Case, user: int, has_power: bool) -> Standing:
+    if not case.served[user]:
+        return "left_out"
+    if not case.decision.is_usable:
+        return "nothing_decided"
+    if has_power:
+        return "served"
+    if not (case.form.snr_per_w[user] > 0).any():
+        return "no_gain"
+    if case.objective.measure == "power":
+        return "no_promise"
+    if case.form.weight[user] <= 0:
+        return "no_weight"
+    counts = int(np.count_nonzero(case.form.weight > 0))
+    if case.form.start.size - 1 < counts and case.decision.value == 0:
+        return "no_room"
+    return "outbid"
+
+
+def _losses(case: Case, found: Bids, user: int) -> tuple[Loss, ...]:
+    behind = np.where((found.owner == user) | (found.owner < 0), np.inf, found.behind_db[user])
+    distance = np.abs(behind) if (found.owner == user).any() else behind
+    nearest = [int(group) for group in np.argsort(distance, kind="stable")[:_LOSSES] if np.isfinite(behind[group])]
+    return tuple(_loss(case, found, user, group) for group in nearest)
+
+
+def _loss(case: Case, found: Bids, user: int, group: int) -> Loss:
+    first, last = found.members(group)
+    inside = np.arange(first, last + 1)
+    winner, behind = int(found.owner[group]), float(found.behind_db[user, group])
+    estimate, price = case.estimate, case.decision.price_of_power
+    value = price if case.objective.measure == "utility" and price > 0 else np.nan
+    unsure = bool((estimate.gain_variance[user, inside] > 0).any())
+    low_db, high_db, chance = _spread(case, user, inside, behind) if unsure else (0.0, 0.0, np.nan)
+    bid, winning = float(found.bid_w[user, group]), float(found.bid_w[winner, group])
+    return Loss(
+        first=first,
+        last=last,
+        winner=winner,
+        behind_db=behind,
+        bid_w=bid,
+        winning_bid_w=winning,
+        bid_value=bid * value,
+        winning_bid_value=winning * value,
+        repaired=bool(estimate.repaired[user, inside].any()),
+        low_db=low_db,
+        high_db=high_db,
+        chance=chance,
+    )
+
+
+def _spread(case: Case, user: int, inside: IntArray, behind_db: float) -> tuple[float, float, float]:
+    """The band of a user's true gain on a group around the one that counts, in dB, and the chance that it wins."""
+    counted = float(case.counted.gain[user, inside].sum())
+    if counted <= 0:
+        return -np.inf, np.inf, np.nan
+    samples = case.estimate.posterior.samples_of(user, inside, _DRAWS, seed=_SEED)
+    drawn: FloatArray = np.asarray(samples.sum(axis=1) / counted, dtype=np.float64)
+    low, high = (float(one) for one in np.quantile(drawn, (_LEAST_BAND, _MOST_BAND)))
+    with np.errstate(divide="ignore"):
+        return float(10 * np.log10(low)), float(10 * np.log10(high)), float(np.mean(drawn >= 10 ** (behind_db / 10)))
+
+
+def _winning_gain_db(case: Case, user: int, losses: tuple[Loss, ...]) -> float:
+    """By how many dB all of a user's gains would have to be higher."""
+
+    def with_gain(factor: float) -> Decision:
+        gain = case.counted.gain.copy()
+        gain[user] *= factor
+        return case.counted_solved(gain)
+
+    guess = 10 ** (losses[0].behind_db / 10) if losses else 1.0
+    factor = least_winning(with_gain, user, guess)
+    return float(10 * np.log10(factor))
+
+
+def _winning_weight(case: Case, user: int) -> float:
+    """The factor on a user's weight that would win it something, where its utility is a rate times that weight."""
+    weight = case.problem.weights_of(case.num_users)
+
+    def with_weight(factor: float) -> Decision:
+        raised = weight.copy()
+        raised[user] *= factor
+        return case.counted_solved(weights=raised)
+
+    return least_winning(with_weight, user, 1.1) if case.objective.joined == "sum" else np.nan
+
+
+def least_winning(decided: Callable[[float], Decision], user: int, guess: float) -> float:
+    """The least factor above 1, within 1 %, at which a user gets something; NaN where none up to a million does.
+
+    ``decided`` solves the problem for a factor; ``guess`` is where to look first.
+    """
+
+    def wins(factor: float) -> bool:
+        found = decided(factor)
+        return found.is_usable and bool(((found.owner == user) & (found.power_w > 0)).any())
+
+    low, high = 1.0, max(guess, 1.0) * _ACCURACY
+    while not wins(high):
+        low, high = high, high * min(max((high / low) ** 2, 1.1), 10.0)
+        if high > _MOST_FACTOR:
+            return np.nan
+    if low == 1.0 and guess > 1.0 and not wins(guess / _ACCURACY):
+        low = guess / _ACCURACY
+    while high / low > _ACCURACY:
+        middle = float(np.sqrt(low * high))
+        if wins(middle):
+            high = middle
+        else:
+            low = middle
+    return high if high - 1.0 > _CERTAIN else np.nan

@@ -1,0 +1,141 @@
+"""Who bids what for a subcarrier: what it is worth to each user at the prices, and by how much it was won or lost.
+
+At the price λ_k of a user's rate, in W per nat, a group of subcarriers is worth to it
+
+    t_kg = Σ over n in g of max over p of λ_k ln(1 + p a_kn) − p
+
+watts: what the rate it carries is worth, less the power it takes. The dual gives each group to the highest bid. A loser
+is behind by the factor on its gains at which its bid would have been as high; with equal prices, one subcarrier and no
+caps that is the ratio of the gains.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent import chain
+from wirelessagent.deciding.core.closed_form import nats_worth
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.priced_worth import priced_worth_w
+from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.telling.facts.case import Case
+
+_HALVINGS = 60
+_FARTHEST_DB = 120.0
+_DEAREST = 1e130
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Bids:
+    """Bids of all users for all groups of subcarriers.
+
+    Attributes:
+        price: λ of each user's rate, shape (user,), in W per nat.
+        bid_w: t, shape (user, group), in W; 0 where a user can use nothing of it.
+        owner: of each group, shape (group,), −1 for nobody.
+        start: first subcarrier of each group, and the number of subcarriers, shape (group + 1,).
+        behind_db: by how much a user's gains on the group are too low for the owner's bid, shape (user, group), in dB;
+            0 for the owner, below 0 where a loser bids more, inf where no gain would do.
+    """
+
+    price: FloatArray
+    bid_w: FloatArray
+    owner: IntArray
+    start: IntArray
+    behind_db: FloatArray
+
+    def members(self, group: int) -> tuple[int, int]:
+        """The first and the last subcarrier of a group, from 0."""
+        return int(self.start[group]), int(self.start[group + 1]) - 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Contest:
+    """One group of subcarriers and the two highest bids for it.
+
+    Attributes:
+        group: its number.
+        winner, runner_up: users.
+        margin_db: the factor on the runner-up's gains that would make its bid as high; below 0 where it bids more, and
+            the group went elsewhere because whole subcarriers cannot be shared as the prices would have it.
+        winner_bid_w, runner_up_bid_w: in W.
+    """
+
+    group: int
+    winner: int
+    runner_up: int
+    margin_db: float
+    winner_bid_w: float
+    runner_up_bid_w: float
+
+
+def bids(case: Case) -> Bids:
+    """The bids for a usable decision, at its own prices or, where its method has none, at the dual's."""
+    form, price = case.form, prices_of_rates(case)
+    worth = priced_worth_w(form, form.snr_per_w, price)
+    owner = np.maximum.reduceat(np.where(case.decision.power_w > 0, case.decision.owner, -1), form.start[:-1])
+    wanted = np.where(owner >= 0, worth[owner, np.arange(owner.size)], 0.0)
+    behind = _behind_db(form, price, wanted)
+    held = owner >= 0
+    behind[owner[held], np.flatnonzero(held)] = 0.0
+    return Bids(price=price, bid_w=worth, owner=owner, start=form.start, behind_db=behind)
+
+
+def prices_of_rates(case: Case) -> FloatArray:
+    """λ of each user's rate, shape (user,), in W per nat."""
+    found = case.decision.prices
+    if found is None and nats_worth(case.form) is not None:
+        return _closed_prices(case)
+    if found is None:
+        found = chain.decide(case.counted, case.plain, case.cell, "dual", restarts=0).prices
+    if found is None:
+        return _closed_prices(case)
+    return np.minimum(np.exp(np.minimum(found.log_rate, 300.0)), _DEAREST)
+
+
+def contests(found: Bids) -> list[Contest]:
+    """The groups that more than one user bids for, the closest first."""
+    listed: list[Contest] = []
+    for group in np.flatnonzero(found.owner >= 0).tolist():
+        winner = int(found.owner[group])
+        others = found.behind_db[:, group].copy()
+        others[winner] = np.inf
+        second = int(np.argmin(others))
+        if np.isfinite(others[second]):
+            listed.append(
+                Contest(
+                    group=group,
+                    winner=winner,
+                    runner_up=second,
+                    margin_db=float(others[second]),
+                    winner_bid_w=float(found.bid_w[winner, group]),
+                    runner_up_bid_w=float(found.bid_w[second, group]),
+                )
+            )
+    return sorted(listed, key=lambda one: (abs(one.margin_db), one.group))
+
+
+def _closed_prices(case: Case) -> FloatArray:
+    """One water level for all whose rate counts: the height of the water on the subcarriers that are not full."""
+    form, decision = case.form, case.decision
+    counts = form.weight > 0
+    used = np.flatnonzero((decision.owner >= 0) & (decision.power_w > 0))
+    a = form.snr_per_w[decision.owner[used], used]
+    used, a = used[a > 0], a[a > 0]
+    level = float((decision.power_w[used] + 1.0 / a).max(initial=0.0))
+    return np.where(counts, level, 0.0)
+
+
+def _behind_db(form: NormalForm, price: FloatArray, wanted: FloatArray) -> FloatArray:
+    """The factor in dB on each user's gains in each group at which its bid is ``wanted`` (group,); (user, group)."""
+    low = np.full((price.size, wanted.size), -_FARTHEST_DB)
+    high = -low
+    sizes = np.diff(form.start)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        factor = np.repeat(10.0 ** (middle / 10.0), sizes, axis=1)
+        enough = priced_worth_w(form, form.snr_per_w * factor, price) >= wanted
+        low, high = np.where(enough, low, middle), np.where(enough, middle, high)
+    return np.where((high >= _FARTHEST_DB) | (wanted <= 0), np.inf, high)

@@ -1,0 +1,247 @@
+"""The nearest requests that can be met, where one cannot: more power, lower rates, fewer users; each solved for.
+
+With the objective put aside, promised rates need a least power. These ways lead back to something feasible:
+
+- the same rates with the power that they are found to need, whether the cell may radiate it or not;
+- the same request without one of its limits: on each subcarrier, of groups, or of how surely promises are kept;
+- every promised rate times one factor, the largest that the budget carries;
+- the same rates for fewer users. Those who cost most at the prices, λ_k R_k, are left out first, until the rest fits;
+  then everybody who fits after all is taken back. Where there are few combinations all smaller ones are tried too.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.decision import Bracket, Decision
+from wirelessagent.model.problem import Problem
+from wirelessagent.telling.facts.case import Case
+
+_SAFE = 1.0 - 1e-7
+"""Part of the largest factor found that is asked for, so that rounding does not decide."""
+_CLOSE, _SEARCHED_S = 1.02, 1.0
+"""A factor that is known less closely is searched for, so long."""
+_FIRST_STEP, _LEAST_FACTOR = 0.98, 1e-6
+"""A factor that no bound comes near is searched for downwards, each step the square of the one before."""
+_HALVINGS, _CLOSE_ENOUGH = 8, 1.005
+"""Then between what is carried and what is not, so often or until they are so close."""
+_MARGINS = (1.0, 1.002, 1.01, 1.05, 1.2)
+"""Of the least power, until an objective keeps its promises too: some are only found with a little to spare."""
+_AMPLE = 1e6
+"""Budget in budgets for which the dearest users are looked for."""
+_MOST_SETS = 150
+"""Sets of users to leave out that are tried to prove that fewer do not help."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MorePower:
+    """The same request with more power: solved, and whether the cell may radiate that."""
+
+    power_w: float
+    decision: Decision
+    within_limit: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class WithoutLimit:
+    """The same request without the limit of that name, a field of the problem: solved."""
+
+    limit: str
+    decision: Decision
+
+
+@dataclass(frozen=True, kw_only=True)
+class LowerRates:
+    """The same request with every promised rate times a factor: solved, and a factor that is proven to be too much."""
+
+    factor: float
+    at_most: float
+    decision: Decision
+
+
+@dataclass(frozen=True, kw_only=True)
+class FewerUsers:
+    """The same request without some users: solved, and whether no fewer would do.
+
+    Attributes:
+        left_out: numbers of the users.
+        decision: for the rest.
+        is_fewest: whether leaving out any fewer is proven infeasible.
+    """
+
+    left_out: tuple[int, ...]
+    decision: Decision
+    is_fewest: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Nearest:
+    """What a request that cannot be met would need, and the nearest ones that can; None where there is none.
+
+    Attributes:
+        budget_w: the power that it may use.
+        needed_power_w, scaling: what the rates need, and the common factor that fits, each from both sides.
+        more_power, without_limits, lower_rates, fewer_users: verified alternatives.
+    """
+
+    budget_w: float
+    needed_power_w: Bracket | None
+    scaling: Bracket | None
+    more_power: MorePower | None
+    without_limits: tuple[WithoutLimit, ...]
+    lower_rates: LowerRates | None
+    fewer_users: FewerUsers | None
+
+
+def nearest(case: Case) -> Nearest:
+    """The nearest feasible requests for a case whose decision found nothing."""
+    decision = case.decision
+    return Nearest(
+        budget_w=case.problem.budget_w(case.cell),
+        needed_power_w=decision.needed_power_w,
+        scaling=decision.rate_scaling,
+        more_power=more_power(case),
+        without_limits=without_limits(case),
+        lower_rates=lower_rates(case),
+        fewer_users=fewer_users(case),
+    )
+
+
+def more_power(case: Case) -> MorePower | None:
+    """The least power that the same rates were found to be carried with."""
+    least = dataclasses.replace(case.problem, objective="min_power", weights=None, max_power_w=None)
+    found = case.otherwise(least, _ample(case.cell))
+    if not found.is_usable:
+        return None
+    for margin in _MARGINS:
+        power = found.total_power_w / _SAFE * margin
+        cell, allowed = case.cell, power <= case.cell.max_power_w
+        if not allowed:
+            cell = dataclasses.replace(cell, max_power_w=power)
+        decision = case.otherwise(dataclasses.replace(case.problem, max_power_w=power), cell)
+        if decision.is_usable:
+            return MorePower(power_w=power, decision=decision, within_limit=allowed)
+    return None
+
+
+def without_limits(case: Case) -> tuple[WithoutLimit, ...]:
+    """The limits without one of which the request can be met."""
+    problem, without = case.problem, dict[str, Problem]()
+    if problem.subcarrier_max_power_w is not None:
+        without["subcarrier_max_power_w"] = dataclasses.replace(problem, subcarrier_max_power_w=None)
+    if problem.resource_block_group_size > 1:
+        without["resource_block_group_size"] = dataclasses.replace(problem, resource_block_group_size=1)
+    if problem.outage_probability is not None:
+        without["outage_probability"] = dataclasses.replace(problem, outage_probability=None)
+    found = (WithoutLimit(limit=limit, decision=case.otherwise(loose)) for limit, loose in without.items())
+    return tuple(one for one in found if one.decision.is_usable)
+
+
+def lower_rates(case: Case) -> LowerRates | None:
+    """The largest common factor on the promised rates for which an allocation was found."""
+    known = case.decision.rate_scaling
+    if known is None or not case.promised_bps.any():
+        return None
+    searched = known
+    if case.problem.outage_probability is None and known.at_most > known.at_least * _CLOSE:
+        searched = case.otherwise(case.problem, effort="thorough", deadline_s=_SEARCHED_S).rate_scaling or known
+    most, factor = min(known.at_most, searched.at_most, 1.0), max(known.at_least, searched.at_least) * _SAFE
+    while factor > 0:
+        decision = _scaled(case, factor)
+        if decision.is_usable:
+            return LowerRates(factor=factor, at_most=most, decision=decision)
+        carried = 0.0 if decision.rate_scaling is None else decision.rate_scaling.at_least
+        factor = factor * min(carried, 0.95) * _SAFE if carried > 0 else 0.0
+    return _searched_for(case, most)
+
+
+def _searched_for(case: Case, most: float) -> LowerRates | None:
+    """:func:`lower_rates` where no factor is known to be carried: by trying, from ``most`` downwards."""
+    if not most > 0:
+        return None
+    low = high = most * _SAFE
+    step, decision = _FIRST_STEP, _scaled(case, low)
+    while not decision.is_usable:
+        low, high, step = low * step, low, step * step
+        if low <= most * _LEAST_FACTOR:
+            return None
+        decision = _scaled(case, low)
+    for _ in range(_HALVINGS):
+        if high <= low * _CLOSE_ENOUGH:
+            break
+        middle = math.sqrt(low * high)
+        tried = _scaled(case, middle)
+        if tried.is_usable:
+            low, decision = middle, tried
+        else:
+            high = middle
+    return LowerRates(factor=low, at_most=most, decision=decision)
+
+
+def _scaled(case: Case, factor: float) -> Decision:
+    """The decision with every promised rate times a factor."""
+    return case.otherwise(dataclasses.replace(case.problem, min_rate_bps=case.promised_bps * factor))
+
+
+def fewer_users(case: Case) -> FewerUsers | None:
+    """The users to leave out so that the rest gets its rates."""
+    bearing = [int(user) for user in np.flatnonzero(case.served) if case.promised_bps[user] > 0]
+    left, decision = _dearest_first(case, bearing)
+    proven = case.decision.status == "infeasible"
+    for size in range(1, len(left) if decision else len(bearing)):
+        if math.comb(len(bearing), size) > _MOST_SETS:
+            proven = False
+            break
+        for some in itertools.combinations(bearing, size):
+            found = _without(case, some)
+            if found.is_usable:
+                return FewerUsers(left_out=some, decision=found, is_fewest=proven)
+            proven = proven and found.status == "infeasible"
+    return FewerUsers(left_out=tuple(sorted(left)), decision=decision, is_fewest=proven) if decision else None
+
+
+def _dearest_first(case: Case, bearing: list[int]) -> tuple[list[int], Decision | None]:
+    """Users left out until the rest fits, without those who fit after all; no decision where it never does."""
+    left: list[int] = []
+    decision = case.decision
+    while not decision.is_usable:
+        rest = [user for user in bearing if user not in left]
+        if len(rest) < 2:
+            return left, None
+        left.append(_dearest(case, rest, left))
+        decision = _without(case, left)
+    for user in left[:-1]:
+        fewer = [one for one in left if one != user]
+        again = _without(case, fewer)
+        if again.is_usable:
+            left, decision = fewer, again
+    return left, decision
+
+
+def _dearest(case: Case, rest: list[int], left: list[int]) -> int:
+    """Who of ``rest`` costs most at the prices without those who are ``left`` out already."""
+    price = _without(case, left).price_of_rate if left else case.decision.price_of_rate
+    if not price.size:
+        remaining = case.named(user for user in np.flatnonzero(case.served).tolist() if user not in left)
+        least = dataclasses.replace(
+            case.problem, objective="min_power", weights=None, max_power_w=None, users=remaining
+        )
+        price = case.otherwise(least, _ample(case.cell)).price_of_rate
+    if not price.size or not np.isfinite(price[rest]).any():
+        return max(rest, key=lambda user: float(case.promised_bps[user] / max(case.counted.gain[user].max(), 1e-300)))
+    return max(rest, key=lambda user: float(np.nan_to_num(price[user], nan=0.0) * case.promised_bps[user]))
+
+
+def _without(case: Case, left: list[int] | tuple[int, ...]) -> Decision:
+    rest = case.named(user for user in np.flatnonzero(case.served).tolist() if user not in left)
+    return case.otherwise(dataclasses.replace(case.problem, users=rest))
+
+
+def _ample(cell: Cell) -> Cell:
+    return dataclasses.replace(cell, max_power_w=cell.max_power_w * _AMPLE)

@@ -1,0 +1,89 @@
+"""What the terms mean that decisions are told in; objectives of plug-ins tell of themselves."""
+
+from __future__ import annotations
+
+import functools
+import re
+import unicodedata
+from dataclasses import dataclass
+
+from wirelessagent import plugins
+from wirelessagent.model.objective import Objective
+from wirelessagent.telling.catalogue import has_message, languages, message, messages
+
+_NAMES, _MEANING = "term.names.", "term.meaning."
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """A term: what people call it in any language, and where it stands in the catalogue or which objective it is."""
+
+    key: str
+    names: tuple[str, ...]
+    objective: type[Objective] | None = None
+    summary: str = ""
+
+    def told(self, language: str) -> str:
+        """What it means."""
+        key, one = _MEANING + self.key, self.objective
+        meaning = message(language, key) if has_message(language, key) else self.summary
+        if one is None:
+            return meaning
+        spoken = one.name if language == "en" else next(iter(one.phrases.get(language, ())), one.name)
+        unit = message(language, "term.unit", unit=one.unit) if one.unit else ""
+        return message(language, "term.objective", objective=spoken, meaning=meaning) + unit
+
+
+def explained(text: str, language: str) -> str:
+    """What the terms in a text mean, in the order they are named, two at most; empty where none is known.
+
+    A longer term wins over one within it: "price of power" is not power.
+    """
+    said = _plain(text)
+    found: list[tuple[int, int, str]] = []
+    for entry in entries():
+        places = [(at, at + len(name)) for name in entry.names for at in _places(said, _plain(name))]
+        if places:
+            first, last = max(places, key=lambda place: place[1] - place[0])
+            found.append((first, last, entry.told(language)))
+    outer = [one for one in found if not any(_within(one, other) for other in found)]
+    return "\n".join(dict.fromkeys(told for _, _, told in sorted(outer)[:2]))
+
+
+def entries() -> list[Entry]:
+    """All terms: those of the catalogue, and all registered objectives by their names, phrases and figures."""
+    known, found = dict(_names()), list[Entry]()
+    for one in plugins.plugins("objective"):
+        also = known.pop(one.name, ())
+        if one.cls is None or not issubclass(one.cls, Objective):
+            continue
+        cls = one.cls
+        phrases = tuple(phrase for said in (*cls.phrases.values(), *cls.figure_name.values()) for phrase in said)
+        names = (cls.name, cls.name.replace("_", " "), *cls.aliases, *also, *phrases)
+        found.append(Entry(key=cls.name, names=names, objective=cls, summary=one.summary))
+    return [*(Entry(key=key, names=names) for key, names in known.items()), *found]
+
+
+@functools.cache
+def _names() -> dict[str, tuple[str, ...]]:
+    """What the terms of the catalogue are called, in all languages."""
+    keys = [key for key in messages("en") if key.startswith(_NAMES)]
+    own = {key: [messages(language).get(key, "") for language in sorted(languages())] for key in keys}
+    return {
+        key.removeprefix(_NAMES): tuple(name for names in own[key] for name in names.split(", ") if name) for key in own
+    }
+
+
+def _within(one: tuple[int, int, str], other: tuple[int, int, str]) -> bool:
+    return other[0] <= one[0] and one[1] <= other[1] and other[1] - other[0] > one[1] - one[0]
+
+
+def _plain(text: str) -> str:
+    """Without case, accents of width, hyphens and underscores."""
+    return re.sub(r"[\s_\-–]+", " ", unicodedata.normalize("NFKC", text).casefold()).strip()
+
+
+def _places(said: str, name: str) -> list[int]:
+    """Where a name stands as a word of its own, or as Chinese characters; a plural is the same word."""
+    edge = r"(?<![a-z0-9]){}(?:s|es)?(?![a-z0-9])" if name.isascii() else "{}"
+    return [match.start() for match in re.finditer(edge.format(re.escape(name)), said)]

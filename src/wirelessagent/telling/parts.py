@@ -1,0 +1,60 @@
+"""Parts of sentences: what values, subcarriers and results are called."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wirelessagent.model.decision import Decision
+from wirelessagent.model.objective import Objective
+from wirelessagent.model.phrases import phrases
+from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.facts.case import Case
+
+
+def name_of_figure(decision: Decision, language: str = "en") -> str:
+    """What the decision's value is called, as in "lowest rate"; empty where its unit says it all."""
+    objective, weighted = decision.problem.objective, decision.problem.weights is not None
+    names = objective.figure_name if isinstance(objective, Objective) else phrases()
+    named = (names.get(language) or names.get("en") or next(iter(names.values()), ("",)))[0]
+    if named or not weighted or not isinstance(objective, Objective):
+        return named
+    if objective.measure == "efficiency":
+        return message(language, "label.weighted_energy_efficiency")
+    total = (objective.measure, decision.unit) == ("utility", "bit/s")
+    return message(language, "label.weighted_total_rate") if total else ""
+
+
+def value_name(case: Case, language: str) -> str:
+    """What the value is called in a sentence, as in "total rate"."""
+    named = name_of_figure(case.decision, language)
+    if named or case.objective.measure != "utility":
+        return named or message(language, f"part.{case.objective.measure}")
+    return message(language, "part.rate" if case.objective.unit == "bit/s" else "text.value")
+
+
+def place(first: int, last: int, language: str) -> str:
+    """Subcarriers as people count them, from 1."""
+    return message(language, "part.one" if first == last else "part.several", first=first + 1, last=last + 1)
+
+
+def outcome_in_words(case: Case, decision: Decision, language: str) -> str:
+    """What a decision is worth and takes."""
+    key = "part.outcome" if case.objective.measure == "power" else "part.outcome_power"
+    value, power = human(decision.value, decision.unit), human(decision.total_power_w, "W")
+    return message(language, key, figure=value_name(case, language), value=value, power=power)
+
+
+def cannot_be_served(decision: Decision, language: str = "en") -> str:
+    """How many users get no rate, where that makes the decision worthless; empty where it does not."""
+    objective = decision.problem.objective
+    if decision.value != 0 or not isinstance(objective, Objective) or objective.measure == "power":
+        return ""
+    counts = decision.problem.weights_of(decision.rate_bps.size) > 0
+    starved = np.flatnonzero(counts & (decision.rate_bps <= 0))
+    if not starved.size:
+        return ""
+    users, size = int(np.count_nonzero(counts)), decision.problem.resource_block_group_size
+    places, kind = -(-decision.owner.size // size), "part.subcarriers" if size == 1 else "part.resource_block_groups"
+    key = "decision.cannot_serve_places" if places < users else "decision.cannot_serve"
+    return message(language, key, left=starved.size, users=users, places=places, kind=message(language, kind))

@@ -1,0 +1,142 @@
+"""Prices in words: of power and of promises, what holds a decision back, and which subcarriers were won narrowly."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wirelessagent.model.units import human, percent
+from wirelessagent.telling.catalogue import called, joined, listed, message
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.contests import Contested
+from wirelessagent.telling.facts.marginal_prices import MarginalPrices, marginal_prices
+from wirelessagent.telling.facts.steps import WithoutCeilings, without_ceilings
+from wirelessagent.telling.parts import value_name
+from wirelessagent.telling.text_table import Table
+
+_STEP_BPS = 100e3
+_WORTH_TELLING = 1e-3
+_SHOWN_DB, _SHOWN_COST = 0.005, 1e-6
+"""A contest of less margin that costs no larger share of the value either way is none."""
+
+
+def prices_answer(case: Case, prices: MarginalPrices, language: str) -> str:
+    """The prices of power and of the dearest promise."""
+    figure = value_name(case, language)
+    said = [_power_price(case, prices, figure, language)]
+    cost = np.abs(np.where(case.promised_bps > 0, prices.rate, 0.0))
+    if np.nanmax(cost, initial=0.0) > 0:
+        dearest = int(np.nanargmax(cost))
+        price = human(float(cost[dearest]) * _STEP_BPS, case.decision.unit)
+        direction = message(language, "price.up" if prices.rate[dearest] > 0 else "price.down")
+        user = called(language, case.estimate.user_names[dearest])
+        said.append(message(language, "price.dearest", user=user, direction=direction, figure=figure, price=price))
+    elif case.promised_bps.any():
+        said.append(message(language, "price.free"))
+    return joined(language, [*said, message(language, "price.slopes")])
+
+
+def _power_price(case: Case, prices: MarginalPrices, figure: str, language: str) -> str:
+    budget, spent = human(case.problem.budget_w(case.cell), "W"), human(case.decision.total_power_w, "W")
+    if case.objective.measure == "power":
+        return message(language, "price.power_least", budget=budget)
+    if np.isnan(prices.power):
+        return message(language, "price.power_unknown")
+    if prices.power > 0 and prices.binds:
+        price = human(prices.power, case.decision.unit)
+        return message(language, "price.power", figure=figure, price=price, budget=budget)
+    return message(language, "price.power_idle", spent=spent, budget=budget)
+
+
+def prices_table(case: Case, prices: MarginalPrices, language: str) -> Table | None:
+    """What 100 kbit/s more would cost for each user with a promise; None where nobody has one."""
+    users = np.flatnonzero(case.promised_bps > 0)
+    if not users.size:
+        return None
+    rate, unit = prices.rate, case.decision.unit
+    rows = tuple(
+        (
+            called(language, case.estimate.user_names[user]),
+            human(float(case.promised_bps[user]), "bit/s"),
+            human(float(case.decision.rate_bps[user]), "bit/s"),
+            human(float(rate[user]) * _STEP_BPS, unit),
+        )
+        for user in users.tolist()
+    )
+    columns = tuple(message(language, f"price.{key}") for key in ("user", "promised", "gets", "price"))
+    return Table(title=message(language, "price.promises"), columns=columns, rows=rows)
+
+
+def contested_table(case: Case, found: list[Contested], language: str) -> Table | None:
+    """Who won the most contested subcarriers, and by how much; None where nothing was contested."""
+    names, unit = case.estimate.user_names, case.decision.unit
+    least = _SHOWN_COST * abs(case.decision.value)
+    found = [one for one in found if np.isnan(one.cost) or one.cost > least or abs(one.contest.margin_db) >= _SHOWN_DB]
+    rows = tuple(
+        (
+            f"{one.first + 1}" if one.first == one.last else f"{one.first + 1}–{one.last + 1}",
+            called(language, names[one.contest.winner]),
+            called(language, names[one.contest.runner_up]),
+            f"{one.contest.margin_db:.2g} dB" if abs(one.contest.margin_db) >= _SHOWN_DB else "0 dB",
+            message(language, "contest.not_met") if np.isnan(one.cost) else human(one.cost, unit),
+        )
+        for one in found
+    )
+    columns = tuple(
+        message(language, f"contest.{key}") for key in ("subcarrier", "winner", "runner_up", "margin", "other_way")
+    )  # fmt: skip
+    return Table(title=message(language, "contest.contests"), columns=columns, rows=rows) if rows else None
+
+
+def limits_answer(case: Case, language: str) -> str:
+    """What holds the value back, each with what it would be worth to have more of it."""
+    prices, ceilings = marginal_prices(case), without_ceilings(case)
+    said = [*_caps(case, ceilings, language), *_power_held(case, prices, language), *_promise(case, prices, language)]
+    return joined(language, [*said, *_most_power(case, language)] or [message(language, "hindrance.nothing")])
+
+
+def _caps(case: Case, found: WithoutCeilings | None, language: str) -> list[str]:
+    """Who has all that it may have, and what the value would be if it might have more, solved anew."""
+    if found is None:
+        return []
+    decision, free = case.decision, found.decision
+    names, figure = listed(language, case.named(found.users)), value_name(case, language)
+    gained = abs(free.value - decision.value) > _WORTH_TELLING * abs(decision.value)
+    told = {"names": names, "figure": figure, "value": human(decision.value, decision.unit)}
+    if not free.is_usable or not gained:
+        return [message(language, "hindrance.caps_idle", **told)]
+    return [message(language, "hindrance.caps", **told, free=human(free.value, decision.unit))]
+
+
+def _power_held(case: Case, prices: MarginalPrices, language: str) -> list[str]:
+    if case.objective.measure == "power":
+        return []
+    budget = human(case.problem.budget_w(case.cell), "W")
+    if prices.binds and prices.power > 0:
+        price, figure = human(prices.power, case.decision.unit), value_name(case, language)
+        return [message(language, "hindrance.power", budget=budget, figure=figure, price=price)]
+    return [message(language, "hindrance.power_free", budget=budget, spent=human(case.decision.total_power_w, "W"))]
+
+
+def _promise(case: Case, prices: MarginalPrices, language: str) -> list[str]:
+    cost = np.nan_to_num(np.abs(np.where(case.promised_bps > 0, prices.rate, 0.0)))
+    if not cost.any():
+        return []
+    dearest = int(cost.argmax())
+    price, name = human(float(cost[dearest]) * _STEP_BPS, case.decision.unit), case.estimate.user_names[dearest]
+    return [message(language, "hindrance.promise", name=name, figure=value_name(case, language), price=price)]
+
+
+def _most_power(case: Case, language: str) -> list[str]:
+    decision = case.decision
+    used = decision.power_w > 0
+    spent = np.bincount(decision.owner[used], weights=decision.power_w[used], minlength=case.num_users)
+    if np.count_nonzero(spent) < 2:
+        return []
+    user = int(spent.argmax())
+    return [
+        message(
+            language, "hindrance.most_power", name=called(language, case.estimate.user_names[user]),
+            power=human(float(spent[user]), "W"), share=percent(float(spent[user] / spent.sum())),
+            rate=human(float(case.rate_bps[user]), "bit/s"),
+        )
+    ]  # fmt: skip
