@@ -145,5 +145,6 @@ def test_names_are_told_as_the_language_calls_them() -> None:
         message("zh", "ask_back.unknown_user", user="user 9", known="Ada") == "这里没有用户9，有Ada。您指的是哪一个？"
     )
     assert [called("en", name) for name in ("User 3", "dual", "x\ny")] == ["User 3", "dual", "x\\u000ay"]
+    assert [called("zh", name) for name in ("user", "users", "Users 3")] == ["user", "users", "Users 3"]
     assert joined("en", ["One.", "", "Two."]) == "One. Two."
     assert joined("zh", ["一。", "", "二。"]) == "一。二。"

@@ -71,7 +71,7 @@ def status(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> R
         return Reply(text=message(language, "in_effect.none"))
     said: list[str] = []
     if state.request is not None:
-        said.append(message(language, "in_effect.asked_for", request=restated(state.request, language)))
+        said.append(message(language, "request.asked_for", request=restated(state.request, language)))
     if state.run is not None:
         said.append(message(language, "in_effect.decided", certificate=certificate_line(state.run.decision, language)))
     unknown = state.on_air is None and site.touched
@@ -120,7 +120,7 @@ def history(intent: Intent, turns: Sequence[Turn]) -> Reply:
     chosen = next((turn for turn in turns if turn.number == number), None)
     if chosen is None:
         asked = f"{cast(float, number):g}"
-        return Reply(text=message(language, "turn.unknown", number=asked, last=len(turns)), stage="asked")
+        return Reply(text=message(language, "turn.no_such", number=asked, last=len(turns)), stage="asked")
     text = message(language, "turn.said", number=chosen.number, text=_short(chosen.text), reply=chosen.reply)
     return Reply(text=text, tables=chosen.tables)
 

@@ -42,7 +42,7 @@ def users_in_words(references: Sequence[str], language: str) -> str:
     """
     numbers = [number[1] for number in map(_NUMBERED.fullmatch, references) if number is not None]
     if len(references) >= _SEVERAL and len(numbers) == len(references):
-        return message(language, "name.users", numbers=_in_a_row(language, numbers))
+        return message(language, "whom.users", numbers=_in_a_row(language, numbers))
     return _in_a_row(language, [_user(language, reference) for reference in references])
 
 
@@ -79,7 +79,7 @@ def _by_figure(language: str, by_user: Mapping[str, float], exempt: list[str]) -
 def _user(language: str, reference: str) -> str:
     number = _NUMBERED.fullmatch(reference)
     if number is not None:
-        return message(language, "name.user", number=number[1])
+        return message(language, "whom.user", number=number[1])
     return message(language, "whom.everybody_else") if reference == EVERYBODY else reference
 
 

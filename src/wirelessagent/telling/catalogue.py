@@ -53,8 +53,8 @@ def called(language: str, name: str) -> str:
     """
     name, own = legible(name, keep=""), messages(language)
     number = _NUMBERED.fullmatch(name)
-    if number is not None and language != "en" and "name.user" in own:
-        return own["name.user"].format(number=number[1])
+    if number is not None and language != "en" and "whom.user" in own:
+        return own["whom.user"].format(number=number[1])
     return own.get(f"name.{name}", name)
 
 

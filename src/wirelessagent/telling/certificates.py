@@ -21,7 +21,7 @@ def certificate_line(decision: Decision, language: str = "en") -> str:
     if not decision.is_usable:
         return message(language, "certificate.unusable", **told, reason=reason_in_words(decision, language))
     worth, figure = human(decision.value, decision.unit), name_of_figure(decision, language)
-    value = message(language, "certificate.figure", figure=figure, value=worth).strip()
+    value = message(language, "part.outcome", figure=figure, value=worth).strip()
     if np.isnan(decision.gap):
         return message(language, "certificate.no_bound", **told, value=value)
     outage, bound = decision.problem.outage_probability, human(decision.bound, decision.unit)

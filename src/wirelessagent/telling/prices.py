@@ -27,7 +27,7 @@ def prices_answer(case: Case, prices: MarginalPrices, language: str) -> str:
     if np.nanmax(cost, initial=0.0) > 0:
         dearest = int(np.nanargmax(cost))
         price = human(float(cost[dearest]) * _STEP_BPS, case.decision.unit)
-        direction = message(language, "price.up" if prices.rate[dearest] > 0 else "price.down")
+        direction = message(language, "step.up" if prices.rate[dearest] > 0 else "step.down")
         user = called(language, case.estimate.user_names[dearest])
         said.append(message(language, "price.dearest", user=user, direction=direction, figure=figure, price=price))
     elif case.promised_bps.any():
@@ -62,7 +62,8 @@ def prices_table(case: Case, prices: MarginalPrices, language: str) -> Table | N
         )
         for user in users.tolist()
     )
-    columns = tuple(message(language, f"price.{key}") for key in ("user", "promised", "gets", "price"))
+    heads = ("label.user", "price.promised", "price.gets", "price.price")
+    columns = tuple(message(language, key) for key in heads)
     return Table(title=message(language, "price.promises"), columns=columns, rows=rows)
 
 

@@ -66,7 +66,7 @@ def _short(decision: Decision, short: Shortage, language: str) -> str:
         needed=short.needed,
         promised=human(short.promised_bps, "bit/s"),
         most=human(short.most_bps, "bit/s"),
-        kind=message(language, "reason.subcarrier" if size == 1 else "reason.group", size=size),
+        kind=message(language, "part.subcarriers" if size == 1 else "reason.group", size=size),
         limits=_limits(decision, language),
     )
 

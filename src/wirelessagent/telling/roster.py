@@ -144,7 +144,7 @@ def gain_answer(case: Case, user: int | None, place: int | None, language: str) 
     """The gain of a user, else of the owner, on the subcarrier ``place`` (from 1), or of a user over all of them."""
     decision, total = case.decision, case.estimate.num_subcarriers
     if place is not None and not 1 <= place <= total:
-        return message(language, "gain.no_such", place=place, total=total)
+        return message(language, "roster.no_such", place=place, total=total)
     if user is None and place is not None:
         user = int(decision.owner[place - 1]) if decision.is_usable else -1
         user = user if user >= 0 else int(case.estimate.gain[:, place - 1].argmax())
