@@ -544,7 +544,7 @@ def _tokens(line: Line, language: str) -> list[Token] | None:
                     end=number.end,
                     phrase_start=number.start,
                     phrase_end=number.end,
-                )  # fmt: skip
+                )
             )
     for figure in figures:
         spans[figure.start] = (figure.end, Token(frozenset({_CLASS.get(figure.kind, figure.kind)}), figure=figure))
