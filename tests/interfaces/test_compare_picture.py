@@ -17,6 +17,8 @@ from wirelessagent.pictures.compare_picture import comparison_canvas, draw_compa
 from wirelessagent.pictures.method_names import readable
 from wirelessagent.testing.channels import known, rayleigh_gain
 
+pytestmark = pytest.mark.machine_code
+
 CELL = wa.Cell(max_power_w=20)
 SEVEN = ("dual", "exact", "greedy", "paper", "paper_inversion", "equal_power", "round_robin")
 

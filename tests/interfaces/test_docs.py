@@ -19,6 +19,8 @@ import pytest
 import wirelessagent
 from wirelessagent.interfaces.cli import run
 
+pytestmark = pytest.mark.machine_code
+
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SLOW = {"reproduce", "evaluate"}

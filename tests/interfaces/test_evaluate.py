@@ -30,6 +30,8 @@ from wirelessagent.model.errors import InputError, MissingDependencyError, Unkno
 from wirelessagent.pictures.method_names import readable
 from wirelessagent.sensing.rayleigh import Rayleigh
 
+pytestmark = pytest.mark.machine_code
+
 QUICK = tuple(name for name in all_methods() if name != "iterative")
 """All methods but the one that takes a fifth of a second."""
 

@@ -44,6 +44,8 @@ from wirelessagent.model.scene import Scene
 from wirelessagent.pictures.canvas import Canvas
 from wirelessagent.sensing.rayleigh import Rayleigh
 
+pytestmark = pytest.mark.machine_code
+
 SMALL = {
     "run_time": RunTime(
         num_subcarriers=(8, 16, 32, 64), num_users=(2, 4), num_levels=(10, 20, 40), users_held=2, subcarriers_held=16,

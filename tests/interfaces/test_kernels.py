@@ -32,6 +32,8 @@ PACKAGE = Path(wirelessagent.__file__).parent
 INNER = """
 from wirelessagent.kernels import kernel
 
+pytestmark = pytest.mark.machine_code
+
 @kernel
 def inner(x):
     return x + 1.0

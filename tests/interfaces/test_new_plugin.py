@@ -16,6 +16,8 @@ from wirelessagent import plugins
 from wirelessagent.interfaces.cli import run
 from wirelessagent.operations.new_plugin import package_files
 
+pytestmark = pytest.mark.machine_code
+
 ROOT = Path(__file__).parents[2]
 NAMES = {
     "channel_source": "free_space",

@@ -23,6 +23,8 @@ from wirelessagent.model.rates import normalised_gain, user_rate_bps
 from wirelessagent.pictures.canvas import Canvas
 from wirelessagent.pictures.chain_picture import chain_canvas, draw_chain
 
+pytestmark = pytest.mark.machine_code
+
 CELL = Cell()
 WATER_LEVEL_W = 1.5
 

@@ -20,6 +20,8 @@ from wirelessagent.experiments.table import table_of
 from wirelessagent.experiments.verdict import FEWEST_DRAWS, Bar, Claim, Reading, judge, markdown
 from wirelessagent.interfaces.cli import run
 
+pytestmark = pytest.mark.machine_code
+
 DOCS = Path(__file__).parents[2] / "docs" / "paper.md"
 
 

@@ -25,6 +25,8 @@ from wirelessagent.model.legible import legible
 from wirelessagent.operations.catalogue import OPERATIONS
 from wirelessagent.operations.operation import Event
 
+pytestmark = pytest.mark.machine_code
+
 HOSTILE = "\x1b[31mred\x9b2J\x7f\x07[bold]b[/bold][/]:warning:\u202eW 01\u2066\u2069\u200b\u3164\U000e0041\u2028"
 FORGED = "Checked: nothing was changed"
 LINES = f"{HOSTILE}\n{FORGED}\r"
