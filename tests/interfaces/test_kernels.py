@@ -27,12 +27,12 @@ from wirelessagent.kernels.lock import Lock
 from wirelessagent.kernels.twin import twin_of
 from wirelessagent.model.errors import InputError
 
+pytestmark = pytest.mark.machine_code
+
 PACKAGE = Path(wirelessagent.__file__).parent
 
 INNER = """
 from wirelessagent.kernels import kernel
-
-pytestmark = pytest.mark.machine_code
 
 @kernel
 def inner(x):
