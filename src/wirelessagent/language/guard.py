@@ -253,14 +253,27 @@ def table_of(language: str) -> Mapping[str, Mapping[str, Sequence[str]]]:
 
 
 def _places(words: Sequence[str], plain: str) -> Iterator[Span]:
-    return (match.span() for match in _pattern(tuple(words)).finditer(plain))
+    """Where any of these words stand, the longest where several begin; "*" is any ending, "#" a number.
+
+    Only words of which a part is in the text are made patterns: a language has hundreds.
+    """
+    small, end = plain.lower(), 0
+    found = [match.span() for word in words if _stem(word) in small for match in _pattern(word).finditer(plain)]
+    for span in sorted(found, key=lambda span: (span[0], -span[1])):
+        if span[0] >= end:
+            end = span[1]
+            yield span
 
 
 @functools.cache
-def _pattern(words: tuple[str, ...]) -> re.Pattern[str]:
-    """Any of these words, the longest first; "*" stands for any ending, "#" for a number."""
-    ordered = sorted(words, key=len, reverse=True)
-    return re.compile("|".join(map(_written, ordered)) or "(?!)", re.IGNORECASE)
+def _stem(word: str) -> str:
+    """The longest part of a word that is always written so."""
+    return max(re.split(r"[*# ]+", word.lower()), key=len)
+
+
+@functools.cache
+def _pattern(word: str) -> re.Pattern[str]:
+    return re.compile(_written(word), re.IGNORECASE)
 
 
 def _written(word: str) -> str:
