@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wirelessagent.agent.dialogue import Request, applied, covered, difference, figures_of
+from wirelessagent.agent.dialogue import Change, Diff, Request, applied, difference, figures_of
 from wirelessagent.language.acts import (
     Act,
     Aim,
@@ -27,6 +28,7 @@ from wirelessagent.language.acts import (
     Suppose,
     Whom,
 )  # fmt: skip
+from wirelessagent.language.intent import EVERYBODY, LISTS_OF_USERS
 
 USERS = ("1", "2", "3", "4")
 OF_USERS = ("min_rate_bps", "max_rate_bps", "weights")
@@ -80,6 +82,23 @@ def same(one: Request | None, other: Request | None) -> bool:
         return one is other
     heads = (one.objective, one.method) == (other.objective, other.method)
     return heads and figures_of(one.constraints) == figures_of(other.constraints)
+
+
+def covered(diff: Diff, acts: Sequence[Act]) -> bool:
+    """Whether an act took off each limit that is gone: nothing vanishes in silence."""
+    return all(any(_takes_off(act, one) for act in acts) for one in diff.changes if one.after is None)
+
+
+def _takes_off(act: Act, change: Change) -> bool:
+    if isinstance(act, Forget):
+        return True
+    if isinstance(act, Serve | LeaveOut):
+        return change.kind in LISTS_OF_USERS
+    if isinstance(act, Drop | Limit):  # a figure for everybody is in the place of those of named users
+        named = isinstance(act.whom, Named) and change.user not in act.whom.users
+        others = isinstance(act.whom, Others) and (isinstance(act, Limit) or change.user != EVERYBODY)
+        return act.kind == change.kind and not named and not others
+    return False
 
 
 @given(lines)

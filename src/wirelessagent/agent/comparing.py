@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import cast
 
 from wirelessagent import plugins
@@ -16,7 +16,8 @@ from wirelessagent.agent.restating import goal_words
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply
 from wirelessagent.agent.turn import Run
-from wirelessagent.language.acts import Act, Aim, limits
+from wirelessagent.language.acts import Act, Aim
+from wirelessagent.language.acts import stated as said
 from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
 from wirelessagent.model.units import human, reliability
 from wirelessagent.telling.catalogue import called, joined, message
@@ -33,7 +34,7 @@ def alternatives(request: Request, intent: Intent) -> list[tuple[str, Request]]:
     stated = [value for value in limits if isinstance(value, Mapping)]
     aims = [aim for aim in str(details.get("aims", "")).split() if aim in plugins.names("objective")]
     return [
-        *((_figures(one), _with(request, *_stated(one))) for one in stated),
+        *((_figures(one), _with(request, *said(one))) for one in stated),
         *((goal_words(aim, language), _with(request, Aim(objective=aim))) for aim in aims),
     ]
 
@@ -42,10 +43,6 @@ def _with(request: Request, *acts: Act) -> Request:
     changed, _ = applied(request, acts)
     assert changed is not None
     return changed
-
-
-def _stated(figures: Mapping[str, Constraint]) -> Iterator[Act]:
-    return (act for name, value in figures.items() for act in limits(name, value))
 
 
 def beside(site: Site, run: Run, intent: Intent, others: Sequence[tuple[str, Request]], *, noted: bool) -> Reply:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -18,7 +18,6 @@ from wirelessagent.language.acts import (
     LeaveOut,
     Limit,
     Named,
-    Others,
     Prefer,
     Scale,
     Serve,
@@ -284,20 +283,3 @@ def stated_by(after: Request, before: Request | None) -> dict[str, Constraint]:
     return constraints_of({
         key: value for key, value in new.items() if old.get(key, old.get((key[0], EVERYBODY))) != value
     })  # fmt: skip
-
-
-def covered(diff: Diff, acts: Sequence[Act]) -> bool:
-    """Whether an act took off each limit that is gone: nothing vanishes in silence."""
-    return all(any(_takes_off(act, one) for act in acts) for one in diff.changes if one.after is None)
-
-
-def _takes_off(act: Act, change: Change) -> bool:
-    if isinstance(act, Forget):
-        return True
-    if isinstance(act, Serve | LeaveOut):
-        return change.kind in LISTS_OF_USERS
-    if isinstance(act, Drop | Limit):  # a figure for everybody is in the place of those of named users
-        named = isinstance(act.whom, Named) and change.user not in [_name(user) for user in act.whom.users]
-        others = isinstance(act.whom, Others) and (isinstance(act, Limit) or change.user != EVERYBODY)
-        return act.kind == change.kind and not named and not others
-    return False

@@ -126,7 +126,7 @@ class Session:
     def say(self, text: str) -> Turn:
         """Take a line from the operator: understand it, do what it asks, and reply."""
         context, before = self._context(), self.request
-        intent = self._gone_back(self._answered(text) or understood(text, context, self._recogniser))
+        intent = self._gone_back(self._answered(text, context) or understood(text, context, self._recogniser))
         self._state = dataclasses.replace(self._state, supposed=None)
         self._language = intent.language
         if intent.kind == "allocate":
@@ -320,13 +320,13 @@ class Session:
             reply=reply, details={**intent.details, "method": request.method or OWN_CHOICE},
         )  # fmt: skip
 
-    def _answered(self, text: str) -> Intent | None:
+    def _answered(self, text: str, context: Context) -> Intent | None:
         """The intent that waits for a user, with the one that this line names; None where it names none."""
         question, said = self._state.question, text.strip()
         missing = None if question is None else question.missing
         if missing is None or len(said) > _LONGEST_NAME:
             return None
-        match, named = _USER.fullmatch(said), named_alone(Line.of(said, self._context()))
+        match, named = _USER.fullmatch(said), named_alone(Line.of(said, context))
         try:
             number, _ = user_number(named[0] if len(named) == 1 else match[1] if match else "", self._site.user_names)
         except UnknownUserError:

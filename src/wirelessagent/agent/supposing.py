@@ -19,7 +19,7 @@ from wirelessagent.agent.run import Sight
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Reply, State
 from wirelessagent.agent.turn import Run
-from wirelessagent.language.acts import Act, Aim, Drop, limits
+from wirelessagent.language.acts import Limit, supposed_in
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
@@ -78,15 +78,11 @@ def _planned(site: Site, intent: Intent, request: Request, sight: Sight | None) 
 
 def supposed(state: State, intent: Intent) -> Request:
     """The request of a what-if; one of the most that can be promised is kept with the probability that is assumed."""
-    details = intent.details
-    constraints = dict(cast("Mapping[str, Constraint]", details.get("constraints") or {}))
-    objective = cast("str | None", details.get("objective"))
-    held = state.request or Request(objective=cast(str, objective))
-    if details.get("asked") == "most" and "outage_probability" not in held.constraints:
-        constraints.setdefault("outage_probability", ASSUMED_OUTAGE_PROBABILITY)
-    acts: list[Act] = [] if objective is None else [Aim(objective=objective)]
-    acts += [Drop(kind=name) for name in str(details.get("dropped", "")).split()]
-    acts += [act for name, value in constraints.items() for act in limits(name, value)]
+    details, acts = intent.details, supposed_in(intent.details)
+    held = state.request or Request(objective=cast(str, details.get("objective")))
+    named = {*held.constraints, *cast("Mapping[str, Constraint]", details.get("constraints") or {})}
+    if details.get("asked") == "most" and "outage_probability" not in named:
+        acts = *acts, Limit(kind="outage_probability", value=ASSUMED_OUTAGE_PROBABILITY)
     request, _ = applied(held, acts, radiated_w=state.radiated_w)
     assert request is not None
     return request

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias, cast
 
-from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
+from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 
 OWN_CHOICE = "auto"
 """The method for "the usual method"."""
@@ -140,10 +140,6 @@ class Undo(Act):
     turn: int | None = None
 
 
-Changing: TypeAlias = Aim | Limit | Scale | Drop | Serve | LeaveOut | Prefer | Forget
-"""Acts that change what is asked for."""
-
-
 def acts_of(intent: Intent) -> tuple[Act, ...]:
     """What an intent does to a conversation; nothing where it asks back."""
     if intent.acts:
@@ -163,17 +159,18 @@ def acts_of(intent: Intent) -> tuple[Act, ...]:
 
 
 def _asked(intent: Intent) -> Act:
-    details = intent.details
     if intent.topic != "what_if":
         return Ask(topic=intent.topic or "other")
-    share, aim = details.get("missing_share"), details.get("objective")
-    stated = details.get("constraints")
+    share = intent.details.get("missing_share")
+    return Suppose(acts=supposed_in(intent.details), missing_share=share if isinstance(share, float) else None)
+
+
+def supposed_in(details: Mapping[str, Detail]) -> tuple[Act, ...]:
+    """The acts of a what-if, as an intent's details write them."""
+    aim, figures = details.get("objective"), details.get("constraints")
     acts: list[Act] = [Aim(objective=aim)] if isinstance(aim, str) else []
     acts += [Drop(kind=name) for name in str(details.get("dropped", "")).split()]
-    supposed: Mapping[str, Constraint] = stated if isinstance(stated, Mapping) else {}
-    for name, value in supposed.items():
-        acts += limits(name, value)
-    return Suppose(acts=tuple(acts), missing_share=share if isinstance(share, float) else None)
+    return *acts, *stated(cast("Mapping[str, Constraint]", figures or {}))
 
 
 def _changes(intent: Intent) -> Iterator[Act]:
@@ -184,14 +181,19 @@ def _changes(intent: Intent) -> Iterator[Act]:
     yield Aim(objective=intent.objective, words=said.get("objective", ""))
     for name in intent.dropped:
         yield Drop(kind=name)
-    for name, value in intent.constraints.items():
-        yield from limits(name, value, said.get(name, ""))
+    yield from stated(intent.constraints, said)
     if "method" in intent.details:
         named = str(intent.details["method"])
         yield Prefer(method="" if named == OWN_CHOICE else named)
 
 
-def limits(name: str, value: Constraint, words: str = "") -> Iterator[Act]:
+def stated(constraints: Mapping[str, Constraint], words: Mapping[str, str] | None = None) -> Iterator[Act]:
+    """The acts that state constraints, each with its words where they are known."""
+    for name, value in constraints.items():
+        yield from _limits(name, value, (words or {}).get(name, ""))
+
+
+def _limits(name: str, value: Constraint, words: str = "") -> Iterator[Act]:
     """The acts that state a constraint, as :class:`~wirelessagent.language.intent.Intent` writes it."""
     if isinstance(value, tuple):
         whom = Named(value)

@@ -8,14 +8,9 @@ sentences. So nothing is done that a word of the line may not have meant.
 from __future__ import annotations
 
 import dataclasses
-import functools
 import math
 import re
-import tomllib
-import unicodedata
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, cast
 
 from wirelessagent.language.acts import (
@@ -33,15 +28,13 @@ from wirelessagent.language.acts import (
     Whom,
     acts_of,
 )  # fmt: skip
+from wirelessagent.language.conversation.fragment_tokens import Token, speaks_of_one, tokens_of
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.mentions import mentions
-from wirelessagent.language.numerals import numbers
 from wirelessagent.language.quantities import Quantity, parse_quantities
-from wirelessagent.language.text import CJK, languages_of, normalise
+from wirelessagent.language.text import languages_of, normalise
 from wirelessagent.model.units import human
-
-_WORDS = Path(__file__).parents[1] / "fragment_words"
 
 _UNITS: Mapping[str, tuple[str, ...]] = {
     "power": ("max_power_w", "subcarrier_max_power_w", "circuit_power_w"),
@@ -49,9 +42,6 @@ _UNITS: Mapping[str, tuple[str, ...]] = {
     "ratio": ("outage_probability",),
 }
 """Limits that a figure with such a unit may be."""
-
-_CLASS = {"power": "figure", "rate": "figure"}
-"""What a figure with a unit is called, beside nouns."""
 
 _NOUNS: Mapping[str, tuple[str, ...]] = {
     "power": ("max_power_w",),
@@ -66,47 +56,16 @@ _NOUNS: Mapping[str, tuple[str, ...]] = {
 }
 """Limits that a noun may name."""
 
-_SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…-]+")
+_COUNTS = ("weights", "resource_block_group_size")
+"""Limits without a unit."""
+
 _FIGURE = re.compile(r"^[-+\d.,\s]+")
-_WORD = re.compile(r"[^\W\d_]+")
 _ASKED = re.compile(r"[?？]\s*$|[呢吗]\s*[?？]?\s*$")
 _LONGEST = 120
 _SHORT = 40
 _LAST_CLAUSE = re.compile(r"[,，;；.。!！]\s*([^,，;；.。!！]+)[.。!！\s]*$")
 _FAR = 20.0
 """How many times a figure may change where its unit is left out."""
-_ONES = frozenset(
-    {
-        "one",
-        "a",
-        "an",
-        "un",
-        "uno",
-        "una",
-        "une",
-        "ein",
-        "eine",
-        "einen",
-        "eins",
-        "一",
-        "两",
-        "half",
-        "demi",
-        "medio",
-        "halb",
-    }
-)
-"""Number words that mostly count nothing."""
-
-
-@dataclass(frozen=True)
-class Token:
-    """A word, a figure or users, and the classes that it is in."""
-
-    classes: frozenset[str]
-    figure: Quantity | None = None
-    users: tuple[str, ...] = ()
-    factor: float | None = None
 
 
 def read_fragment(line: Line) -> Intent | None:
@@ -117,8 +76,9 @@ def read_fragment(line: Line) -> Intent | None:
         return None
     if _takes_back(line):
         return line.command("undo", steps=1.0)
-    for language in languages_of(line.text) if not context.language else (context.language, *languages_of(line.text)):
-        tokens = _tokens(line, language)
+    spoken = [context.language] if context.language else []
+    for language in dict.fromkeys([*spoken, *languages_of(line.text)]):
+        tokens = tokens_of(line, language)
         if tokens:
             found = _Fragment(line, tokens).intent()
             if found is not None:
@@ -138,7 +98,7 @@ def referred(line: Line, intent: Intent) -> Intent:
         act.whom for act in context.acts if isinstance(act, Limit | Scale | LeaveOut) and isinstance(act.whom, Named)
     }
     whom: Whom | None = Others() if roles == {"others"} else None
-    if not roles and len(last) == 1 and _speaks_of_one(plain):
+    if not roles and len(last) == 1 and speaks_of_one(plain):
         whom = last.pop()
     if whom is None:
         return intent
@@ -147,21 +107,10 @@ def referred(line: Line, intent: Intent) -> Intent:
     return dataclasses.replace(intent, acts=tuple(acts))
 
 
-def _speaks_of_one(plain: str) -> bool:
-    """Whether a pronoun of one user is among the words."""
-    words = set(_WORD.findall(_unmarked(plain.lower())))
-    return any(
-        word in words if word.isascii() else word in plain
-        for language in languages_of(plain)
-        for word, token in _table(language)[0].items()
-        if "pronoun" in token.classes and " " not in word
-    )
-
-
 def named_alone(line: Line) -> tuple[str, ...]:
     """The users that a line names and nothing else: "excuse me, I meant user 2"."""
     for language in languages_of(line.text):
-        tokens = _tokens(line, language) or ()
+        tokens = tokens_of(line, language) or ()
         if tokens and all(token.classes & {"users", "correct", "skip", "lead", "it"} for token in tokens):
             return tuple(user for token in tokens for user in token.users)
     return ()
@@ -174,7 +123,7 @@ def _takes_back(line: Line) -> bool:
         return False
     last = Line.of(clause[1], line.context)
     for language in languages_of(line.text):
-        tokens = _tokens(last, language)
+        tokens = tokens_of(last, language)
         if tokens and any("undo" in token.classes for token in tokens):
             return all(token.classes & {"undo", "skip", "it", "again"} for token in tokens)
     return False
@@ -183,11 +132,8 @@ def _takes_back(line: Line) -> bool:
 def _denies(tokens: Sequence[Token]) -> bool:
     """Whether a word that corrects what was said before stands where it denies what this line says."""
     said = [place for place, token in enumerate(tokens) if not token.classes & {"correct", "skip", "lead"}]
-    return (
-        any("correct" in token.classes and not token.classes & {"skip", "lead"} for token in tokens[said[0] :])
-        if said
-        else False
-    )
+    behind = tokens[said[0] :] if said else ()
+    return any("correct" in token.classes and not token.classes & {"skip", "lead"} for token in behind)
 
 
 class _Fragment:
@@ -412,7 +358,7 @@ class _Fragment:
         wondered = bool(_ASKED.search(self.line.text)) or self.has("suppose")
         if (wondered or supposed) and not (self.has("take") or self.has("make") or self.has("correct")):
             return self._wondered(kind, value, whom) if self.has("suppose") or supposed else None
-        return self._acts([Limit(kind=kind, value=value, whom=whom, words=_words(figure, value, kind, model))])
+        return self._acts([Limit(kind=kind, value=value, whom=whom, words=_words(figure, kind, model))])
 
     def _as_held(self, act: Scale) -> Limit:
         """A figure that was scaled, as it holds."""
@@ -489,7 +435,7 @@ class _Fragment:
 
 def _value(figure: Quantity, kind: str, model: Limit | None) -> float | None:
     """A figure in SI units; one without a unit has that of the figure in whose place it is."""
-    if figure.kind != "bare" or kind in ("weights", "resource_block_group_size"):
+    if figure.kind != "bare" or kind in _COUNTS:
         value = figure.value
     else:
         unit = None if model is None else _unit(model)
@@ -514,89 +460,7 @@ def _unit(model: Limit) -> str:
     return _FIGURE.sub("", human(model.value, "W" if model.kind.endswith("_w") else "bit/s")).strip()
 
 
-def _words(figure: Quantity, value: float, kind: str, model: Limit | None) -> str:
-    if figure.kind != "bare" or model is None or kind in ("weights", "resource_block_group_size"):
+def _words(figure: Quantity, kind: str, model: Limit | None) -> str:
+    if figure.kind != "bare" or model is None or kind in _COUNTS:
         return figure.text
-    return f"{figure.value:g} {_unit(model)}" if value else figure.text
-
-
-def _tokens(line: Line, language: str) -> list[Token] | None:
-    """The line as words that are known here; None where one is not."""
-    plain = _unmarked(normalise(line.text).lower())
-    names = line.context.user_names
-    taken = [(figure.start, figure.end) for figure in parse_quantities(line.text) if figure.kind != "bare"]
-    named = [each for each in mentions(normalise(line.text), names, taken) if each.role == "named"]
-    spans: dict[int, tuple[int, Token]] = {
-        each.start: (each.end, Token(frozenset({"users"}), users=each.users)) for each in named
-    }
-    figures = [figure for figure in parse_quantities(line.text) if figure.kind != "bare"]
-    taken = [(each.start, each.end) for each in (*named, *figures)]
-    for number in numbers(plain):
-        clear = not any(start < number.end and number.start < end for start, end in taken)
-        text = plain[number.start : number.end]
-        if number.value is not None and clear and text not in _ONES:
-            figures.append(
-                Quantity(
-                    value=float(number.value),
-                    kind="bare",
-                    text=text,
-                    start=number.start,
-                    end=number.end,
-                    phrase_start=number.start,
-                    phrase_end=number.end,
-                )
-            )
-    for figure in figures:
-        spans[figure.start] = (figure.end, Token(frozenset({_CLASS.get(figure.kind, figure.kind)}), figure=figure))
-    return _segmented(plain, spans, language)
-
-
-def _segmented(plain: str, spans: Mapping[int, tuple[int, Token]], language: str) -> list[Token] | None:
-    found: list[Token] = []
-    words, longest = _table(language)
-    place = 0
-    while place < len(plain):
-        space = _SPACE.match(plain, place)
-        if space is not None:
-            place = space.end()
-        else:
-            ends = range(min(len(plain), place + longest), place, -1)
-            end = next((end for end in ends if plain[place:end] in words and _is_whole(plain, place, end)), None)
-            if place in spans and (end is None or words[plain[place:end]].factor is None or end <= spans[place][0]):
-                place, token = spans[place]
-                found.append(token)
-                continue
-            if end is None or (place not in spans and any(place < start < end for start in spans)):
-                return None
-            found.append(words[plain[place:end]])
-            place = end
-    return found
-
-
-def _unmarked(text: str) -> str:
-    """The text without marks on its letters, which quick fingers leave out: each letter stays one."""
-    return "".join(unicodedata.normalize("NFD", letter)[:1] for letter in text)
-
-
-def _is_whole(plain: str, start: int, end: int) -> bool:
-    """Whether no word goes on at either end; in Chinese words are not parted."""
-    if re.match(f"[{CJK}]", plain[end - 1]):
-        return True
-    return not (end < len(plain) and plain[end].isalnum() and not re.match(f"[{CJK}]", plain[end]))
-
-
-@functools.cache
-def _table(language: str) -> tuple[Mapping[str, Token], int]:
-    """The words of a language with their classes, and the length of the longest."""
-    text = (_WORDS / f"{language}.toml").read_text("utf-8")
-    table = tomllib.loads(text)
-    factors = cast("dict[str, float]", table.pop("factors"))
-    classes: dict[str, set[str]] = {}
-    for name, words in table.items():
-        for word in cast("list[str]", words):
-            classes.setdefault(_unmarked(word), set()).add(name)
-    factors = {_unmarked(word): factor for word, factor in factors.items()}
-    for word in factors:
-        classes.setdefault(word, set()).add("factor")
-    tokens = {word: Token(frozenset(names), factor=factors.get(word)) for word, names in classes.items()}
-    return tokens, max(map(len, tokens))
+    return f"{figure.value:g} {_unit(model)}"
