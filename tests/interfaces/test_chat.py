@@ -39,7 +39,7 @@ def test_a_script_is_read_to_its_end_or_until_leave_is_taken(
     assert [line for line in told.splitlines() if line.startswith("> ")] == [f"> {SAID[0]}", f"> {SAID[2]}", "> quit"]
     assert "at most 10 W" in told
     assert "500 kbit/s for each user" in " ".join(told.split())
-    assert told.count("achieved rate") == 2
+    assert "achieved rate" not in told  # tables come when they are asked for
 
 
 def test_json_is_a_line_per_turn(script: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -161,7 +161,7 @@ def test_a_request_by_itself_asks_as_well(tmp_path: Path, capsys: pytest.Capture
     out = tmp_path / "allocation.json"
     command = ["ask", "maximum rate", *CELL, "--base-station", "file", "--path", str(out)]
     assert run(command) == 2
-    assert "Nothing was applied: --yes applies it." in capsys.readouterr().out
+    assert "--yes applies it." in capsys.readouterr().out
     assert not out.exists()
     assert run([*command, "--json"]) == 2
     record = json.loads(capsys.readouterr().out)

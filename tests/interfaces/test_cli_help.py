@@ -85,7 +85,7 @@ def test_plain_help_has_what_people_use_and_help_all_the_rest(capsys: pytest.Cap
     plain, everything = shown(capsys, "ask", "--help"), shown(capsys, "ask", "--help-all")
     assert set(listed(plain)) == {
         "--out", "--plot", "--csi", "--loss", "--yes", "--seed", "--recogniser", "--method", "--repairer",
-        "--cell-max-power-w", "--json", "-h", "--help-all",
+        "--cell-max-power-w", "--full", "--json", "-h", "--help-all",
     }  # fmt: skip
     assert set(listed(plain)) < set(listed(everything))
     for option in ("--snr-gap-db", "--num-users", "--effort", "--no-store", "--path"):

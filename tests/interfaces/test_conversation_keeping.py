@@ -83,5 +83,5 @@ def test_another_aim_with_a_figure_keeps_the_limits_that_it_does_not_name(said: 
 
 def test_what_stays_is_told() -> None:
     turn = talk(HELD, "proportional fairness, 5 W")[1][-1]
-    assert "As before: at least 300 kbit/s for each user." in turn.reply
-    assert "仍然有效：发射功率不超过 10 W" in talk(HELD, "最大化能效，每人200k")[1][-1].reply
+    assert "at least 300 kbit/s for each user" in turn.lines.decided
+    assert "发射功率不超过 10 W" in talk(HELD, "最大化能效，每人200k")[1][-1].lines.decided

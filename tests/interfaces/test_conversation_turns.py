@@ -15,7 +15,8 @@ def test_reports_do_not_add_up() -> None:
 def test_another_aim_keeps_the_limits_and_starting_over_tells_which_go() -> None:
     held, turns = talk(HELD, "proportional fairness")
     assert held == {"max_power_w": 10.0}
-    assert "The limits stay as they were." in turns[-1].reply
+    assert "at most 10 W of radiated power" in turns[-1].lines.decided
+    assert "No longer" not in turns[-1].lines.changed
     held, turns = talk(HELD, "new request: least power with 200 kbit/s each")
     assert held == {"min_rate_bps": 2e5}
     assert "No longer: at most 10 W of radiated power." in turns[-1].reply

@@ -206,7 +206,7 @@ def test_history_show_tells_a_turn_and_checks_it(
     for text in (
         "Said: higher speed",
         "Understood by offline, 90% sure: allocate, max_min_rate\n",
-        "feasible: ",
+        "feasible, by dual: ",
         "read back as decided: 20 W",
         record["turn"]["hash"],
     ):

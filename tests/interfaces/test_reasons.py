@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.agent.figures import side_by_side
+from wirelessagent.agent.comparing import side_by_side
 from wirelessagent.agent.session import ask
 from wirelessagent.model.decision import Bracket
 from wirelessagent.model.units import human

@@ -10,17 +10,22 @@ import pytest
 
 import wirelessagent as wa
 from wirelessagent import plugins
+from wirelessagent.agent.asking import Asked, answered
 from wirelessagent.deciding.objectives.max_rate import MaxRate
+from wirelessagent.language.acts import Ask
+from wirelessagent.language.intent import Intent
+from wirelessagent.language.intent_acts import acts_of
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human, percent
 from wirelessagent.telling import glossary
 from wirelessagent.telling.catalogue import called, message
+from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.accounts import account
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import nearest
 from wirelessagent.telling.facts.proof import certificate
 from wirelessagent.telling.facts.steps import power_step, rate_step
-from wirelessagent.telling.questions import answered
+from wirelessagent.telling.text_table import Table
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
@@ -33,9 +38,21 @@ def case_of(objective: Any, estimate: wa.ChannelEstimate = SEEN, method: str | N
     return Case(decision=wa.decide(estimate, problem, CELL, method), estimate=estimate, method=method)
 
 
+def answer(
+    case: Case, topic: str, language: str = "en", user: int | None = None, **figures: float
+) -> tuple[str, tuple[Table, ...]]:
+    details: dict[str, Any] = {**figures, **({} if user is None else {"user": SEEN.user_names[user]})}
+    intent = Intent(
+        kind="question", objective=None, constraints={}, language=language, confidence=1.0, evidence={}, reply="",
+        recogniser="test", topic=topic, details=details,
+    )  # fmt: skip
+    act = acts_of(intent)[0]
+    assert isinstance(act, Ask)
+    return answered(Asked(case=case, report=wa.report(case.decision), language=language), act)
+
+
 def told(case: Case, topic: str, language: str = "en", user: int | None = None, **figures: float) -> str:
-    found = answered(case, wa.report(case.decision), topic, language, user=user, figures=figures)
-    assert found is not None
+    found = answer(case, topic, language, user, **figures)
     assert any("\u4e00" <= sign <= "\u9fff" for sign in found[0]) == (language == "zh") or not found[0]
     return found[0]
 
@@ -153,18 +170,16 @@ def test_how_sure_it_is_comes_from_the_posterior(language: str) -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_prices_and_contests_are_tabled(language: str) -> None:
     case = case_of("max_rate", min_rate_bps=4e5)
-    found = answered(case, wa.report(case.decision), "prices", language, figures={})
-    assert found is not None
+    found = answer(case, "prices", language)
     assert human(case.decision.price_of_power, "bit/s") in found[0]
     promises, contests = found[1]
     assert [row[0] for row in promises.rows] == [called(language, name) for name in SEEN.user_names]
     assert promises.rows[0][3] == human(float(case.decision.price_of_rate[0]) * 1e5, "bit/s")
     assert len(contests.rows) == 5
     assert all(row[1] != row[2] for row in contests.rows)
-    users = answered(case, wa.report(case.decision), "users", language, figures={})
-    assert users is not None
+    users = answer(case, "users", language)
     assert len(users[1]) == 2
-    assert answered(case, wa.report(case.decision), "other", language, figures={}) is None
+    assert answer(case, "other", language)[0] == "\n".join(explain(SEEN, wa.report(case.decision), language=language))
 
 
 def test_terms_are_found_as_people_say_them() -> None:

@@ -13,8 +13,8 @@ from wirelessagent.agent.dialogue import Change, Diff, Request, applied, differe
 from wirelessagent.language.acts import (
     Act,
     Aim,
-    Ask,
-    Command,
+    Apply,
+    AskProof,
     Drop,
     Everybody,
     Forget,
@@ -61,7 +61,7 @@ changing: st.SearchStrategy[Act] = st.one_of(
     st.just(Forget()),
 )  # fmt: skip
 idle: st.SearchStrategy[Act] = st.sampled_from(
-    (Suppose(acts=(Limit(kind="max_power_w", value=1.0),)), Ask(topic="certificate"), Command(topic="status"))
+    (Suppose(acts=(Limit(kind="max_power_w", value=1.0),)), AskProof(), Apply())
 )
 lines = st.lists(st.lists(changing | idle, min_size=1, max_size=3), min_size=1, max_size=6)
 

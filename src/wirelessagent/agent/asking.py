@@ -1,222 +1,305 @@
-"""Turns that change nothing: compare, status, history, help, and questions about the decision."""
+"""Questions about a decision, each answered by what is computed for it."""
 
 from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping, Sequence
-from datetime import datetime
-from typing import cast
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
-from wirelessagent.agent import answers, comparing
-from wirelessagent.agent.figures import side_by_side
-from wirelessagent.agent.premises import corrected
+import numpy as np
+
+from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.refusing import able
-from wirelessagent.agent.restating import restated
-from wirelessagent.agent.site import Site
-from wirelessagent.agent.state import Reply, State
-from wirelessagent.agent.supposing import what_if
+from wirelessagent.agent.state import Reply, Talk, nothing_yet
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.language.intent import Constraint, Intent
-from wirelessagent.model.outcome import Outcome
+from wirelessagent.language.acts import (
+    Ask,
+    AskCertainty,
+    AskDearest,
+    AskDuration,
+    AskGain,
+    AskHelp,
+    AskLimits,
+    AskMeaning,
+    AskMethods,
+    AskOwner,
+    AskPrices,
+    AskProof,
+    AskRank,
+    AskResult,
+    AskStep,
+    AskSubcarriers,
+    AskUsers,
+    AskWhy,
+    AskWhyNot,
+)
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import called, joined, message
-from wirelessagent.telling.certificates import certificate_line
-from wirelessagent.telling.tables import decision_tables
+from wirelessagent.telling.catalogue import called, joined, lines_of, message
+from wirelessagent.telling.certificates import certificate_answer, uncertainty_answer
+from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.facts.accounts import account, newcomer
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.contests import contested
+from wirelessagent.telling.facts.marginal_prices import marginal_prices
+from wirelessagent.telling.facts.nearest import nearest
+from wirelessagent.telling.glossary import explained, figure_asked
+from wirelessagent.telling.prices import contested_table, limits_answer, prices_answer, prices_table
+from wirelessagent.telling.remedies import feasible_answer, nearest_answer
+from wirelessagent.telling.report import Report
+from wirelessagent.telling.roster import gain_answer, owner_answer, rank_answer, subcarriers_answer
+from wirelessagent.telling.step_effects import more_answer
+from wirelessagent.telling.tables import user_table
 from wirelessagent.telling.text_table import Table
+from wirelessagent.telling.user_account import newcomer_answer, share_answer, user_answer
 
-_SHOWN = 60
-"""Characters of a sentence that the history shows."""
+Answer = str | tuple[str, tuple[Table, ...]]
 
-
-def compare(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
-    """The decision that holds beside the last other one, or beside what other methods and repairers make of it."""
-    language = intent.language
-    if state.run is None or state.request is None:
-        return Reply(text=message(language, "refused.nothing_yet"))
-    others = comparing.alternatives(state.request, intent)
-    if others:
-        return comparing.beside(site, state.run, intent, others, noted=state.noted)
-    named = [str(intent.details[key]) for key in ("with", "methods", "repairers") if key in intent.details]
-    names = [name for name in re.split(r"[,，、;\s]+", " ".join(named)) if name and name != "last"]
-    if names:
-        return comparing.with_tools(site, state.run, state.request, intent, names)
-    return _with_last(state.run, language, turns)
+_RANKS = (
+    ("least", re.compile(r"(?i)\b(?:least|lowest|slowest|worst)\b|最少|最慢|最低|最差")),
+    ("most", re.compile(r"(?i)\b(?:the\s+most|highest|fastest|best)\b|最多|最快|最高|最好")),
+)
+_NOTHING = re.compile(
+    r"(?i)\b(?:nothing|no\s+(?:rate|service|subcarriers?|power)|not\s+(?:be(?:ing)?\s+)?served|cut\s+off|zero)\b|"
+    r"没有?(?:分到|得到|拿到)?(?:速率|服务|任何|东西)|什么[都也]没|没被?服务|一点[都也]没|为零|断"
+)
+_SAME = 1e-3
 
 
-def _with_last(run: Run, language: str, turns: Sequence[Turn]) -> Reply:
-    made = [turn for turn in turns if turn.run is not None and turn.intent.kind == "allocate"]
-    own = next((turn.number for turn in reversed(made) if _same(turn.run, run)), len(turns))
-    earlier = [turn for turn in made if not _same(turn.run, run)]
-    if not earlier:
-        return Reply(text=message(language, "compared.nothing"))
-    last = earlier[-1]
-    assert last.run is not None
-    columns = [
-        (message(language, "turn.column", number=number), one) for number, one in ((own, run), (last.number, last.run))
-    ]
-    text = message(language, "compared.last", turn=last.number, line=certificate_line(last.run.decision, language))
-    return Reply(text=text, tables=(side_by_side(columns, language),))
+@dataclass(frozen=True, kw_only=True)
+class Asked:
+    """A question about a decision.
+
+    Attributes:
+        case: the decision, with what it was made from.
+        report: of the decision.
+        language: the operator's.
+        text: what was asked.
+    """
+
+    case: Case
+    report: Report
+    language: str
+    text: str = ""
+
+    def user(self, reference: str) -> int:
+        """The number of a user.
+
+        Raises:
+            UnknownUserError: nobody can be meant; the message asks back.
+        """
+        return user_number(reference, self.case.estimate.user_names, self.language)[0]
+
+    def table(self, user: int | None = None) -> Table:
+        """What the users get, or one of them."""
+        users = user_table(self.report, self.case.estimate, self.language)
+        return users if user is None else dataclasses.replace(users, rows=(users.rows[user],))
+
+    def explained(self) -> list[str]:
+        """The decision in words."""
+        return explain(self.case.estimate, self.report, language=self.language)
 
 
-def _same(one: Run | None, other: Run) -> bool:
-    """Whether two runs are of one decision, applied or not."""
-    return one is not None and one.decision is other.decision
+def answered(asked: Asked, act: Ask) -> tuple[str, tuple[Table, ...]]:
+    """The answer to a question about a decision, and its tables.
+
+    Raises:
+        UnknownUserError: it is about a user who is not there, or names none where it has to; the message asks back.
+    """
+    answer = _unmet_answer(asked, act) or _ANSWERS[type(act)](asked, act)
+    return (answer, ()) if isinstance(answer, str) else answer
 
 
-def status(site: Site, state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
-    """What is asked for, what was decided, and what is in effect."""
-    language = intent.language
-    if state.request is None and state.on_air is None and not site.touched:
-        return Reply(text=message(language, "in_effect.none"))
-    said: list[str] = []
-    if state.request is not None:
-        said.append(message(language, "request.asked_for", request=restated(state.request, language)))
-    if state.run is not None:
-        said.append(message(language, "in_effect.decided", certificate=certificate_line(state.run.decision, language)))
-    unknown = state.on_air is None and site.touched
-    said.append(_unknown(site.read_last, language) if unknown else _on_air(state.on_air, language, turns))
-    if state.planned is not None:
-        said.append(message(language, "in_effect.waits"))
-    return Reply(text="\n".join(said))
+def help_with(talk: Talk, act: AskHelp) -> Reply:
+    """What can be said."""
+    del act
+    return Reply(decided=talk.say("about.help"))
 
 
-def _unknown(read: Outcome | None, language: str) -> str:
-    """That it is not known what is in effect, and what was read back last."""
-    if read is None:
-        return message(language, "in_effect.unknown", read=message(language, "in_effect.read_nothing"))
-    used, total = int((read.power_w > 0).sum()), read.power_w.size
-    power = human(float(read.power_w.sum()), "W")
-    return message(
-        language, "in_effect.unknown", read=message(language, "in_effect.read", power=power, used=used, total=total)
-    )
+def meaning(talk: Talk, act: AskMeaning) -> Reply:
+    """What the terms in a line mean; their figures, where it asks for those of now."""
+    del act
+    run = talk.state.run
+    figure = "" if run is None else figure_asked(talk.text, run.report, talk.language)
+    return Reply(decided=figure or explained(talk.text, talk.language) or talk.say("about.help"))
 
 
-def _on_air(run: Run | None, language: str, turns: Sequence[Turn]) -> str:
+def methods(talk: Talk, act: AskMethods) -> Reply:
+    """Which method decided, and which could."""
+    del act
+    if talk.state.run is None:
+        return nothing_yet(talk)
+    decision = talk.state.run.decision
+    used = talk.say("about.method_in_use", method=called(talk.language, decision.method))
+    return Reply(decided=joined(talk.language, [used, able(decision.problem, talk.language)]))
+
+
+def about_the_decision(talk: Talk, act: Ask) -> Reply:
+    """A question about the decision that holds, or about what could not be met right before."""
+    run, on_air = talk.state.run, talk.state.on_air
+    if isinstance(act, AskWhyNot) or (isinstance(act, AskWhy) and on_air is None):
+        run = unmet(talk.turns) or run
     if run is None:
-        return message(language, "in_effect.off_air")
-    number = next((turn.number for turn in reversed(turns) if turn.run is run), len(turns))
-    promised = run.decision.rate_bps if run.outcome is None else run.outcome.promised_bps
-    served = int((promised > 0).sum())
-    return message(
-        language, "in_effect.on_air_one" if served == 1 else "in_effect.on_air", turn=number, served=served,
-        power=human(run.decision.total_power_w, "W"), rate=human(float(promised.sum()), "bit/s"),
+        return nothing_yet(talk)
+    of_it = isinstance(act, AskWhyNot | AskStep | AskDearest)  # of the request, which may be one that can't be met
+    in_effect = on_air if not (of_it or run.decision.is_usable) and on_air is not None else run
+    other = in_effect is not run and in_effect.decision.is_usable
+    run = in_effect if other else run
+    text, tables = answered(Asked(case=run.case, report=run.report, language=talk.language, text=talk.text), act)
+    return Reply(decided=talk.say("about.in_effect", answer=text) if other else text, tables=tables)
+
+
+def unmet(turns: Sequence[Turn]) -> Run | None:
+    """What the line before asked for or supposed, where that can't be met; questions why lie between."""
+    asked = (turn for turn in reversed(turns) if not any(isinstance(act, AskWhyNot | AskWhy) for act in turn.acts))
+    last = next(asked, None)
+    run = None if last is None else last.run
+    return None if run is None or run.decision.is_usable else run
+
+
+def _unmet_answer(asked: Asked, act: Ask) -> Answer:
+    """Why nothing was decided and what could be, for a question that needs a decision; empty where there is one."""
+    case = asked.case
+    anyway = isinstance(act, AskWhy | AskGain | AskDuration) or (isinstance(act, AskStep) and act.users is None)
+    if anyway or case.decision.is_usable:
+        return ""
+    return nearest_answer(case, nearest(case), asked.language)
+
+
+def _why(asked: Asked, act: AskWhy) -> Answer:
+    if act.user is None:
+        raise UnknownUserError("", asked.case.estimate.user_names, asked.language)
+    user = asked.user(act.user)
+    told = user_answer(asked.case, account(asked.case, user), asked.language)
+    return joined(asked.language, [_corrected(asked, user), told])
+
+
+def _corrected(asked: Asked, user: int) -> str:
+    """What is not so in a question why a user gets the least, the most or nothing; empty where it is so."""
+    decision, language, text = asked.case.decision, asked.language, asked.text
+    if not decision.is_usable:
+        return ""
+    rates, name = decision.rate_bps, called(language, decision.user_names[user])
+    if rates[user] > 0 and _NOTHING.search(text):
+        return message(asked.language, "about.not_nothing", user=name)
+    rank = next((rank for rank, words in _RANKS if words.search(text)), "")
+    served = rates[decision.problem.serves(rates.size)]
+    if not rank or not served.size:
+        return ""
+    edge = np.min(served) if rank == "least" else np.max(served)
+    alone = np.ptp(served) > _SAME * np.max(served)
+    if alone and abs(rates[user] - edge) <= _SAME * edge:
+        return ""
+    return message(asked.language, f"about.not_{rank}", user=name, who=rank_answer(asked.case, rank, "rate", language))
+
+
+def _why_not(asked: Asked, act: AskWhyNot) -> Answer:
+    del act
+    return feasible_answer(asked.case, asked.language)
+
+
+def _step(asked: Asked, act: AskStep) -> Answer:
+    case, language = asked.case, asked.language
+    if act.users is not None:
+        return newcomer_answer(case, newcomer(case), language)
+    user = None if act.user is None else asked.user(act.user)
+    return more_answer(
+        case, language, power_w=act.power_w, rate_bps=act.rate_bps, rate_share=act.rate_share, each=act.each, user=user
     )  # fmt: skip
 
 
-def history(intent: Intent, turns: Sequence[Turn]) -> Reply:
-    """The turns so far, or one of them."""
-    language, number = intent.language, intent.details.get("number")
-    if not turns:
-        return Reply(text=message(language, "turn.none"))
-    if number is None:
-        rows = tuple(
-            (str(turn.number), _short(turn.text), message(language, f"came_to.{turn.stage}"), _value(turn.run))
-            for turn in turns
-        )
-        columns = tuple(message(language, f"label.{label}") for label in ("turn", "said", "came_to", "value"))
-        table = Table(title=message(language, "turn.title"), columns=columns, rows=rows)
-        return Reply(text=message(language, "turn.so_far", count=len(turns)), tables=(table,))
-    chosen = next((turn for turn in turns if turn.number == number), None)
-    if chosen is None:
-        asked = f"{cast(float, number):g}"
-        return Reply(text=message(language, "turn.no_such", number=asked, last=len(turns)), stage="asked")
-    text = message(language, "turn.said", number=chosen.number, text=_short(chosen.text), reply=chosen.reply)
-    return Reply(text=text, tables=chosen.tables)
+def _proof(asked: Asked, act: AskProof) -> Answer:
+    del act
+    return certificate_answer(asked.case, asked.language)
 
 
-def _short(text: str) -> str:
-    plain = " ".join(text.split())
-    return plain if len(plain) <= _SHOWN else f"{plain[: _SHOWN - 1]}…"
+def _certainty(asked: Asked, act: AskCertainty) -> Answer:
+    del act
+    return uncertainty_answer(asked.case, asked.language), (asked.table(),)
 
 
-def _value(run: Run | None) -> str:
-    return "–" if run is None else human(run.decision.value, run.decision.unit)
+def _prices(asked: Asked, act: AskPrices) -> Answer:
+    case, language = asked.case, asked.language
+    if act.user is not None:
+        return _users(asked, AskUsers(user=act.user))
+    prices = marginal_prices(case)
+    tables = prices_table(case, prices, language), contested_table(case, contested(case), language)
+    return prices_answer(case, prices, language), tuple(table for table in tables if table is not None)
 
 
-def explain(state: State, intent: Intent) -> Reply:
-    """The decision that holds in words, with its tables."""
-    run = state.run
-    if run is None:
-        return Reply(text=message(intent.language, "refused.nothing_yet"))
-    text = answers.explanation(run, intent.language)
-    return Reply(text=text, tables=tuple(decision_tables(run.report, run.estimate, intent.language)))
+def _users(asked: Asked, act: AskUsers) -> Answer:
+    case, language = asked.case, asked.language
+    if act.user is not None:
+        user = asked.user(act.user)
+        return share_answer(case, user, language), (asked.table(user),)
+    contests = contested_table(case, contested(case), language)
+    tables = (asked.table(), *(() if contests is None else (contests,)))
+    return asked.explained()[0], tables
 
 
-def export(state: State, intent: Intent, turns: Sequence[Turn]) -> Reply:
-    """The request that holds and what came of it as a document of a standard; the standards are loaded only here."""
-    from wirelessagent.standards import tmf921, ts28312
-    from wirelessagent.standards.subject import Subject
-
-    language, name, run = intent.language, str(intent.details.get("format", "ts28312")), state.run
-    if name not in ("ts28312", "tmf921"):
-        return Reply(text=message(language, "ask_back.export_unknown", format=name), stage="asked")
-    done = [turn for turn in turns if turn.stage not in ("answered", "asked")]
-    made = [turn for turn in done if run is not None and _same(turn.run, run)]
-    if run is None or not made:
-        return Reply(text=message(language, "refused.nothing_yet"))
-    last, on_air = made[-1], state.on_air
-    subject = Subject(
-        name=f"{last.session}-{last.number}",
-        text=made[0].text,
-        decision=run.decision,
-        at=datetime.fromisoformat(last.at_utc),
-        outcome=on_air.outcome if on_air is not None and _same(on_air, run) else None,
-        language=run.intent.language,
-        current=_in_effect_before(last, turns),
-        taken_back=last.stage == "reverted",
-    )
-    if name == "ts28312":
-        return Reply(text=ts28312.to_json(ts28312.document(subject)))
-    return Reply(text=tmf921.to_json(tmf921.document(subject)))
+def _rank(asked: Asked, act: AskRank) -> Answer:
+    return rank_answer(asked.case, act.rank, act.of, asked.language), (asked.table(),)
 
 
-def _in_effect_before(turn: Turn, turns: Sequence[Turn]) -> Outcome | None:
-    """What was last read back before a turn; None where there was nothing."""
-    found: Outcome | None = None
-    for earlier in turns[: turn.number - 1]:
-        if earlier.restored is not None:
-            found = earlier.restored
-        elif earlier.stage == "applied" and earlier.run is not None:
-            found = earlier.run.outcome
-    return found
+def _subcarriers(asked: Asked, act: AskSubcarriers) -> Answer:
+    user = None if act.user is None else asked.user(act.user)
+    return subcarriers_answer(asked.case, user, asked.language), (asked.table(user),)
 
 
-def question(site: Site, state: State, intent: Intent, text: str) -> Reply:
-    """A question about a term, or about the decision that holds; one that states figures is solved for them."""
-    language, stated = intent.language, _wondered(intent)
-    if intent.topic == "concept":
-        return Reply(text=answers.concept(text, language) or message(language, "about.help"))
-    if stated:
-        return what_if(site, state, dataclasses.replace(intent, details={"constraints": stated}))
-    if state.run is None:
-        return Reply(text=message(language, "refused.nothing_yet"))
-    run, spoken_of = _spoken_of(state.run, state.on_air, intent)
-    if intent.details.get("listed") == "methods":
-        decision = state.run.decision
-        used = message(language, "about.method_in_use", method=called(language, decision.method))
-        return Reply(text=joined(language, [used, able(decision.problem, language)]))
-    said, tables = answers.answer(run, intent, site.user_names)
-    said = joined(language, [one for one in (corrected(run, intent, text), said) if one])
-    return Reply(text=message(language, spoken_of, answer=said) if spoken_of else said, tables=tables)
+def _owner(asked: Asked, act: AskOwner) -> Answer:
+    return owner_answer(asked.case, act.subcarrier, asked.language), (asked.table(),)
 
 
-def _spoken_of(run: Run, on_air: Run | None, intent: Intent) -> tuple[Run, str]:
-    """The run that a question is about, and the words for it: what is in effect, where the last request can't be met.
-
-    Why it can't, and what it would take, is asked about the request.
-    """
-    if run.decision.is_usable or on_air is None or not on_air.decision.is_usable:
-        return run, ""
-    of_it = intent.topic in ("why_infeasible", "step", "what_if") or intent.details.get("listed") == "dearest"
-    return (run, "") if of_it else (on_air, "about.in_effect")
+def _gain(asked: Asked, act: AskGain) -> Answer:
+    user = None if act.user is None else asked.user(act.user)
+    return gain_answer(asked.case, user, act.subcarrier, asked.language)
 
 
-def _wondered(intent: Intent) -> dict[str, Constraint]:
-    """The limits that a question asks about, as in "can user 4 get 3 Mbit/s?"; empty where it names none."""
-    details = intent.details
-    stated = dict(cast("Mapping[str, Constraint]", details.get("constraints") or {}))
-    rate, user = details.get("rate_bps"), details.get("user")
-    if intent.topic != "step" and isinstance(rate, float):
-        stated["min_rate_bps"] = {user: rate} if isinstance(user, str) else rate
-    return stated
+def _dearest(asked: Asked, act: AskDearest) -> Answer:
+    """Who takes the most power for a rate, which says whom to leave out if anybody."""
+    del act
+    decision, case = asked.case.decision, asked.case
+    used = decision.power_w > 0
+    power_w = np.bincount(decision.owner[used], weights=decision.power_w[used], minlength=case.num_users)
+    rated = np.flatnonzero(decision.rate_bps > 0)
+    if not rated.size:
+        return feasible_answer(case, asked.language)
+    user = int(rated[np.argmax(power_w[rated] / decision.rate_bps[rated])])
+    rate, power = human(float(decision.rate_bps[user]), "bit/s"), human(float(power_w[user]), "W")
+    return message(asked.language, "about.dearest", user=decision.user_names[user], rate=rate, power=power)
+
+
+def _result(asked: Asked, act: AskResult) -> Answer:
+    del act
+    return figure_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained())
+
+
+def _limits(asked: Asked, act: AskLimits) -> Answer:
+    del act
+    return limits_answer(asked.case, asked.language)
+
+
+def _duration(asked: Asked, act: AskDuration) -> Answer:
+    del act
+    return message(asked.language, "about.no_duration", method=asked.case.decision.method)
+
+
+_ANSWERS: Mapping[type[Ask], Callable[[Asked, Any], Answer]] = {
+    AskWhy: _why,
+    AskWhyNot: _why_not,
+    AskStep: _step,
+    AskProof: _proof,
+    AskCertainty: _certainty,
+    AskPrices: _prices,
+    AskUsers: _users,
+    AskRank: _rank,
+    AskSubcarriers: _subcarriers,
+    AskOwner: _owner,
+    AskGain: _gain,
+    AskDearest: _dearest,
+    AskResult: _result,
+    AskLimits: _limits,
+    AskDuration: _duration,
+}
+ABOUT_THE_DECISION = tuple(_ANSWERS)

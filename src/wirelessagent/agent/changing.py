@@ -6,170 +6,159 @@ plan → confirm → apply → read back → compare with the promise → revert
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable
 
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import Effect, respects, same_allocation
-from wirelessagent.agent.dialogue import Diff, Request, applied
+from wirelessagent.agent.dialogue import applied
 from wirelessagent.agent.events import Event
-from wirelessagent.agent.noting import notes
-from wirelessagent.agent.referring import no_such_turn
-from wirelessagent.agent.restating import restated
+from wirelessagent.agent.recalling import no_such_turn
+from wirelessagent.agent.restating import changes_in_words, notes, restated
 from wirelessagent.agent.run import applied_line, with_outcome
-from wirelessagent.agent.site import Site
-from wirelessagent.agent.state import Reply, State
-from wirelessagent.agent.turn import Run, Stage
-from wirelessagent.language.acts import Act, Drop, LeaveOut, Serve, acts_of
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.restating import limits_in_words
+from wirelessagent.agent.state import Reply, State, Talk, asked_back, nothing_yet
+from wirelessagent.agent.turn import Run, shift_between
+from wirelessagent.language.acts import Act, Apply, Forget, No, TurnReference, Undo, Yes
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import joined, message
+from wirelessagent.telling.catalogue import Said, joined, message
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.tables import decision_tables
 
 
-def allocate(site: Site, state: State, intent: Intent) -> Reply:
+def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
     """Decide on a new or amended request and act on it, or ask before."""
-    acts = acts_of(intent)
+    site, state, language = talk.site, talk.state, talk.language
     request, diff = applied(state.request, acts, radiated_w=state.radiated_w)
     assert request is not None  # an intent that allocates names an aim
-    run = site.plan(intent, request)
+    run = site.plan(talk.intent, request)
     new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good, stated=state.stated)
-    turn = intent.details.get("turn")
-    back = [] if turn is None else [message(intent.language, "request.back_to_turn", number=turn)]
-    changed = _changed(state.request, diff, acts, intent)
-    assumed = notes(run, noted=state.noted)
-    said = joined(intent.language, [*back, restated(request, intent.language), *changed, *assumed, _sentence(run)])
+    shift = shift_between(None if state.run is None else state.run.decision, run.decision)
+    line = _whole(language, certificate_line(run.decision, language))
+    turn = talk.intent.details.get("turn")
+    back = [] if turn is None else [talk.say("request.back_to_turn", number=turn)]
+    reply = Reply(
+        decided=joined(language, [*back, restated(request, language), line, *notes(run, noted=state.noted)]),
+        changed=changes_in_words(diff, shift, language),
+        state=new,
+        run=run,
+        tables=tuple(decision_tables(run.report, run.estimate, language)),
+    )
     if not run.decision.is_usable:
-        return _reply(site, intent, [said, message(intent.language, "plan.not_applied")], "nothing", new, run)
+        return _changing(reply, language, talk.say("plan.not_applied"), stage="nothing")
     if state.on_air is not None and same_allocation(run.decision, state.on_air.decision):
         kept = with_outcome(run, state.on_air.outcome)
-        new = dataclasses.replace(new, run=kept, on_air=kept)
-        return _reply(site, intent, [said, message(intent.language, "plan.no_change")], "nothing", new, kept)
-    return _carry_or_ask(site, new, intent, run, said)
+        reply = dataclasses.replace(reply, run=kept, state=dataclasses.replace(new, run=kept, on_air=kept))
+        return _changing(reply, language, talk.say("plan.no_change"), stage="nothing")
+    return _carry_or_ask(talk, reply, run)
 
 
-def _changed(before: Request | None, diff: Diff, acts: Sequence[Act], intent: Intent) -> list[str]:
-    """What of the limits that held holds no longer though nobody named it, or what stays where an aim is named."""
-    if before is None or not before.constraints:
-        return []
-    language = intent.language
-    if diff.gone and not any(isinstance(act, Drop | Serve | LeaveOut) for act in acts):
-        return [message(language, "request.no_longer", limits=limits_in_words(diff.gone, language))]
-    if diff.objective[0] == diff.objective[1] and not intent.evidence.get("objective"):
-        return []
-    if not diff.changes:
-        return [message(language, "request.limits_stay")]
-    changed = {one.kind for one in diff.changes}
-    kept = {name: value for name, value in before.constraints.items() if name not in changed}
-    return [message(language, "request.as_before", limits=limits_in_words(kept, language))] if kept else []
+def _changing(reply: Reply, language: str, said: str, **fields: object) -> Reply:
+    """A reply that tells one more thing that changed, or did not."""
+    return dataclasses.replace(reply, changed=joined(language, [reply.changed, said]), **fields)  # pyright: ignore[reportArgumentType]
 
 
-def apply(site: Site, state: State, intent: Intent) -> Reply:
+def apply(talk: Talk, act: Apply | Yes) -> Reply:
     """Apply what was decided and name it; the operator said so, which is the confirmation."""
-    language, run = intent.language, state.planned or state.run
+    del act
+    state, language, run = talk.state, talk.language, talk.state.planned or talk.state.run
     if run is None:
-        return Reply(text=message(language, "refused.nothing_yet"))
+        return nothing_yet(talk)
     if run is state.on_air:
-        return Reply(text=message(language, "plan.already"), stage="nothing")
+        return Reply(decided=talk.say("plan.already"), stage="nothing")
     if not run.decision.is_usable:
-        return Reply(text=message(language, "plan.nothing_to_apply", why=certificate_line(run.decision, language)))
-    station = site.station(run)
+        return Reply(decided=talk.say("plan.nothing_to_apply", why=certificate_line(run.decision, language)))
+    station = talk.site.station(run)
     if station is None:
-        return Reply(text=message(language, "applied.no_station"), stage="nothing")
+        return Reply(decided=talk.say("applied.no_station"), stage="nothing")
     request = [] if state.request is None else [restated(state.request, language)]
-    return _apply(site, state, intent, run, station, joined(language, [*request, *notes(run, noted=True)]))
+    reply = Reply(decided=joined(language, [*request, *notes(run, noted=True)]), state=state, run=run)
+    return _apply(talk, reply, run, station)
 
 
-def confirm(site: Site, state: State, intent: Intent) -> Reply:
+def confirm(talk: Talk, act: Yes) -> Reply:
     """A yes: apply what waits for it."""
-    if state.planned is None:
-        if "way" in intent.details:
-            return Reply(text=message(intent.language, "ask_back.which_way"), stage="asked")
-        return Reply(text=message(intent.language, "plan.nothing_to_confirm"))
-    return apply(site, state, intent)
+    if talk.state.planned is None:
+        return asked_back(talk.say("ask_back.which_way")) if act.chooses else Reply(
+            decided=talk.say("plan.nothing_to_confirm")
+        )  # fmt: skip
+    return apply(talk, act)
 
 
-def reject(state: State, intent: Intent, past: Sequence[State]) -> Reply:
+def reject(talk: Talk, act: No) -> Reply:
     """A no: what waits is not applied; what is asked for stays, to be changed, unless the plan is cancelled."""
-    language, cancels = intent.language, "cancel" in intent.details
+    state = talk.state
     if state.question is not None:
-        return Reply(text=message(language, "plan.question_dropped"), stage="nothing", state=state.settled)
+        return Reply(changed=talk.say("plan.question_dropped"), stage="nothing", state=state.settled)
     if state.planned is None:
-        if "stop" in intent.details:
-            return Reply(text=message(language, "plan.kept_as_it_is"), stage="nothing")
-        if cancels:
-            return Reply(text=message(language, "plan.nothing_to_cancel"), stage="asked")
-        return Reply(text=message(language, "plan.nothing_to_confirm"))
-    if not cancels:
-        dropped = joined(language, [message(language, "plan.dropped"), message(language, "plan.not_applied")])
-        return Reply(text=dropped, stage="nothing", state=state.settled)
-    before = state.settled if state.undoes or not past else past[-1]
+        if act.stops:
+            return Reply(changed=talk.say("plan.kept_as_it_is"), stage="nothing")
+        if act.cancels:
+            return asked_back(talk.say("plan.nothing_to_cancel"))
+        return Reply(decided=talk.say("plan.nothing_to_confirm"))
+    if not act.cancels:
+        dropped = joined(talk.language, [talk.say("plan.dropped"), talk.say("plan.not_applied")])
+        return Reply(changed=dropped, stage="nothing", state=state.settled)
+    before = state.settled if state.undoes or not talk.past else talk.past[-1]
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
-    text = joined(language, [message(language, "plan.not_applied"), _asked_for_again(held, language)])
-    return Reply(text=text, stage="nothing", state=held, undone=0 if held.request == state.request else 1)
+    undone = 0 if held.request == state.request else 1
+    changed = joined(talk.language, [talk.say("plan.dropped"), talk.say("plan.not_applied")])
+    return Reply(decided=_asked_for(talk, held), changed=changed, stage="nothing", state=held, undone=undone)
 
 
-def undo(site: Site, state: State, intent: Intent, past: Sequence[State], turns: int) -> Reply:
-    """Back to what was asked for before and, where something else was in effect then, back to that too.
-
-    ``past`` are the states that there were, the last one last; ``turns`` is how many turns there were.
-    """
-    language, steps = intent.language, intent.details.get("steps", 1.0)
-    if "turn" in intent.details:
-        return Reply(text=_no_way_back(intent, turns), stage="asked")
+def undo(talk: Talk, act: Undo) -> Reply:
+    """Back to what was asked for before and, where something else was in effect then, back to that too."""
+    past = talk.past
+    if act.turn is not None:
+        return asked_back(_no_way_back(talk, act.turn))
     if not past:
-        return Reply(text=message(language, "undo.nothing_to_undo"), stage="nothing")
-    count = min(int(steps), len(past)) if isinstance(steps, float) else len(past)
+        return Reply(decided=talk.say("undo.nothing_to_undo"), stage="nothing")
+    count = len(past) if act.steps is None else min(act.steps, len(past))
     before = past[-count]
-    text = _asked_for_again(before, language, undone=True)
-    if isinstance(steps, float) and steps > count:
-        text = joined(language, [message(language, "undo.undone_fewer", count=count), text])
-    return dataclasses.replace(_undone(site, state, intent, before, text), undone=count)
+    text = talk.say("undo.undone_all")
+    if before.request is not None:
+        text = talk.say("undo.undone", request=restated(before.request, talk.language))
+    if act.steps is not None and act.steps > count:
+        text = joined(talk.language, [talk.say("undo.undone_fewer", count=count), text])
+    return dataclasses.replace(_undone(talk, before, text), undone=count)
 
 
-def _asked_for_again(before: State, language: str, *, undone: bool = False) -> str:
+def _asked_for(talk: Talk, before: State) -> str:
     """What the request is after something was taken back."""
     if before.request is None:
-        return message(language, "undo.undone_all") if undone else message(language, "request.nothing_asked")
-    request = restated(before.request, language)
-    return (
-        message(language, "undo.undone", request=request)
-        if undone
-        else message(language, "request.asked_for", request=request)
-    )
+        return talk.say("request.nothing_asked")
+    return talk.say("request.asked_for", request=restated(before.request, talk.language))
 
 
-def _no_way_back(intent: Intent, turns: int) -> str:
+def _no_way_back(talk: Talk, turn: TurnReference) -> Said:
     """Why a turn cannot be gone back to: it is none, or nothing was asked for then."""
-    turn = intent.details["turn"]
-    if isinstance(turn, float) and turn in range(1, turns + 1):
-        return message(intent.language, "turn.without_request", number=f"{turn:g}")
-    return no_such_turn(turn, turns, intent.language)
+    if turn in range(1, len(talk.turns) + 1):
+        return talk.say("turn.without_request", number=turn)
+    return no_such_turn(turn, len(talk.turns), talk.language)
 
 
-def _undone(site: Site, state: State, intent: Intent, before: State, text: str) -> Reply:
+def _undone(talk: Talk, before: State, text: str) -> Reply:
     """Put back what was in effect for the request that holds again, or plan for it anew where it never was."""
+    site, state, language = talk.site, talk.state, talk.language
     good, wanted = before.on_air, before.run
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
+    tables = () if wanted is None else tuple(decision_tables(wanted.report, wanted.estimate, language))
+    reply = Reply(decided=text, stage="undone", state=held, run=wanted, tables=tables)
     if wanted is not None and _never_applied(before) and site.station(wanted) is not None:
         if state.on_air is not None and same_allocation(wanted.decision, state.on_air.decision):
-            return _reply(site, intent, [text], "undone", held, wanted)
-        return _carry_or_ask(site, dataclasses.replace(held, undoes=True), intent, wanted, text)
+            return reply
+        return _carry_or_ask(talk, dataclasses.replace(reply, state=dataclasses.replace(held, undoes=True)), wanted)
     if good is None:
-        said = [text] if state.on_air is None else [text, message(intent.language, "undo.stays")]
-        return _reply(site, intent, said, "undone", held, before.run)
+        return reply if state.on_air is None else _changing(reply, language, talk.say("undo.stays"))
     station = site.station(good)
     if station is None or (state.on_air is not None and same_allocation(good.decision, state.on_air.decision)):
-        return _reply(site, intent, [text], "undone", held, before.run)
+        return reply
     if wanted is not None and not respects(good.decision, wanted.decision):
         power = human(good.decision.total_power_w, "W")
-        said = [text, message(intent.language, "undo.breaks_what_holds", power=power)]
-        return _reply(site, intent, said, "undone", held, wanted)
+        return _changing(reply, language, talk.say("undo.breaks_what_holds", power=power))
     if site.asks(station):
         waiting = dataclasses.replace(held, planned=good, undoes=True)
-        return _reply(site, intent, [text, _question(good, before)], "planned", waiting, good)
-    return _put_back(site, before, intent, good, station, [text])
+        needs = _question(good, before, language)
+        return dataclasses.replace(reply, needs=needs, stage="planned", state=waiting, run=good)
+    return _put_back(talk, dataclasses.replace(reply, state=before), good, station)
 
 
 def _never_applied(state: State) -> bool:
@@ -180,114 +169,93 @@ def _never_applied(state: State) -> bool:
     return state.on_air is None or state.on_air.decision is not run.decision
 
 
-def reset(site: Site, state: State, intent: Intent) -> Reply:
+def reset(talk: Talk, act: Forget) -> Reply:
     """Forget what is asked for; what is in effect stays."""
-    del site
-    new = State(on_air=state.on_air, last_good=state.last_good)
-    return Reply(text=message(intent.language, "undo.reset"), stage="undone", state=new)
+    del act
+    new = State(on_air=talk.state.on_air, last_good=talk.state.last_good)
+    return Reply(changed=talk.say("undo.reset"), stage="undone", state=new)
 
 
-def _carry_or_ask(site: Site, state: State, intent: Intent, run: Run, said: str) -> Reply:
-    station = site.station(run)
+def _carry_or_ask(talk: Talk, reply: Reply, run: Run) -> Reply:
+    station, state = talk.site.station(run), _state(reply)
     if station is None:
-        return _reply(site, intent, [said, message(intent.language, "applied.no_station")], "planned", state, run)
-    if site.asks(station):
+        return _changing(reply, talk.language, _whole(talk.language, talk.say("applied.no_station")), stage="planned")
+    if talk.site.asks(station):
         waiting = dataclasses.replace(state, planned=run)
-        return _reply(site, intent, [said, message(intent.language, "ask_back.apply_it")], "planned", waiting, run)
-    return _apply(site, state, intent, run, station, said)
+        return dataclasses.replace(reply, needs=talk.say("ask_back.apply_it"), stage="planned", state=waiting, run=run)
+    return _apply(talk, reply, run, station)
 
 
-def _apply(site: Site, state: State, intent: Intent, run: Run, station: BaseStation, said: str = "") -> Reply:
+def _state(reply: Reply) -> State:
+    assert reply.state is not None
+    return reply.state
+
+
+def _apply(talk: Talk, reply: Reply, run: Run, station: BaseStation) -> Reply:
     """Apply a run, or put one back that was in effect before."""
+    state, language = _state(reply), talk.language
     if run.outcome is not None and run is state.planned:
-        return _put_back(site, state, intent, run, station, [said] if said else [])
-    effect = site.carry_out(run, station, state.last_good)
+        return _put_back(talk, reply, run, station)
+    talk.site.progress(Event(stage="act", message=talk.say("stage.applying", station=station.name)))
+    effect = talk.site.carry_out(run, station, state.last_good)
     new = dataclasses.replace(state, run=effect.run, planned=None, question=None)
-    text = [said] if said else []
+    tables = tuple(decision_tables(effect.run.report, effect.run.estimate, language))
+    reply = dataclasses.replace(reply, run=effect.run, tables=tables, restored=effect.restored)
     if not effect.faults:
         new = dataclasses.replace(new, on_air=effect.run, last_good=effect.run)
-        return _reply(
-            site, intent, [*text, _whole(intent.language, applied_line(effect.run))], "applied", new, effect.run
-        )
-    text.append(_told(effect, state.last_good, intent.language))
+        return _changing(reply, language, _whole(language, applied_line(effect.run)), stage="applied", state=new)
+    said = _told(talk, effect, state.last_good)
     if effect.restored is not None and not effect.trouble:
-        new = dataclasses.replace(new, on_air=state.last_good)
-        return _reply(site, intent, text, "reverted", new, effect.run, effect)
-    in_effect = effect.run if effect.as_decided else None
-    new = dataclasses.replace(new, on_air=in_effect)
-    return _reply(site, intent, text, "nothing" if effect.run.outcome is None else "applied", new, effect.run, effect)
+        return _changing(
+            reply, language, said, stage="reverted", state=dataclasses.replace(new, on_air=state.last_good)
+        )  # fmt: skip
+    new = dataclasses.replace(new, on_air=effect.run if effect.as_decided else None)
+    return _changing(
+        reply, language, said, stage="nothing" if effect.run.outcome is None else "applied", state=new
+    )  # fmt: skip
 
 
-def _put_back(site: Site, state: State, intent: Intent, good: Run, station: BaseStation, text: Sequence[str]) -> Reply:
+def _put_back(talk: Talk, reply: Reply, good: Run, station: BaseStation) -> Reply:
     """Apply again what was in effect before, for an undo."""
-    outcome, trouble = site.put_back(good, station)
-    told = (
-        message(intent.language, "undo.not_put_back", why=trouble)
-        if trouble
-        else _in_effect(intent.language, "undo.put_back", good)
-    )
+    state = _state(reply)
+    talk.site.progress(Event(stage="act", message=talk.say("stage.applying", station=station.name)))
+    outcome, trouble = talk.site.put_back(good, station)
+    told = talk.say("undo.not_put_back", why=trouble) if trouble else _in_effect(talk.say, "undo.put_back", good)
     back = good if outcome is None else with_outcome(good, outcome)
-    run = back if state.run is good else state.run
-    new = dataclasses.replace(state, run=run, planned=None, question=None, on_air=None if trouble else back)
-    new = dataclasses.replace(new, last_good=state.last_good if trouble else back)
-    reply = _reply(site, intent, [*text, told], "undone", new, back)
-    return dataclasses.replace(reply, restored=outcome)
+    new = dataclasses.replace(
+        state, run=back if state.run is good else state.run, planned=None, question=None,
+        on_air=None if trouble else back, last_good=state.last_good if trouble else back,
+    )  # fmt: skip
+    tables = tuple(decision_tables(back.report, back.estimate, talk.language))
+    return _changing(
+        reply, talk.language, told, stage="undone", state=new, run=back, restored=outcome, tables=tables
+    )  # fmt: skip
 
 
-def _told(effect: Effect, last_good: Run | None, language: str) -> str:
-    faults = joined(language, effect.faults)
+def _told(talk: Talk, effect: Effect, last_good: Run | None) -> str:
+    faults = joined(talk.language, effect.faults)
     if effect.restored is not None and not effect.trouble and last_good is not None:
-        taken_back = _in_effect(language, "station.reverted", last_good, faults=faults)
-        return joined(language, [taken_back, message(language, "station.asked_but_taken_back")])
+        taken_back = _in_effect(talk.say, "station.reverted", last_good, faults=faults)
+        return joined(talk.language, [taken_back, talk.say("station.asked_but_taken_back")])
     if last_good is None:
-        return message(language, "station.faulty", faults=faults)
-    return message(language, "station.not_reverted", faults=faults, trouble=effect.trouble)
+        return talk.say("station.faulty", faults=faults)
+    return talk.say("station.not_reverted", faults=faults, trouble=effect.trouble)
 
 
-def _in_effect(language: str, key: str, run: Run, **names: str) -> str:
+def _in_effect(say: Callable[..., Said], key: str, run: Run, **names: str) -> Said:
     """A sentence about an allocation that is in effect again."""
-    power = human(run.decision.total_power_w, "W")
     promised = run.decision.rate_bps if run.outcome is None else run.outcome.promised_bps
-    return message(language, key, power=power, rate=human(float(promised.sum()), "bit/s"), **names)
+    power, rate = human(run.decision.total_power_w, "W"), human(float(promised.sum()), "bit/s")
+    return say(key, power=power, rate=rate, **names)
 
 
-def _question(good: Run, state: State) -> str:
+def _question(good: Run, state: State, language: str) -> Said:
     """Whether to put an earlier allocation back."""
-    language = good.intent.language
     request = "–" if state.request is None else restated(state.request, language)
-    return message(language, "ask_back.put_it_back", power=human(good.decision.total_power_w, "W"), request=request)
+    power = human(good.decision.total_power_w, "W")
+    return message(language, "ask_back.put_it_back", power=power, request=request)
 
 
-def _sentence(run: Run) -> str:
-    return _whole(run.intent.language, certificate_line(run.decision, run.intent.language))
-
-
-def _whole(language: str, line: str) -> str:
+def _whole(language: str, line: str) -> Said:
     """A line as a sentence of its own."""
-    return message(language, "text.sentence", line=_capital(line))
-
-
-def _capital(sentence: str) -> str:
-    return sentence[:1].upper() + sentence[1:]
-
-
-def _reply(
-    site: Site,
-    intent: Intent,
-    said: Sequence[str],
-    stage: Stage,
-    state: State,
-    run: Run | None,
-    effect: Effect | None = None,
-) -> Reply:
-    """What is said of a run, with its tables; the last sentence is what was done about it."""
-    site.progress(Event(stage="act", message=said[-1]))
-    tables = [] if run is None else decision_tables(run.report, run.estimate, intent.language)
-    return Reply(
-        text=joined(intent.language, said),
-        stage=stage,
-        state=state,
-        run=run,
-        tables=tuple(tables),
-        restored=None if effect is None else effect.restored,
-    )
+    return message(language, "text.sentence", line=line[:1].upper() + line[1:])

@@ -1,67 +1,90 @@
-"""The decision that holds beside what other figures, aims, methods and repairers make of its request."""
+"""Decisions beside each other: of turns, of other figures and aims, and of other methods and repairers."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
-from typing import cast
+from collections.abc import Sequence
+
+import numpy as np
 
 from wirelessagent import plugins
-from wirelessagent.agent import answers
-from wirelessagent.agent.dialogue import Request, applied
-from wirelessagent.agent.figures import side_by_side
-from wirelessagent.agent.noting import notes
+from wirelessagent.agent.acting import same_allocation
+from wirelessagent.agent.dialogue import applied
+from wirelessagent.agent.recalling import is_same, no_decision, turn_of
 from wirelessagent.agent.refusing import RefusedError
-from wirelessagent.agent.restating import goal_words
-from wirelessagent.agent.site import Site
-from wirelessagent.agent.state import Reply
+from wirelessagent.agent.restating import goal_words, notes
+from wirelessagent.agent.state import Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
-from wirelessagent.language.acts import Act, Aim
-from wirelessagent.language.acts import stated as said
-from wirelessagent.language.intent import EVERYBODY, Constraint, Intent
-from wirelessagent.model.units import human, reliability
-from wirelessagent.telling.catalogue import called, joined, message
-from wirelessagent.telling.parts import outcome_in_words
-from wirelessagent.telling.reasons import reason_in_words
+from wirelessagent.language.acts import Act, Aim, CompareLast, CompareRequests, CompareTools, CompareTurns, Limit
+from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.telling.catalogue import called, joined, lines_of, listed, message
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.parts import name_of_figure, outcome_in_words
+from wirelessagent.telling.reasons import power_in_words, reason_in_words
+from wirelessagent.telling.text_table import Table
 
 Column = tuple[str, Run]
 
 
-def alternatives(request: Request, intent: Intent) -> list[tuple[str, Request]]:
-    """Other requests that a comparison names by their figures or aims, and what to call them."""
-    details, language = intent.details, intent.language
-    limits = [value for key, value in sorted(details.items()) if key.startswith("either_")]
-    stated = [value for value in limits if isinstance(value, Mapping)]
-    aims = [aim for aim in str(details.get("aims", "")).split() if aim in plugins.names("objective")]
-    return [
-        *((_figures(one), _with(request, *said(one))) for one in stated),
-        *((goal_words(aim, language), _with(request, Aim(objective=aim))) for aim in aims),
-    ]
+def with_last(talk: Talk, act: CompareLast) -> Reply:
+    """The decision that holds beside the last other one."""
+    del act
+    run, language = talk.state.run, talk.language
+    if run is None:
+        return nothing_yet(talk)
+    made = [turn for turn in talk.turns if turn.run is not None and turn.intent.kind == "allocate"]
+    own = next((turn.number for turn in reversed(made) if is_same(turn.run, run)), len(talk.turns))
+    earlier = [turn for turn in made if not is_same(turn.run, run)]
+    if not earlier:
+        return Reply(decided=talk.say("compared.nothing"))
+    last = earlier[-1]
+    assert last.run is not None
+    columns = [(talk.say("turn.column", number=number), one) for number, one in ((own, run), (last.number, last.run))]
+    said = talk.say("compared.last", turn=last.number, line=certificate_line(last.run.decision, language))
+    return Reply(decided=said, tables=(side_by_side(columns, language),))
 
 
-def _with(request: Request, *acts: Act) -> Request:
-    changed, _ = applied(request, acts)
-    assert changed is not None
-    return changed
-
-
-def beside(site: Site, run: Run, intent: Intent, others: Sequence[tuple[str, Request]], *, noted: bool) -> Reply:
-    """Requests solved beside each other; one alone stands beside the one that holds."""
-    language = intent.language
-    columns = [(name, site.foreseen(site.plan(intent, request))) for name, request in others]
+def with_turns(talk: Talk, act: CompareTurns) -> Reply:
+    """The decision that holds beside that of a turn, or those of two turns."""
+    columns = list[Column]()
+    for reference in act.turns:
+        chosen = turn_of(talk.turns, reference)
+        if chosen is None or chosen.run is None:
+            return no_decision(talk, reference, chosen)
+        columns.append((talk.say("turn.column", number=chosen.number), chosen.run))
     if len(columns) == 1:
-        columns.insert(0, (message(language, "compared.now"), site.foreseen(run)))
-    assumed = dict.fromkeys(note for _, one in columns for note in notes(one, noted=noted, before=run.notes))
-    text = joined(language, [*assumed, *lines(columns, language), message(language, "plan.nothing_changed")])
-    return Reply(text=text, tables=(side_by_side(columns, language),))
+        if talk.state.run is None:
+            return nothing_yet(talk)
+        if same_allocation(columns[0][1].decision, talk.state.run.decision):
+            return Reply(decided=talk.say("compared.itself", turn=columns[0][0]))
+        columns.insert(0, (talk.say("compared.now"), talk.state.run))
+    turn, run = columns[-1]
+    said = talk.say("compared.turn", turn=turn, line=certificate_line(run.decision, talk.language))
+    return Reply(decided=said, tables=(side_by_side(columns, talk.language),))
 
 
-def with_tools(site: Site, run: Run, request: Request, intent: Intent, names: Sequence[str]) -> Reply:
+def with_requests(talk: Talk, act: CompareRequests) -> Reply:
+    """Changes of the request solved beside each other; one alone stands beside the request that holds."""
+    site, state, language = talk.site, talk.state, talk.language
+    if state.run is None or state.request is None:
+        return nothing_yet(talk)
+    changed = [(_label(change, language), applied(state.request, change)[0]) for change in act.changes]
+    columns = [(name, site.foreseen(site.plan(talk.intent, one))) for name, one in changed if one is not None]
+    if len(columns) == 1:
+        columns.insert(0, (talk.say("compared.now"), site.foreseen(state.run)))
+    assumed = [note for _, one in columns for note in notes(one, noted=state.noted, before=state.run.notes)]
+    said = joined(language, [*dict.fromkeys(assumed), *_outcomes(columns, language)])
+    return Reply(decided=said, changed=talk.say("plan.nothing_changed"), tables=(side_by_side(columns, language),))
+
+
+def with_tools(talk: Talk, act: CompareTools) -> Reply:
     """The decision that holds beside those of other methods, or on what other repairers make of the channel."""
-    language = intent.language
+    site, run, request, language = talk.site, talk.state.run, talk.state.request, talk.language
+    if run is None or request is None:
+        return nothing_yet(talk)
     columns, refusals = [(run.decision.method, site.foreseen(run))], list[str]()
-    for name in names:
-        if name == run.decision.method and len(names) > 1:
+    for name in act.names:
+        if name == run.decision.method and len(act.names) > 1:
             continue  # it has its column already
         if name in plugins.names("method"):
             tools, sight = site.with_tools(method=name), None
@@ -70,18 +93,18 @@ def with_tools(site: Site, run: Run, request: Request, intent: Intent, names: Se
             sight = site.sight_by(tools, language)
         else:
             known = {f"{kind}s": ", ".join(plugins.names(kind)) for kind in ("method", "repairer")}
-            return Reply(text=message(language, "ask_back.not_installed", name=name, **known), stage="asked")
+            return asked_back(talk.say("ask_back.not_installed", name=name, **known))
         try:
-            columns.append((name, site.foreseen(site.plan(intent, request, sight=sight, tools=tools))))
+            columns.append((name, site.foreseen(site.plan(talk.intent, request, sight=sight, tools=tools))))
         except RefusedError as refusal:
             refusals.append(refusal.why)
-    listed = message(language, "text.comma").join(called(language, name) for name in names)
-    told_lines = lines(columns, language) if len(columns) > 1 else []
-    text = "\n".join([joined(language, [message(language, "compared.by", names=listed), *told_lines]), *refusals])
-    return Reply(text=text, tables=(side_by_side(columns, language),) if len(columns) > 1 else ())
+    told = _outcomes(columns, language) if len(columns) > 1 else []
+    said = joined(language, [talk.say("compared.by", names=listed(language, act.names)), *told])
+    tables = (side_by_side(columns, language),) if len(columns) > 1 else ()
+    return Reply(decided=lines_of([said, *refusals]), tables=tables)
 
 
-def lines(columns: Sequence[Column], language: str) -> list[str]:
+def _outcomes(columns: Sequence[Column], language: str) -> list[str]:
     """What each of the runs comes to, one sentence each."""
     return [
         message(language, "compared.outcome", name=_capital(called(language, name)), outcome=_outcome(run, language))
@@ -95,20 +118,52 @@ def _capital(name: str) -> str:
 
 def _outcome(run: Run, language: str) -> str:
     if run.decision.is_usable:
-        return outcome_in_words(answers.case_of(run), run.decision, language)
-    return message(language, f"status.{run.decision.status}") + message(
-        language, "compared.because", reason=reason_in_words(run.decision, language)
-    )
+        return outcome_in_words(run.decision, language)
+    because = message(language, "compared.because", reason=reason_in_words(run.decision, language))
+    return message(language, f"status.{run.decision.status}") + because
 
 
-def _figures(limits: Mapping[str, Constraint]) -> str:
-    """The figures of limits as a label, as in "95 %"."""
-    return " ".join(_figure(name, value) for name, value in limits.items())
+def _label(change: Sequence[Act], language: str) -> str:
+    """What a change is called at the head of a column: its aim, or its figures, as in "95 %"."""
+    aims = [goal_words(act.objective, language) for act in change if isinstance(act, Aim)]
+    return " ".join(dict.fromkeys([*aims, *(_figure(act) for act in change if isinstance(act, Limit))]))
 
 
-def _figure(name: str, value: Constraint) -> str:
-    if isinstance(value, Mapping):
-        return " ".join(_figure(name, figure) for user, figure in value.items() if user != EVERYBODY or len(value) == 1)
-    if name == "outage_probability":
-        return reliability(cast(float, value))
-    return human(cast(float, value), "bit/s" if name.endswith("bps") else "W")
+def _figure(limit: Limit) -> str:
+    if limit.kind == "outage_probability":
+        return reliability(limit.value)
+    return human(limit.value, "bit/s" if limit.kind.endswith("bps") else "W")
+
+
+def side_by_side(runs: Sequence[Column], language: str = "en") -> Table:
+    """Runs beside each other: what each is worth, takes and keeps."""
+    columns = [message(language, "label.figure"), *(called(language, name) for name, _ in runs)]
+    cells = [_cells(run, language) for _, run in runs]
+    known = [label for label in cells[0] if any(cell[label] != "–" for cell in cells)]
+    rows = [(message(language, f"label.{label}"), *(cell[label] for cell in cells)) for label in known]
+    return Table(title=message(language, "label.side_by_side"), columns=tuple(columns), rows=tuple(rows))
+
+
+def _cells(run: Run, language: str) -> dict[str, str]:
+    """The figures of one run by their labels; "–" for what there is not."""
+    decision, objective = run.decision, run.decision.problem.objective
+    assert not isinstance(objective, str)
+    usable, need = decision.is_usable, decision.needed_power_w
+    figure = name_of_figure(decision, language)
+    served = decision.problem.serves(decision.rate_bps.size)
+    value = human(decision.value, decision.unit)
+    value = message(language, "label.with", value=value, beside=figure) if figure else value
+    missed = "–" if run.outcome is None or run.outcome.achieved is None else str(int(run.outcome.missed.sum()))
+    return {
+        "objective": goal_words(objective.name, language),
+        "status": message(language, f"status.{decision.status}"),
+        "value": value if usable else "–",
+        "bound": human(decision.bound, decision.unit),
+        "gap": percent(decision.gap),
+        "power": human(decision.total_power_w, "W") if usable else "–",
+        "power_needed": "–" if need is None else power_in_words(need.at_least, language),
+        "sum_rate_bps": human(float(decision.rate_bps.sum()), "bit/s") if usable else "–",
+        "lowest_rate": human(float(decision.rate_bps[served].min()), "bit/s") if usable else "–",
+        "users_served": str(int(np.count_nonzero(decision.rate_bps > 0))) if usable else "–",
+        "promises_missed": missed,
+    }

@@ -1,11 +1,16 @@
-"""A request as one sentence, with figures and units, for the operator to check."""
+"""A request as one sentence, with figures and units, for the operator to check; what was assumed; what was changed."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from wirelessagent import plugins
-from wirelessagent.agent.dialogue import Request
-from wirelessagent.language.restating import limits_in_words
-from wirelessagent.telling.catalogue import called, has_message, message
+from wirelessagent.agent.dialogue import Diff, Request, constraints_of
+from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY
+from wirelessagent.agent.turn import Run, Shift
+from wirelessagent.language.restating import figure_in_words, limits_in_words
+from wirelessagent.model.units import human, reliability
+from wirelessagent.telling.catalogue import called, has_message, joined, message
 
 
 def restated(request: Request, language: str = "en") -> str:
@@ -28,3 +33,67 @@ def goal_words(objective: str, language: str) -> str:
     spoken = own.get(language) or own.get("en") or next(iter(own.values()), (objective.replace("_", " "),))
     key = f"goal.{objective}"
     return message(language, key) if has_message(language, key) else spoken[0]
+
+
+def notes(run: Run, *, noted: bool, before: Sequence[str] = ()) -> list[str]:
+    """The notes of a run as sentences, without those of ``before`` and, where it was ``noted``, without the 95 %."""
+    language = run.intent.language
+    known = {*before, *([_assumed(language)] if noted else [])}
+    return [message(language, "text.note", note=note[:1].upper() + note[1:]) for note in run.notes if note not in known]
+
+
+def noted_after(run: Run | None, *, noted: bool, requested: bool) -> bool:
+    """Whether the 95 % were told, after a turn with this run; another probability that is requested forgets it."""
+    if run is None:
+        return noted
+    if _assumed(run.intent.language) in run.notes:
+        return True
+    return noted and not (requested and run.decision.problem.outage_probability is not None)
+
+
+def _assumed(language: str) -> str:
+    return message(language, "assumed.outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))
+
+
+def changes_in_words(diff: Diff, shift: Shift | None, language: str) -> str:
+    """What was changed of a request that held, and of its decision; empty for a first request.
+
+    >>> from wirelessagent.agent.dialogue import difference
+    >>> old, new = (Request(objective="max_rate", constraints={"max_power_w": watts}) for watts in (10.0, 5.0))
+    >>> changes_in_words(difference(old, new), None, "en")
+    'Changed: at most 5 W of radiated power (before: 10 W).'
+    """
+    if diff.objective[0] is None:
+        return ""
+    said = list[str]()
+    if diff.objective[0] != diff.objective[1] and diff.objective[1] is not None:
+        now, then = (goal_words(str(name), language) for name in reversed(diff.objective))
+        said.append(message(language, "changed.instead", now=now, then=then))
+    groups: dict[tuple[str, float | None, float], list[str]] = {}
+    for one in diff.changes:
+        if one.after is not None:
+            groups.setdefault((one.kind, one.before, one.after), []).append(one.user)
+    for (kind, before, after), users in groups.items():
+        now = limits_in_words(constraints_of({(kind, user): after for user in users}), language)
+        then = "" if before is None else figure_in_words(kind, before)
+        said.append(message(language, "changed.instead", now=now, then=then) if then else now)
+    told = [message(language, "changed.changed", changes=message(language, "text.list").join(said))] if said else []
+    if diff.gone:
+        told.append(message(language, "request.no_longer", limits=limits_in_words(diff.gone, language)))
+    return joined(language, [*told, _shifted(shift, language)])
+
+
+def _shifted(shift: Shift | None, language: str) -> str:
+    """What became of the allocation; empty where that is the same, or where there was none before."""
+    if shift is None:
+        return ""
+    said: list[str] = []
+    for name, pair, unit in (("sum_rate", shift.sum_rate_bps, "bit/s"), ("power", shift.power_w, "W")):
+        before, now = (human(value, unit) for value in pair)
+        said += [message(language, f"changed.{name}", before=before, now=now)] if before != now else []
+    if shift.subcarriers:
+        said.append(message(language, "changed.subcarriers", moved=shift.subcarriers, total=shift.total))
+    if not said:
+        return ""
+    listed = message(language, "text.list").join(said)
+    return message(language, "changed.allocation", changes=listed[:1].upper() + listed[1:])

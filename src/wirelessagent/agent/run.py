@@ -22,7 +22,7 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.model.units import percent
 from wirelessagent.telling.catalogue import message
-from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.certificates import decided_line
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.report import report
 
@@ -64,7 +64,7 @@ def describe(seen: ChannelObservation, language: str = "en") -> str:
 def plan(intent: Intent, posed: Posed, sight: Sight, tools: Tools, *, progress: Progress = silent) -> Run:
     """Decide on what was posed; nothing is applied."""
     decision = chain.decide(sight.estimate, posed.problem, posed.cell, tools.method, **tools.method_options)
-    progress(Event(stage="decide", message=certificate_line(decision, intent.language)))
+    progress(Event(stage="decide", message=decided_line(decision, intent.language)))
     made = report(decision)
     return Run(
         intent=intent,

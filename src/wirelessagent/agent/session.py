@@ -20,28 +20,52 @@ from typing import Any, Protocol, cast
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent import asking, changing, referring, waiting
+from wirelessagent.agent import asking, changing, comparing, recalling, supposing, waiting
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.dialogue import Request, difference, stated_by
 from wirelessagent.agent.events import Event, Progress, silent
-from wirelessagent.agent.noting import noted_after
 from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.refusing import RefusedError
+from wirelessagent.agent.restating import noted_after
 from wirelessagent.agent.site import Site
-from wirelessagent.agent.state import Missing, Question, Reply, State
+from wirelessagent.agent.state import Missing, Question, Reply, State, Talk, asked_back
 from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.language.acts import OWN_CHOICE, Act, Ask, Command, Suppose
+from wirelessagent.agent.turn import Lines, Run, Turn, shift_between
+from wirelessagent.language.acts import (
+    Act,
+    Apply,
+    Ask,
+    AskHelp,
+    AskHistory,
+    AskMeaning,
+    AskMethods,
+    AskMost,
+    AskOtherChannel,
+    AskPower,
+    AskReasons,
+    AskStatus,
+    CompareLast,
+    CompareRequests,
+    CompareTools,
+    CompareTurns,
+    Export,
+    Forget,
+    No,
+    Suppose,
+    Undo,
+    Yes,
+)
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
 from wirelessagent.language.conversation.fragments import named_alone
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
+from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
-from wirelessagent.telling.catalogue import joined, message
+from wirelessagent.telling.catalogue import message
 
 _USER = re.compile(
     r"(?i)\s*(?:(?:no|sorry|i mean|i meant|make it|我是说|是)[,，\s]*)*"
@@ -52,7 +76,31 @@ _USER = re.compile(
 _NOTE = re.compile(r"[(（][^()（）]+[)）]$")
 """What a recogniser says of itself at the end of a reply."""
 
-_WHY = ("why_infeasible", "why_user")
+_REPLIES: Mapping[type[Act], Callable[[Talk, Any], Reply]] = {
+    Apply: changing.apply,
+    Yes: changing.confirm,
+    No: changing.reject,
+    Undo: changing.undo,
+    Forget: changing.reset,
+    Suppose: supposing.what_if,
+    AskMost: supposing.what_if,
+    AskPower: supposing.needed_power,
+    AskOtherChannel: supposing.other_channel,
+    CompareLast: comparing.with_last,
+    CompareTurns: comparing.with_turns,
+    CompareTools: comparing.with_tools,
+    CompareRequests: comparing.with_requests,
+    AskReasons: recalling.reasons,
+    AskHistory: recalling.history,
+    AskStatus: recalling.status,
+    Export: recalling.export,
+    AskHelp: asking.help_with,
+    AskMeaning: asking.meaning,
+    AskMethods: asking.methods,
+    **dict.fromkeys(asking.ABOUT_THE_DECISION, asking.about_the_decision),
+}
+"""What becomes of a question or a command, by its kind."""
+
 _LONGEST_NAME = 100
 """Characters of a line that may be such an answer."""
 
@@ -125,7 +173,7 @@ class Session:
 
     def say(self, text: str) -> Turn:
         """Take a line from the operator: understand it, do what it asks, and reply."""
-        context, before = self._context(), self.request
+        context, before = self._context(), self._state
         intent = self._gone_back(self._answered(text, context) or understood(text, context, self._recogniser))
         self._state = dataclasses.replace(self._state, supposed=None)
         self._language = intent.language
@@ -135,8 +183,9 @@ class Session:
                 intent.language, "stage.understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure
             )
             self._progress(Event(stage="understand", message=read))
+        talk = Talk(site=self._site, state=self._state, past=self._past, turns=self._turns, intent=intent, text=text)
         try:
-            reply = waiting.naming_the_plan(self._reply(intent, text, context), self._state, intent)
+            reply = waiting.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
             self._take(reply, intent)
         except BaseException:  # an interruption too: the base station may have it, or a part of it
             if self._site.telling is not None:
@@ -149,7 +198,7 @@ class Session:
     def _broken_off(self, run: Run, intent: Intent) -> Reply:
         """What holds where something ended a turn after the base station was told a run."""
         unknown = dataclasses.replace(self._state.settled, on_air=None)
-        return Reply(text=message(intent.language, "station.broken_off"), stage="nothing", state=unknown, run=run)
+        return Reply(changed=message(intent.language, "station.broken_off"), stage="nothing", state=unknown, run=run)
 
     def _context(self) -> Context:
         state, request, supposed = self._state, self._state.request, self._state.supposed
@@ -169,7 +218,7 @@ class Session:
             stated=state.stated,
             supposed_objective=None if supposed is None else supposed.objective,
             supposed={} if supposed is None else supposed.constraints,
-            ways=self._unmet() is not None,
+            ways=asking.unmet(self._turns) is not None,
             share_of=cast("Mapping[str, Constraint]", before.get("share_of") or {}),
             share_how=str(before.get("share_how", "of")),
             language=self._language,
@@ -179,85 +228,30 @@ class Session:
     def _last_acts(self) -> tuple[Act, ...]:
         """The acts of the last line that changed something, or of the very last one where that supposed something."""
         for turn in reversed(self._turns):
-            acts = tuple(act for act in turn.acts if not isinstance(act, Ask | Command) and act != Suppose())
+            acts = tuple(act for act in turn.acts if _changes_or_supposes(act))
             if acts and (turn is self._turns[-1] or not any(isinstance(act, Suppose) for act in acts)):
                 return acts
         return ()
 
-    def _unmet(self) -> Run | None:
-        """What the line before asked for or supposed, where that can't be met; questions why lie between."""
-        asked = (turn for turn in reversed(self._turns) if turn.intent.topic not in _WHY)
-        last = next(asked, None)
-        run = None if last is None else last.run
-        return None if run is None or run.decision.is_usable else run
-
-    def _reply(self, intent: Intent, text: str, context: Context) -> Reply:
+    def _reply(self, talk: Talk, context: Context) -> Reply:
         """What the intent leads to; what cannot be done becomes a reply, and changes nothing."""
+        intent = talk.intent
         try:
-            return self._handled(intent, text, context)
+            return _handled(talk, context)
         except UnclearRequestError as question:
             reference = question.reference if isinstance(question, UnknownUserError) else None
             missing = None if reference is None else Missing(intent=intent, reference=reference)
             sure = {name: value for name, value in intent.constraints.items() if not isinstance(value, Mapping | tuple)}
             open_ = Question(pending=sure if missing is None else {}, objective=intent.objective, missing=missing)
-            asked = dataclasses.replace(self._state, planned=None, question=open_)
-            return Reply(text=str(question), stage="asked", state=asked)
+            return asked_back(str(question), dataclasses.replace(self._state, planned=None, question=open_))
         except WirelessAgentError as error:
             if self._raises:
                 raise
             if isinstance(error, RefusedError):
-                text = joined(intent.language, [str(error), message(intent.language, "plan.nothing_changed")])
-            else:
-                key = "refused.unsupported" if isinstance(error, UnsupportedProblemError) else "refused.failed"
-                text = message(intent.language, key, why=error)
-            return Reply(text=text, stage="nothing", error=error)
-
-    def _handled(self, intent: Intent, text: str, context: Context) -> Reply:
-        site, state, topic = self._site, self._state, intent.topic or ""
-        if intent.kind == "allocate":
-            return changing.allocate(site, state, intent)
-        if intent.kind == "clarify":
-            _check_users(intent, site.user_names)
-            left = unanswered(text, intent, context)
-            if waiting.is_about_the_plan(state, text, left):
-                return waiting.asked_again(site, state, intent)
-            question = Question(guess=intent.guess) if intent.guess is not None else Question(
-                pending=left.pending, objective=left.objective, users=left.users, offered=left.offered
-            )  # fmt: skip
-            asked = dataclasses.replace(state, planned=None, question=question)
-            return Reply(text=intent.reply, stage="asked", state=asked)
-        if intent.kind == "out_of_scope":
-            return Reply(text=intent.reply)
-        doubt = waiting.doubted(site, state, intent, text, self._turns) if topic in ("apply", "confirm") else None
-        if doubt is not None:
-            return doubt
-        handlers: Mapping[str, Callable[[], Reply]] = {
-            "apply": lambda: changing.apply(site, state, intent),
-            "confirm": lambda: changing.confirm(site, state, intent),
-            "reject": lambda: changing.reject(state, intent, self._past),
-            "undo": lambda: changing.undo(site, state, intent, self._past, len(self._turns)),
-            "reset": lambda: changing.reset(site, state, intent),
-            "compare": lambda: asking.compare(site, state, intent, self._turns),
-            "explain": lambda: asking.explain(state, intent),
-            "history": lambda: asking.history(intent, self._turns),
-            "status": lambda: asking.status(site, state, intent, self._turns),
-            "what_if": lambda: referring.what_if(site, state, intent),
-            "export": lambda: asking.export(state, intent, self._turns),
-            "help": lambda: Reply(text=message(intent.language, "about.help")),
-            "capabilities": lambda: Reply(text=message(intent.language, "about.help")),
-        }
-        of_turns: Mapping[str, Callable[[], Reply]] = {
-            "compare": lambda: referring.compare(state, intent, self._turns),
-            "explain": lambda: referring.explain(state, intent, self._turns),
-            "history": lambda: referring.history(intent, self._turns),
-        }
-        handle = (of_turns if "turn" in intent.details else {}).get(topic) or handlers.get(topic)
-        if handle is not None:
-            return handle()
-        of_it = topic == "why_infeasible" or (topic == "why_user" and state.on_air is None)
-        unmet = self._unmet() if of_it else None
-        seen = state if unmet is None else dataclasses.replace(state, run=unmet)
-        return asking.question(site, seen, intent, text) if intent.kind == "question" else Reply(text=intent.reply)
+                why, changed = str(error), message(intent.language, "plan.nothing_changed")
+                return Reply(decided=why, changed=changed, stage="nothing", error=error)
+            key = "refused.unsupported" if isinstance(error, UnsupportedProblemError) else "refused.failed"
+            return Reply(decided=message(intent.language, key, why=error), stage="nothing", error=error)
 
     def _take(self, reply: Reply, intent: Intent) -> None:
         """Let what the reply brought hold, and remember what held before another request."""
@@ -274,18 +268,20 @@ class Session:
         self._state = dataclasses.replace(new, noted=noted)
         self._requests.append(new.request)
 
-    def _kept(self, text: str, intent: Intent, reply: Reply, before: Request | None) -> Turn:
+    def _kept(self, text: str, intent: Intent, reply: Reply, before: State) -> Turn:
         """The turn, remembered and stored; a store that fails is told of and stops nothing."""
-        said = reply.text
+        lines = Lines(decided=reply.decided, changed=reply.changed, needs=reply.needs)
         by_another = intent.recogniser not in (self._recogniser.name, READ_HERE)
-        if by_another and not (intent.reply and intent.reply in said):
-            said = joined(intent.language, [said, _read_by(intent)])
+        if by_another and not (intent.reply and intent.reply in str(lines)):
+            lines = lines.ending_with(_read_by(intent), intent.language)
+        after, run = self._state, reply.run if reply.stage != "answered" else None
+        then, now = before.run and before.run.decision, run and run.decision
         turn = Turn(
             number=len(self._turns) + 1,
             session=self.id,
             text=text,
             intent=intent,
-            reply=said,
+            lines=lines,
             stage=reply.stage,
             run=reply.run,
             at_utc=datetime.now(UTC).isoformat(timespec="milliseconds"),
@@ -295,29 +291,30 @@ class Session:
             tables=reply.tables,
             restored=reply.restored,
             error=reply.error,
-            diff=difference(before, self.request),
+            diff=difference(before.request, after.request),
+            shift=shift_between(then, now),
         )
         if self._store is not None:
             try:
                 self._store.append(turn)
             except WirelessAgentError as error:
-                said = joined(intent.language, [said, message(intent.language, "stage.not_recorded", why=error)])
-                turn = dataclasses.replace(turn, reply=said)
+                told = lines.ending_with(message(intent.language, "stage.not_recorded", why=error), intent.language)
+                turn = dataclasses.replace(turn, lines=told)
         self._turns.append(turn)
         return turn
 
     def _gone_back(self, intent: Intent) -> Intent:
         """The request of an earlier turn, for a line that goes back to it; any other intent as it is."""
-        turn = intent.details.get("turn")
-        if intent.topic != "undo" or not isinstance(turn, float) or turn not in range(1, len(self._requests) + 1):
+        back = next((act.turn for act in acts_of(intent) if isinstance(act, Undo)), None)
+        if not isinstance(back, int) or back not in range(1, len(self._requests) + 1):
             return intent
-        request = self._requests[int(turn) - 1]
+        request = self._requests[back - 1]
         if request is None:
             return intent
-        reply = message(intent.language, "request.back_to_turn", number=turn)
+        reply = message(intent.language, "request.back_to_turn", number=back)
         return dataclasses.replace(
             intent, kind="allocate", objective=request.objective, constraints=request.constraints, topic=None,
-            reply=reply, details={**intent.details, "method": request.method or OWN_CHOICE},
+            reply=reply, details={"turn": back, "method": request.method or OWN_CHOICE},
         )  # fmt: skip
 
     def _answered(self, text: str, context: Context) -> Intent | None:
@@ -332,6 +329,38 @@ class Session:
         except UnknownUserError:
             return None
         return _with_user(missing, self._site.user_names[number])
+
+
+def _changes_or_supposes(act: Act) -> bool:
+    """Whether the line behind an act may lean on it."""
+    return not isinstance(act, Ask | Apply | Yes | No) and act != Suppose()
+
+
+def _handled(talk: Talk, context: Context) -> Reply:
+    """What becomes of a line: of all that it wants changed together, else of its question or its command."""
+    intent, acts = talk.intent, acts_of(talk.intent)
+    if intent.kind == "allocate":
+        return changing.allocate(talk, acts)
+    if intent.kind == "clarify":
+        return _open_question(talk, context)
+    if intent.kind == "out_of_scope":
+        return Reply(decided=intent.reply)
+    act = acts[0]
+    doubt = waiting.doubted(talk, act) if isinstance(act, Apply | Yes) else None
+    return doubt or _REPLIES[type(act)](talk, act)
+
+
+def _open_question(talk: Talk, context: Context) -> Reply:
+    """A question back, with what was understood before it."""
+    intent = talk.intent
+    _check_users(intent, talk.site.user_names)
+    left = unanswered(talk.text, intent, context)
+    if waiting.is_about_the_plan(talk, left):
+        return waiting.asked_again(talk)
+    question = Question(guess=intent.guess) if intent.guess is not None else Question(
+        pending=left.pending, objective=left.objective, users=left.users, offered=left.offered
+    )  # fmt: skip
+    return asked_back(intent.reply, dataclasses.replace(talk.state, planned=None, question=question))
 
 
 def _read_by(intent: Intent) -> str:

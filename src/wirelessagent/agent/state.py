@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from wirelessagent.agent.dialogue import Request
-from wirelessagent.agent.turn import Run, Stage
+from wirelessagent.agent.site import Site
+from wirelessagent.agent.turn import Run, Stage, Turn
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.language.recogniser import Awaited
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Plain
+from wirelessagent.telling.catalogue import Said, message
 from wirelessagent.telling.text_table import Table
 
 
@@ -92,11 +94,43 @@ class State(Plain):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Talk:
+    """A conversation as one line finds it.
+
+    Attributes:
+        site: the cell.
+        state: what holds.
+        past: the states before other requests, the last one last.
+        turns: what was said so far.
+        intent: what was understood of the line.
+        text: the line.
+    """
+
+    site: Site
+    state: State
+    past: Sequence[State]
+    turns: Sequence[Turn]
+    intent: Intent
+    text: str
+
+    @property
+    def language(self) -> str:
+        """The operator's."""
+        return self.intent.language
+
+    def say(self, key: str, /, **places: object) -> Said:
+        """A message in the operator's language."""
+        return message(self.language, key, **places)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Reply:
     """What a turn came to.
 
     Attributes:
-        text: what the agent says.
+        decided: what was decided and how sure that is, or the answer.
+        changed: what that changed.
+        needs: what it needs from the operator.
         stage: see :data:`~wirelessagent.agent.turn.Stage`.
         state: what holds now; None where nothing changed.
         run: the run that was made or applied.
@@ -106,7 +140,9 @@ class Reply:
         error: what the reply tells of, where something could not be done.
     """
 
-    text: str
+    decided: str = ""
+    changed: str = ""
+    needs: str = ""
     stage: Stage = "answered"
     state: State | None = None
     run: Run | None = None
@@ -114,3 +150,13 @@ class Reply:
     restored: Outcome | None = None
     undone: int = 0
     error: WirelessAgentError | None = None
+
+
+def asked_back(question: str, state: State | None = None) -> Reply:
+    """A reply that only asks."""
+    return Reply(needs=question, stage="asked", state=state)
+
+
+def nothing_yet(talk: Talk) -> Reply:
+    """The reply to what needs a decision, before there is one."""
+    return Reply(needs=talk.say("refused.nothing_yet"))

@@ -1,147 +1,165 @@
-"""Turns that ask what would be: a decision for other circumstances beside the one that holds."""
+"""Questions what would be: a decision for other circumstances beside the one that holds, and the power it takes."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
-from typing import cast
 
 import numpy as np
 
-from wirelessagent.agent import answers
+from wirelessagent.agent.comparing import side_by_side
 from wirelessagent.agent.dialogue import Request, applied
-from wirelessagent.agent.figures import side_by_side
-from wirelessagent.agent.noting import notes
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, user_number
 from wirelessagent.agent.refusing import RefusedError
-from wirelessagent.agent.restating import restated
+from wirelessagent.agent.restating import notes, restated
 from wirelessagent.agent.run import Sight
-from wirelessagent.agent.site import Site
-from wirelessagent.agent.state import Reply, State
+from wirelessagent.agent.state import Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
-from wirelessagent.language.acts import Limit, supposed_in
-from wirelessagent.language.intent import Constraint, Intent
+from wirelessagent.agent.waiting import plan_named
+from wirelessagent.language.acts import Act, Aim, AskMost, AskOtherChannel, AskPower, Limit, Suppose
+from wirelessagent.language.intent import Constraint
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import called, joined, message
-from wirelessagent.telling.facts.nearest import nearest
+from wirelessagent.telling.facts.nearest import more_power, nearest
 from wirelessagent.telling.parts import cannot_be_served, outcome_in_words, value_name
+from wirelessagent.telling.reasons import BEYOND_W, reason_in_words
 from wirelessagent.telling.remedies import nearest_answer
 
 _SAME = 1e-6
 """A share of the power that nobody sees."""
 
+_OTHER_AIMS = ("weights", "max_rate_bps", "max_power_w")
+"""What the least power knows nothing of, or is asked for instead of."""
 
-def what_if(site: Site, state: State, intent: Intent) -> Reply:
-    """A decision for other circumstances beside the one that holds."""
-    language, details = intent.language, intent.details
-    share = details.get("missing_share")
-    objective = details.get("objective")
-    if details.get("of") == "channel":
-        return Reply(text=message(language, "ask_back.channel_given"), stage="asked")
-    if share is None and not any(details.get(name) for name in ("constraints", "objective", "dropped")):
-        return Reply(text=message(language, "ask_back.what_if_nothing"), stage="asked")
-    if state.request is None and objective is None:
-        return Reply(text=message(language, "refused.nothing_yet"))
-    if share is not None and not 0 <= cast(float, share) < 1:
-        return Reply(
-            text=message(language, "ask_back.what_if_missing_share", share=percent(cast(float, share))), stage="asked"
-        )
-    request = supposed(state, intent)
-    sight = None if share is None else site.sight_missing(cast(float, share), language)
-    run, otherwise = _planned(site, intent, request, sight)
-    answer = joined(language, [*otherwise, _verdict(state, run, language)])
-    if details.get("asked") == "most" and run.decision.is_usable:
-        text = joined(language, [*otherwise, _most(state, run, intent)])
-    elif share is None:
-        asked = restated(request, language)
-        text = message(language, "what_if.answer", request=asked[:1].lower() + asked[1:], answer=answer)
+
+def other_channel(talk: Talk, act: AskOtherChannel) -> Reply:
+    """The channel is as it was sensed."""
+    del act
+    return asked_back(talk.say("ask_back.channel_given"))
+
+
+def what_if(talk: Talk, act: Suppose) -> Reply:
+    """A decision for other circumstances beside the one that holds, which the next line may take up."""
+    share = act.missing_share
+    if share is None and not act.acts:
+        return asked_back(talk.say("ask_back.what_if_nothing"))
+    request = _supposed(talk, act)
+    if request is None:
+        return nothing_yet(talk)
+    if share is not None and not 0 <= share < 1:
+        return asked_back(talk.say("ask_back.what_if_missing_share", share=percent(share)))
+    sight = None if share is None else talk.site.sight_missing(share, talk.language)
+    run, otherwise = _planned(talk, request, sight)
+    if isinstance(act, AskMost) and run.decision.is_usable:
+        said = joined(talk.language, [*otherwise, _most(talk, run, act.user)])
     else:
-        text = message(language, "what_if.seen", share=percent(cast(float, share)), answer=answer)
-    runs = [(message(language, "what_if.column"), run)]
-    if state.run is not None:
-        runs.insert(0, (message(language, "compared.now"), site.foreseen(state.run)))
-    return Reply(text=text, run=run, tables=(side_by_side(runs, language),))
+        answer = joined(talk.language, [*otherwise, _verdict(talk, run)])
+        asked = restated(request, talk.language)
+        suppose = {"request": asked[:1].lower() + asked[1:]} if share is None else {"share": percent(share)}
+        said = talk.say("what_if.answer" if share is None else "what_if.seen", **suppose, answer=answer)
+    runs = [(talk.say("what_if.column"), run)]
+    if talk.state.run is not None:
+        runs.insert(0, (talk.say("compared.now"), talk.site.foreseen(talk.state.run)))
+    reply = Reply(decided=said, run=run, tables=(side_by_side(runs, talk.language),))
+    return _left_open(talk, reply, None if share is not None else request)
 
 
-def _planned(site: Site, intent: Intent, request: Request, sight: Sight | None) -> tuple[Run, list[str]]:
+def needed_power(talk: Talk, act: AskPower) -> Reply:
+    """The least power that the promised rates take; a what-if of the limit where nothing is promised."""
+    request, language = _supposed(talk, act), talk.language
+    if request is None:
+        return nothing_yet(talk)
+    promises = "min_rate_bps" in request.constraints or request.objective == "min_power"
+    if not promises and act.enough_w is not None:
+        return what_if(talk, _limited(act, act.enough_w))
+    if not promises:
+        return Reply(decided=talk.say("needs.nothing"))
+    limits: dict[str, Constraint] = {k: v for k, v in request.constraints.items() if k not in _OTHER_AIMS}
+    run = talk.site.plan(talk.intent, Request(objective="min_power", constraints=limits))
+    power_w = _power(run)
+    said = [*notes(run, noted=talk.state.noted), _taken(run, power_w, language)]
+    if act.enough_w is not None:
+        said.append(_judged(run, power_w, act.enough_w, act.judged, language))
+        said += _of_the_aim(talk, act, request, act.enough_w, power_w)
+    return _left_open(talk, Reply(decided=joined(language, said), run=run), request)
+
+
+def _left_open(talk: Talk, reply: Reply, supposed: Request | None) -> Reply:
+    """The reply to a what-if: nothing changed, "do that" takes it up, and a yes is still for the plan that waits."""
+    state, needs = talk.state, ""
+    if state.planned is not None and state.request is not None:
+        key = "plan.still_waits" if supposed is None else "plan.or_what_if"
+        needs = talk.say(key, request=plan_named(state, talk.language))
+    after = dataclasses.replace(state, question=None, supposed=supposed)
+    return dataclasses.replace(reply, changed=talk.say("plan.nothing_changed"), needs=needs, state=after)
+
+
+def _supposed(talk: Talk, act: Suppose) -> Request | None:
+    """The request of a what-if; one of the most that can be promised is kept with the probability that is assumed."""
+    held, acts = talk.state.request, act.acts
+    named = {*(() if held is None else held.constraints), *(one.kind for one in acts if isinstance(one, Limit))}
+    if isinstance(act, AskMost) and "outage_probability" not in named:
+        acts = *acts, Limit(kind="outage_probability", value=ASSUMED_OUTAGE_PROBABILITY)
+    aims: tuple[Act, ...] = tuple(one for one in acts if isinstance(one, Aim))
+    return applied(held, (*aims, *acts), radiated_w=talk.state.radiated_w)[0]
+
+
+def _planned(talk: Talk, request: Request, sight: Sight | None) -> tuple[Run, list[str]]:
     """The run of a what-if, by the objective's own method where the one that was named does not solve it."""
+    site, intent = talk.site, talk.intent
     try:
         return site.foreseen(site.plan(intent, request, sight=sight)), []
     except RefusedError as refusal:
         if request.method is None:
             raise
         run = site.foreseen(site.plan(intent, dataclasses.replace(request, method=None), sight=sight))
-        method = called(intent.language, run.decision.method)
-        return run, [refusal.why, message(intent.language, "refused.solved_by", method=method)]
+        method = called(talk.language, run.decision.method)
+        return run, [refusal.why, talk.say("refused.solved_by", method=method)]
 
 
-def supposed(state: State, intent: Intent) -> Request:
-    """The request of a what-if; one of the most that can be promised is kept with the probability that is assumed."""
-    details, acts = intent.details, supposed_in(intent.details)
-    held = state.request or Request(objective=cast(str, details.get("objective")))
-    named = {*held.constraints, *cast("Mapping[str, Constraint]", details.get("constraints") or {})}
-    if details.get("asked") == "most" and "outage_probability" not in named:
-        acts = *acts, Limit(kind="outage_probability", value=ASSUMED_OUTAGE_PROBABILITY)
-    request, _ = applied(held, acts, radiated_w=state.radiated_w)
-    assert request is not None
-    return request
-
-
-def _most(state: State, run: Run, intent: Intent) -> str:
+def _most(talk: Talk, run: Run, user: str | None) -> str:
     """The most that can be promised to everybody or to a user, with its certificate."""
-    decision, language, user = run.decision, intent.language, intent.details.get("user")
+    decision, language = run.decision, talk.language
     served = decision.problem.serves(decision.rate_bps.size)
-    who = message(language, "what_if.every_user", count=int(served.sum()))
+    who = talk.say("what_if.every_user", count=int(served.sum()))
     if user is not None:
-        who = called(language, decision.user_names[user_number(str(user), decision.user_names, language)[0]])
-    said = message(
-        language, "what_if.most_promised", rate=human(decision.value, decision.unit), who=who,
+        who = called(language, decision.user_names[user_number(user, decision.user_names, language)[0]])
+    said = talk.say(
+        "what_if.most_promised", rate=human(decision.value, decision.unit), who=who,
         power=human(decision.problem.budget_w(decision.cell), "W"),
         sure=reliability(decision.problem.outage_probability or 0.0),
     )  # fmt: skip
-    proven = message(
-        language, "what_if.most_proven", bound=human(decision.bound, decision.unit), gap=percent(decision.gap)
-    )
-    left_out = cannot_be_served(decision, language)
-    warned = [message(language, "text.note", note=left_out)] if left_out else []
-    assumed = notes(run, noted=state.noted)
-    return joined(
-        language,
-        [
-            said,
-            *([] if np.isnan(decision.gap) else [proven]),
-            *assumed,
-            *warned,
-            message(language, "plan.nothing_changed"),
-        ],
-    )
+    proven = talk.say("what_if.most_proven", bound=human(decision.bound, decision.unit), gap=percent(decision.gap))
+    assumed = notes(run, noted=talk.state.noted)
+    return joined(language, [said, *([] if np.isnan(decision.gap) else [proven]), *assumed, *_warned(run, language)])
 
 
-def _verdict(state: State, run: Run, language: str) -> str:
-    """Whether a request can be met and with what, or what can be met instead; and what was assumed only here."""
-    now, case = state.run, answers.case_of(run)
-    assumed = notes(run, noted=state.noted, before=() if now is None else now.notes)
-    nothing = message(language, "plan.nothing_changed")
-    if not run.decision.is_usable:
-        return joined(language, [*assumed, f"{nearest_answer(case, nearest(case), language)}\n{nothing}"])
-    outcome = outcome_in_words(case, run.decision, language)
-    met = message(language, "what_if.met", outcome=outcome)
-    if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
-        met = message(language, "what_if.now", outcome=outcome, **_beside(now.decision, run.decision, language))
-    elif now is not None and now.decision.is_usable:
-        met = joined(language, [met, outcome_beside(state, run, language)])
+def _warned(run: Run, language: str) -> list[str]:
     left_out = cannot_be_served(run.decision, language)
-    warned = [message(language, "text.note", note=left_out)] if left_out else []
-    return joined(language, [*assumed, met, *_unused(now, run, language), *warned, nothing])
+    return [message(language, "text.note", note=left_out)] if left_out else []
 
 
-def outcome_beside(state: State, run: Run, language: str) -> str:
+def _verdict(talk: Talk, run: Run) -> str:
+    """Whether a request can be met and with what, or what can be met instead; and what was assumed only here."""
+    now, language = talk.state.run, talk.language
+    assumed = notes(run, noted=talk.state.noted, before=() if now is None else now.notes)
+    if not run.decision.is_usable:
+        return joined(language, [*assumed, nearest_answer(run.case, nearest(run.case), language)])
+    outcome = outcome_in_words(run.decision, language)
+    met: str = talk.say("what_if.met", outcome=outcome)
+    if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
+        met = talk.say("what_if.now", outcome=outcome, **_beside(now.decision, run.decision, language))
+    elif now is not None and now.decision.is_usable:
+        met = joined(language, [met, _outcome_beside(now, run, language)])
+    return joined(language, [*assumed, met, *_unused(now, run, language), *_warned(run, language)])
+
+
+def _outcome_beside(now: Run | None, run: Run, language: str) -> str:
     """What users get and what it takes, beside what holds now: for values that are not of one kind."""
-    then, now = _figures(run.decision, language), None if state.run is None else state.run.decision
-    if now is None or not now.is_usable or not run.decision.is_usable:
+    if now is None or not now.decision.is_usable or not run.decision.is_usable:
         return ""
-    return message(language, "what_if.beside_now", then=then, now=_figures(now, language))
+    then = _figures(run.decision, language)
+    return message(language, "what_if.beside_now", then=then, now=_figures(now.decision, language))
 
 
 def _figures(decision: Decision, language: str) -> str:
@@ -176,4 +194,50 @@ def _beside(now: Decision, then: Decision, language: str) -> dict[str, str]:
 
 def _figure_of(run: Run, language: str) -> tuple[str, str]:
     """What a run's value is called, and its unit: values compare where both are the same."""
-    return value_name(answers.case_of(run), language), run.decision.unit
+    return value_name(run.decision, language), run.decision.unit
+
+
+def _power(run: Run) -> float | None:
+    """The power that was found to do; None where none was."""
+    if run.decision.is_usable:
+        return run.decision.total_power_w
+    more = more_power(run.case)
+    return None if more is None or more.power_w > BEYOND_W else more.power_w
+
+
+def _least(run: Run) -> float:
+    """The power that is proven to be needed; 0 where nothing is."""
+    decision, need = run.decision, run.decision.needed_power_w
+    known = decision.bound if decision.is_usable else None if need is None else need.at_least
+    return known if known is not None and known == known else 0.0
+
+
+def _taken(run: Run, power_w: float | None, language: str) -> str:
+    if power_w is None:
+        return message(language, "needs.too_much", reason=reason_in_words(run.decision, language))
+    power, least = human(power_w, "W"), human(_least(run), "W")
+    said = message(language, "needs.exactly" if power == least else "needs.takes", power=power, least=least)
+    limit = run.decision.cell.max_power_w
+    beyond = [] if power_w <= limit else [message(language, "needs.beyond_limit", limit=human(limit, "W"))]
+    return joined(language, [said, *beyond])
+
+
+def _judged(run: Run, power_w: float | None, enough_w: float, asked: str, language: str) -> str:
+    """Whether a power does."""
+    if power_w is not None and enough_w >= power_w:
+        return message(language, f"needs.{asked}_enough", enough=human(enough_w, "W"), power=human(power_w, "W"))
+    key = "needs.not_enough" if enough_w < _least(run) or power_w is None else "needs.perhaps_enough"
+    return message(language, key, enough=human(enough_w, "W"))
+
+
+def _of_the_aim(talk: Talk, act: AskPower, request: Request, enough_w: float, power_w: float | None) -> list[str]:
+    """What such a limit makes of an aim that more power serves."""
+    if request.objective == "min_power" or power_w is None or enough_w < power_w:
+        return []
+    asked = what_if(talk, _limited(act, enough_w))
+    return [] if asked.run is None else [_outcome_beside(talk.state.run, asked.run, talk.language)]
+
+
+def _limited(act: AskPower, power_w: float) -> Suppose:
+    """The what-if of a budget beside what else is asked about."""
+    return Suppose(acts=(*act.acts, Limit(kind="max_power_w", value=power_w)))

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
+import numpy as np
+
 from wirelessagent.agent.dialogue import Diff
 from wirelessagent.agent.tools import Tools
-from wirelessagent.language.acts import Act, acts_of
+from wirelessagent.language.acts import Act
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.intent_acts import acts_of
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.estimate import ChannelEstimate
@@ -18,7 +22,9 @@ from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
-from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.catalogue import joined, lines_of
+from wirelessagent.telling.certificates import certificate_line, summary_line
+from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.report import Report
 from wirelessagent.telling.text_table import Table
 
@@ -56,6 +62,14 @@ class Run(Shown):
     explanation: tuple[str, ...]
     tools: Tools
 
+    @property
+    def case(self) -> Case:
+        """The decision with what it was made from, to be asked what would be otherwise."""
+        tools = self.tools
+        return Case(
+            decision=self.decision, estimate=self.estimate, method=tools.method, options=tools.method_options
+        )  # fmt: skip
+
     def __str__(self) -> str:
         line = certificate_line(self.decision, self.intent.language)
         return legible("\n".join([line, *self.notes, *self.explanation, str(self.report)]))
@@ -69,7 +83,7 @@ class Run(Shown):
         language = self.intent.language
         for label, predicted, achieved, *_ in self.report.figures(language)[:4]:
             rows.append((label, f"{predicted} predicted{'' if achieved == '–' else f'; achieved: {achieved}'}"))
-        return Summary(title=f"Run: {certificate_line(self.decision, language)}", rows=tuple(rows))
+        return Summary(title=f"Run: {summary_line(self.decision, language)}", rows=tuple(rows))
 
     def picture(self) -> Picture:
         names = ("observation", "estimate", "decision", "outcome")
@@ -78,6 +92,63 @@ class Run(Shown):
     def columns(self) -> Mapping[str, Any]:
         """One row for each user: its report."""
         return self.report.columns()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shift:
+    """What became of an allocation with another decision.
+
+    Attributes:
+        subcarriers, total: how many of them serve another user, or nobody any more.
+        sum_rate_bps, power_w: before and after.
+        rate_bps: of each user whose rate is another, before and after.
+    """
+
+    subcarriers: int
+    total: int
+    sum_rate_bps: tuple[float, float]
+    power_w: tuple[float, float]
+    rate_bps: Mapping[str, tuple[float, float]]
+
+
+def shift_between(before: Decision | None, after: Decision | None) -> Shift | None:
+    """What becomes of an allocation; None where there is none before or after, or not of the same cell."""
+    if before is None or after is None or before is after or not (before.is_usable and after.is_usable):
+        return None
+    if before.owner.shape != after.owner.shape or before.user_names != after.user_names:
+        return None
+    owners = [np.where(one.power_w > 0, one.owner, -1) for one in (before, after)]
+    pairs = zip(before.user_names, before.rate_bps.tolist(), after.rate_bps.tolist(), strict=True)
+    return Shift(
+        subcarriers=int(np.count_nonzero(owners[0] != owners[1])),
+        total=owners[0].size,
+        sum_rate_bps=(float(before.rate_bps.sum()), float(after.rate_bps.sum())),
+        power_w=(before.total_power_w, after.total_power_w),
+        rate_bps={name: (then, now) for name, then, now in pairs if then != now},
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lines:
+    """What a turn says, in three lines for people; one that has nothing to say is empty.
+
+    Attributes:
+        decided: what was decided and how sure that is, or the answer.
+        changed: what that changed.
+        needs: what it needs from the operator.
+    """
+
+    decided: str = ""
+    changed: str = ""
+    needs: str = ""
+
+    def __str__(self) -> str:
+        return lines_of((self.decided, self.changed, self.needs))
+
+    def ending_with(self, note: str, language: str) -> Lines:
+        """The same with a note at the end of the last line that says something."""
+        last = next((name for name in ("needs", "changed", "decided") if getattr(self, name)), "decided")
+        return dataclasses.replace(self, **{last: joined(language, [getattr(self, last), note])})
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -89,7 +160,7 @@ class Turn(Shown):
         session: the session's identifier.
         text: what the operator said.
         intent: what was understood.
-        reply: what the agent said, in the operator's language.
+        lines: what the agent said, in the operator's language.
         stage: what it came to.
         run: the run of the chain that the reply speaks of; a what-if's own, which nothing was applied of.
         at_utc: when it was done, ISO 8601.
@@ -100,13 +171,14 @@ class Turn(Shown):
         restored: what the base station read back after the last good allocation was put back; None where none was.
         error: what the reply tells of, where something could not be done.
         diff: what the turn changed of what is asked for.
+        shift: what it changed of the allocation that held; None where it decided nothing, or nothing held.
     """
 
     number: int
     session: str
     text: str
     intent: Intent
-    reply: str
+    lines: Lines
     stage: Stage
     run: Run | None
     at_utc: str
@@ -117,6 +189,12 @@ class Turn(Shown):
     restored: Outcome | None = None
     error: WirelessAgentError | None = None
     diff: Diff = field(default_factory=Diff)
+    shift: Shift | None = None
+
+    @property
+    def reply(self) -> str:
+        """The lines of which something is said."""
+        return str(self.lines)
 
     @property
     def acts(self) -> tuple[Act, ...]:

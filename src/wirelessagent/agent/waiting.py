@@ -7,74 +7,66 @@ Whatever a recogniser makes of a line, the line itself has to be an assent
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
 
 from wirelessagent.agent.restating import restated
-from wirelessagent.agent.site import Site
-from wirelessagent.agent.state import Reply, State
-from wirelessagent.agent.turn import Turn
+from wirelessagent.agent.state import Reply, State, Talk, asked_back, nothing_yet
+from wirelessagent.language.acts import Act, AskStatus, Export, Yes
 from wirelessagent.language.conversation.assent import assent, is_assent, speaks_of_applying
 from wirelessagent.language.conversation.unanswered import Unanswered
-from wirelessagent.language.intent import Intent
-from wirelessagent.telling.catalogue import joined, message
+from wirelessagent.telling.catalogue import Said, message
 
 _YES = ("apply", "confirm")
-_NAMED = ("plan.still_waits", "plan.or_what_if")
-"""Sentences that name the plan at the end of a reply."""
 
 
-def doubted(site: Site, state: State, intent: Intent, text: str, turns: Sequence[Turn]) -> Reply | None:
+def doubted(talk: Talk, act: Act) -> Reply | None:
     """What is said to a line that was taken for a yes or for a command to apply and is none; None where it is one."""
-    if intent.topic == "confirm" and state.planned is None:
+    if isinstance(act, Yes) and talk.state.planned is None:
         return None  # which applies nothing
-    if assent(text) == "later":
-        return left_waiting(site, state, intent)
-    if not is_assent(text) or (state.planned is not None and not _follows(state, text, turns)):
-        return asked_again(site, state, intent)
+    if assent(talk.text) == "later":
+        return _left_waiting(talk)
+    if not is_assent(talk.text) or (talk.state.planned is not None and not _follows(talk)):
+        return asked_again(talk)
     return None
 
 
-def _follows(state: State, text: str, turns: Sequence[Turn]) -> bool:
+def _follows(talk: Talk) -> bool:
     """Whether a line answers a reply that names the plan; a mere "ok" has to answer the question itself."""
-    last = turns[-1] if turns else None
-    if last is None or last.intent.topic == "export":
+    last, question = talk.turns[-1] if talk.turns else None, talk.state.question
+    if last is None or any(isinstance(act, Export) for act in last.acts):
         return False
-    if state.question is not None and state.question.offered not in _YES:
+    if question is not None and question.offered not in _YES:
         return False
-    return assent(text) != "mild" or last.stage in ("planned", "asked")
+    return assent(talk.text) != "mild" or last.stage in ("planned", "asked")
 
 
-def is_about_the_plan(state: State, text: str, left: Unanswered) -> bool:
+def is_about_the_plan(talk: Talk, left: Unanswered) -> bool:
     """Whether a line that was not understood is about applying the plan that waits."""
-    if state.planned is None:
+    if talk.state.planned is None:
         return False
-    return left.offered in _YES or (not left.pending and not left.users and speaks_of_applying(text))
+    return left.offered in _YES or (not left.pending and not left.users and speaks_of_applying(talk.text))
 
 
-def asked_again(site: Site, state: State, intent: Intent) -> Reply:
+def asked_again(talk: Talk) -> Reply:
     """The question whether to apply what waits, or what was decided and never applied, by its name."""
-    language, run = intent.language, state.planned or state.run
+    state, run = talk.state, talk.state.planned or talk.state.run
     if run is None or state.request is None:
-        return Reply(text=message(language, "refused.nothing_yet"))
+        return nothing_yet(talk)
     if run is state.on_air:
-        return Reply(text=message(language, "plan.already"), stage="nothing")
-    fresh = run.outcome is None and run.decision.is_usable and site.station(run) is not None
+        return Reply(decided=talk.say("plan.already"), stage="nothing")
+    fresh = run.outcome is None and run.decision.is_usable and talk.site.station(run) is not None
     if state.planned is None and not fresh:
-        return Reply(text=message(language, "plan.nothing_to_confirm"))
+        return Reply(decided=talk.say("plan.nothing_to_confirm"))
+    plan = plan_named(state, talk.language)
     waiting = dataclasses.replace(state, planned=run, question=None)
-    return Reply(
-        text=message(language, "ask_back.shall_i_apply", request=plan_named(state, language)),
-        stage="asked",
-        state=waiting,
-    )
+    return asked_back(talk.say("ask_back.shall_i_apply", request=plan), waiting)
 
 
-def left_waiting(site: Site, state: State, intent: Intent) -> Reply:
+def _left_waiting(talk: Talk) -> Reply:
     """What waits goes on waiting."""
-    if state.planned is None:
-        return asked_again(site, state, intent)
-    text = message(intent.language, "plan.left_waiting", request=plan_named(state, intent.language))
-    return Reply(text=text, stage="nothing", state=dataclasses.replace(state, question=None))
+    if talk.state.planned is None:
+        return asked_again(talk)
+    needs = talk.say("plan.left_waiting", request=plan_named(talk.state, talk.language))
+    return Reply(needs=needs, stage="nothing", state=dataclasses.replace(talk.state, question=None))
 
 
 def plan_named(state: State, language: str) -> str:
@@ -83,14 +75,16 @@ def plan_named(state: State, language: str) -> str:
     return plan[:1].lower() + plan[1:]
 
 
-def naming_the_plan(reply: Reply, before: State, intent: Intent) -> Reply:
-    """The answer to something else, with the plan that still waits named at its end; a document stays as it is."""
-    after, language = reply.state or before, intent.language
+def naming_the_plan(reply: Reply, talk: Talk, acts: tuple[Act, ...]) -> Reply:
+    """The answer to something else, with the plan that still waits as what it needs; a document stays as it is."""
+    before, after = talk.state, reply.state or talk.state
     waits = after.planned is not None and after.planned is before.planned and after.question is None
-    if not waits or reply.stage not in ("answered", "nothing") or intent.topic in ("export", "status"):
+    whole = any(isinstance(act, Export | AskStatus) for act in acts)
+    if not waits or whole or reply.needs or reply.stage not in ("answered", "nothing"):
         return reply
-    plan = plan_named(after, language)
-    if any(message(language, key, request=plan) in reply.text for key in (*_NAMED, "plan.left_waiting")):
-        return reply
-    text = joined(language, [reply.text, message(language, _NAMED[0], request=plan)])
-    return dataclasses.replace(reply, text=text)
+    return dataclasses.replace(reply, needs=still_waits(after, talk.language))
+
+
+def still_waits(state: State, language: str) -> Said:
+    """That the plan waits for a yes."""
+    return message(language, "plan.still_waits", request=plan_named(state, language))

@@ -102,8 +102,8 @@ def _perform(operation: AnyOperation, values: dict[str, Any], as_json: bool) -> 
         record = operation.run(request, silent if as_json else listener)
     for fault in record.faults:
         complain(fault)
-    if record.lines is not None:
-        for line in record.lines:
+    if record.raw_lines is not None:
+        for line in record.raw_lines:
             show_json(line)
     elif as_json:
         show_json(record.model_dump_json(indent=2))

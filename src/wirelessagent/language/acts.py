@@ -1,21 +1,18 @@
 """Dialogue acts: what an utterance does to a conversation, each with the words that it came from.
 
 Acts are what recognisers make, whichever they are; :mod:`wirelessagent.agent.dialogue` is the only place that applies
-them. :func:`acts_of` gives those of an :class:`~wirelessagent.language.intent.Intent`, which is how they are printed
-and stored.
+them. :func:`~wirelessagent.language.intent_acts.acts_of` gives those of an
+:class:`~wirelessagent.language.intent.Intent`.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias, cast
 
-from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
-
-OWN_CHOICE = "auto"
-"""The method for "the usual method"."""
+TurnReference: TypeAlias = int | str
+"""A turn by its number, "first" for the first with a decision, or words that should have named one."""
 
 
 @dataclass(frozen=True)
@@ -119,17 +116,18 @@ class Suppose(Act):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ask(Act):
-    """A question; ``topic`` is one of :data:`~wirelessagent.language.intent.QUESTIONS`. It changes nothing."""
+class AskMost(Suppose):
+    """The most that can be promised to a user, else to everybody, if these acts were so."""
 
-    topic: str
+    user: str | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
-class Command(Act):
-    """A command to the agent about the conversation; see :data:`~wirelessagent.language.intent.COMMANDS`."""
+class AskPower(Suppose):
+    """The power that the promised rates take if these acts were so, or whether a power is needed, or enough."""
 
-    topic: str
+    enough_w: float | None = None
+    judged: Literal["needed", "enough"] = "enough"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -137,88 +135,215 @@ class Undo(Act):
     """Go back so many changes of the request (None: all), or to what held behind a turn."""
 
     steps: int | None = 1
-    turn: int | None = None
+    turn: TurnReference | None = None
 
 
-def acts_of(intent: Intent) -> tuple[Act, ...]:
-    """What an intent does to a conversation; nothing where it asks back."""
-    if intent.acts:
-        return intent.acts
-    if intent.kind == "allocate":
-        return tuple(_changes(intent))
-    if intent.kind == "question":
-        return (_asked(intent),)
-    if intent.kind != "command":
-        return ()
-    if intent.topic == "undo":
-        turn, steps = intent.details.get("turn"), intent.details.get("steps", 1.0)
-        if isinstance(turn, float):
-            return (Undo(turn=int(turn)),)
-        return (Undo(steps=None if steps == "all" else int(steps) if isinstance(steps, float) else 1),)
-    return (Forget(),) if intent.topic == "reset" else (Command(topic=intent.topic or ""),)
+@dataclass(frozen=True, kw_only=True)
+class Apply(Act):
+    """Apply the plan that waits, else what was decided last."""
 
 
-def _asked(intent: Intent) -> Act:
-    if intent.topic != "what_if":
-        return Ask(topic=intent.topic or "other")
-    share = intent.details.get("missing_share")
-    return Suppose(acts=supposed_in(intent.details), missing_share=share if isinstance(share, float) else None)
+@dataclass(frozen=True, kw_only=True)
+class Yes(Act):
+    """A yes to what the agent asked; ``chooses`` where it takes up one of several ways without saying which."""
+
+    chooses: bool = False
 
 
-def supposed_in(details: Mapping[str, Detail]) -> tuple[Act, ...]:
-    """The acts of a what-if, as an intent's details write them."""
-    aim, figures = details.get("objective"), details.get("constraints")
-    acts: list[Act] = [Aim(objective=aim)] if isinstance(aim, str) else []
-    acts += [Drop(kind=name) for name in str(details.get("dropped", "")).split()]
-    return *acts, *stated(cast("Mapping[str, Constraint]", figures or {}))
+@dataclass(frozen=True, kw_only=True)
+class No(Act):
+    """A no to what the agent asked; ``cancels`` takes the plan's request back, ``stops`` wants nothing done at all."""
+
+    cancels: bool = False
+    stops: bool = False
 
 
-def _changes(intent: Intent) -> Iterator[Act]:
-    assert intent.objective is not None
-    said = intent.evidence
-    if not intent.amends:
-        yield Forget()
-    yield Aim(objective=intent.objective, words=said.get("objective", ""))
-    for name in intent.dropped:
-        yield Drop(kind=name)
-    yield from stated(intent.constraints, said)
-    if "method" in intent.details:
-        named = str(intent.details["method"])
-        yield Prefer(method="" if named == OWN_CHOICE else named)
+@dataclass(frozen=True, kw_only=True)
+class Ask(Act):
+    """A question, or a wish to see something, one small class a topic; it changes nothing."""
 
 
-def stated(constraints: Mapping[str, Constraint], words: Mapping[str, str] | None = None) -> Iterator[Act]:
-    """The acts that state constraints, each with its words where they are known."""
-    for name, value in constraints.items():
-        yield from _limits(name, value, (words or {}).get(name, ""))
+@dataclass(frozen=True, kw_only=True)
+class AskWhy(Ask):
+    """Why a user got what it got; None where nobody was named."""
+
+    user: str | None = None
 
 
-def _limits(name: str, value: Constraint, words: str = "") -> Iterator[Act]:
-    """The acts that state a constraint, as :class:`~wirelessagent.language.intent.Intent` writes it."""
-    if isinstance(value, tuple):
-        whom = Named(value)
-        yield Serve(whom=whom, alone=True, words=words) if name == "users" else LeaveOut(whom=whom, words=words)
-    elif isinstance(value, Mapping):
-        if EVERYBODY in value:
-            yield Limit(kind=name, value=value[EVERYBODY], words=words)
-        for user, figure in value.items():
-            if user != EVERYBODY:
-                yield Limit(kind=name, value=figure, whom=Named((user,)), words=words)
-    else:
-        yield Limit(kind=name, value=float(value), words=words)
+@dataclass(frozen=True, kw_only=True)
+class AskWhyNot(Ask):
+    """Why the request cannot be met, and what can be met instead."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskProof(Ask):
+    """How good the decision is, and what proves it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskCertainty(Ask):
+    """What was not measured, and how sure the decision is."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskOtherChannel(Ask):
+    """What would be on another channel, which is as it was sensed."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskStep(Ask):
+    """What a little more would buy: power, a rate (of a user, of ``each``, or in all), a share of the rate, users."""
+
+    power_w: float | None = None
+    rate_bps: float | None = None
+    rate_share: float | None = None
+    users: int | None = None
+    each: bool = False
+    user: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskPrices(Ask):
+    """What power and promises are worth at the margin; of a user, what it gets."""
+
+    user: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskUsers(Ask):
+    """What a user gets, else each of them."""
+
+    user: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskRank(Ask):
+    """Who gets the least or the most."""
+
+    rank: Literal["least", "most"]
+    of: Literal["rate", "power", "subcarriers"] = "rate"
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskSubcarriers(Ask):
+    """Which subcarriers a user has, else each of them."""
+
+    user: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskOwner(Ask):
+    """Who has a subcarrier, counted from 1."""
+
+    subcarrier: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskGain(Ask):
+    """The gain of a user, on a subcarrier (from 1) or over all of them."""
+
+    user: str | None = None
+    subcarrier: int | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskDearest(Ask):
+    """Whom it would help most to leave out."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskLimits(Ask):
+    """What holds the result back."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskDuration(Ask):
+    """How long the decision took."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskMethods(Ask):
+    """Which method decided, and which others could."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskMeaning(Ask):
+    """What a word means."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskHelp(Ask):
+    """What can be said."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskResult(Ask):
+    """What came of the request: the figures that are named, else the decision in words."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskReasons(Ask):
+    """The decision in words, with its tables: the one that holds, or that of a turn."""
+
+    turn: TurnReference | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskHistory(Ask):
+    """What was said so far, or in a turn."""
+
+    turn: TurnReference | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AskStatus(Ask):
+    """What is asked for, what was decided, and what is in effect."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompareLast(Ask):
+    """The decision that holds beside the last other one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompareTurns(Ask):
+    """Decisions of turns beside each other; of one turn, beside the one that holds."""
+
+    turns: tuple[TurnReference, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompareTools(Ask):
+    """The decision that holds beside those of other methods or repairers, by name."""
+
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompareRequests(Ask):
+    """What the request would bring with each of these changes, beside each other."""
+
+    changes: tuple[tuple[Act, ...], ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Export(Ask):
+    """The request that holds and what came of it, as a document of a standard."""
+
+    format: str = "ts28312"
 
 
 def shown(act: Act) -> dict[str, Any]:
     """An act as JSON has it: its name, its fields and its words."""
-    fields: dict[str, Any] = {"act": type(act).__name__}
-    for field in dataclasses.fields(act):
-        value: Any = getattr(act, field.name)
-        if isinstance(value, tuple):
-            value = [shown(each) for each in cast("tuple[Act, ...]", value)]
-        elif isinstance(value, Everybody | Others):
-            value = type(value).__name__.lower()
-        elif isinstance(value, Named):
-            value = list(value.users)
-        if value not in ("", None, []):
-            fields[field.name] = value
-    return fields
+    fields = {field.name: _shown(getattr(act, field.name)) for field in dataclasses.fields(act)}
+    return {"act": type(act).__name__, **{name: value for name, value in fields.items() if value not in ("", None, [])}}
+
+
+def _shown(value: Any) -> Any:
+    if isinstance(value, Act):
+        return shown(value)
+    if isinstance(value, tuple):
+        return [_shown(each) for each in cast("tuple[Any, ...]", value)]
+    if isinstance(value, Everybody | Others):
+        return type(value).__name__.lower()
+    return list(value.users) if isinstance(value, Named) else value

@@ -52,8 +52,8 @@ def _limit(language: str, name: str, value: Constraint) -> list[str]:
     by_user = value if isinstance(value, Mapping) else {EVERYBODY: value}
     exempt = [user for user, figure in by_user.items() if figure == 0 and name == "min_rate_bps"]
     promised = {user: figure for user, figure in by_user.items() if figure > 0 or not exempt}
-    said = [
-        message(language, f"holds.{name}", figure=_figure(name, figure), who=who)
+    said: list[str] = [
+        message(language, f"holds.{name}", figure=figure_in_words(name, figure), who=who)
         for figure, who in _by_figure(language, promised, exempt)
     ]
     if EVERYBODY in promised or not exempt:
@@ -88,11 +88,11 @@ def _in_a_row(language: str, names: Sequence[str]) -> str:
     return message(language, "text.and").join([*head, *names[-1:]])
 
 
-def _figure(name: str, value: float) -> str:
+def figure_in_words(name: str, value: float) -> str:
     """A figure as the operator may check it: four digits, an SI prefix, and dBm where those are rounder.
 
-    >>> _figure("max_power_w", 10**0.3), _figure("max_power_w", 1.0), _figure("min_rate_bps", 1.5e6)
-    ('33 dBm (1.995 W)', '1 W', '1.5 Mbit/s')
+    >>> figure_in_words("max_power_w", 10**0.3), figure_in_words("min_rate_bps", 1.5e6)
+    ('33 dBm (1.995 W)', '1.5 Mbit/s')
     """
     if name == "outage_probability":
         return reliability(value)

@@ -17,7 +17,7 @@ from wirelessagent.operations.outputs import check_allocation, check_picture, dr
 from wirelessagent.operations.record import Block, Conclusion, Files, Matrix, Record, Table, of_decision
 from wirelessagent.operations.recording import RecordingOptions
 from wirelessagent.operations.site_options import SiteOptions
-from wirelessagent.operations.turn_record import OutcomeAnswer
+from wirelessagent.operations.turn_record import LinesAnswer, OutcomeAnswer
 
 if TYPE_CHECKING:
     from wirelessagent.agent.turn import Run, Turn
@@ -27,15 +27,17 @@ class AskRequest(RecordingOptions, SiteOptions):
     panel = "Options"
 
     text: Annotated[str, Positional()] = Field(description="what the cell should do, in English or Chinese")
+    full: bool = Field(False, description="show everything: all tables, what was assumed, and why")
     out: Path | None = Field(None, description="file to write the allocation to: JSON, CSV or NPZ")
     plot: Path | None = Field(None, description="picture of the run: PNG, SVG or PDF")
 
 
 class AskRecord(Record):
-    """The whole record of a run; everything after ``stage`` is null where a question was asked back."""
+    """The whole record of a run; everything from ``facts`` on is null where a question was asked back."""
 
     intent: IntentRecord
     reply: str
+    lines: LinesAnswer
     stage: str
     facts: dict[str, str] | None = None
     observed_gain: Matrix | None = None
@@ -51,7 +53,9 @@ class AskRecord(Record):
     out: Path | None = None
     plot: Path | None = None
     waits: bool = Field(False, description="whether nothing was applied yet, for want of a yes")
+    served: Table | None = Field(default=None, exclude=True)
     tables: list[Table] = Field(default_factory=list[Table], exclude=True)
+    full: bool = Field(default=False, exclude=True)
 
     @property
     def conclusion(self) -> Conclusion:
@@ -60,14 +64,15 @@ class AskRecord(Record):
         return "failed" if self.stage == "reverted" else of_decision(self.decision.status)
 
     def blocks(self) -> list[Block]:
-        if self.decision is None:
-            return [tuple(self.reply.split("\n"))]
-        said: list[Block] = [*self.tables, *(f"Note: {note}" for note in self.notes), tuple(self.explanation)]
+        said: list[Block] = [self.lines.said]
+        if self.full:
+            said += [*self.tables, *(f"Note: {note}" for note in self.notes), tuple(self.explanation)]
+        elif self.served is not None:
+            said.append(self.served)
         if self.waits:
-            said.append("Nothing was applied: --yes applies it.")
-        if self.out is not None:
-            said.append(Files("allocation written to", (self.out,)))
-        return [*said, Files("picture written to", (self.plot,))] if self.plot else said
+            said.append("--yes applies it.")
+        files = (("allocation written to", self.out), ("picture written to", self.plot))
+        return [*said, *(Files(done, (path,)) for done, path in files if path is not None)]
 
 
 def run(request: AskRequest, progress: Progress) -> AskRecord:
@@ -78,6 +83,7 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
     record = AskRecord(
         intent=IntentRecord.of(request.text, turn.intent),
         reply=turn.reply,
+        lines=LinesAnswer.of(turn.lines),
         stage=turn.stage,
         seed=request.seed,
         version=__version__,
@@ -89,6 +95,8 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
 
 def _with_run(record: AskRecord, request: AskRequest, turn: Turn, run: Run) -> AskRecord:
     """The record with what was decided and done, written and drawn where that was asked for."""
+    from wirelessagent.telling.tables import served_table
+
     if run.decision.is_usable and turn.stage == "nothing":  # the base station failed, which the reply says
         raise WirelessAgentError(turn.reply)
     out = request.out if run.decision.is_usable else None
@@ -109,7 +117,9 @@ def _with_run(record: AskRecord, request: AskRequest, turn: Turn, run: Run) -> A
         "explanation": list(run.explanation),
         "out": out,
         "plot": request.plot,
+        "served": (served_table(run.report, turn.intent.language) if run.decision.is_usable else turn.tables[0]),
         "tables": list(turn.tables),
+        "full": request.full,
     }
     return record.model_copy(update=found)
 

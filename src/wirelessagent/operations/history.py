@@ -25,7 +25,7 @@ from wirelessagent.store.export import exported
 from wirelessagent.store.plain import canonical
 from wirelessagent.store.rebuilt import decision_of, outcome_of
 from wirelessagent.store.stored import StoredTurn, number_of
-from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.certificates import summary_line
 from wirelessagent.telling.report import report
 from wirelessagent.telling.tables import decision_tables
 
@@ -186,7 +186,7 @@ def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
         return
     estimate = estimate_of(store.content(turn.estimate))
     decision, outcome = decision_of(turn, estimate.user_names), outcome_of(turn)
-    yield certificate_line(decision)
+    yield summary_line(decision)
     yield from decision_tables(report(decision, outcome), estimate)
     yield from (f"Note: {note}" for note in turn.notes or ())
     yield tuple(turn.explanation or ())
@@ -244,7 +244,7 @@ def replay_turn(request: TurnRequest, progress: Progress) -> ReplayRecord:
         summary=replay.summary,
         differences=list(replay.differences),
         decision=DecisionAnswer.of(replay.decision),
-        certificate=certificate_line(replay.decision),
+        certificate=summary_line(replay.decision),
     )
 
 

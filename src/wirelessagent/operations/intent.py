@@ -81,7 +81,7 @@ class IntentsRecord(Record):
         return "unclear" if self.faults else "done"
 
     @property
-    def lines(self) -> list[str]:
+    def raw_lines(self) -> list[str]:
         return [
             json.dumps(each, ensure_ascii=False) if isinstance(each, dict) else each.model_dump_json()
             for each in self.intents

@@ -52,7 +52,7 @@ class Record(BaseModel):
         return "done"
 
     @property
-    def lines(self) -> list[str] | None:
+    def raw_lines(self) -> list[str] | None:
         """What is printed as it stands, one line each, in the place of blocks and of JSON; None for most records."""
         return None
 

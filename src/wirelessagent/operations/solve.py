@@ -69,7 +69,7 @@ class SolveRecord(DecisionAnswer):
 def run(request: SolveRequest, progress: Progress) -> SolveRecord:
     from wirelessagent import chain
     from wirelessagent.acting.file import FileBaseStation
-    from wirelessagent.telling.certificates import certificate_line
+    from wirelessagent.telling.certificates import summary_line
     from wirelessagent.telling.explanation import explain
     from wirelessagent.telling.report import report
     from wirelessagent.telling.tables import decision_tables
@@ -91,7 +91,7 @@ def run(request: SolveRequest, progress: Progress) -> SolveRecord:
         explanation=explain(estimate, made),
         out=request.out,
         plot=request.plot,
-        summary=certificate_line(decision),
+        summary=summary_line(decision),
         tables=decision_tables(made, estimate),
     )
 

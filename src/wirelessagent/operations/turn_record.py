@@ -14,7 +14,7 @@ from wirelessagent.telling.text_table import Table
 
 if TYPE_CHECKING:
     from wirelessagent.agent.session import Session
-    from wirelessagent.agent.turn import Turn
+    from wirelessagent.agent.turn import Lines, Turn
     from wirelessagent.model.outcome import Outcome
 
 
@@ -40,6 +40,23 @@ class RequestAnswer(Record):
     method: str | None = None
 
 
+class LinesAnswer(Record):
+    """What a turn says, in three lines: what was decided, what changed, and what it needs from the operator."""
+
+    decided: str
+    changed: str
+    needs: str
+
+    @classmethod
+    def of(cls, lines: Lines) -> LinesAnswer:
+        return cls(decided=str(lines.decided), changed=str(lines.changed), needs=str(lines.needs))
+
+    @property
+    def said(self) -> tuple[str, ...]:
+        """The lines that say something."""
+        return tuple(line for part in (self.decided, self.changed, self.needs) if part for line in part.split("\n"))
+
+
 class TurnRecord(Record):
     """One turn: what was said and understood, what it came to, and what holds after it."""
 
@@ -50,6 +67,7 @@ class TurnRecord(Record):
     intent: dict[str, Any]
     stage: str
     reply: str
+    lines: LinesAnswer
     request: RequestAnswer | None
     awaits: str
     decision: DecisionAnswer | None
@@ -74,6 +92,7 @@ class TurnRecord(Record):
         same = ("number", "session", "at_utc", "text", "stage", "reply", "recogniser", "seed", "version")
         return cls(
             **{name: getattr(turn, name) for name in same},
+            lines=LinesAnswer.of(turn.lines),
             intent={**plain(turn.intent), **understood(turn)},
             request=None if request is None else RequestAnswer(**plain(request)),
             awaits=session.state.awaits,
@@ -93,7 +112,11 @@ class TurnRecord(Record):
         return self.came_to
 
     def blocks(self) -> list[Block]:
-        return [tuple(self.reply.split("\n")), *self.tables]
+        """The three lines; tables belong to answers, and to what cannot be met."""
+        shown = self.stage in ("answered", "asked") or (
+            self.decision is not None and of_decision(self.decision.status) != "done"
+        )
+        return [self.lines.said, *(self.tables if shown else ())]
 
 
 def _came_to(turn: Turn, session: Session) -> Conclusion:

@@ -6,6 +6,7 @@ tools with theirs, and the channel by the hash of its content.
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import math
 import platform
@@ -25,6 +26,7 @@ from wirelessagent.model.problem import Problem
 from wirelessagent.plugin_options import options_of
 from wirelessagent.store.content import Content, estimate_content, observation_content
 from wirelessagent.store.plain import plain
+from wirelessagent.telling.catalogue import Said
 
 APPLIED = ("applied", "reverted")
 """Stages in which the run was applied; in others its outcome is what it would be, or what an earlier turn applied."""
@@ -66,8 +68,16 @@ def record_of(turn: Turn) -> tuple[dict[str, Any], tuple[Content, ...]]:
 
 
 def understood(turn: Turn) -> dict[str, Any]:
-    """The acts of a turn, and what they changed of what is asked for; ``schema`` counts the forms that this has had."""
-    return {"schema": 2, "acts": [shown(act) for act in turn.acts], "diff": plain(turn.diff)}
+    """The acts of a turn, what they changed, and what was said; ``schema`` counts the forms that this has had."""
+    lines = {field.name: getattr(turn.lines, field.name) for field in dataclasses.fields(turn.lines)}
+    return {
+        "schema": 3,
+        "acts": [shown(act) for act in turn.acts],
+        "diff": plain(turn.diff),
+        "shift": plain(turn.shift),
+        "lines": {name: str(line) for name, line in lines.items()},
+        "messages": {name: line.messages() if isinstance(line, Said) else [] for name, line in lines.items()},
+    }
 
 
 def _run_columns(run: Run) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import functools
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from wirelessagent.model.legible import legible
 
@@ -20,7 +20,37 @@ _NAMES = frozenset({"user", "name", "station", "method", "recogniser"})
 _NUMBERED = re.compile(r"(?i)user\s*(\d+)")
 
 
-def message(language: str, key: str, /, **places: object) -> str:
+class Said(str):
+    """What is said, and what it was said by: the key of its message and its places, or the messages it is made of."""
+
+    key: str
+    places: Mapping[str, object]
+    parts: tuple[Said, ...]
+
+    def __new__(
+        cls, text: str, key: str = "", places: Mapping[str, object] | None = None, parts: tuple[Said, ...] = ()
+    ) -> Said:
+        said = super().__new__(cls, text)
+        said.key, said.places, said.parts = key, places or {}, parts
+        return said
+
+    def messages(self) -> list[dict[str, Any]]:
+        """The key and the places of each message in this, as plain data; places may hold messages themselves."""
+        own = [{"key": self.key, "places": {name: _plain(value) for name, value in self.places.items()}}]
+        return [*(own if self.key else []), *(one for part in self.parts for one in part.messages())]
+
+
+def _plain(value: object) -> Any:
+    if isinstance(value, Said) and (value.key or value.parts):
+        return value.messages()
+    if isinstance(value, str):
+        return str(value)
+    if hasattr(value, "item"):  # a figure of NumPy's
+        return cast("Any", value).item()
+    return value if isinstance(value, int | float) else str(value)
+
+
+def message(language: str, key: str, /, **places: object) -> Said:
     """The message of this key in the operator's language, with its places filled in.
 
     >>> message("en", "stage.repaired", missing=3, method="dual"), message("zh", "status.optimal")
@@ -30,7 +60,7 @@ def message(language: str, key: str, /, **places: object) -> str:
         place: called(language, value) if place in _NAMES and isinstance(value, str) else value
         for place, value in places.items()
     }
-    return _text(language, key).format(**filled)
+    return Said(_text(language, key).format(**filled), key, places)
 
 
 def has_message(language: str, key: str) -> bool:
@@ -58,9 +88,20 @@ def called(language: str, name: str) -> str:
     return own.get(f"name.{name}", name)
 
 
-def joined(language: str, sentences: Iterable[str]) -> str:
+def joined(language: str, sentences: Iterable[str]) -> Said:
     """Sentences one after the other, as the language sets them."""
-    return _text(language, "text.gap").join(one for one in sentences if one)
+    return _together(_text(language, "text.gap"), sentences)
+
+
+def lines_of(sentences: Iterable[str]) -> Said:
+    """Sentences, a line each."""
+    return _together("\n", sentences)
+
+
+def _together(gap: str, sentences: Iterable[str]) -> Said:
+    """Sentences with a gap between them; those that are empty are left out."""
+    said = [one for one in sentences if one]
+    return Said(gap.join(said), parts=tuple(one for one in said if isinstance(one, Said)))
 
 
 def listed(language: str, names: Iterable[str]) -> str:

@@ -11,25 +11,36 @@ from wirelessagent.telling.catalogue import called, joined, listed, message
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.certainty import Certainty, certainty
 from wirelessagent.telling.facts.proof import Certificate, basis, certificate
-from wirelessagent.telling.parts import cannot_be_served, name_of_figure, place
+from wirelessagent.telling.parts import cannot_be_served, outcome_in_words, place
 from wirelessagent.telling.reasons import reason_in_words
 
 
 def certificate_line(decision: Decision, language: str = "en") -> str:
-    """Status, value, bound and gap in one line."""
-    told = {"status": message(language, f"status.{decision.status}"), "method": decision.method}
+    """What was decided, and how sure it is that nothing does better, in one line."""
     if not decision.is_usable:
-        return message(language, "certificate.unusable", **told, reason=reason_in_words(decision, language))
-    worth, figure = human(decision.value, decision.unit), name_of_figure(decision, language)
-    value = message(language, "part.outcome", figure=figure, value=worth).strip()
-    if np.isnan(decision.gap):
-        return message(language, "certificate.no_bound", **told, value=value)
+        status = message(language, f"status.{decision.status}")
+        return message(language, "certificate.unusable", status=status, reason=reason_in_words(decision, language))
     outage, bound = decision.problem.outage_probability, human(decision.bound, decision.unit)
-    key = "certificate.line" if outage is None else "certificate.line_outage"
-    sure, gap = reliability(outage or 0.0), percent(decision.gap)
-    line = message(language, key, **told, value=value, bound=bound, gap=gap, sure=sure)
+    figures = {"value": outcome_in_words(decision, language), "bound": bound, "gap": percent(decision.gap)}
+    best = decision.status == "optimal" or figures["gap"] == percent(0.0)
+    close = bound == human(decision.value, decision.unit)
+    proof = "no_bound" if np.isnan(decision.gap) else "best" if best else "close" if close else "line"
+    key = f"certificate.{proof}" if outage is None else f"certificate.{proof}_outage"
+    line = message(language, key, **figures, sure=reliability(outage or 0.0))
     left_out = cannot_be_served(decision, language)
     return message(language, "certificate.noted", line=line, note=left_out) if left_out else line
+
+
+def summary_line(decision: Decision, language: str = "en") -> str:
+    """The same with the status and the method in front, for those who look at methods."""
+    line = certificate_line(decision, language)
+    return f"{decided_line(decision, language)}: {line}" if decision.is_usable else line
+
+
+def decided_line(decision: Decision, language: str = "en") -> str:
+    """The status of a decision and what made it."""
+    status = message(language, f"status.{decision.status}")
+    return message(language, "certificate.decided", status=status, method=decision.method)
 
 
 def certificate_sentence(decision: Decision, language: str) -> str:
@@ -66,7 +77,7 @@ def _bound(case: Case, found: Certificate, language: str) -> str:
         return message(language, "proof.closed_form", bound=bound)
     of = "outage" if outage is not None and case.decision.expected_rate_bps.size else "channel"
     least = "least" if case.objective.direction == "min" else "most"
-    said = [message(language, f"proof.{of}_{least}", bound=bound, sure=reliability(outage or 0.0))]
+    said: list[str] = [message(language, f"proof.{of}_{least}", bound=bound, sure=reliability(outage or 0.0))]
     said.append(rests_on(case.objective, language))
     if found.by != case.decision.method:
         said.append(message(language, "proof.by_dual", method=case.decision.method))

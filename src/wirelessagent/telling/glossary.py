@@ -9,9 +9,20 @@ from dataclasses import dataclass
 
 from wirelessagent import plugins
 from wirelessagent.model.objective import Objective
-from wirelessagent.telling.catalogue import has_message, languages, message, messages
+from wirelessagent.telling.catalogue import Said, has_message, joined, languages, lines_of, message, messages
+from wirelessagent.telling.report import Report
 
 _NAMES, _MEANING = "term.names.", "term.meaning."
+_FIGURES = {
+    "max_rate": "sum_rate_bps",
+    "goodput": "goodput_bps",
+    "min_power": "power_w",
+    "power_budget": "power_w",
+    "max_energy_efficiency": "energy_efficiency_bit_per_j",
+    "spectral_efficiency": "spectral_efficiency_bps_per_hz",
+    "fairness_index": "jain_index",
+}
+"""Terms that name a figure of a report."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,20 +45,40 @@ class Entry:
         return message(language, "term.objective", objective=spoken, meaning=meaning) + unit
 
 
-def explained(text: str, language: str) -> str:
-    """What the terms in a text mean, in the order they are named, two at most; empty where none is known.
+def explained(text: str, language: str) -> Said:
+    """What the terms in a text mean, in the order they are named, two at most; empty where none is known."""
+    return lines_of(dict.fromkeys(entry.told(language) for entry in _named(text)[:2]))
 
-    A longer term wins over one within it: "price of power" is not power.
-    """
+
+def figure_asked(text: str, report: Report, language: str) -> Said:
+    """The figures of a decision that a text asks for as they are now; empty where it asks what a word means."""
     said = _plain(text)
-    found: list[tuple[int, int, str]] = []
+    if not any(_places(said, _plain(word)) for word in _words("term.now")):
+        return Said("")
+    rows = {row[0]: row[1:] for row in report.figures(language)}
+    told = dict.fromkeys(_FIGURES[entry.key] for entry in _named(text) if entry.key in _FIGURES)
+    labels = [message(language, f"label.{name}") for name in told]
+    return joined(language, [_figure(label, rows[label], language) for label in labels if label in rows])
+
+
+def _figure(label: str, figures: tuple[str, ...], language: str) -> Said:
+    """A figure as predicted and, where it is known, as achieved."""
+    predicted, achieved = figures[0], figures[1] if len(figures) > 1 else "–"
+    key = "term.figure" if achieved in ("–", predicted) else "term.figure_achieved"
+    return message(language, key, label=label, predicted=predicted, achieved=achieved)
+
+
+def _named(text: str) -> list[Entry]:
+    """The terms in a text in the order they are named; a longer one wins: "price of power" is not power."""
+    said = _plain(text)
+    found: list[tuple[int, int, Entry]] = []
     for entry in entries():
         places = [(at, at + len(name)) for name in entry.names for at in _places(said, _plain(name))]
         if places:
             first, last = max(places, key=lambda place: place[1] - place[0])
-            found.append((first, last, entry.told(language)))
+            found.append((first, last, entry))
     outer = [one for one in found if not any(_within(one, other) for other in found)]
-    return "\n".join(dict.fromkeys(told for _, _, told in sorted(outer)[:2]))
+    return [entry for _, _, entry in sorted(outer, key=lambda one: one[:2])]
 
 
 def entries() -> list[Entry]:
@@ -67,14 +98,17 @@ def entries() -> list[Entry]:
 @functools.cache
 def _names() -> dict[str, tuple[str, ...]]:
     """What the terms of the catalogue are called, in all languages."""
-    keys = [key for key in messages("en") if key.startswith(_NAMES)]
-    own = {key: [messages(language).get(key, "") for language in sorted(languages())] for key in keys}
-    return {
-        key.removeprefix(_NAMES): tuple(name for names in own[key] for name in names.split(", ") if name) for key in own
-    }
+    return {key.removeprefix(_NAMES): _words(key) for key in messages("en") if key.startswith(_NAMES)}
 
 
-def _within(one: tuple[int, int, str], other: tuple[int, int, str]) -> bool:
+@functools.cache
+def _words(key: str) -> tuple[str, ...]:
+    """Words that a message lists, in all languages."""
+    listed = [messages(language).get(key, "") for language in sorted(languages())]
+    return tuple(word for words in listed for word in words.split(", ") if word)
+
+
+def _within(one: tuple[int, int, Entry], other: tuple[int, int, Entry]) -> bool:
     return other[0] <= one[0] and one[1] <= other[1] and other[1] - other[0] > one[1] - one[0]
 
 

@@ -9,7 +9,6 @@ from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import message
-from wirelessagent.telling.facts.case import Case
 
 
 def name_of_figure(decision: Decision, language: str = "en") -> str:
@@ -25,12 +24,13 @@ def name_of_figure(decision: Decision, language: str = "en") -> str:
     return message(language, "label.weighted_total_rate") if total else ""
 
 
-def value_name(case: Case, language: str) -> str:
+def value_name(decision: Decision, language: str) -> str:
     """What the value is called in a sentence, as in "total rate"."""
-    named = name_of_figure(case.decision, language)
-    if named or case.objective.measure != "utility":
-        return named or message(language, f"part.{case.objective.measure}")
-    return message(language, "part.rate" if case.objective.unit == "bit/s" else "text.value")
+    named, objective = name_of_figure(decision, language), decision.problem.objective
+    assert isinstance(objective, Objective)
+    if named or objective.measure != "utility":
+        return named or message(language, f"part.{objective.measure}")
+    return message(language, "part.rate" if objective.unit == "bit/s" else "text.value")
 
 
 def place(first: int, last: int, language: str) -> str:
@@ -38,11 +38,12 @@ def place(first: int, last: int, language: str) -> str:
     return message(language, "part.one" if first == last else "part.several", first=first + 1, last=last + 1)
 
 
-def outcome_in_words(case: Case, decision: Decision, language: str) -> str:
+def outcome_in_words(decision: Decision, language: str) -> str:
     """What a decision is worth and takes."""
-    key = "part.outcome" if case.objective.measure == "power" else "part.outcome_power"
+    assert isinstance(decision.problem.objective, Objective)
+    key = "part.outcome" if decision.problem.objective.measure == "power" else "part.outcome_power"
     value, power = human(decision.value, decision.unit), human(decision.total_power_w, "W")
-    return message(language, key, figure=value_name(case, language), value=value, power=power)
+    return message(language, key, figure=value_name(decision, language), value=value, power=power)
 
 
 def cannot_be_served(decision: Decision, language: str = "en") -> str:

@@ -21,7 +21,7 @@ _SHOWN_DB, _SHOWN_COST = 0.005, 1e-6
 
 def prices_answer(case: Case, prices: MarginalPrices, language: str) -> str:
     """The prices of power and of the dearest promise."""
-    figure = value_name(case, language)
+    figure = value_name(case.decision, language)
     said = [_power_price(case, prices, figure, language)]
     cost = np.abs(np.where(case.promised_bps > 0, prices.rate, 0.0))
     if np.nanmax(cost, initial=0.0) > 0:
@@ -100,7 +100,7 @@ def _caps(case: Case, found: WithoutCeilings | None, language: str) -> list[str]
     if found is None:
         return []
     decision, free = case.decision, found.decision
-    names, figure = listed(language, case.named(found.users)), value_name(case, language)
+    names, figure = listed(language, case.named(found.users)), value_name(case.decision, language)
     gained = abs(free.value - decision.value) > _WORTH_TELLING * abs(decision.value)
     told = {"names": names, "figure": figure, "value": human(decision.value, decision.unit)}
     if not free.is_usable or not gained:
@@ -113,7 +113,7 @@ def _power_held(case: Case, prices: MarginalPrices, language: str) -> list[str]:
         return []
     budget = human(case.problem.budget_w(case.cell), "W")
     if prices.binds and prices.power > 0:
-        price, figure = human(prices.power, case.decision.unit), value_name(case, language)
+        price, figure = human(prices.power, case.decision.unit), value_name(case.decision, language)
         return [message(language, "hindrance.power", budget=budget, figure=figure, price=price)]
     return [message(language, "hindrance.power_free", budget=budget, spent=human(case.decision.total_power_w, "W"))]
 
@@ -124,7 +124,7 @@ def _promise(case: Case, prices: MarginalPrices, language: str) -> list[str]:
         return []
     dearest = int(cost.argmax())
     price, name = human(float(cost[dearest]) * _STEP_BPS, case.decision.unit), case.estimate.user_names[dearest]
-    return [message(language, "hindrance.promise", name=name, figure=value_name(case, language), price=price)]
+    return [message(language, "hindrance.promise", name=name, figure=value_name(case.decision, language), price=price)]
 
 
 def _most_power(case: Case, language: str) -> list[str]:

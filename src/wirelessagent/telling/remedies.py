@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.model.units import human, reliability
-from wirelessagent.telling.catalogue import joined, listed, message
+from wirelessagent.telling.catalogue import joined, lines_of, listed, message
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import Nearest, WithoutLimit
 from wirelessagent.telling.parts import outcome_in_words, value_name
@@ -15,7 +15,7 @@ from wirelessagent.telling.reasons import BEYOND_W, reason_in_words
 def feasible_answer(case: Case, language: str) -> str:
     """What to say where the request can be met."""
     value = human(case.decision.value, case.decision.unit)
-    return message(language, "remedy.feasible", figure=value_name(case, language), value=value)
+    return message(language, "remedy.feasible", figure=value_name(case.decision, language), value=value)
 
 
 def nearest_answer(case: Case, found: Nearest, language: str) -> str:
@@ -26,7 +26,7 @@ def nearest_answer(case: Case, found: Nearest, language: str) -> str:
     ways = [_power(case, found, language), *lifted, _rates(case, found, language), _users(case, found, language)]
     ways = [way for way in ways if way]
     head.append(message(language, "remedy.ways" if ways else "remedy.none"))
-    return "\n".join([joined(language, head), *ways])
+    return lines_of([joined(language, head), *ways])
 
 
 def _power(case: Case, found: Nearest, language: str) -> str:
@@ -34,12 +34,12 @@ def _power(case: Case, found: Nearest, language: str) -> str:
     if more is None or more.power_w > BEYOND_W:
         return ""
     limit = "" if more.within_limit else message(language, "remedy.limit", limit=human(case.cell.max_power_w, "W"))
-    outcome = outcome_in_words(case, more.decision, language)
+    outcome = outcome_in_words(more.decision, language)
     return message(language, "remedy.power", power=human(more.power_w, "W"), outcome=outcome, limit=limit)
 
 
 def _lifted(case: Case, one: WithoutLimit, language: str) -> str:
-    problem, outcome = case.problem, outcome_in_words(case, one.decision, language)
+    problem, outcome = case.problem, outcome_in_words(one.decision, language)
     sure = reliability(problem.outage_probability or 0.0)
     return message(language, f"remedy.{one.limit}", outcome=outcome, size=problem.resource_block_group_size, sure=sure)
 
@@ -48,7 +48,7 @@ def _rates(case: Case, found: Nearest, language: str) -> str:
     lower = found.lower_rates
     if lower is None:
         return ""
-    outcome, promised = outcome_in_words(case, lower.decision, language), case.promised_bps[case.served]
+    outcome, promised = outcome_in_words(lower.decision, language), case.promised_bps[case.served]
     known = np.isfinite(lower.at_most)
     if np.ptp(promised) > 0:
         most = message(language, "remedy.most_factor", factor=lower.at_most) if known else ""
@@ -69,5 +69,5 @@ def _users(case: Case, found: Nearest, language: str) -> str:
     key, users = ("remedy.only", kept) if len(kept) < len(fewer.left_out) else ("remedy.without", fewer.left_out)
     names = listed(language, case.named(users))
     fewest = message(language, "remedy.fewest") if fewer.is_fewest and len(fewer.left_out) > 1 else ""
-    outcome = outcome_in_words(case, fewer.decision, language)
+    outcome = outcome_in_words(fewer.decision, language)
     return message(language, key, names=names, outcome=outcome, fewest=fewest)

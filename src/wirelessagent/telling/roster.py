@@ -8,7 +8,7 @@ import numpy as np
 
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.units import db, human
-from wirelessagent.telling.catalogue import called, joined, listed, message
+from wirelessagent.telling.catalogue import called, joined, lines_of, listed, message
 from wirelessagent.telling.facts.case import Case
 
 _SAME = 1e-3
@@ -40,7 +40,7 @@ def _ranked(case: Case, users: IntArray, rank: str, of: str, language: str) -> l
     if first.size == users.size > 1:
         what = message(language, f"roster.of_{of}")
         return [message(language, "roster.all_same", count=users.size, what=what, size=_size(edge, of))]
-    said = [
+    said: list[str] = [
         message(
             language, f"roster.{rank}", names=_names(case, first, language), gets=_gets(first, language),
             size=_size(edge, of), what=message(language, f"roster.of_{of}"),
@@ -88,7 +88,7 @@ def subcarriers_answer(case: Case, user: int | None, language: str) -> str:
     free = np.flatnonzero(decision.power_w <= 0)
     if free.size:
         rows.append(message(language, "roster.unused", places=_places(free, language), count=free.size))
-    return "\n".join(rows)
+    return lines_of(rows)
 
 
 def owner_answer(case: Case, place: int, language: str) -> str:

@@ -7,15 +7,76 @@ import numpy as np
 from wirelessagent.model.units import human, percent
 from wirelessagent.telling.catalogue import called, joined, message
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.reach import Reach
-from wirelessagent.telling.facts.steps import Step
+from wirelessagent.telling.facts.reach import Reach, for_the_total, has_reach, kept_by, reach
+from wirelessagent.telling.facts.steps import Step, power_step, rate_step
 from wirelessagent.telling.parts import outcome_in_words, value_name
 from wirelessagent.telling.reasons import reason_in_words
 
 _NOTHING = 1e-9
 
 
-def step_answer(case: Case, step: Step, kept: Reach | None, language: str) -> str:
+def more_answer(
+    case: Case,
+    language: str,
+    *,
+    power_w: float | None = None,
+    rate_bps: float | None = None,
+    rate_share: float | None = None,
+    each: bool = False,
+    user: int | None = None,
+) -> str:
+    """What more power (1 W if nothing is named) or more rate would change; less where a figure is below zero.
+
+    Args:
+        case: the decision asked about.
+        language: the operator's.
+        power_w: how much more power.
+        rate_bps: how much more rate: of ``user``, of ``each`` user, else of the value or in all.
+        rate_share: how much more rate, as a share.
+        each: whether the rate is every user's.
+        user: whose the rate is, from 0.
+    """
+    if rate_share is not None or (rate_bps is not None and user is None and not each):
+        return _more_rate(case, language, rate_bps, rate_share)
+    if rate_bps is not None:
+        return _stepped(case, rate_step(case, rate_bps, user), language)
+    step_w = 1.0 if power_w is None else power_w
+    step = power_step(case, step_w)
+    if step is not None:
+        return _stepped(case, step, language)
+    budget = human(case.problem.budget_w(case.cell), "W")
+    return message(language, "step.no_power", step=human(-step_w, "W"), before=budget)
+
+
+def _stepped(case: Case, step: Step, language: str) -> str:
+    usable = step.before.is_usable and step.after.is_usable
+    return _step_answer(case, step, kept_by(case, step) if usable else None, language)
+
+
+def _more_rate(case: Case, language: str, rate_bps: float | None, share: float | None) -> str:
+    """What more rate takes where nobody says whose: of the value where that is one, else of the promises and in all."""
+
+    def step_of(whole: float) -> float:
+        return (rate_bps or 0.0) if share is None else share * whole
+
+    now, promised, usable = case.decision.value, float(case.promised_bps.max()), case.decision.is_usable
+    if has_reach(case):
+        return _more(case, now, step_of(now), case.problem.budget_w(case.cell), language)
+    total = float(case.decision.rate_bps.sum()) if usable else 0.0
+    said: list[str] = []
+    if promised > 0 or not usable:
+        said.append(_stepped(case, rate_step(case, step_of(promised)), language))
+    if total > 0:
+        said.append(_more(for_the_total(case), total, step_of(total), case.decision.total_power_w, language))
+    return joined(language, said)
+
+
+def _more(case: Case, now: float, step: float, spent_w: float, language: str) -> str:
+    found = reach(case, now + step) if now + step > 0 else None
+    return _reach_answer(case, found, now, step, spent_w, language)
+
+
+def _step_answer(case: Case, step: Step, kept: Reach | None, language: str) -> str:
     """What a step changes, and what power would keep the value, in a paragraph."""
     before, after = step.before, step.after
     said: list[str] = []
@@ -36,9 +97,9 @@ def step_answer(case: Case, step: Step, kept: Reach | None, language: str) -> st
     return joined(language, said)
 
 
-def reach_answer(case: Case, found: Reach | None, now: float, step: float, spent_w: float, language: str) -> str:
+def _reach_answer(case: Case, found: Reach | None, now: float, step: float, spent_w: float, language: str) -> str:
     """What power it takes that a value is larger by ``step``, or what a smaller one saves; None if nothing is left."""
-    unit, figure = case.decision.unit, value_name(case, language)
+    unit, figure = case.decision.unit, value_name(case.decision, language)
     more = message(language, "step.rate_more" if step > 0 else "step.rate_less", step=human(abs(step), unit))
     if found is None:
         return message(language, "step.nothing_left", step=more, figure=figure, before=human(now, unit))
@@ -46,7 +107,7 @@ def reach_answer(case: Case, found: Reach | None, now: float, step: float, spent
 
 
 def _reached(case: Case, found: Reach, key: str, language: str, *, before_w: float, step: str = "") -> str:
-    figure, target = value_name(case, language), human(found.target, case.decision.unit)
+    figure, target = value_name(case.decision, language), human(found.target, case.decision.unit)
     if np.isnan(found.power_w):
         return message(
             language, "step.out_of_reach", figure=figure, target=target, step=step, power=human(found.tried_w, "W")
@@ -61,15 +122,9 @@ def _reached(case: Case, found: Reach, key: str, language: str, *, before_w: flo
     return joined(language, [said, *beyond])
 
 
-def no_power_answer(case: Case, step_w: float, language: str) -> str:
-    """What there is to say of a step that leaves no power."""
-    budget = human(case.problem.budget_w(case.cell), "W")
-    return message(language, "step.no_power", step=human(-step_w, "W"), before=budget)
-
-
 def change_in_words(case: Case, step: Step, language: str) -> str:
     """How the value changes, as in "raise the total rate by 1 Mbit/s (3 %), to 34 Mbit/s"."""
-    figure, change, before = value_name(case, language), step.change, step.before.value
+    figure, change, before = value_name(case.decision, language), step.change, step.before.value
     value = human(step.value_after, step.before.unit)
     if abs(change) <= _NOTHING * abs(before):
         return message(language, "step.keep", figure=figure, value=value)
@@ -98,7 +153,7 @@ def _unmet(case: Case, step: Step, language: str) -> str:
         return message(language, "step.no_longer", step=told, reason=reason_in_words(step.after, language))
     if not step.after.is_usable:
         return message(language, "step.still_not", step=told, reason=reason_in_words(step.after, language))
-    return message(language, "step.now_met", step=told, outcome=outcome_in_words(case, step.after, language))
+    return message(language, "step.now_met", step=told, outcome=outcome_in_words(step.after, language))
 
 
 def _marginal(step: Step, language: str) -> list[str]:

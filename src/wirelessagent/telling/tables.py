@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.forecast import Forecast
@@ -22,6 +24,31 @@ def decision_tables(report: Report, estimate: ChannelEstimate | None, language: 
     if report.decision.is_usable:
         return [user_table(report, estimate, language), report_table(report, language)]
     return [figures_of_infeasibility(report.decision, language)]
+
+
+def served_table(report: Report, language: str = "en") -> Table:
+    """What the users get who are served, in few columns."""
+    decision, judged = report.decision, report.decision.expected_rate_bps.size > 0
+    firm = "promised_at" if judged else "committed_rate" if decision.forecast is not None else "predicted_rate"
+    columns = ["user", "subcarriers", "power", firm, *([] if report.achieved is None else ["achieved_rate"])]
+    given = decision.rate_bps if judged else decision.committed_bps
+    rows: list[tuple[str, ...]] = []
+    for user in np.flatnonzero((decision.rate_bps > 0) | (given > 0)).tolist():
+        own = (decision.owner == user) & (decision.power_w > 0)
+        row = [called(language, decision.user_names[user]), str(int(own.sum()))]
+        row += [human(float(decision.power_w[own].sum()), "W"), human(float(given[user]), "bit/s")]
+        rows.append((*row, *([] if report.achieved is None else [_achieved(report, language, user)])))
+    sure = reliability(decision.problem.outage_probability or 0.0)
+    return _table(language, "served_title", columns, rows, sure=sure)
+
+
+def _achieved(report: Report, language: str, user: int) -> str:
+    """A user's true rate, and by how much it falls short where it does."""
+    assert report.achieved is not None
+    achieved = human(report.achieved.user_rate_bps[user], "bit/s")
+    if user not in report.missed_users:
+        return achieved
+    return message(language, "label.short", value=achieved, short=percent(_shortfall(report, user)))
 
 
 def figures_of_infeasibility(decision: Decision, language: str = "en") -> Table:
@@ -88,9 +115,7 @@ def _user(report: Report, estimate: ChannelEstimate | None, language: str, user:
             else human(rate, "bit/s")
         )
     if report.achieved is not None:
-        achieved = human(report.achieved.user_rate_bps[user], "bit/s")
-        short = percent(_shortfall(report, user)) if user in report.missed_users else ""
-        row.append(message(language, "label.short", value=achieved, short=short) if short else achieved)
+        row.append(_achieved(report, language, user))
     return tuple(row)
 
 

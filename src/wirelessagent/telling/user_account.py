@@ -79,7 +79,7 @@ def _included(case: Case, found: Account, language: str) -> str:
         "account.included",
         rate=human(float(included.rate_bps[found.user]), "bit/s"),
         power=human(power, "W"),
-        figure=value_name(case, language),
+        figure=value_name(case.decision, language),
         value=human(included.value, included.unit),
         before=human(case.decision.value, case.decision.unit),
     )
@@ -115,7 +115,7 @@ def _loss(case: Case, loss: Loss, name: str, language: str) -> list[str]:
         "bid": _bid(case, loss.bid_w, loss.bid_value, language),
         "winning": _bid(case, loss.winning_bid_w, loss.winning_bid_value, language),
     }
-    said = [message(language, key, behind=abs(loss.behind_db), **names)]
+    said: list[str] = [message(language, key, behind=abs(loss.behind_db), **names)]
     if key != "account.behind":
         return said
     if loss.winning_bid_w <= _MOST_BUDGETS * case.problem.budget_w(case.cell):  # else power is next to free

@@ -7,7 +7,7 @@ import numpy as np
 from wirelessagent import __version__, chain, plugins
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Run, Stage, Turn
+from wirelessagent.agent.turn import Lines, Run, Stage, Turn
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
@@ -37,7 +37,7 @@ def turn_of(
         evidence={"objective": text}, reply="understood", recogniser="offline",
     )  # fmt: skip
     return Turn(
-        number=number, session=session, text=text, intent=intent, reply="done", run=run,
+        number=number, session=session, text=text, intent=intent, lines=Lines(decided="done"), run=run,
         stage="answered" if run is None else stage,
         at_utc="2026-11-21T12:00:00+00:00", version=__version__, seed=number, recogniser="offline",
     )  # fmt: skip

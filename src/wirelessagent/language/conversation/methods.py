@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import dataclasses
 
-from wirelessagent.language.acts import OWN_CHOICE
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.intent_acts import OWN_CHOICE
 from wirelessagent.language.named_tools import with_tool
 from wirelessagent.language.text import normalise
 

@@ -1,0 +1,167 @@
+"""What was said and done so far: turns, what is in effect, the reasons of a decision, and its export as a document."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import datetime
+
+from wirelessagent.agent.restating import restated
+from wirelessagent.agent.state import Reply, Talk, asked_back, nothing_yet
+from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.language.acts import AskHistory, AskReasons, AskStatus, Export, TurnReference
+from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import Said, lines_of, message
+from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.tables import decision_tables
+from wirelessagent.telling.text_table import Table
+
+_SHOWN = 60
+"""Characters of a sentence that the history shows."""
+
+
+def turn_of(turns: Sequence[Turn], reference: TurnReference) -> Turn | None:
+    """The turn of this number, or the "first" with a decision; None where there is none."""
+    if reference == "first":
+        return next((turn for turn in turns if turn.run is not None and turn.intent.kind == "allocate"), None)
+    return next((turn for turn in turns if turn.number == reference), None)
+
+
+def no_such_turn(reference: TurnReference, count: int, language: str) -> Said:
+    """What to say to a line about a turn that there is not, in a conversation of so many turns."""
+    key = "turn.no_such" if count > 1 else "turn.only_one" if count else "turn.none_yet"
+    return message(language, key, number=reference, last=count)
+
+
+def no_decision(talk: Talk, reference: TurnReference, chosen: Turn | None) -> Reply:
+    """The reply to what needs the decision of a turn that has none."""
+    if chosen is None:
+        return asked_back(no_such_turn(reference, len(talk.turns), talk.language))
+    return asked_back(talk.say("turn.without_decision", number=chosen.number))
+
+
+def is_same(one: Run | None, other: Run) -> bool:
+    """Whether two runs are of one decision, applied or not."""
+    return one is not None and one.decision is other.decision
+
+
+def reasons(talk: Talk, act: AskReasons) -> Reply:
+    """A decision in words, with its tables."""
+    run = talk.state.run
+    if act.turn is not None:
+        chosen = turn_of(talk.turns, act.turn)
+        if chosen is None or chosen.run is None:
+            return no_decision(talk, act.turn, chosen)
+        run = chosen.run
+    if run is None:
+        return nothing_yet(talk)
+    said = explain(run.estimate, run.report, language=talk.language)
+    return Reply(decided=lines_of(said), tables=tuple(decision_tables(run.report, run.estimate, talk.language)))
+
+
+def history(talk: Talk, act: AskHistory) -> Reply:
+    """The turns so far, or one of them."""
+    turns = talk.turns
+    if act.turn is not None:
+        chosen = turn_of(turns, act.turn)
+        if chosen is None:
+            return asked_back(no_such_turn(act.turn, len(turns), talk.language))
+        said = talk.say("turn.said", number=chosen.number, text=_short(chosen.text), reply=chosen.reply)
+        return Reply(decided=said, tables=chosen.tables)
+    if not turns:
+        return Reply(decided=talk.say("turn.none"))
+    rows = tuple(
+        (str(turn.number), _short(turn.text), talk.say(f"came_to.{turn.stage}"), _value(turn.run)) for turn in turns
+    )
+    columns = tuple(talk.say(f"label.{label}") for label in ("turn", "said", "came_to", "value"))
+    table = Table(title=talk.say("turn.title"), columns=columns, rows=rows)
+    return Reply(decided=talk.say("turn.so_far", count=len(turns)), tables=(table,))
+
+
+def _short(text: str) -> str:
+    plain = " ".join(text.split())
+    return plain if len(plain) <= _SHOWN else f"{plain[: _SHOWN - 1]}…"
+
+
+def _value(run: Run | None) -> str:
+    return "–" if run is None else human(run.decision.value, run.decision.unit)
+
+
+def status(talk: Talk, act: AskStatus) -> Reply:
+    """What is asked for, what was decided, and what is in effect."""
+    del act
+    site, state = talk.site, talk.state
+    if state.request is None and state.on_air is None and not site.touched:
+        return Reply(decided=talk.say("in_effect.none"))
+    said: list[str] = []
+    if state.request is not None:
+        said.append(talk.say("request.asked_for", request=restated(state.request, talk.language)))
+    if state.run is not None:
+        line = certificate_line(state.run.decision, talk.language)
+        said.append(talk.say("in_effect.decided", certificate=line))
+    unknown = state.on_air is None and site.touched
+    said.append(_unknown(talk) if unknown else _on_air(talk))
+    return Reply(decided=lines_of(said), needs=talk.say("in_effect.waits") if state.planned is not None else "")
+
+
+def _unknown(talk: Talk) -> str:
+    """That it is not known what is in effect, and what was read back last."""
+    read = talk.site.read_last
+    if read is None:
+        return talk.say("in_effect.unknown", read=talk.say("in_effect.read_nothing"))
+    used, total = int((read.power_w > 0).sum()), read.power_w.size
+    power = human(float(read.power_w.sum()), "W")
+    return talk.say("in_effect.unknown", read=talk.say("in_effect.read", power=power, used=used, total=total))
+
+
+def _on_air(talk: Talk) -> str:
+    run = talk.state.on_air
+    if run is None:
+        return talk.say("in_effect.off_air")
+    number = next((turn.number for turn in reversed(talk.turns) if turn.run is run), len(talk.turns))
+    promised = run.decision.rate_bps if run.outcome is None else run.outcome.promised_bps
+    served = int((promised > 0).sum())
+    return talk.say(
+        "in_effect.on_air_one" if served == 1 else "in_effect.on_air", turn=number, served=served,
+        power=human(run.decision.total_power_w, "W"), rate=human(float(promised.sum()), "bit/s"),
+    )  # fmt: skip
+
+
+def export(talk: Talk, act: Export) -> Reply:
+    """The request that holds and what came of it as a document of a standard; the standards are loaded only here."""
+    from wirelessagent.standards import tmf921, ts28312
+    from wirelessagent.standards.subject import Subject
+
+    run, turns = talk.state.run, talk.turns
+    if act.format not in ("ts28312", "tmf921"):
+        return asked_back(talk.say("ask_back.export_unknown", format=act.format))
+    done = [turn for turn in turns if turn.stage not in ("answered", "asked")]
+    made = [turn for turn in done if run is not None and is_same(turn.run, run)]
+    if run is None or not made:
+        return nothing_yet(talk)
+    last, on_air = made[-1], talk.state.on_air
+    subject = Subject(
+        name=f"{last.session}-{last.number}",
+        text=made[0].text,
+        decision=run.decision,
+        at=datetime.fromisoformat(last.at_utc),
+        outcome=on_air.outcome if on_air is not None and is_same(on_air, run) else None,
+        language=run.intent.language,
+        current=_in_effect_before(last, turns),
+        taken_back=last.stage == "reverted",
+    )
+    if act.format == "ts28312":
+        return Reply(decided=ts28312.to_json(ts28312.document(subject)))
+    return Reply(decided=tmf921.to_json(tmf921.document(subject)))
+
+
+def _in_effect_before(turn: Turn, turns: Sequence[Turn]) -> Outcome | None:
+    """What was last read back before a turn; None where there was nothing."""
+    found: Outcome | None = None
+    for earlier in turns[: turn.number - 1]:
+        if earlier.restored is not None:
+            found = earlier.restored
+        elif earlier.stage == "applied" and earlier.run is not None:
+            found = earlier.run.outcome
+    return found

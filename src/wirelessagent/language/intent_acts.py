@@ -1,0 +1,241 @@
+"""The dialogue acts of an intent: what recognisers print and store as kind, topic and details, as typed acts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, cast
+
+from wirelessagent.language.acts import (
+    Act,
+    Aim,
+    Apply,
+    AskCertainty,
+    AskDearest,
+    AskDuration,
+    AskGain,
+    AskHelp,
+    AskHistory,
+    AskLimits,
+    AskMeaning,
+    AskMethods,
+    AskMost,
+    AskOtherChannel,
+    AskOwner,
+    AskPower,
+    AskPrices,
+    AskProof,
+    AskRank,
+    AskReasons,
+    AskResult,
+    AskStatus,
+    AskStep,
+    AskSubcarriers,
+    AskUsers,
+    AskWhy,
+    AskWhyNot,
+    CompareLast,
+    CompareRequests,
+    CompareTools,
+    CompareTurns,
+    Drop,
+    Export,
+    Forget,
+    LeaveOut,
+    Limit,
+    Named,
+    No,
+    Prefer,
+    Serve,
+    Suppose,
+    TurnReference,
+    Undo,
+    Yes,
+)
+from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
+
+OWN_CHOICE = "auto"
+"""The method for "the usual method"."""
+
+Details = Mapping[str, Detail]
+
+
+def acts_of(intent: Intent) -> tuple[Act, ...]:
+    """What an intent does to a conversation; nothing where it asks back."""
+    if intent.acts:
+        return intent.acts
+    if intent.kind == "allocate":
+        return tuple(_changes(intent))
+    if intent.kind in ("question", "command"):
+        return (_TOPICS.get(intent.topic or "", _result)(intent.details),)
+    return ()
+
+
+def _changes(intent: Intent) -> Iterator[Act]:
+    assert intent.objective is not None
+    said = intent.evidence
+    if not intent.amends:
+        yield Forget()
+    yield Aim(objective=intent.objective, words=said.get("objective", ""))
+    for name in intent.dropped:
+        yield Drop(kind=name)
+    yield from stated(intent.constraints, said)
+    if "method" in intent.details:
+        named = str(intent.details["method"])
+        yield Prefer(method="" if named == OWN_CHOICE else named)
+
+
+def stated(constraints: Mapping[str, Constraint], words: Mapping[str, str] | None = None) -> Iterator[Act]:
+    """The acts that state constraints, each with its words where they are known."""
+    for name, value in constraints.items():
+        yield from _limits(name, value, (words or {}).get(name, ""))
+
+
+def _limits(name: str, value: Constraint, words: str = "") -> Iterator[Act]:
+    """The acts that state a constraint, as :class:`~wirelessagent.language.intent.Intent` writes it."""
+    if isinstance(value, tuple):
+        whom = Named(value)
+        yield Serve(whom=whom, alone=True, words=words) if name == "users" else LeaveOut(whom=whom, words=words)
+    elif isinstance(value, Mapping):
+        if EVERYBODY in value:
+            yield Limit(kind=name, value=value[EVERYBODY], words=words)
+        for user, figure in value.items():
+            if user != EVERYBODY:
+                yield Limit(kind=name, value=figure, whom=Named((user,)), words=words)
+    else:
+        yield Limit(kind=name, value=float(value), words=words)
+
+
+def _supposed(details: Details) -> Act:
+    """What a question would have be so."""
+    share, aim = _figure(details, "missing_share"), details.get("objective")
+    acts: tuple[Act, ...] = (Aim(objective=aim),) if isinstance(aim, str) else ()
+    acts += tuple(Drop(kind=name) for name in str(details.get("dropped", "")).split())
+    acts += tuple(stated(_constraints(details)))
+    asked = details.get("asked")
+    if details.get("of") == "channel":
+        return AskOtherChannel()
+    if asked == "most":
+        return AskMost(acts=acts, user=_user(details))
+    if asked == "power":
+        judged = "needed" if details.get("judged") == "needed" else "enough"
+        return AskPower(acts=acts, enough_w=_figure(details, "enough_w"), judged=judged)
+    return Suppose(acts=acts, missing_share=share)
+
+
+def _wondered(about: Callable[[Details], Act]) -> Callable[[Details], Act]:
+    """A question that states limits asks what would be with them: "can user 4 get 3 Mbit/s?"."""
+
+    def act(details: Details) -> Act:
+        limits, rate, user = dict(_constraints(details)), _figure(details, "rate_bps"), _user(details)
+        if rate is not None:
+            limits["min_rate_bps"] = rate if user is None else {user: rate}
+        return Suppose(acts=tuple(stated(limits))) if limits else about(details)
+
+    return act
+
+
+def _step(details: Details) -> Act:
+    users = _figure(details, "users")
+    return AskStep(
+        power_w=_figure(details, "power_w"), rate_bps=_figure(details, "rate_bps"),
+        rate_share=_figure(details, "rate_share"), users=None if users is None else int(users),
+        each="each" in details, user=_user(details),
+    )  # fmt: skip
+
+
+def _users(details: Details) -> Act:
+    place = _figure(details, "subcarrier")
+    if details.get("asked") == "gain":
+        return AskGain(user=_user(details), subcarrier=None if place is None else int(place))
+    if "rank" in details:
+        named: dict[str, Any] = {"rank": details["rank"], "of": details.get("of", "rate")}
+        return AskRank(**named)
+    if "listed" in details:
+        return AskDearest() if details["listed"] == "dearest" else AskSubcarriers(user=_user(details))
+    return AskUsers(user=_user(details)) if place is None else AskOwner(subcarrier=int(place))
+
+
+def _result(details: Details) -> Act:
+    """Of a result as a whole, and of what made it."""
+    asked = details.get("asked")
+    if details.get("listed") == "methods":
+        return AskMethods()
+    if asked == "duration":
+        return AskDuration()
+    return AskLimits() if asked == "limits" else AskResult()
+
+
+def _compared(details: Details) -> Act:
+    named = [_turn(details, name) for name in ("turn", "beside")]
+    turns = tuple(turn for turn in named if turn is not None)
+    if turns:
+        return CompareTurns(turns=turns)
+    figures = [cast("Mapping[str, Constraint]", details[name]) for name in sorted(details) if name.startswith("either")]
+    changes = [tuple(stated(each)) for each in figures]
+    changes += [(Aim(objective=aim),) for aim in str(details.get("aims", "")).split()]
+    if changes:
+        return CompareRequests(changes=tuple(changes))
+    said = " ".join(str(details[name]) for name in ("with", "methods", "repairers") if name in details)
+    names = tuple(name for name in said.translate(_SEPARATORS).split() if name != "last")
+    return CompareTools(names=names) if names else CompareLast()
+
+
+_SEPARATORS = str.maketrans(",，、;", "    ")
+
+
+def _undone(details: Details) -> Act:
+    turn, steps = _turn(details, "turn"), details.get("steps", 1.0)
+    if turn is not None:
+        return Undo(turn=turn)
+    return Undo(steps=int(steps) if isinstance(steps, float) else None)
+
+
+def _history(details: Details) -> Act:
+    return AskHistory(turn=_turn(details, "turn" if "turn" in details else "number"))
+
+
+_TOPICS: Mapping[str, Callable[[Details], Act]] = {
+    "apply": lambda details: Apply(),
+    "confirm": lambda details: Yes(chooses="way" in details),
+    "reject": lambda details: No(cancels="cancel" in details, stops="stop" in details),
+    "undo": _undone,
+    "reset": lambda details: Forget(),
+    "compare": _compared,
+    "explain": lambda details: AskReasons(turn=_turn(details, "turn")),
+    "history": _history,
+    "status": lambda details: AskStatus(),
+    "help": lambda details: AskHelp(),
+    "export": lambda details: Export(format=str(details.get("format", "ts28312"))),
+    "why_user": _wondered(lambda details: AskWhy(user=_user(details))),
+    "why_infeasible": _wondered(lambda details: AskWhyNot()),
+    "certificate": _wondered(lambda details: AskProof()),
+    "uncertainty": _wondered(lambda details: AskCertainty()),
+    "what_if": _supposed,
+    "step": _step,
+    "prices": _wondered(lambda details: AskPrices(user=_user(details))),
+    "users": _wondered(_users),
+    "capabilities": lambda details: AskHelp(),
+    "concept": lambda details: AskMeaning(),
+    "other": _wondered(_result),
+}
+
+
+def _constraints(details: Details) -> Mapping[str, Constraint]:
+    return cast("Mapping[str, Constraint]", details.get("constraints") or {})
+
+
+def _user(details: Details) -> str | None:
+    user = details.get("user")
+    return user if isinstance(user, str) else None
+
+
+def _figure(details: Details, name: str) -> float | None:
+    value = details.get(name)
+    return float(value) if isinstance(value, int | float) else None
+
+
+def _turn(details: Details, name: str) -> TurnReference | None:
+    turn = details.get(name)
+    if isinstance(turn, int | float):
+        return int(turn) if turn == int(turn) else f"{turn:g}"
+    return None if turn is None else str(turn)

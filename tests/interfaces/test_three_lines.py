@@ -1,0 +1,159 @@
+"""What a turn says: what was decided and how sure, what changed, and what it needs; and what of it is recorded."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import wirelessagent as wa
+from wirelessagent.agent.session import Session
+from wirelessagent.agent.turn import Turn
+from wirelessagent.interfaces.cli import run
+from wirelessagent.store.record_of import understood
+from wirelessagent.telling.catalogue import message
+
+SCENE = wa.simulate("rayleigh", wa.Cell(max_power_w=20), num_users=4, num_subcarriers=12, seed=3)
+
+
+def said(*lines: str, confirm: bool = False) -> list[Turn]:
+    session = Session(SCENE, wa.loss.random(0.2), seed=1, confirm=confirm)
+    return [session.say(line) for line in lines]
+
+
+def flat(capsys: pytest.CaptureFixture[str]) -> str:
+    """What was printed, on one line."""
+    return " ".join(capsys.readouterr().out.split())
+
+
+def test_a_first_request_says_what_was_understood_decided_and_done() -> None:
+    (turn,) = said("Highest total rate, at most 10 W")
+    assert turn.run is not None
+    assert turn.lines.decided.startswith("The highest total rate: at most 10 W of radiated power. Total rate ")
+    assert turn.lines.changed.startswith("Simulated: applied and read back")
+    assert turn.lines.needs == ""
+    assert turn.shift is None
+    assert turn.reply == f"{turn.lines.decided}\n{turn.lines.changed}"
+
+
+def test_a_change_says_what_was_before_and_what_became_of_the_allocation() -> None:
+    first, second = said("Highest total rate, at most 10 W", "at most 5 W, user 2 at least 500 kbit/s")
+    assert first.run is not None
+    assert second.run is not None
+    changed = second.lines.changed
+    assert "at most 5 W of radiated power (before: 10 W)" in changed
+    assert "at least 500 kbit/s for user 2" in changed
+    shift = second.shift
+    assert shift is not None
+    before, after = first.run.decision, second.run.decision
+    assert shift.power_w == (before.total_power_w, after.total_power_w)
+    assert shift.sum_rate_bps == (before.rate_bps.sum(), after.rate_bps.sum())
+    owners = [np.where(one.power_w > 0, one.owner, -1) for one in (before, after)]
+    assert shift.subcarriers == np.count_nonzero(owners[0] != owners[1])
+    assert all(shift.rate_bps[name] == (before.rate_bps[k], after.rate_bps[k])
+               for k, name in enumerate(before.user_names) if name in shift.rate_bps)  # fmt: skip
+    assert "Radiated power 10 W → 5 W" in changed or "radiated power 10 W → 5 W" in changed
+
+
+def test_what_is_dropped_is_named() -> None:
+    turns = said("Highest total rate, at most 10 W, 200 kbit/s each", "without the power limit")
+    assert "No longer: at most 10 W of radiated power." in turns[-1].lines.changed
+    turns = said("Highest total rate, at most 10 W", "new request: least power with 200 kbit/s each")
+    assert "No longer: at most 10 W of radiated power." in turns[-1].lines.changed
+
+
+def test_a_plan_that_waits_needs_a_yes_and_says_so_after_other_answers() -> None:
+    turns = said("Highest total rate, at most 10 W", "how sure is this?", "what if we had 5 W?", "yes", confirm=True)
+    assert [turn.stage for turn in turns] == ["planned", "answered", "answered", "applied"]
+    assert turns[0].lines.needs == "Apply it? (yes or no)"
+    assert turns[1].lines.needs.startswith("The plan still waits")
+    assert turns[2].lines.changed == "Nothing was changed."
+    assert "'do that' takes the what-if" in turns[2].lines.needs
+    assert turns[3].lines.needs == ""
+
+
+def test_a_question_back_is_a_need_alone() -> None:
+    turns = said("Highest total rate", "leave user 9 out")
+    assert turns[-1].lines.needs.startswith("There is no user 9 here")
+    assert turns[-1].lines.decided == turns[-1].lines.changed == ""
+
+
+def test_the_efficiency_of_now_is_a_figure_and_the_word_is_explained() -> None:
+    turns = said("Highest total rate, at most 10 W", "what is the energy efficiency now?", "what is energy efficiency?")
+    assert turns[0].run is not None
+    figures = {row[0]: row[1] for row in turns[0].run.report.figures()}
+    assert figures["Energy efficiency"] in turns[1].reply
+    assert "bits per joule drawn" in turns[2].reply
+
+
+def test_the_record_holds_lines_and_the_key_and_places_of_each_message() -> None:
+    for turn in said("Highest total rate, at most 10 W", "now with 5 W", "最多8瓦", "10 Mbit/s each", "why not?"):
+        record = understood(turn)
+        assert record["schema"] == 3
+        assert record["lines"] == {name: str(getattr(turn.lines, name)) for name in ("decided", "changed", "needs")}
+        assert json.loads(json.dumps(record)) == record
+        for name, line in record["lines"].items():
+            told = record["messages"][name]
+            assert bool(told) == bool(line)
+            for one in told:
+                if not any(isinstance(place, list) for place in one["places"].values()):
+                    assert message(turn.intent.language, one["key"], **one["places"]) in line
+
+
+def test_ask_shows_three_lines_and_the_users_served_and_the_rest_when_asked(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    asked = ["ask", "Highest total rate, at most 5 W, 200 kbit/s each", "--num-users", "3", "--num-subcarriers", "8"]
+    shown: dict[str, str] = {}
+    for more in ((), ("--full",), ("--json",)):
+        assert run([*asked, *more]) == 0
+        shown["".join(more)] = capsys.readouterr().out if more == ("--json",) else flat(capsys)
+    record: dict[str, Any] = json.loads(shown["--json"])
+    for text in ("", "--full"):
+        assert record["lines"]["decided"] in shown[text]
+        assert record["lines"]["changed"] in shown[text]
+    assert "Users served" in shown[""]
+    assert record["explanation"][0] not in shown[""]
+    assert all(line in shown["--full"] for line in record["explanation"])
+    assert "of them repaired" in shown["--full"]
+    assert "of them repaired" not in shown[""]
+
+
+LINES = ("Highest total rate, at most 10 W", "now with 5 W", "least power, 200 kbit/s each", "leave user 2 out",
+         "what if we had 2 W?", "how sure is this?", "undo", "no", "without the power limit")  # fmt: skip
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.lists(st.sampled_from(LINES), min_size=2, max_size=5))
+def test_a_plan_that_waits_is_for_what_holds(lines: list[str]) -> None:
+    session = Session(SCENE, wa.loss.random(0.2), seed=1, confirm=True)
+    for line in lines:
+        before = session.state
+        session.say(line)
+        state = session.state
+        if state.planned is None:
+            continue
+        assert state.planned is state.run
+        assert state.request is not None
+        problem = state.planned.decision.problem
+        assert getattr(problem.objective, "name", None) == state.request.objective
+        assert problem.max_power_w == state.request.constraints.get("max_power_w")
+        if state.request != before.request:
+            assert state.planned is not before.planned
+    assert dataclasses.replace(session.state, noted=False).on_air is None
+
+
+def test_a_stored_turn_tells_the_lines(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    store = str(tmp_path / "turns.db")
+    assert run(["ask", "Highest total rate", "--num-users", "3", "--num-subcarriers", "8", "--store", store]) == 0
+    capsys.readouterr()
+    assert run(["history", "show", "1", "--store", store, "--json"]) == 0
+    turn = json.loads(capsys.readouterr().out)["turn"]
+    assert turn["intent"]["lines"]["decided"] in turn["reply"]
