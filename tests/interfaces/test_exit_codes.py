@@ -139,6 +139,24 @@ def test_what_fails_at_the_base_station(mood: str, monkeypatch: pytest.MonkeyPat
     assert run(["chat", *CELL, "--say", SAID, "--say", "at least 20 kbit/s"]) == 1
 
 
+@pytest.mark.parametrize("mood", ["fails", "falls short"])
+def test_what_fails_at_the_first_and_has_nothing_to_go_back_to(
+    mood: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    apply = SimulatedBaseStation.apply
+
+    def applied(self: SimulatedBaseStation, decision: wa.Decision) -> wa.Outcome:
+        if mood == "fails":
+            raise OSError("the link is down")
+        outcome = apply(self, decision)
+        return replace(outcome, power_w=outcome.power_w / 2)
+
+    monkeypatch.setattr(SimulatedBaseStation, "apply", applied)
+    assert run(["ask", SAID, *CELL]) == 1
+    assert "There is no earlier allocation to go back to." in " ".join("".join(capsys.readouterr()).split())
+    assert run(["chat", *CELL, "--say", SAID]) == 1
+
+
 def test_an_interruption(monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupted(self: SimulatedBaseStation, decision: wa.Decision) -> wa.Outcome:
         raise KeyboardInterrupt

@@ -196,7 +196,7 @@ def _apply(talk: Talk, reply: Reply, run: Run, station: BaseStation) -> Reply:
     state, language = _state(reply), talk.language
     if run.outcome is not None and run is state.planned:
         return _put_back(talk, reply, run, station)
-    talk.site.progress(Event(stage="act", message=talk.say("stage.applying", station=station.name)))
+    talk.site.progress(_applying(talk, station))
     effect = talk.site.carry_out(run, station, state.last_good)
     new = dataclasses.replace(state, run=effect.run, planned=None, question=None)
     tables = tuple(decision_tables(effect.run.report, effect.run.estimate, language))
@@ -210,15 +210,14 @@ def _apply(talk: Talk, reply: Reply, run: Run, station: BaseStation) -> Reply:
             reply, language, said, stage="reverted", state=dataclasses.replace(new, on_air=state.last_good)
         )  # fmt: skip
     new = dataclasses.replace(new, on_air=effect.run if effect.as_decided else None)
-    return _changing(
-        reply, language, said, stage="nothing" if effect.run.outcome is None else "applied", state=new
-    )  # fmt: skip
+    stage = "nothing" if effect.run.outcome is None else "applied"
+    return _changing(reply, language, said, stage=stage, state=new, faulty=True)
 
 
 def _put_back(talk: Talk, reply: Reply, good: Run, station: BaseStation) -> Reply:
     """Apply again what was in effect before, for an undo."""
     state = _state(reply)
-    talk.site.progress(Event(stage="act", message=talk.say("stage.applying", station=station.name)))
+    talk.site.progress(_applying(talk, station))
     outcome, trouble = talk.site.put_back(good, station)
     told = talk.say("undo.not_put_back", why=trouble) if trouble else _in_effect(talk.say, "undo.put_back", good)
     back = good if outcome is None else with_outcome(good, outcome)
@@ -230,6 +229,11 @@ def _put_back(talk: Talk, reply: Reply, good: Run, station: BaseStation) -> Repl
     return _changing(
         reply, talk.language, told, stage="undone", state=new, run=back, restored=outcome, tables=tables
     )  # fmt: skip
+
+
+def _applying(talk: Talk, station: BaseStation) -> Event:
+    told = talk.say("stage.applying", station=station.name)
+    return Event(stage="act", message=told, language=talk.language)
 
 
 def _told(talk: Talk, effect: Effect, last_good: Run | None) -> str:

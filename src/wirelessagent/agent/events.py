@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from wirelessagent.telling.catalogue import has_message, message
+
 
 @dataclass(frozen=True, kw_only=True)
 class Event:
@@ -15,12 +17,20 @@ class Event:
         stage: "read", "understand", "note", "sense", "repair", "decide", "act" or the name of a piece of long work.
         message: one sentence for the user.
         done, total: how far counted work has come; both 0 where nothing is counted.
+        language: of the message.
     """
 
     stage: str
     message: str
     done: int = 0
     total: int = 0
+    language: str = "en"
+
+    @property
+    def label(self) -> str:
+        """What the stage is called."""
+        key = f"doing.{self.stage}"
+        return message(self.language, key) if has_message(self.language, key) else self.stage
 
 
 Progress: TypeAlias = Callable[[Event], None]

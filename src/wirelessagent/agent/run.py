@@ -41,13 +41,13 @@ def look(
 ) -> Sight:
     """Observe a scene, with what ``losses`` leave of it, and repair what is missing."""
     seen = scene.observe(*losses, seed=seed)
-    progress(Event(stage="sense", message=describe(seen, language)))
+    progress(Event(stage="sense", message=describe(seen, language), language=language))
     estimate = chain.repair(seen, tools.repairer, **tools.repairer_options)
     missing = int(seen.missing.sum())
     repaired = message(
         language, "stage.repaired" if missing else "stage.complete", missing=missing, method=estimate.method
     )
-    progress(Event(stage="repair", message=repaired))
+    progress(Event(stage="repair", message=repaired, language=language))
     return Sight(scene=scene, observation=seen, estimate=estimate)
 
 
@@ -64,7 +64,7 @@ def describe(seen: ChannelObservation, language: str = "en") -> str:
 def plan(intent: Intent, posed: Posed, sight: Sight, tools: Tools, *, progress: Progress = silent) -> Run:
     """Decide on what was posed; nothing is applied."""
     decision = chain.decide(sight.estimate, posed.problem, posed.cell, tools.method, **tools.method_options)
-    progress(Event(stage="decide", message=decided_line(decision, intent.language)))
+    progress(Event(stage="decide", message=decided_line(decision, intent.language), language=intent.language))
     made = report(decision)
     return Run(
         intent=intent,

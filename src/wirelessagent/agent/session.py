@@ -182,7 +182,7 @@ class Session:
             read = message(
                 intent.language, "stage.understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure
             )
-            self._progress(Event(stage="understand", message=read))
+            self._progress(Event(stage="understand", message=read, language=intent.language))
         talk = Talk(site=self._site, state=self._state, past=self._past, turns=self._turns, intent=intent, text=text)
         try:
             reply = waiting.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
@@ -291,6 +291,7 @@ class Session:
             tables=reply.tables,
             restored=reply.restored,
             error=reply.error,
+            faulty=reply.faulty,
             diff=difference(before.request, after.request),
             shift=shift_between(then, now),
         )

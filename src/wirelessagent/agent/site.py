@@ -85,7 +85,7 @@ class Site:
         """
         posed = pose(request, self.scene.cell, self.user_names, intent.language)
         for note in posed.notes:
-            self.progress(Event(stage="note", message=note))
+            self.progress(Event(stage="note", message=note, language=intent.language))
         tools = tools or self.tools_of(request)
         try:
             chain.check_solvable(posed.problem, tools.method)

@@ -138,6 +138,7 @@ class Reply:
         restored: what was read back after the last good allocation was put back.
         undone: how many requests were taken back; that can't itself be undone.
         error: what the reply tells of, where something could not be done.
+        faulty: whether what is in effect now is not as it was decided or promised.
     """
 
     decided: str = ""
@@ -150,6 +151,7 @@ class Reply:
     restored: Outcome | None = None
     undone: int = 0
     error: WirelessAgentError | None = None
+    faulty: bool = False
 
 
 def asked_back(question: str, state: State | None = None) -> Reply:

@@ -170,6 +170,7 @@ class Turn(Shown):
         tables: figures that belong to the reply.
         restored: what the base station read back after the last good allocation was put back; None where none was.
         error: what the reply tells of, where something could not be done.
+        faulty: whether what is in effect now is not as it was decided or promised, with nothing to go back to.
         diff: what the turn changed of what is asked for.
         shift: what it changed of the allocation that held; None where it decided nothing, or nothing held.
     """
@@ -188,6 +189,7 @@ class Turn(Shown):
     tables: tuple[Table, ...] = ()
     restored: Outcome | None = None
     error: WirelessAgentError | None = None
+    faulty: bool = False
     diff: Diff = field(default_factory=Diff)
     shift: Shift | None = None
 

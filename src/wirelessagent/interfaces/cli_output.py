@@ -15,6 +15,8 @@ import warnings
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
+from rich.cells import cell_len
+
 from wirelessagent.interfaces.cli_layout import output_width, tabled, wrapped
 from wirelessagent.operations.operation import Event, legible, written_out
 from wirelessagent.operations.record import Block, Files, Record, Table
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
 _BOLD, _STAGE_STYLE = "1", "1;36"
-_STAGE = 10
+_STAGE = 11
 """Columns for the names of stages."""
 
 
@@ -44,10 +46,10 @@ class Listener:
             self._bar.stop()
 
     def __call__(self, event: Event) -> None:
-        stage = legible(event.stage, keep="")
+        stage = legible(event.label, keep="")
         if not event.total:
             first, *more = wrapped(legible(event.message, keep=""), output_width() - _STAGE - 2)
-            print(f"{_styled(f'{stage:>{_STAGE}}', _STAGE_STYLE)}  {first}")  # noqa: T201
+            print(f"{' ' * (_STAGE - cell_len(stage))}{_styled(stage, _STAGE_STYLE)}  {first}")  # noqa: T201
             for line in more:
                 print(f"{'':{_STAGE}}  {line}")  # noqa: T201
             return

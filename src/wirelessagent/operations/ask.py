@@ -56,12 +56,13 @@ class AskRecord(Record):
     served: Table | None = Field(default=None, exclude=True)
     tables: list[Table] = Field(default_factory=list[Table], exclude=True)
     full: bool = Field(default=False, exclude=True)
+    faulty: bool = Field(False, description="whether what is in effect is not as it was decided or promised")
 
     @property
     def conclusion(self) -> Conclusion:
         if self.decision is None or self.waits:
             return "unclear"
-        return "failed" if self.stage == "reverted" else of_decision(self.decision.status)
+        return "failed" if self.faulty or self.stage == "reverted" else of_decision(self.decision.status)
 
     def blocks(self) -> list[Block]:
         said: list[Block] = [self.lines.said]
@@ -88,6 +89,7 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
         seed=request.seed,
         version=__version__,
         stored=stored,
+        faulty=turn.faulty,
         waits=session.state.awaits == "confirmation",
     )
     return record if turn.run is None else _with_run(record, request, turn, turn.run)

@@ -122,7 +122,7 @@ class TurnRecord(Record):
 def _came_to(turn: Turn, session: Session) -> Conclusion:
     if turn.stage == "asked" or session.state.awaits == "confirmation" or isinstance(turn.error, InputError):
         return "unclear"
-    if turn.error is not None or turn.stage == "reverted":
+    if turn.error is not None or turn.faulty or turn.stage == "reverted":
         return "failed"
     if turn.stage != "nothing" or turn.run is None:
         return "done"
