@@ -48,9 +48,8 @@ def reach_answer(case: Case, found: Reach | None, now: float, step: float, spent
 def _reached(case: Case, found: Reach, key: str, language: str, *, before_w: float, step: str = "") -> str:
     figure, target = value_name(case, language), human(found.target, case.decision.unit)
     if np.isnan(found.power_w):
-        return message(
-            language, "step.out_of_reach", figure=figure, target=target, step=step, power=human(found.tried_w, "W")
-        )
+        out = "step.out_of_reach" if step else "step.not_kept"
+        return message(language, out, figure=figure, target=target, step=step, power=human(found.tried_w, "W"))
     more = found.power_w - before_w
     said = message(
         language, key, figure=figure, target=target, step=step, power=human(found.power_w, "W"),
