@@ -85,7 +85,7 @@ def test_a_share_more_of_the_rate_is_told_in_watts() -> None:
         ("what can we promise at most?", 10.0, 0.05, "each of the 4 users"),
         ("最多能承诺多少?", 10.0, 0.05, "这 4 个用户每人"),
         ("最多能给每个人保证多少,不算3号", 10.0, 0.05, "这 3 个用户每人"),
-        ("how much can I promise user 3 with 5 W?", 5.0, 0.05, "user 3 with 5 W"),
+        ("how much can I promise user 3 with 5 W?", 5.0, 0.05, "With 5 W, user 3"),
     ],
 )
 def test_the_most_that_can_be_promised_is_solved_and_proven(said: str, power: float, outage: float, told: str) -> None:

@@ -82,7 +82,7 @@ def test_a_method_is_named_with_the_request() -> None:
 @pytest.mark.parametrize(
     ("said", "refusal", "able"),
     [
-        ("use the paper's method", "paper knows nothing of weights.", "For this there are: dual, exact, greedy."),
+        ("use the paper's method", "paper knows nothing of weights.", "Methods that can: dual, exact, greedy."),
         ("用论文的方法", "论文方法不支持权重。", "可用的方法：对偶法、精确法、贪心法。"),
     ],
 )
@@ -107,7 +107,7 @@ def test_what_a_method_would_make_of_it_is_compared_and_changes_nothing() -> Non
 
 def test_which_methods_there_are_is_told() -> None:
     _, turns = talk(HELD, "do it the paper's way", "which methods are there?", "有哪些方法?")
-    assert turns[2].reply.startswith("In use: paper. For this there are: dual, ")
+    assert turns[2].reply.startswith("In use: paper. Methods that can: dual, ")
     assert turns[3].reply.startswith("正在使用：论文方法。可用的方法：对偶法、")
 
 

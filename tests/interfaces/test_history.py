@@ -225,6 +225,30 @@ def test_history_show_tells_a_turn_and_checks_it(
     )
 
 
+def test_a_turn_is_shown_and_replayed_in_the_language_it_was_said_in(
+    place: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = ("总速率最高，功率不超过 10 W", "jetzt mit 5 W und mindestens 100 kbit/s für jeden Nutzer")
+    for sentence in said:
+        talked(capsys, sentence)
+    assert "记录" not in told(capsys, "history")
+    shown = told(capsys, "history", "show", 1)
+    for text in (
+        f"原话：{said[0]}",
+        "（已应用）",
+        "用户3",
+        "回读与决定一致：",
+        "已检查：本会话没有任何内容被更改或删除。",
+    ):
+        assert text in shown
+    assert "Decided" not in shown
+    assert "第 1 条：决定逐位相同，版本和平台相同" in told(capsys, "history", "replay", 1)
+    shown = told(capsys, "history", "show", 2)
+    for text in ("Gesagt: ", "Nutzer 3", "Geprüft: In dieser Sitzung wurde nichts geändert oder gelöscht."):
+        assert text in shown
+    assert " the " not in shown
+
+
 def test_history_replay_says_whether_it_is_the_same(
     place: Path, scene: wa.Scene, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -15,8 +15,9 @@ from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import acts_of
 from wirelessagent.model.units import human
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.reach import for_the_total, has_reach, reach
+from wirelessagent.telling.facts.reach import Reach, for_the_total, has_reach, reach
 from wirelessagent.telling.facts.steps import rate_step
+from wirelessagent.telling.step_effects import step_answer
 from wirelessagent.telling.text_table import Table
 
 CELL = wa.Cell(max_power_w=20)
@@ -71,6 +72,15 @@ def test_what_no_power_reaches_is_told() -> None:
     assert "out of reach" in told(case, "step", rate_bps=1e12)
     assert "nothing" in told(case, "step", rate_bps=-1e12)
     assert not has_reach(case_of("min_power", min_rate_bps=3e5))
+
+
+def test_what_no_power_keeps_is_told() -> None:
+    case = case_of("max_rate")
+    beyond = Reach(target=case.decision.value, power_w=np.nan, tried_w=1e5)
+    said = step_answer(case, rate_step(case, 1e5, 0), beyond, "en")
+    figure = human(case.decision.value, "bit/s")
+    assert f"The total rate cannot be kept at {figure}: not even 100 kW would do." in said
+    assert ", ," not in said
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])

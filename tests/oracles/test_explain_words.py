@@ -200,6 +200,16 @@ def test_terms_are_found_as_people_say_them() -> None:
         ("差距是什么", "界"),
     ):
         assert glossary.explained(asked, "zh").startswith(start), asked
+    for language, asked, start in (
+        ("de", "Was ist eine Schranke?", "Die Schranke"),
+        ("de", "was bedeutet Gesamtrate", "die höchste Gesamtrate: Die größte Summe"),
+        ("es", "¿Qué es una subportadora?", "Una subportadora"),
+        ("es", "¿qué significa interrupción?", "La probabilidad de interrupción"),
+        ("fr", "Qu’est-ce que l’écart ?", "La borne"),
+        ("fr", "que signifie krigeage ?", "La réparation"),
+    ):
+        assert glossary.explained(asked, language).startswith(start), asked
+    assert glossary.explained("les canaux écartés", "fr") == "", "écart is no part of another word"
     assert glossary.explained("what is the weather like", "en") == ""
     assert glossary.explained("once again upfront", "en") == ""
 

@@ -25,6 +25,7 @@ from wirelessagent.store.export import exported
 from wirelessagent.store.plain import canonical
 from wirelessagent.store.rebuilt import decision_of, outcome_of
 from wirelessagent.store.stored import StoredTurn, number_of
+from wirelessagent.telling.catalogue import has_message, message
 from wirelessagent.telling.certificates import summary_line
 from wirelessagent.telling.report import report
 from wirelessagent.telling.tables import decision_tables
@@ -171,45 +172,57 @@ def _clipped(text: str) -> str:
 
 
 def _said(turn: StoredTurn) -> Iterator[Block]:
-    yield f"Turn {turn.number}, turn {turn.turn} of the session {turn.session}, {turn.at_utc} ({turn.stage})"
-    yield f"Said: {turn.text}"
-    intent = turn.intent
+    language, intent = _language(turn), turn.intent
+    stage = message(language, f"came_to.{turn.stage}") if has_message("en", f"came_to.{turn.stage}") else turn.stage
+    yield message(
+        language, "history.head", number=turn.number, turn=turn.turn, session=turn.session, at=turn.at_utc, stage=stage
+    )
+    yield message(language, "history.said", text=turn.text)
     parts = (intent["kind"], intent["topic"], intent["objective"], canonical(intent["constraints"] or None))
     meant = ", ".join(part for part in parts if part not in (None, "null"))
-    yield f"Understood by {turn.recogniser}, {intent['confidence']:.0%} sure: {meant}"
-    yield tuple(f"Replied: {turn.reply}".split("\n"))
+    sure = f"{intent['confidence']:.0%}"
+    yield message(language, "history.understood", recogniser=turn.recogniser, sure=sure, meant=meant)
+    yield tuple(message(language, "history.replied", reply=turn.reply).split("\n"))
+
+
+def _language(turn: StoredTurn) -> str:
+    """The operator's, as it was read then."""
+    return str(turn.intent.get("language", "en"))
 
 
 def _decided(store: Store, turn: StoredTurn) -> Iterator[Block]:
     """The decision as it was told then."""
     if turn.estimate is None:
         return
-    estimate = estimate_of(store.content(turn.estimate))
+    language, estimate = _language(turn), estimate_of(store.content(turn.estimate))
     decision, outcome = decision_of(turn, estimate.user_names), outcome_of(turn)
-    yield summary_line(decision)
-    yield from decision_tables(report(decision, outcome), estimate)
-    yield from (f"Note: {note}" for note in turn.notes or ())
+    yield summary_line(decision, language)
+    yield from decision_tables(report(decision, outcome), estimate, language)
+    yield from (message(language, "text.note", note=note) for note in turn.notes or ())
     yield tuple(turn.explanation or ())
     if outcome is not None:
         pairs = ((outcome.owner, decision.owner), (outcome.power_w, decision.power_w))
-        found = "as decided" if all(np.array_equal(*pair) for pair in pairs) else "other than decided"
-        yield f"Applied by {outcome.base_station}; read back {found}: {human(float(outcome.power_w.sum()), 'W')}"
+        key = "history.as_decided" if all(np.array_equal(*pair) for pair in pairs) else "history.otherwise"
+        yield message(language, key, station=outcome.base_station, power=human(float(outcome.power_w.sum()), "W"))
     if turn.restored is not None:
         power = human(float(np.sum(turn.restored["power_w"])), "W")
-        yield f"Put back by {turn.restored['base_station']}, what was in effect before: {power}"
+        yield message(language, "history.put_back", station=turn.restored["base_station"], power=power)
 
 
 def _kept(turn: StoredTurn, faults: list[str]) -> Iterator[Block]:
     """How the turn is kept, and whether it still is what it was."""
+    language = "en"
     if turn.is_whole:
-        yield _seal(turn)
-    yield "Checked: nothing in this session was changed or removed." if not faults else "WARNING: " + "; ".join(faults)
+        language = _language(turn)
+        yield _seal(turn, language)
+    yield message(language, "history.changed" if faults else "history.unchanged", faults="; ".join(faults))
 
 
-def _seal(turn: StoredTurn) -> Block:
+def _seal(turn: StoredTurn, language: str) -> Block:
+    platform = ", ".join(f"{part} {version}" for part, version in turn.platform.items())
     return (
-        f"Seed {turn.seed}, wirelessagent {turn.version}, {', '.join(f'{a} {b}' for a, b in turn.platform.items())}",
-        f"Hash {turn.hash}",
+        message(language, "history.setting", seed=turn.seed, version=turn.version, platform=platform),
+        message(language, "history.hash", hash=turn.hash),
     )
 
 
@@ -223,20 +236,24 @@ class ReplayRecord(Record):
     differences: list[str]
     decision: DecisionAnswer
     certificate: str = Field(exclude=True)
+    language: str = Field(exclude=True)
 
     @property
     def conclusion(self) -> Conclusion:
         return "failed" if self.verdict == "different" else "done"
 
     def blocks(self) -> list[Block]:
-        said: list[Block] = [f"Turn {self.number}: {self.summary}", *self.differences]
-        return [*said, self.certificate]
+        found = message(self.language, f"history.{self.verdict}")
+        setting = message(self.language, "history.same_setting" if self.same_setting else "history.other_setting")
+        head = message(self.language, "history.replayed", number=self.number, verdict=found, setting=setting)
+        return [head, *self.differences, self.certificate]
 
 
 def replay_turn(request: TurnRequest, progress: Progress) -> ReplayRecord:
     del progress
     with opened(request) as store:
         replay = store.replay(request.number)
+    language = _language(replay.turn)
     return ReplayRecord(
         number=request.number,
         verdict=replay.verdict,
@@ -244,7 +261,8 @@ def replay_turn(request: TurnRequest, progress: Progress) -> ReplayRecord:
         summary=replay.summary,
         differences=list(replay.differences),
         decision=DecisionAnswer.of(replay.decision),
-        certificate=summary_line(replay.decision),
+        certificate=summary_line(replay.decision, language),
+        language=language,
     )
 
 

@@ -1,7 +1,7 @@
 """All that the agent says, by key: one file of messages for each language, and one function that says them.
 
-``messages/<language>.toml`` holds sentences with ``{place}`` fields, in tables by topic. English has every message;
-another language may have some of them only, and the rest is said in English. A language more is one more file.
+``messages/<language>.toml`` holds sentences with ``{place}`` fields, in tables by topic, all of them in each language.
+A language more is one more file; what it does not have yet is said in English.
 """
 
 from __future__ import annotations

@@ -23,6 +23,9 @@ _FIGURES = {
     "fairness_index": "jain_index",
 }
 """Terms that name a figure of a report."""
+_CHINESE = re.compile("[\u4e00-\u9fff]")
+_LETTER = "[a-z0-9\u00df-\u024f]"
+"""What goes on with a word in European languages; a Chinese character beside it does not."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,9 +43,14 @@ class Entry:
         meaning = message(language, key) if has_message(language, key) else self.summary
         if one is None:
             return meaning
-        spoken = one.name if language == "en" else next(iter(one.phrases.get(language, ())), one.name)
+        spoken = one.name if language == "en" else next(iter(one.phrases.get(language, ())), self._goal(language))
         unit = message(language, "term.unit", unit=one.unit) if one.unit else ""
         return message(language, "term.objective", objective=spoken, meaning=meaning) + unit
+
+    def _goal(self, language: str) -> str:
+        """What an objective without a phrase in the language is called; its registered name where nothing else is."""
+        key = f"goal.{self.key}"
+        return message(language, key) if has_message(language, key) else self.key
 
 
 def explained(text: str, language: str) -> Said:
@@ -113,11 +121,12 @@ def _within(one: tuple[int, int, Entry], other: tuple[int, int, Entry]) -> bool:
 
 
 def _plain(text: str) -> str:
-    """Without case, accents of width, hyphens and underscores."""
-    return re.sub(r"[\s_\-–]+", " ", unicodedata.normalize("NFKC", text).casefold()).strip()
+    """Without case, accents of width, curled apostrophes, hyphens and underscores."""
+    plain = unicodedata.normalize("NFKC", text).casefold().replace("’", "'")
+    return re.sub(r"[\s_\-–]+", " ", plain).strip()
 
 
 def _places(said: str, name: str) -> list[int]:
     """Where a name stands as a word of its own, or as Chinese characters; a plural is the same word."""
-    edge = r"(?<![a-z0-9]){}(?:s|es)?(?![a-z0-9])" if name.isascii() else "{}"
+    edge = "{}" if _CHINESE.search(name) else f"(?<!{_LETTER}){{}}(?:s|es)?(?!{_LETTER})"
     return [match.start() for match in re.finditer(edge.format(re.escape(name)), said)]

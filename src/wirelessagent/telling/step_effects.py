@@ -50,7 +50,7 @@ def more_answer(
 
 def _stepped(case: Case, step: Step, language: str) -> str:
     usable = step.before.is_usable and step.after.is_usable
-    return _step_answer(case, step, kept_by(case, step) if usable else None, language)
+    return step_answer(case, step, kept_by(case, step) if usable else None, language)
 
 
 def _more_rate(case: Case, language: str, rate_bps: float | None, share: float | None) -> str:
@@ -76,7 +76,7 @@ def _more(case: Case, now: float, step: float, spent_w: float, language: str) ->
     return _reach_answer(case, found, now, step, spent_w, language)
 
 
-def _step_answer(case: Case, step: Step, kept: Reach | None, language: str) -> str:
+def step_answer(case: Case, step: Step, kept: Reach | None, language: str) -> str:
     """What a step changes, and what power would keep the value, in a paragraph."""
     before, after = step.before, step.after
     said: list[str] = []
@@ -109,9 +109,8 @@ def _reach_answer(case: Case, found: Reach | None, now: float, step: float, spen
 def _reached(case: Case, found: Reach, key: str, language: str, *, before_w: float, step: str = "") -> str:
     figure, target = value_name(case.decision, language), human(found.target, case.decision.unit)
     if np.isnan(found.power_w):
-        return message(
-            language, "step.out_of_reach", figure=figure, target=target, step=step, power=human(found.tried_w, "W")
-        )
+        out = "step.out_of_reach" if step else "step.not_kept"
+        return message(language, out, figure=figure, target=target, step=step, power=human(found.tried_w, "W"))
     more = found.power_w - before_w
     said = message(
         language, key, figure=figure, target=target, step=step, power=human(found.power_w, "W"),
