@@ -12,14 +12,14 @@ from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.dialogue import applied
 from wirelessagent.agent.recalling import is_same, no_decision, turn_of
 from wirelessagent.agent.refusing import RefusedError
-from wirelessagent.agent.restating import goal_words, notes
+from wirelessagent.agent.restating import notes
 from wirelessagent.agent.state import Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
 from wirelessagent.language.acts import Act, Aim, CompareLast, CompareRequests, CompareTools, CompareTurns, Limit
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import called, joined, lines_of, listed, message
 from wirelessagent.telling.certificates import certificate_line
-from wirelessagent.telling.parts import name_of_figure, outcome_in_words
+from wirelessagent.telling.parts import goal_words, name_of_figure, outcome_in_words
 from wirelessagent.telling.reasons import power_in_words, reason_in_words
 from wirelessagent.telling.text_table import Table
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from wirelessagent import chain, plugins
-from wirelessagent.agent.restating import goal_words
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.problem import Problem
 from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.parts import goal_words
 
 
 class RefusedError(UnsupportedProblemError):

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from wirelessagent import plugins
 from wirelessagent.agent.dialogue import Diff, Request, constraints_of
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY
 from wirelessagent.agent.turn import Run, Shift
 from wirelessagent.language.restating import figure_in_words, limits_in_words
 from wirelessagent.model.units import human, reliability
-from wirelessagent.telling.catalogue import called, has_message, joined, message
+from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.parts import goal_words
 
 
 def restated(request: Request, language: str = "en") -> str:
@@ -25,14 +25,6 @@ def restated(request: Request, language: str = "en") -> str:
         by = message(language, "request.by_method", method=called(language, request.method))
         limits = message(language, "text.between").join(part for part in (limits, by) if part)
     return message(language, "request.whole" if limits else "request.aim_alone", goal=said, limits=limits)
-
-
-def goal_words(objective: str, language: str) -> str:
-    """What an objective is called: in the built-in words, else by its own first phrase."""
-    own = plugins.objective(objective).phrases
-    spoken = own.get(language) or own.get("en") or next(iter(own.values()), (objective.replace("_", " "),))
-    key = f"goal.{objective}"
-    return message(language, key) if has_message(language, key) else spoken[0]
 
 
 def notes(run: Run, *, noted: bool, before: Sequence[str] = ()) -> list[str]:

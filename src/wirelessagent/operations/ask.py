@@ -18,6 +18,7 @@ from wirelessagent.operations.record import Block, Conclusion, Files, Matrix, Re
 from wirelessagent.operations.recording import RecordingOptions
 from wirelessagent.operations.site_options import SiteOptions
 from wirelessagent.operations.turn_record import LinesAnswer, OutcomeAnswer
+from wirelessagent.telling.catalogue import message
 
 if TYPE_CHECKING:
     from wirelessagent.agent.turn import Run, Turn
@@ -66,14 +67,16 @@ class AskRecord(Record):
 
     def blocks(self) -> list[Block]:
         said: list[Block] = [self.lines.said]
+        language = self.intent.language
         if self.full:
-            said += [*self.tables, *(f"Note: {note}" for note in self.notes), tuple(self.explanation)]
+            notes = (message(language, "text.note", note=note) for note in self.notes)
+            said += [*self.tables, *notes, tuple(self.explanation)]
         elif self.served is not None:
             said.append(self.served)
         if self.waits:
-            said.append("--yes applies it.")
-        files = (("allocation written to", self.out), ("picture written to", self.plot))
-        return [*said, *(Files(done, (path,)) for done, path in files if path is not None)]
+            said.append(message(language, "written.yes"))
+        files = (("allocation", self.out), ("picture", self.plot))
+        return [*said, *(Files(message(language, f"written.{what}"), (path,)) for what, path in files if path)]
 
 
 def run(request: AskRequest, progress: Progress) -> AskRecord:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from wirelessagent import plugins
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.catalogue import has_message, message
 
 
 def name_of_figure(decision: Decision, language: str = "en") -> str:
@@ -22,6 +23,14 @@ def name_of_figure(decision: Decision, language: str = "en") -> str:
         return message(language, "label.weighted_energy_efficiency")
     total = (objective.measure, decision.unit) == ("utility", "bit/s")
     return message(language, "label.weighted_total_rate") if total else ""
+
+
+def goal_words(objective: str, language: str) -> str:
+    """What an objective is called: in the built-in words, else by its own first phrase."""
+    own = plugins.objective(objective).phrases
+    spoken = own.get(language) or own.get("en") or next(iter(own.values()), (objective.replace("_", " "),))
+    key = f"goal.{objective}"
+    return message(language, key) if has_message(language, key) else spoken[0]
 
 
 def value_name(decision: Decision, language: str) -> str:
