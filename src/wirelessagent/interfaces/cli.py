@@ -108,7 +108,7 @@ def _perform(operation: AnyOperation, values: dict[str, Any], as_json: bool) -> 
     elif as_json:
         show_json(record.model_dump_json(indent=2))
     else:
-        show(record)
+        show(record, after_stages=listener.told)
     return exit_code(record)
 
 

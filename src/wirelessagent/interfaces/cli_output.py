@@ -30,9 +30,10 @@ _STAGE = 11
 
 
 class Listener:
-    """Shows the stages of an operation as they happen, and a bar for counted work."""
+    """Shows the stages of an operation as they happen, and a bar for counted work; ``told`` once it showed one."""
 
     def __init__(self) -> None:
+        self.told = False
         self._bar: Any = None
         self._tasks: dict[str, TaskID] = {}
 
@@ -48,6 +49,7 @@ class Listener:
     def __call__(self, event: Event) -> None:
         stage = legible(event.label, keep="")
         if not event.total:
+            self.told = True
             first, *more = wrapped(legible(event.message, keep=""), output_width() - _STAGE - 2)
             print(f"{' ' * (_STAGE - cell_len(stage))}{_styled(stage, _STAGE_STYLE)}  {first}")  # noqa: T201
             for line in more:
@@ -125,12 +127,16 @@ def _warn(message: Warning | str, category: type[Warning], *_: object) -> None:
     complain(f"{category.__name__}: {message}")
 
 
-def show(record: Record) -> None:
+def show(record: Record, *, after_stages: bool = False) -> None:
     """Print a record's paragraphs, tables and files, within the width of the output."""
-    width = output_width()
+    width, last = output_width(), ""
+    if after_stages:
+        print()  # noqa: T201
     for block in record.blocks():
-        for line in _lines(block, width):
+        apart = [""] if isinstance(block, Table) and last else []
+        for line in [*apart, *_lines(block, width)]:
             print(line)  # noqa: T201
+            last = line
 
 
 def _lines(block: Block, width: int) -> list[str]:
