@@ -79,7 +79,10 @@ def test_python_blocks_run_in_order(page: Path, folder: Path, namespace: types.M
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if commands(page)], ids=lambda page: page.name)
-def test_commands_run_in_order(page: Path, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_commands_run_in_order(
+    page: Path, folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("WIRELESSAGENT_STORE_URL", str(folder / "audit.sqlite3"))  # of which turn 1 is the page's
     for command in commands(page):
         _, *arguments = shlex.split(command, comments=True)
         if arguments[0] not in SLOW:

@@ -14,7 +14,7 @@ class Event:
     """Something that just happened.
 
     Attributes:
-        stage: "read", "understand", "sense", "repair", "decide", "act" or the name of a piece of long work.
+        stage: "read", "understand", "note", "sense", "repair", "decide", "act" or the name of a piece of long work.
         message: one sentence for the user.
         done, total: how far counted work has come; both 0 where nothing is counted.
         language: of the message.

@@ -18,10 +18,13 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError, UnclearRequestError
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.units import human, reliability
-from wirelessagent.telling.catalogue import called, message
+from wirelessagent.telling.catalogue import Said, called, message
 
 ASSUMED_OUTAGE_PROBABILITY = 0.05
 """Accepted where rates are promised and nobody named a probability: promised as estimated, half of them would fail."""
+
+ABOVE_THE_LIMIT = "assumed.above_the_limit"
+"""The key of the note that a limit was asked for beyond the cell's own."""
 
 _UNNAMED: Mapping[str, float] = {"min_rate_bps": 0.0, "max_rate_bps": np.inf, "weights": 1.0}
 """What holds for users who are not named in figures by user."""
@@ -35,7 +38,7 @@ class Posed:
 
     problem: Problem
     cell: Cell
-    notes: tuple[str, ...]
+    notes: tuple[Said, ...]
 
 
 class UnknownUserError(UnclearRequestError):
@@ -69,7 +72,7 @@ class _Posing:
         self._request, self._cell, self._names, self._language = request, cell, user_names, language
         self._given: dict[str, Constraint] = dict(request.constraints)
         self._objective = plugins.objective(request.objective)
-        self._notes: dict[str, None] = {}
+        self._notes: dict[Said, None] = {}
 
     def posed(self) -> Posed:
         circuit_power_w = self._given.pop("circuit_power_w", None)
@@ -94,7 +97,7 @@ class _Posing:
             raise UnclearRequestError(self._say("ask_back.impossible", why=error)) from error
         return Posed(problem=problem, cell=self._cell, notes=tuple(self._notes))
 
-    def _say(self, key: str, **names: object) -> str:
+    def _say(self, key: str, **names: object) -> Said:
         return message(self._language, key, **names)
 
     def _note(self, key: str, **names: object) -> None:
@@ -105,7 +108,7 @@ class _Posing:
         limit = self._cell.max_power_w
         if asked is not None and asked > limit:
             self._given["max_power_w"] = limit
-            self._note("assumed.above_the_limit", asked=human(asked, "W"), limit=human(limit, "W"))
+            self._note(ABOVE_THE_LIMIT, asked=human(asked, "W"), limit=human(limit, "W"))
 
     def _check_rates(self) -> None:
         if self._objective.measure != "power":

@@ -11,8 +11,8 @@ from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent import acting
 from wirelessagent.agent.dialogue import Request
-from wirelessagent.agent.events import Progress
-from wirelessagent.agent.posing import pose
+from wirelessagent.agent.events import Event, Progress
+from wirelessagent.agent.posing import ABOVE_THE_LIMIT, pose
 from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.run import Sight, look, plan, station_of, with_outcome
 from wirelessagent.agent.tools import Tools
@@ -84,6 +84,9 @@ class Site:
             RefusedError: the method does not solve it; the message is for the operator.
         """
         posed = pose(request, self.scene.cell, self.user_names, intent.language)
+        for note in posed.notes:
+            if note.key == ABOVE_THE_LIMIT:  # contradicts what was asked, which nobody should have to wait for
+                self.progress(Event(stage="note", message=note, language=intent.language))
         tools = tools or self.tools_of(request)
         try:
             chain.check_solvable(posed.problem, tools.method)
