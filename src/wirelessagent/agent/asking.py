@@ -50,7 +50,7 @@ from wirelessagent.telling.remedies import feasible_answer, nearest_answer
 from wirelessagent.telling.report import Report
 from wirelessagent.telling.roster import gain_answer, owner_answer, rank_answer, subcarriers_answer
 from wirelessagent.telling.step_effects import more_answer
-from wirelessagent.telling.tables import user_table
+from wirelessagent.telling.tables import served_table, user_table
 from wirelessagent.telling.text_table import Table
 from wirelessagent.telling.user_account import newcomer_answer, share_answer, user_answer
 
@@ -91,10 +91,9 @@ class Asked:
         """
         return user_number(reference, self.case.estimate.user_names, self.language)[0]
 
-    def table(self, user: int | None = None) -> Table:
-        """What the users get, or one of them."""
-        users = user_table(self.report, self.case.estimate, self.language)
-        return users if user is None else dataclasses.replace(users, rows=(users.rows[user],))
+    def served(self) -> tuple[Table, ...]:
+        """What the users get who are served."""
+        return (served_table(self.report, self.language),)
 
     def explained(self) -> list[str]:
         """The decision in words."""
@@ -216,7 +215,9 @@ def _proof(asked: Asked, act: AskProof) -> Answer:
 
 def _certainty(asked: Asked, act: AskCertainty) -> Answer:
     del act
-    return uncertainty_answer(asked.case, asked.language), (asked.table(),)
+    return uncertainty_answer(asked.case, asked.language), (
+        user_table(asked.report, asked.case.estimate, asked.language),
+    )
 
 
 def _prices(asked: Asked, act: AskPrices) -> Answer:
@@ -232,23 +233,23 @@ def _users(asked: Asked, act: AskUsers) -> Answer:
     case, language = asked.case, asked.language
     if act.user is not None:
         user = asked.user(act.user)
-        return share_answer(case, user, language), (asked.table(user),)
+        row = user_table(asked.report, case.estimate, language)
+        return share_answer(case, user, language), (dataclasses.replace(row, rows=(row.rows[user],)),)
     contests = contested_table(case, contested(case), language)
-    tables = (asked.table(), *(() if contests is None else (contests,)))
-    return asked.explained()[0], tables
+    return asked.explained()[0], (*asked.served(), *(() if contests is None else (contests,)))
 
 
 def _rank(asked: Asked, act: AskRank) -> Answer:
-    return rank_answer(asked.case, act.rank, act.of, asked.language), (asked.table(),)
+    return rank_answer(asked.case, act.rank, act.of, asked.language), asked.served()
 
 
 def _subcarriers(asked: Asked, act: AskSubcarriers) -> Answer:
     user = None if act.user is None else asked.user(act.user)
-    return subcarriers_answer(asked.case, user, asked.language), (asked.table(user),)
+    return subcarriers_answer(asked.case, user, asked.language), asked.served() if user is None else ()
 
 
 def _owner(asked: Asked, act: AskOwner) -> Answer:
-    return owner_answer(asked.case, act.subcarrier, asked.language), (asked.table(),)
+    return owner_answer(asked.case, act.subcarrier, asked.language)
 
 
 def _gain(asked: Asked, act: AskGain) -> Answer:
