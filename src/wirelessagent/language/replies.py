@@ -30,10 +30,6 @@ class Voice:
         }
         return message(self.language, f"reply.{key}", **(given | places))
 
-    def ending(self, key: str, **places: str) -> str:
-        """How the reply of this key ends, behind the operator's own words in it."""
-        return self.say(key, text="\0", **places).partition("\0")[2]
-
     def choices(self, last: str = "or", *, without: str = "") -> str:
         """The objectives on offer, "a, b or c"."""
         return self.both([name for name in self.labels if name != without], last)

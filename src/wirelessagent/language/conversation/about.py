@@ -155,8 +155,9 @@ def given_instead(line: Line, intent: Intent) -> Intent:
 def _without_the_aim(line: Line, understood: Intent) -> Intent | None:
     """The same question back without the aim; None where it does not ask for it."""
     voice = line.voice
-    if line.users and understood.reply.endswith(voice.ending("named_user")):
-        return dataclasses.replace(understood, reply=voice.say("what_of_user", users=voice.users(line.users)))
-    if understood.reply == voice.say("unclear"):
-        return dataclasses.replace(understood, reply=voice.say("what_changes"))
+    if line.users and understood.asks == "named_user":
+        reply = voice.say("what_of_user", users=voice.users(line.users))
+        return dataclasses.replace(understood, reply=reply, asks="what_of_user")
+    if understood.asks == "unclear":
+        return dataclasses.replace(understood, reply=voice.say("what_changes"), asks="what_changes")
     return None

@@ -43,17 +43,9 @@ def made_certain(line: Line, intent: Intent, text: str) -> Intent:
     """
     if not intent.recogniser.startswith(NAME):
         return intent
-    questions = {
-        topic: line.voice.say("unsure_command", text=line.voice.say(f"command.{topic}")) for topic in _CHANGING
-    }
     if intent.kind == "command" and intent.topic in _CHANGING and not is_only_a_command(text):
-        return (
-            line.ask("what_changes")
-            if _names_none(line, text)
-            else line.ask("unsure_command", text=line.voice.say(f"command.{intent.topic}"))
-        )
-    asks = intent.kind == "clarify" and intent.reply in questions.values()
-    return line.ask("what_changes") if asks and _names_none(line, text) else intent
+        return line.ask("what_changes") if _names_none(line, text) else line.ask_whether(intent.topic)
+    return line.ask("what_changes") if intent.offered in _CHANGING and _names_none(line, text) else intent
 
 
 def _names_none(line: Line, text: str) -> bool:

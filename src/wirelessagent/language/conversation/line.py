@@ -93,7 +93,12 @@ class Line:
 
     def ask(self, key: str, pending: Mapping[str, Constraint] | None = None, /, **names: str) -> Intent:
         """A question back, whose answer may use what is pending."""
-        return self._intent("clarify", self.voice.say(key, **names), pending=pending or {})
+        return self._intent("clarify", self.voice.say(key, **names), pending=pending or {}, asks=key)
+
+    def ask_whether(self, topic: str) -> Intent:
+        """The question of yes or no whether a command was meant."""
+        said = self.voice.say("unsure_command", text=self.voice.say(f"command.{topic}"))
+        return self._intent("clarify", said, offered=topic, asks="unsure_command")
 
     def _intent(self, kind: IntentKind, reply: str, **fields: Any) -> Intent:
         given: dict[str, Any] = {
