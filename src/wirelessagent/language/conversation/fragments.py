@@ -28,8 +28,8 @@ from wirelessagent.language.acts import (
     Whom,
     acts_of,
 )  # fmt: skip
-from wirelessagent.language.conversation.fragment_tokens import Token, speaks_of_one, tokens_of
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.tokens import Token, speaks_of_one, tokens_of
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import Quantity, parse_quantities

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import functools
 import re
-import tomllib
-import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import cast
 
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.quantities import Quantity, parse_quantities
-from wirelessagent.language.text import CJK, languages_of, normalise
-
-_WORDS = Path(__file__).parents[1] / "fragment_words"
+from wirelessagent.language.text import CJK, languages_of, normalise, unaccented
+from wirelessagent.language.word_tables import table
 
 _CLASS = {"power": "figure", "rate": "figure"}
 """What a figure with a unit is called, beside nouns."""
@@ -102,8 +98,8 @@ def _segmented(plain: str, spans: Mapping[int, tuple[int, Token]], language: str
 
 
 def _unmarked(text: str) -> str:
-    """The text without marks on its letters, which quick fingers leave out: each letter stays one."""
-    return "".join(unicodedata.normalize("NFD", letter)[:1] for letter in text)
+    """The text without marks on its letters; as many letters as before."""
+    return "".join(unaccented(letter)[:1] or letter for letter in text)
 
 
 def _is_whole(plain: str, start: int, end: int) -> bool:
@@ -116,12 +112,11 @@ def _is_whole(plain: str, start: int, end: int) -> bool:
 @functools.cache
 def _table(language: str) -> tuple[Mapping[str, Token], int]:
     """The words of a language with their classes, and the length of the longest."""
-    text = (_WORDS / f"{language}.toml").read_text("utf-8")
-    table = tomllib.loads(text)
-    factors = cast("dict[str, float]", table.pop("factors"))
+    listed = table("fragment_words", language)
+    factors = cast("dict[str, float]", listed["factors"])
     classes: dict[str, set[str]] = {}
-    for name, words in table.items():
-        for word in cast("list[str]", words):
+    for name in listed.keys() - {"factors"}:
+        for word in cast("list[str]", listed[name]):
             classes.setdefault(_unmarked(word), set()).add(name)
     factors = {_unmarked(word): factor for word, factor in factors.items()}
     for word in factors:
