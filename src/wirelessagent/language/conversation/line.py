@@ -1,10 +1,14 @@
 """One line of a conversation as its shape: "@" for the users it names, "#" for its figures, the words as they are.
 
-``User 2's rate: 1 Mbit/s`` has the shape ``@'s rate: #``, so that one pattern reads every user and every figure.
+``User 2's rate: 1 Mbit/s`` has the shape ``@'s rate: #``, so that one pattern reads every user and every figure. What a
+shape says is told by forms, as data by language (``talk_forms/<language>.toml``): one that has Chinese in it by the
+Chinese ones, every other by the English ones.
 """
 
 from __future__ import annotations
 
+import functools
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -16,8 +20,9 @@ from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Voice
-from wirelessagent.language.sentence import labels_of, own_words
-from wirelessagent.language.text import language_of, normalise
+from wirelessagent.language.sentence import Sentence, labels_of, own_words
+from wirelessagent.language.text import has_chinese, language_of, normalise
+from wirelessagent.language.word_tables import table, written
 
 NAME = READ_IN_A_TALK
 _WORD = deferred(r"[^\W\d_]{3,}")
@@ -25,6 +30,45 @@ _POLITE = deferred(
     r"^(?:(?:(?:ok(?:ay)?|please|hey|well|then|so|now|and|(?:could|can|would|will) you|let's|let us)\b|请|"
     r"麻烦(?:你|您)?|帮我|那就?)[,，\s]*)+(?=\S)|[,，\s]*(?:please|thanks|thank you|谢谢|吧|了吧)?[\s.!。！~]*$"
 )
+
+
+@functools.cache
+def form(name: str, language: str) -> tuple[re.Pattern[str], ...]:
+    """The patterns of a form."""
+    patterns = table("talk_forms", language)["forms"][name]
+    return tuple(re.compile(written("talk_forms", language, pattern)) for pattern in patterns)
+
+
+def is_all(name: str, said: str) -> re.Match[str] | None:
+    """The match of a form that is all that is said."""
+    found = (pattern.fullmatch(said) for pattern in form(name, _language(said)))
+    return next((match for match in found if match is not None), None)
+
+
+def begins(name: str, said: str) -> re.Match[str] | None:
+    """The match of a form that what is said begins with."""
+    found = (pattern.match(said) for pattern in form(name, _language(said)))
+    return next((match for match in found if match is not None), None)
+
+
+def has(name: str, said: str) -> re.Match[str] | None:
+    """The first match of a form in what is said.
+
+    >>> has("promise", "what can we promise?") is None, has("promise", "10 W") is None
+    (False, True)
+    """
+    found = (pattern.search(said) for pattern in form(name, _language(said)))
+    return next((match for match in found if match is not None), None)
+
+
+def _language(said: str) -> str:
+    return "zh" if has_chinese(said) else "en"
+
+
+def group(match: re.Match[str], *names: str) -> str:
+    """What the first of these groups, or of all, that took part holds; "" where none did."""
+    groups = match.groupdict()
+    return next((groups[name] for name in names or groups if groups.get(name)), "")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,6 +79,7 @@ class Line:
         text: what was said.
         shape: the same in lower case with "@" for named users and "#" for rates and powers.
         wish: the shape without the words of politeness around it.
+        said: the wish without the stop or the question mark at its end.
         users: the references of the users named, in their order.
         figures: the rates and powers, in their order.
         context: what the line may refer to.
@@ -66,6 +111,16 @@ class Line:
             text=text, shape=shape, wish=_POLITE.sub("", shape), users=users, figures=figures, context=context,
             voice=Voice(language, labels_of(own_words(), language)),
         )  # fmt: skip
+
+    @property
+    def said(self) -> str:
+        return self.wish.rstrip("?.。! ")
+
+    @property
+    def sentence(self) -> Sentence:
+        """The line as those who read sentences see it."""
+        context = self.context
+        return Sentence(self.text, own_words(), names=context.user_names, max_power_w=context.max_power_w)
 
     def allocate(
         self, objective: str, constraints: Mapping[str, Constraint], *, amends: bool, dropped: tuple[str, ...] = (),

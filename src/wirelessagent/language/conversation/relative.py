@@ -9,13 +9,20 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from wirelessagent.language.conversation.amendments import BESIDE, CORRECTING, CORRECTS
 from wirelessagent.language.conversation.amounts import Amount, with_amount
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.recogniser import Context
 
+CORRECTING = (
+    r"(?:nope|no|sorry|oops|wait|hmm|actually|rather|instead|i\s+(?:meant|mean|said)|correction|make\s+(?:it|that|this)|"
+    r"(?:it|that|this)\s+(?:should|must)\s+be|should\s+(?:be|have\s+been)|change\s+(?:it|that|this)\s+to|"
+    r"(?:it's|that's|it\s+is|that\s+is|that\s+was)|不对|不是|不|说错了|搞错了|错了|其实|我是说|我说的是|我的意思是|我是指|"
+    "我指的是|应该是|应当是|应该|改成|改为|换成|抱歉|对不起|更正)"
+)
+BESIDE = r"(?:for|to|the|one|of|be|与|给|的|是|[,，\s])"
+CORRECTS = deferred(CORRECTING)
 _OWN = r"(?:(?:the|our|its|their|my|all|of|every(?:one|body)(?:'s)?|each|users?'?|@'?s?|for|this|that)\s+)*+"
 _POWER = (
     rf"{_OWN}(?:(?:total|transmit(?:ted)?|tx|radiated|maximum|max)\s+)*(?:power|budget|wattage)"

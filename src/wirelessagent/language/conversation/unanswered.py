@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from wirelessagent.language.conversation.line import Line
-from wirelessagent.language.conversation.reports import is_report
+from wirelessagent.language.conversation.line import Line, has
 from wirelessagent.language.excess import too_many_figures
 from wirelessagent.language.followups import merged
 from wirelessagent.language.intent import Constraint, Intent
@@ -60,3 +59,10 @@ def _users_of(value: Constraint) -> tuple[str, ...]:
     if isinstance(value, tuple):
         return value
     return tuple(value) if isinstance(value, Mapping) else ()
+
+
+def is_report(line: Line) -> bool:
+    """Whether a line only states what was or what somebody says, with no word that asks for anything."""
+    said = line.shape
+    tells = has("past", said) or (has("reported", said) and has("states", said))
+    return tells is not None and not has("directs", said)
