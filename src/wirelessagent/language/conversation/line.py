@@ -25,6 +25,7 @@ from wirelessagent.language.text import has_chinese, language_of, normalise
 from wirelessagent.language.word_tables import table, written
 
 NAME = READ_IN_A_TALK
+_ASKED = deferred(r"[?？]\s*$|[呢吗]\s*[?？]?\s*$")
 _WORD = deferred(r"[^\W\d_]{3,}")
 _POLITE = deferred(
     r"^(?:(?:(?:ok(?:ay)?|please|hey|well|then|so|now|and|(?:could|can|would|will) you|let's|let us)\b|请|"
@@ -115,6 +116,10 @@ class Line:
     @property
     def said(self) -> str:
         return self.wish.rstrip("?.。! ")
+
+    @property
+    def is_asked(self) -> bool:
+        return _ASKED.search(self.text) is not None
 
     @property
     def sentence(self) -> Sentence:

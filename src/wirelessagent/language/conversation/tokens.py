@@ -1,19 +1,45 @@
-"""The words of a line that leans on its conversation: figures, users, and words of closed classes, or no such line."""
+"""The words of a line that leans on its conversation: figures, users, and words of closed classes, or no such line.
+
+The classes are data by language (``fragment_words/<language>.toml``).
+"""
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import cast
+from typing import Any, cast
 
+from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Whom
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.text import CJK, languages_of, normalise, unaccented
 from wirelessagent.language.word_tables import table
+
+UNITS: Mapping[str, tuple[str, ...]] = {
+    "power": ("max_power_w", "subcarrier_max_power_w", "circuit_power_w"),
+    "rate": ("min_rate_bps", "max_rate_bps"),
+    "ratio": ("outage_probability",),
+}
+"""Limits that a figure with such a unit may be."""
+
+NOUNS: Mapping[str, tuple[str, ...]] = {
+    "power": ("max_power_w",),
+    "limit": ("max_power_w", "max_rate_bps", "subcarrier_max_power_w"),
+    "rate": ("min_rate_bps", "max_rate_bps"),
+    "promise": ("min_rate_bps",),
+    "weight": ("weights",),
+    "certainty": ("outage_probability",),
+    "circuit": ("circuit_power_w",),
+    "subcarrier": ("subcarrier_max_power_w",),
+    "group": ("resource_block_group_size",),
+}
+"""Limits that a noun may name."""
 
 _CLASS = {"power": "figure", "rate": "figure"}
 """What a figure with a unit is called, beside nouns."""
@@ -37,6 +63,15 @@ class Token:
     figure: Quantity | None = None
     users: tuple[str, ...] = ()
     factor: float | None = None
+
+
+def words_of(line: Line) -> Iterator[Words]:
+    """The line word by word in each language that it may be in and that knows all of its words."""
+    spoken = [line.context.language] if line.context.language else []
+    for language in dict.fromkeys([*spoken, *languages_of(line.text)]):
+        tokens = tokens_of(line, language)
+        if tokens:
+            yield Words(line, tokens)
 
 
 def speaks_of_one(plain: str) -> bool:
@@ -64,7 +99,11 @@ def tokens_of(line: Line, language: str) -> list[Token] | None:
     for number in numbers(plain):
         clear = not any(start < number.end and number.start < end for start, end in taken)
         text = plain[number.start : number.end]
-        if number.value is not None and clear and text not in _ONES:
+        if number.value is None or not clear or text in _ONES:
+            continue
+        if number.value < 1 and not text[0].isdigit():  # "a quarter"
+            spans[number.start] = (number.end, Token(frozenset({"factor"}), factor=float(number.value)))
+        else:
             bare = Quantity(
                 value=float(number.value), kind="bare", text=text, start=number.start, end=number.end,
                 phrase_start=number.start, phrase_end=number.end,
@@ -90,7 +129,10 @@ def _segmented(plain: str, spans: Mapping[int, tuple[int, Token]], language: str
                 place, token = spans[place]
                 found.append(token)
                 continue
-            if end is None or (place not in spans and any(place < start < end for start in spans)):
+            if end is None:
+                return None
+            inside = place not in spans and any(place < start < end for start in spans)
+            if inside and words[plain[place:end]].factor is None:
                 return None
             found.append(words[plain[place:end]])
             place = end
@@ -123,3 +165,62 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
         classes.setdefault(word, set()).add("factor")
     tokens = {word: Token(frozenset(names), factor=factors.get(word)) for word, names in classes.items()}
     return tokens, max(map(len, tokens))
+
+
+class Words:
+    """The tokens of a line in its conversation."""
+
+    def __init__(self, line: Line, tokens: Sequence[Token]) -> None:
+        self.line, self.tokens = line, tokens
+        self.figures = [token.figure for token in tokens if token.figure is not None]
+        self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
+        self.held = line.context.constraints
+
+    def has(self, name: str) -> bool:
+        return any(name in token.classes for token in self.tokens)
+
+    @property
+    def is_read(self) -> bool:
+        """Whether recognisers read whole sentences of the language well, so that those are theirs."""
+        return self.line.voice.language in ("en", "zh")
+
+    def only(self, *names: str) -> bool:
+        """Whether every token is in one of these classes, or says nothing."""
+        allowed = {"skip", *names}
+        return all(token.classes & allowed for token in self.tokens)
+
+    def named_kinds(self) -> list[str]:
+        """Limits that the nouns of the line name together."""
+        sets = [NOUNS[name] for name in NOUNS if self.has(name)]
+        return [kind for kind in dict.fromkeys(sets[0]) if all(kind in kinds for kinds in sets)] if sets else []
+
+    def whom(self) -> Whom | None:
+        if self.users:
+            return Named(self.users)
+        if self.has("others"):
+            return Others()
+        if self.has("pronoun") and isinstance(self.last_whom(), Named):
+            return self.last_whom()
+        return Everybody() if self.has("every") else None
+
+    def last_whom(self) -> Whom:
+        last = self.last(Limit, Scale, Drop)
+        return last[-1].whom if last else Everybody()
+
+    def last(self, *kinds: type[Any]) -> list[Any]:
+        return [act for act in self.line.context.acts if isinstance(act, kinds)]
+
+    def acts(self, acts: Sequence[Act], details: Mapping[str, Detail] | None = None) -> Intent:
+        """A change of the request by these acts."""
+        stated: dict[str, Constraint] = {}
+        for act in acts:
+            if isinstance(act, Limit):
+                users = act.whom.users if isinstance(act.whom, Named) else (EVERYBODY,)
+                stated[act.kind] = dict.fromkeys(users, act.value) if isinstance(act.whom, Named) else act.value
+            elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
+                stated["leave_out"] = act.whom.users
+        dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
+        intent = self.line.allocate(
+            str(self.line.context.objective), stated, amends=True, dropped=dropped, details=details
+        )
+        return dataclasses.replace(intent, acts=tuple(acts))
