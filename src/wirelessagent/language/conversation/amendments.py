@@ -11,13 +11,10 @@ from collections.abc import Mapping, Sequence
 
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.assent import is_assent
-from wirelessagent.language.conversation.line import NAME, Line, group, has, is_all
-from wirelessagent.language.followups import joined, merged, numbers_of, taken_in
-from wirelessagent.language.intent import COMMANDS, EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Intent
+from wirelessagent.language.conversation.line import NAME, Line, has, is_all
+from wirelessagent.language.followups import merged, numbers_of, taken_in
+from wirelessagent.language.intent import COMMANDS, EVERYBODY, LISTS_OF_USERS, Constraint, Intent
 
-_PREFIXES = {"k": 1e3, "m": 1e6, "g": 1e9}
-_PLAUSIBLE = 100
-"""How many times more or less a corrected figure may be for its unit to be clear."""
 _RATES = ("min_rate_bps", "max_rate_bps")
 
 
@@ -29,14 +26,8 @@ def read_amendment(line: Line) -> Intent | None:
             return answer
     if line.context.objective is None:
         return None
-    readers = (_freed, _returned, _taken_in, _same_for, _other_user)
-    if line.context.awaits != "clarification":  # what was stated last is of a line before the one that was asked about
-        readers = (*readers, _other_figure, _other_number)
-    for read in readers:
-        intent = read(line)
-        if intent is not None:
-            return intent
-    return None
+    found = (read(line) for read in (_freed, _returned, _taken_in))
+    return next((intent for intent in found if intent is not None), None)
 
 
 def _agreed(line: Line) -> Intent | None:
@@ -80,130 +71,6 @@ def _users_with_rates(pending: Mapping[str, Constraint]) -> tuple[str, ...]:
     rates = [value for name, value in pending.items() if name in _RATES]
     only = rates[0] if len(rates) == 1 else None
     return tuple(only) if isinstance(only, Mapping) and EVERYBODY not in only else ()
-
-
-def _other_user(line: Line) -> Intent | None:
-    """ "Actually make that user 3": what was stated last is for somebody else."""
-    match = is_all("that_user", line.wish)
-    if match is None or not line.users or not has("corrects", line.wish):
-        return None
-    users, instead_of = line.users, ""
-    open_ = line.context.awaits == "clarification"
-    freed = None if open_ else _freed_instead(line, users)
-    if freed is not None:
-        return freed
-    if group(match, "not", "other"):
-        if len(users) != 2:
-            return None
-        users, instead_of = (users[:1], users[1]) if group(match, "not") else (users[1:], users[0])
-    said = line.context.pending if open_ else line.context.stated
-    changed = {name: _for_users(name, value, users, instead_of) for name, value in said.items()}
-    moved = {name: value for name, value in changed.items() if value is not None}
-    if open_ and moved:
-        return line.allocate(str(line.context.objective), {**said, **moved}, amends=True)
-    return _restated(line, moved) if moved else line.ask("what_of_user", users=line.voice.users(users))
-
-
-def _freed_instead(line: Line, users: tuple[str, ...]) -> Intent | None:
-    """The users whose limit goes in the place of those whose limit was taken off last; None where none was."""
-    names, objective = line.context.user_names, str(line.context.objective)
-    for name, stated in line.context.stated.items():
-        held = line.context.constraints.get(name, {})
-        if not isinstance(stated, Mapping) or isinstance(held, tuple):
-            continue
-        left = _by_user(held, names)
-        if EVERYBODY in stated or numbers_of(stated, names) & numbers_of(left, names):
-            continue
-        before = {**left, **stated}
-        gone = {
-            user: figure for user, figure in before.items() if numbers_of((user,), names) & numbers_of(users, names)
-        }
-        rest = {user: figure for user, figure in before.items() if user not in gone}
-        values: dict[str, Constraint] = {name: rest} if rest else {}
-        return line.allocate(objective, values, amends=True, dropped=(name,), taken_off={name: gone}) if gone else None
-    return None
-
-
-def _for_users(name: str, value: Constraint, users: tuple[str, ...], instead_of: str) -> Constraint | None:
-    """A statement with other users in it; None where it is about nobody, or about several in several ways."""
-    if name in LISTS_OF_USERS:
-        assert isinstance(value, tuple)
-        kept = tuple(user for user in value if instead_of and user != instead_of)
-        return tuple(dict.fromkeys((*kept, *users)))
-    if name not in FIGURES_OF_USERS or isinstance(value, tuple):
-        return None
-    named = {user: figure for user, figure in value.items() if user != EVERYBODY} if isinstance(value, Mapping) else {}
-    if instead_of in named:
-        rest = {user: figure for user, figure in named.items() if user != instead_of}
-        return {**rest, **dict.fromkeys(users, named[instead_of])}
-    figures = set(named.values()) if isinstance(value, Mapping) else {value}
-    return dict.fromkeys(users, figures.pop()) if len(figures) == 1 else None
-
-
-def _other_figure(line: Line) -> Intent | None:
-    """ "No, I meant 2 Mbit/s": what was stated last has another figure."""
-    if len(line.figures) != 1 or line.users or not _is_another(line.wish):
-        return None
-    figure, stated = line.figures[0], line.context.stated
-    names = _RATES if figure.kind == "rate" else ("max_power_w", "subcarrier_max_power_w", "circuit_power_w")
-    held = [name for name in names if name in stated]
-    if len(held) != 1 or figure.doubtful or figure.value <= 0:
-        return None
-    name, value = held[0], stated[held[0]]
-    if figure.comparator in ("at_least", "at_most") and name in _RATES:
-        name = "min_rate_bps" if figure.comparator == "at_least" else "max_rate_bps"
-    if not isinstance(value, Mapping):
-        return line.allocate(str(line.context.objective), {name: figure.value}, amends=True)
-    if len(set(value.values())) > 1:
-        users = [user for user in value if user != EVERYBODY]
-        return line.ask("whose_figure", text=figure.text, users=line.voice.users(users))
-    new: dict[str, Constraint] = {name: dict.fromkeys(value, figure.value)}
-    return _restated(line, new) if name == held[0] else _restated(line, new, gone=held[0])
-
-
-def _other_number(line: Line) -> Intent | None:
-    """ "Make it 600": the figure that was stated last, in its own unit; asked about where that is not clear."""
-    match = is_all("only_number", line.wish)
-    held = [name for name in ("max_power_w", *_RATES) if name in line.context.stated]
-    if match is None or line.users or line.figures or len(held) != 1 or not has("corrects", line.wish):
-        return None
-    name, stated = held[0], line.context.stated[held[0]]
-    before = set(stated.values()) if isinstance(stated, Mapping) else {stated}
-    if len(before) > 1 or isinstance(stated, tuple):
-        return None
-    old, said = float(str(before.pop())), float(match["number"])
-    own = next((scale for scale in (1e9, 1e6, 1e3, 1.0, 1e-3) if old >= scale), 1e-3)
-    new = said * (_PREFIXES[match["prefix"]] if match["prefix"] else min(own, 1.0) if name == "max_power_w" else own)
-    if not old / _PLAUSIBLE <= new <= old * _PLAUSIBLE:
-        return line.ask("unit_missing", text=match["number"])
-    value: Constraint = dict.fromkeys(stated, new) if isinstance(stated, Mapping) else new
-    return _restated(line, {name: value})
-
-
-def _is_another(wish: str) -> bool:
-    """Whether a line is a figure with words that correct one."""
-    return is_all("that_figure", wish) is not None and has("corrects", wish) is not None
-
-
-def _restated(line: Line, new: Mapping[str, Constraint], *, gone: str = "") -> Intent:
-    """The request with what was stated last taken out, and this put in its place."""
-    context = line.context
-    values: dict[str, Constraint] = dict(new)
-    for name in {*new, *([gone] if gone else [])}:
-        rest = _without(context.constraints.get(name), context.stated.get(name))
-        if rest is not None:
-            values[name] = joined(name, rest, new[name]) if name in new else rest
-    dropped = tuple(name for name in (*new, *([gone] if gone else [])) if name in context.constraints)
-    return line.allocate(str(context.objective), values, amends=True, dropped=dropped)
-
-
-def _without(held: Constraint | None, stated: Constraint | None) -> Constraint | None:
-    """What is left of a constraint after the last statement of it is taken out."""
-    if isinstance(held, tuple) and isinstance(stated, tuple):
-        return tuple(user for user in held if user not in stated) or None
-    if isinstance(held, Mapping) and isinstance(stated, Mapping):
-        return {user: figure for user, figure in held.items() if user not in stated} or None
-    return None
 
 
 def _freed(line: Line) -> Intent | None:
@@ -272,20 +139,6 @@ def _taken_in(line: Line) -> Intent | None:
     if not line.users or line.figures or not is_all("taken_in", line.wish):
         return None
     return _served(line, line.users)
-
-
-def _same_for(line: Line) -> Intent | None:
-    """ "User 3 too": what was stated last of a user holds for another one as well."""
-    if not line.users or line.figures or not is_all("same_for", line.wish):
-        return None
-    values: dict[str, Constraint] = {}
-    for name, value in line.context.stated.items():
-        if name in LISTS_OF_USERS and isinstance(value, tuple):
-            held = line.context.constraints.get(name, value)
-            values[name] = tuple(dict.fromkeys((*(held if isinstance(held, tuple) else ()), *line.users)))
-        elif isinstance(value, Mapping) and len(set(value.values())) == 1:
-            values[name] = dict.fromkeys(line.users, next(iter(value.values())))
-    return line.allocate(str(line.context.objective), values, amends=True) if values else None
 
 
 def _returned(line: Line) -> Intent | None:

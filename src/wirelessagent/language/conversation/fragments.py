@@ -27,6 +27,7 @@ from wirelessagent.language.acts import (
     Undo,
     Whom,
     acts_of,
+    stated,
 )  # fmt: skip
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.relative import read_relative
@@ -145,18 +146,42 @@ class _Fragment(Words):
 
     def _moved(self) -> Intent | None:
         """ "no, user 5", "I mean user 6, not 3": what was said last of one user, of another."""
+        if not self.users or not self.has("correct") or not self.only("users", "bare", "correct", "lead", "it", "make"):
+            return None
+        if self.taken_off:
+            return self._taken_off_another()
         last = [act for act in self.last(Limit, LeaveOut, Serve) if isinstance(act.whom, Named)]
-        if len(last) != 1 or not self.has("correct") or not self.only("users", "bare", "correct", "lead", "it"):
-            return None
+        if len(last) != 1:
+            return None if last else self.line.ask("what_of_user", users=self.line.voice.users(self.users))
         old = last[0].whom
-        denied = [f"{figure.value:g}" for figure in self.figures]
         users = tuple(user for user in self.users if user not in old.users)
-        if len(users) != 1 or not {*denied, *self.users} - {*users} <= {*old.users}:
+        denied = {*(f"{figure.value:g}" for figure in self.figures), *self.users} - {*users}
+        if not users or not denied <= {*old.users}:
             return None
-        back: Act = LeaveOut(whom=old) if isinstance(last[0], Serve) else Serve(whom=old)
+        gone = Named(tuple(user for user in old.users if user in denied or not denied))
+        back: Act = LeaveOut(whom=gone) if isinstance(last[0], Serve) else Serve(whom=gone)
         if isinstance(last[0], Limit):
-            back = Drop(kind=last[0].kind, whom=old, own=True)
+            back = Drop(kind=last[0].kind, whom=gone, own=True)
         return self.acts([back, dataclasses.replace(last[0], whom=Named(users))])
+
+    @property
+    def taken_off(self) -> Mapping[str, Mapping[str, float]]:
+        """The figures of users that the last change took off."""
+        return {
+            kind: stated
+            for kind, stated in self.line.context.stated.items()
+            if isinstance(stated, Mapping) and EVERYBODY not in stated
+            and isinstance(held := self.held.get(kind, {}), Mapping) and not stated.keys() & held.keys()
+        }  # fmt: skip
+
+    def _taken_off_another(self) -> Intent | None:
+        """ "Sorry, user 3": the limit of another user goes, in the place of the one that was taken off."""
+        kind, stated = next(iter(self.taken_off.items()))
+        held = cast("Mapping[str, float]", self.held.get(kind, {}))
+        gone = {user: held[user] for user in self.users if user in held}
+        back = [Limit(kind=kind, value=value, whom=Named((user,))) for user, value in stated.items()]
+        off = Drop(kind=kind, whom=Named(tuple(gone)))
+        return self.acts([*back, off], {"taken_off": {kind: gone}}) if len(gone) == len(self.users) else None
 
     def _again(self) -> Intent | None:
         """ "once more" behind an undo."""
@@ -249,7 +274,7 @@ class _Fragment(Words):
         """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
         said = (
             "users", "every", "others", "pronoun", "it", "lead", "make", "correct", "suppose", "take", "figure",
-            "ratio", "bare", "with", "by", *NOUNS,
+            "ratio", "bare", "with", "by", "revise", *NOUNS,
         )  # fmt: skip
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
             return self.line.ask("what_changes")
@@ -257,7 +282,10 @@ class _Fragment(Words):
             return None
         figure = self.figures[0]
         supposed = [act for one in self.last(Suppose) for act in one.acts if isinstance(act, Limit)]
+        taken_off = self.taken_off if self.has("correct") else {}
         before = supposed or [*self.last(Limit), *map(self._as_held, self.last(Scale))]
+        if taken_off:
+            before = [act for act in stated(taken_off) if isinstance(act, Limit)]
         kinds = self._kinds_of(figure, before)
         if len(kinds) != 1:
             return None
@@ -265,10 +293,14 @@ class _Fragment(Words):
         models = [act for act in before if act.kind == kind]
         model = models[-1] if models else None
         several = len({act.whom for act in models}) > 1 and not (self.users or self.has("others") or self.has("every"))
+        if several and model is not None and self.has("correct"):
+            users = [user for act in models if isinstance(act.whom, Named) for user in act.whom.users]
+            return self.line.ask("whose_figure", text=figure.text, users=self.line.voice.users(users))
         if several or (self.has("correct") and (self.line.context.share_of or (model is None and self.last(Drop)))):
             return None
         leaning = ["correct", "take", "others", "subcarrier", "group", "pronoun"]
         leaning += ["make", "lead", "with", "suppose"] if figure.kind == "bare" or supposed else []
+        leaning += ["revise"] if model is not None else []
         if len(self.named_kinds()) == 1:
             leaning.append("make")
         alone = (

@@ -45,6 +45,7 @@ _CLASS = {"power": "figure", "rate": "figure"}
 """What a figure with a unit is called, beside nouns."""
 
 _SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…-]+")
+_PREFIXED = re.compile(r"[0-9]\s?[kMG]$")
 _WORD = re.compile(r"[^\W\d_]+")
 _ONES = frozenset(
     {
@@ -88,7 +89,11 @@ def speaks_of_one(plain: str) -> bool:
 def tokens_of(line: Line, language: str) -> list[Token] | None:
     """The line as words that are known here; None where one is not."""
     plain = _unmarked(normalise(line.text).lower())
-    figures = [figure for figure in parse_quantities(line.text) if figure.kind != "bare"]
+    figures = [
+        dataclasses.replace(figure, kind="rate") if figure.kind == "bare" and figure.value >= 1e3 else figure  # "400k"
+        for figure in parse_quantities(line.text)
+        if figure.kind != "bare" or _PREFIXED.search(figure.text)
+    ]
     taken = [(figure.start, figure.end) for figure in figures]
     found = mentions(normalise(line.text), line.context.user_names, taken)
     named = [each for each in found if each.role == "named"]
