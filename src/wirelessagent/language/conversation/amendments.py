@@ -1,6 +1,6 @@
-"""Lines that change what was said before: "make that user 3", "no, I meant 2 Mbit/s", "user 2 needs no limit any more".
+"""Lines that answer a question back, free users of a limit or take them back, and what a request leaves as it holds.
 
-What "that" refers to is what the last request stated. Users whose own figure goes are written out, as the request has
+Users whose own figure goes are written out, as the request has
 no figure for "nothing": 1 Mbit/s for everybody but user 2 is 1 Mbit/s for each of the others.
 """
 

@@ -73,6 +73,8 @@ def _undone(line: Line, said: str) -> Intent | None:
         return line.command("reject", cancel="pending", stop="all")
     if is_all("cancel", said):
         return line.command("reject", cancel="pending")
+    if is_all("back_to_first", said):
+        return line.command("undo", turn=1.0)
     match = is_all("back_to", said)
     if match is not None:
         return line.command("undo", turn=_named(match["turn"]))

@@ -29,7 +29,7 @@ from wirelessagent.language.acts import (
     acts_of,
     stated,
 )  # fmt: skip
-from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.line import Line, is_all
 from wirelessagent.language.conversation.relative import read_relative
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, speaks_of_one, tokens_of, words_of
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
@@ -44,6 +44,8 @@ _COUNTS = ("weights", "resource_block_group_size")
 _FIGURE = re.compile(r"^[-+\d.,\s]+")
 _LONGEST = 120
 _SHORT = 40
+_MOST_STEPS = 20
+_BUT = re.compile(r"(?:\s(?=(?:but|and)\s)|(?=但|而))(.+)$")
 _LAST_CLAUSE = re.compile(r"[,，;；.。!！]\s*([^,，;；.。!！]+)[.。!！\s]*$")
 _FAR = 20.0
 """How many times a figure may change where its unit is left out."""
@@ -57,7 +59,8 @@ def read_fragment(line: Line) -> Intent | None:
         return None
     if _takes_back(line):
         return line.command("undo", steps=1.0)
-    found = (_Fragment(words.line, words.tokens).intent() for words in words_of(line))
+    line = _without_what_stays(line)
+    found = (_Fragment(words.line, words.tokens, words.language).intent() for words in words_of(line))
     return next((intent for intent in found if intent is not None), None)
 
 
@@ -74,15 +77,20 @@ def referred(line: Line, intent: Intent) -> Intent:
     if intent.kind != "allocate" or context.objective is None or intent.acts or not kinds:
         return intent
     plain = normalise(line.text)
-    roles = {each.role for each in mentions(plain, context.user_names)}
+    roles = {each.role for each in mentions(plain, context.user_names)} - {"pronoun"}
+    supposed = acts_of(context.guess) if context.guess is not None else ()
     last = {
-        act.whom for act in context.acts if isinstance(act, Limit | Scale | LeaveOut) and isinstance(act.whom, Named)
+        act.whom
+        for act in (*context.acts, *supposed)
+        if isinstance(act, Limit | Scale | LeaveOut) and isinstance(act.whom, Named)
     }
     whom: Whom | None = Others() if roles == {"others"} else None
     if not roles and len(last) == 1 and speaks_of_one(plain):
         whom = last.pop()
     if whom is None:
-        return intent
+        if roles or not speaks_of_one(plain, "one"):
+            return intent
+        return line.ask("whose_figure", text=intent.evidence[kinds[0]], users=line.voice.users(context.user_names))
     acts = [dataclasses.replace(act, whom=whom) if isinstance(act, Limit) and act.kind in kinds else act
             for act in acts_of(intent)]  # fmt: skip
     return dataclasses.replace(intent, acts=tuple(acts))
@@ -97,6 +105,13 @@ def named_alone(line: Line) -> tuple[str, ...]:
     return ()
 
 
+def _without_what_stays(line: Line) -> Line:
+    """The line without a last clause that only says what stays: "…, but keep the promise to user 3"."""
+    clause = _LAST_CLAUSE.search(line.text) or _BUT.search(line.text)
+    stays = clause is not None and is_all("kept", Line.of(clause[1], line.context).shape.rstrip(".!。 "))
+    return Line.of(line.text[: clause.start()], line.context) if clause is not None and stays else line
+
+
 def _takes_back(line: Line) -> bool:
     """Whether the last clause of a short line is an undo and nothing else: "call's over, undo that"."""
     clause = _LAST_CLAUSE.search(line.text)
@@ -105,9 +120,17 @@ def _takes_back(line: Line) -> bool:
     last = Line.of(clause[1], line.context)
     for language in languages_of(line.text):
         tokens = tokens_of(last, language)
-        if tokens and any("undo" in token.classes for token in tokens):
-            return all(token.classes & {"undo", "skip", "it", "again"} for token in tokens)
+        if tokens and _is_undo(Words(last, tokens, language), "again"):
+            return True
     return False
+
+
+def _is_undo(words: Words, *further: str) -> bool:
+    """Whether a line takes the last change back and says nothing else: "undo that", "undo the raise"."""
+    changes = ("make", "more", "less", "factor", "rate", "limit", "promise", "power", "weight")
+    names = any(words.has(name) for name in changes[:3])
+    bare = not (words.figures or words.users)
+    return bare and words.has("undo") and words.only("undo", "it", *further, *(changes if names else ()))
 
 
 def _denies(tokens: Sequence[Token]) -> bool:
@@ -132,15 +155,16 @@ class _Fragment(Words):
 
     def _undone(self) -> Intent | None:
         """ "nah, undo that"; a bare command is a sentence of its own where recognisers read it."""
-        what = ("more", "less", "factor", "make", "rate", "limit", "promise", "power", "weight")
-        named = any(self.has(name) for name in ("more", "less", "make")) and not self.has("factor")  # "undo the raise"
-        if named and self.has("undo") and self.only("undo", "lead", *what) and not self.figures and not self.users:
-            return self.line.command("undo", steps=1.0)
         if (
-            (self.has("correct") or not self.is_read)
-            and self.has("undo")
-            and self.only("undo", "correct", "it", "lead", "again")
+            self.has("undo")
+            and not self.is_read
+            and self.only("undo", "bare", "factor", "change_noun", "lead", "again")
         ):
+            counts = [figure.value for figure in self.figures] + [token.factor for token in self.tokens if token.factor]
+            if len(counts) == 1 and counts[0] in range(1, _MOST_STEPS):
+                return self.line.command("undo", steps=float(counts[0]))
+        changes = any(self.has(name) for name in ("more", "less", "make"))  # "undo the raise"
+        if (changes or self.has("correct") or not self.is_read) and _is_undo(self, "correct", "lead", "again"):
             return self.line.command("undo", steps=1.0)
         return None
 
@@ -220,6 +244,13 @@ class _Fragment(Words):
         users = self.users or self._counted()
         if self.has("every") and self.has("serve") and self.only("every", "serve", "again", "lead", "take", "make"):
             return self.acts([Serve(whom=Everybody())]) if {"users", "leave_out"} & self.held.keys() else None
+        out = self.held.get("leave_out", ())
+        if self.has("both") and self.has("serve") and self.only("both", "serve", "again", "lead", "every"):
+            return (
+                self.acts([Serve(whom=Named(cast("tuple[str, ...]", out)))])
+                if len(cast("tuple[str, ...]", out)) == 2
+                else None
+            )
         if not users or (self.figures and self.users):
             return None
         whom, lists = Named(users), [*self.last(LeaveOut), *self.last(Serve)]
@@ -232,8 +263,9 @@ class _Fragment(Words):
             return None
         if not (self.has("too") or self.users):
             return None
+        moved = {act.kind for act in self.last(Limit)}
         again = [dataclasses.replace(act, whom=whom) for act in self.last(Limit, Drop, LeaveOut, Scale, Serve)
-                 if isinstance(act.whom, Named)]  # fmt: skip
+                 if isinstance(act.whom, Named) and not (isinstance(act, Drop) and act.kind in moved)]  # fmt: skip
         again = [dataclasses.replace(act, alone=False) if isinstance(act, Serve) else act for act in again]
         return self.acts(again) if len(set(again)) == 1 else None
 
@@ -274,18 +306,17 @@ class _Fragment(Words):
         """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
         said = (
             "users", "every", "others", "pronoun", "it", "lead", "make", "correct", "suppose", "take", "figure",
-            "ratio", "bare", "with", "by", "revise", *NOUNS,
+            "ratio", "bare", "with", "by", "to", "revise", *NOUNS,
         )  # fmt: skip
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
             return self.line.ask("what_changes")
-        if len(self.figures) != 1 or not self.only(*said):
+        if len(self.figures) != 1 or not self.only(*said, *(("been",) if self.has("suppose") else ())):
             return None
         figure = self.figures[0]
         supposed = [act for one in self.last(Suppose) for act in one.acts if isinstance(act, Limit)]
-        taken_off = self.taken_off if self.has("correct") else {}
         before = supposed or [*self.last(Limit), *map(self._as_held, self.last(Scale))]
-        if taken_off:
-            before = [act for act in stated(taken_off) if isinstance(act, Limit)]
+        if self.has("correct") and self.taken_off:
+            before = [act for act in stated(self.taken_off) if isinstance(act, Limit)]
         kinds = self._kinds_of(figure, before)
         if len(kinds) != 1:
             return None
@@ -300,7 +331,7 @@ class _Fragment(Words):
             return None
         leaning = ["correct", "take", "others", "subcarrier", "group", "pronoun"]
         leaning += ["make", "lead", "with", "suppose"] if figure.kind == "bare" or supposed else []
-        leaning += ["revise"] if model is not None else []
+        leaning += ["revise"] if model is not None and isinstance(model.whom, Named) else []
         if len(self.named_kinds()) == 1:
             leaning.append("make")
         alone = (
@@ -319,6 +350,8 @@ class _Fragment(Words):
             if self.users or self.has("others"):
                 return None
             whom = Everybody()
+        if self.has("one") and not isinstance(whom, Named):
+            return None
         wondered = self.line.is_asked or self.has("suppose")
         if (wondered or supposed) and not (self.has("take") or self.has("make") or self.has("correct")):
             return self._wondered(kind, value, whom) if self.has("suppose") or supposed else None
@@ -365,19 +398,16 @@ class _Fragment(Words):
 
 def _value(figure: Quantity, kind: str, model: Limit | None) -> float | None:
     """A figure in SI units; one without a unit has that of the figure in whose place it is."""
-    if figure.kind != "bare" or kind in _COUNTS:
-        value = figure.value
-    else:
+    value, bare = figure.value, figure.kind == "bare" and kind not in _COUNTS
+    if bare:
         unit = None if model is None else _unit(model)
         found = parse_quantities(f"{figure.value:g} {unit}" if unit else "")
         value = found[0].value if found and found[0].kind != "bare" else math.nan
-        if model is None or not model.value / _FAR < value < model.value * _FAR:  # another unit may be meant
-            return None
     if kind == "outage_probability":
-        value = 1 - value if value > 0.5 else value
-        value = round(value, 12)
-        return value if 0 < value < 1 else None
-    return value if value > 0 and math.isfinite(value) else None
+        value = round(1 - value if value > 0.5 else value, 12)
+    if bare and (model is None or not model.value / _FAR < value < model.value * _FAR):  # another unit may be meant
+        return None
+    return value if 0 < value < (1 if kind == "outage_probability" else math.inf) else None
 
 
 def _unit(model: Limit) -> str:

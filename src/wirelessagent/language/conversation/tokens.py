@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -72,17 +73,17 @@ def words_of(line: Line) -> Iterator[Words]:
     for language in dict.fromkeys([*spoken, *languages_of(line.text)]):
         tokens = tokens_of(line, language)
         if tokens:
-            yield Words(line, tokens)
+            yield Words(line, tokens, language)
 
 
-def speaks_of_one(plain: str) -> bool:
-    """Whether a pronoun of one user is among the words."""
+def speaks_of_one(plain: str, of: str = "pronoun") -> bool:
+    """Whether a pronoun, or a word of another class, is among the words."""
     words = set(_WORD.findall(_unmarked(plain.lower())))
     return any(
         word in words if word.isascii() else word in plain
         for language in languages_of(plain)
         for word, token in _table(language)[0].items()
-        if "pronoun" in token.classes and " " not in word
+        if of in token.classes and " " not in word
     )
 
 
@@ -172,11 +173,23 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
     return tokens, max(map(len, tokens))
 
 
+def _without_what_goes(tokens: Sequence[Token]) -> list[Token]:
+    """The tokens without the figure that another replaces: "300 rather than 200", "500 was too much, take 400"."""
+    kept = list(tokens)
+    said = [token for token in kept if not token.classes <= {"skip"} or token.figure]
+    for token, behind in itertools.pairwise(said):
+        gone = behind if "instead" in token.classes else token if "too_much" in behind.classes else None
+        if gone is not None and gone.figure is not None and sum(each.figure is not None for each in kept) > 1:
+            kept = [each for each in kept if each is not gone and each is not token and each is not behind]
+    return kept
+
+
 class Words:
     """The tokens of a line in its conversation."""
 
-    def __init__(self, line: Line, tokens: Sequence[Token]) -> None:
-        self.line, self.tokens = line, tokens
+    def __init__(self, line: Line, tokens: Sequence[Token], language: str) -> None:
+        self.line, self.language = line, language
+        self.tokens = tokens = _without_what_goes(tokens)
         self.figures = [token.figure for token in tokens if token.figure is not None]
         self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
         self.held = line.context.constraints
@@ -187,7 +200,7 @@ class Words:
     @property
     def is_read(self) -> bool:
         """Whether recognisers read whole sentences of the language well, so that those are theirs."""
-        return self.line.voice.language in ("en", "zh")
+        return self.language in ("en", "zh")
 
     def only(self, *names: str) -> bool:
         """Whether every token is in one of these classes, or says nothing."""
