@@ -170,13 +170,19 @@ class _Fragment(Words):
 
     def _moved(self) -> Intent | None:
         """ "no, user 5", "I mean user 6, not 3": what was said last of one user, of another."""
-        if not self.users or not self.has("correct") or not self.only("users", "bare", "correct", "lead", "it", "make"):
+        if (
+            not self.users
+            or not self.has("correct")
+            or not self.only("users", "bare", "correct", "lead", "it", "revise")
+        ):
             return None
         if self.taken_off:
             return self._taken_off_another()
         last = [act for act in self.last(Limit, LeaveOut, Serve) if isinstance(act.whom, Named)]
+        if not last:
+            return self._for_all_moved()
         if len(last) != 1:
-            return None if last else self.line.ask("what_of_user", users=self.line.voice.users(self.users))
+            return None
         old = last[0].whom
         users = tuple(user for user in self.users if user not in old.users)
         denied = {*(f"{figure.value:g}" for figure in self.figures), *self.users} - {*users}
@@ -187,6 +193,13 @@ class _Fragment(Words):
         if isinstance(last[0], Limit):
             back = Drop(kind=last[0].kind, whom=gone, own=True)
         return self.acts([back, dataclasses.replace(last[0], whom=Named(users))])
+
+    def _for_all_moved(self) -> Intent:
+        """What was said last for everybody, for these users alone; where nothing was, what is meant is asked."""
+        last = [act for act in self.last(Limit) if act.kind in FIGURES_OF_USERS and isinstance(act.whom, Everybody)]
+        if len(last) != 1 or self.figures:
+            return self.line.ask("what_of_user", users=self.line.voice.users(self.users))
+        return self.acts([Drop(kind=last[0].kind), dataclasses.replace(last[0], whom=Named(self.users))])
 
     @property
     def taken_off(self) -> Mapping[str, Mapping[str, float]]:
