@@ -32,7 +32,7 @@ from wirelessagent.language.acts import (
 from wirelessagent.language.conversation.line import Line, is_all
 from wirelessagent.language.conversation.relative import read_relative
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, speaks_of_one, tokens_of, words_of
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.text import languages_of, normalise
@@ -60,13 +60,13 @@ def read_fragment(line: Line) -> Intent | None:
     if _takes_back(line):
         return line.command("undo", steps=1.0)
     line = _without_what_stays(line)
-    found = (_Fragment(words.line, words.tokens, words.language).intent() for words in words_of(line))
+    found = (fragment.intent() for fragment in words_of(line, _Fragment))
     return next((intent for intent in found if intent is not None), None)
 
 
 def read_wondered(line: Line) -> Intent | None:
     """The what-if of a change by what holds, of a line that asks whether it is possible; None for any other."""
-    found = (read_relative(words, wonders=True) for words in words_of(line))
+    found = (read_relative(words, wonders=True) for words in words_of(line, Words))
     return next((intent for intent in found if intent is not None), None)
 
 
@@ -363,7 +363,14 @@ class _Fragment(Words):
             if self.users or self.has("others"):
                 return None
             whom = Everybody()
-        if self.has("one") and not isinstance(whom, Named):
+        named = isinstance(whom, Named)
+        if (
+            self.has("instead")
+            or (self.has("one") and not named)
+            or (self.has("pronoun") and self.has("each") and named)
+        ):
+            return None
+        if self.replaced is not None and _value(self.replaced, kind, model) not in _figures(self.held.get(kind)):
             return None
         wondered = self.line.is_asked or self.has("suppose")
         if (wondered or supposed) and not (self.has("take") or self.has("make") or self.has("correct")):
@@ -407,6 +414,13 @@ class _Fragment(Words):
             return ()
         named = any(isinstance(act.whom, Named) for act in self.last(Limit, Drop, LeaveOut, Serve, Scale))
         return users if named or self.has("leave") or self.has("serve") else ()
+
+
+def _figures(held: Constraint | None) -> tuple[float, ...]:
+    """All figures of a limit that holds."""
+    if isinstance(held, Mapping):
+        return tuple(held.values())
+    return (held,) if isinstance(held, float) else ()
 
 
 def _value(figure: Quantity, kind: str, model: Limit | None) -> float | None:

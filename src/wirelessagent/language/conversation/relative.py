@@ -68,6 +68,8 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
     name, whom = _changed_limit(words, change), words.whom() or words.last_whom()
     if name is None or (words.has("pronoun") and not isinstance(whom, Named)):
         return None
+    if words.users and name not in FIGURES_OF_USERS:
+        return None
     users = whom.users if isinstance(whom, Named) and name in FIGURES_OF_USERS else ()
     basis = _of_users(_held(words, name), users)
     if basis is None:
@@ -129,7 +131,7 @@ def _change(words: Words, *, corrects: bool) -> _Change | None:
         return _of_share(factors[0], how) if factors[0] < 1 else _Change(how="of", factor=factors[0])
     figure = figures[0]
     if figure.kind == "ratio":
-        clear = how != "of" or corrects or to or words.has("power")
+        clear = how != "of" or corrects or to or (words.has("power") and not words.has("make"))
         return _of_share(figure.value, how) if clear else None
     if figure.kind == "bare" and words.has("decibel") and how != "of":
         return _Change(how="of", factor=10.0 ** ((-figure.value if how == "less" else figure.value) / 10))

@@ -11,7 +11,7 @@ import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Whom
 from wirelessagent.language.conversation.line import Line
@@ -57,6 +57,9 @@ _ONES = frozenset(
 """Number words that mostly count nothing."""
 
 
+_Kind = TypeVar("_Kind", bound="Words")
+
+
 @dataclass(frozen=True)
 class Token:
     """A word, a figure or users, and the classes that it is in."""
@@ -67,13 +70,13 @@ class Token:
     factor: float | None = None
 
 
-def words_of(line: Line) -> Iterator[Words]:
+def words_of(line: Line, kind: type[_Kind]) -> Iterator[_Kind]:
     """The line word by word in each language that it may be in and that knows all of its words."""
     spoken = [line.context.language] if line.context.language else []
     for language in dict.fromkeys([*spoken, *languages_of(line.text)]):
         tokens = tokens_of(line, language)
         if tokens:
-            yield Words(line, tokens, language)
+            yield kind(line, tokens, language)
 
 
 def speaks_of_one(plain: str, of: str = "pronoun") -> bool:
@@ -93,7 +96,7 @@ def tokens_of(line: Line, language: str) -> list[Token] | None:
     figures = [
         dataclasses.replace(figure, kind="rate") if figure.kind == "bare" and figure.value >= 1e3 else figure  # "400k"
         for figure in parse_quantities(line.text)
-        if figure.kind != "bare" or _PREFIXED.search(figure.text)
+        if figure.kind not in ("bare", "other") or _PREFIXED.search(figure.text)
     ]
     taken = [(figure.start, figure.end) for figure in figures]
     found = mentions(normalise(line.text), line.context.user_names, taken)
@@ -173,15 +176,16 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
     return tokens, max(map(len, tokens))
 
 
-def _without_what_goes(tokens: Sequence[Token]) -> list[Token]:
-    """The tokens without the figure that another replaces: "300 rather than 200", "500 was too much, take 400"."""
+def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], Quantity | None]:
+    """The tokens without the figure that another replaces ("300 rather than 200", "500 was too much, 400"), and it."""
     kept = list(tokens)
     said = [token for token in kept if not token.classes <= {"skip"} or token.figure]
+    replaced: Quantity | None = None
     for token, behind in itertools.pairwise(said):
         gone = behind if "instead" in token.classes else token if "too_much" in behind.classes else None
         if gone is not None and gone.figure is not None and sum(each.figure is not None for each in kept) > 1:
-            kept = [each for each in kept if each is not gone and each is not token and each is not behind]
-    return kept
+            kept, replaced = [each for each in kept if each is not token and each is not behind], gone.figure
+    return kept, replaced
 
 
 class Words:
@@ -189,7 +193,8 @@ class Words:
 
     def __init__(self, line: Line, tokens: Sequence[Token], language: str) -> None:
         self.line, self.language = line, language
-        self.tokens = tokens = _without_what_goes(tokens)
+        self.tokens, self.replaced = _without_what_goes(tokens)
+        tokens = self.tokens
         self.figures = [token.figure for token in tokens if token.figure is not None]
         self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
         self.held = line.context.constraints
