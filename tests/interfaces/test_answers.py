@@ -17,6 +17,8 @@ from wirelessagent.language.intent import Intent
 from wirelessagent.model.units import human
 from wirelessagent.telling.parts import cannot_be_served
 
+pytestmark = pytest.mark.machine_code
+
 _FIGURE_OR_UNIT = re.compile(r"Mbit|kbit|bit|µW|mW|MW|kW|dB|Hz|Jain|PF|ts28312|tmf921|TMF921|TS|GPP|quit|CSI")
 
 

@@ -20,6 +20,8 @@ from wirelessagent.operations.chat import converse as begun
 from wirelessagent.operations.chat import run as chat
 from wirelessagent.operations.operation import InputError, silent
 
+pytestmark = pytest.mark.machine_code
+
 CELL = ("--num-users", "3", "--seed", "3")
 SAID = ["Highest total rate, at most 10 W", "", "Save power, 500 kbit/s each"]
 
@@ -113,6 +115,7 @@ def test_a_terminal_has_a_prompt_and_editing_and_lets_people_leave(keys: bytes, 
 
     child, terminal = pty.fork()
     if child == 0:
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell ignores in the background
         os.execv(sys.executable, [sys.executable, "-m", "wirelessagent", "chat", *CELL])
     shown = b""
     while b"> " not in shown.split(b"\n")[-1] and select.select([terminal], [], [], 60.0)[0]:

@@ -14,10 +14,11 @@ from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
 from wirelessagent.language.conversation import understood
-from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
+
+pytestmark = pytest.mark.machine_code
 
 Said = str | tuple[str, Intent]
 TOTAL = "highest total rate"
@@ -369,16 +370,12 @@ def plain_question(turn: Turn) -> dict[str, Any]:
 
 
 def test_yes_to_did_you_mean_does_what_was_meant() -> None:
-    voice = Line.of("hm", Context()).voice
-    undo = voice.say("unsure_command", text=voice.say("command.undo"))
     session, turns = talk(
-        request(max_power_w=10.0), change(max_power_w=5.0), ("hm", means("clarify", reply=undo)), "yes"
+        request(max_power_w=10.0), change(max_power_w=5.0), ("hm", means("clarify", reply="?", offered="undo")), "yes"
     )
     assert turns[-1].stage == "undone"
     assert asked_for(session) == {"max_power_w": 10.0}
-    goal = voice.label("min_power")
-    weak = voice.say("weak", goal=goal, choices=voice.choices(without="min_power"))
-    unclear = means("clarify", reply=weak, pending={"min_rate_bps": 1e5})
+    unclear = means("clarify", reply="?", offered="min_power", pending={"min_rate_bps": 1e5})
     session, _ = talk(("hm", unclear), "yes")
     assert session.request == Request(objective="min_power", constraints={"min_rate_bps": 1e5})
     _, turns = talk(("hm", means("clarify", reply="Bits or bytes?")), ("yes", means("command", topic="confirm")))

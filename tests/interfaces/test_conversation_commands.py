@@ -7,6 +7,8 @@ from conversations import talk
 
 from wirelessagent.agent.session import Session
 
+pytestmark = pytest.mark.machine_code
+
 HELD = ("highest total rate, at most 10 W", "now with 5 W", "now with 4 W")
 
 

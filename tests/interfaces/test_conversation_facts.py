@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 from conversations import talk
 
+pytestmark = pytest.mark.machine_code
+
 HELD = "highest total rate, 300 kbit/s each, at most 10 W"
 UNMET = "30 Mbit/s each"
 

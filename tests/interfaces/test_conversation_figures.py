@@ -11,6 +11,8 @@ from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
 from wirelessagent.model.units import human
 
+pytestmark = pytest.mark.machine_code
+
 HELD = "highest total rate, at most 10 W"
 
 

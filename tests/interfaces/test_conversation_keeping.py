@@ -7,7 +7,9 @@ from typing import Any
 import pytest
 from conversations import talked_into as talk
 
-from wirelessagent.language.conversation.wondering import supposes
+from wirelessagent.language.conversation.questions import supposes
+
+pytestmark = pytest.mark.machine_code
 
 HELD = "highest total rate, 300 kbit/s each, at most 10 W"
 

@@ -13,6 +13,8 @@ from wirelessagent.language.conversation import understood
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context
 
+pytestmark = pytest.mark.machine_code
+
 Said = str | tuple[str, Intent]
 HELD = ("highest total rate", asks("max_rate", max_power_w=10.0, min_rate_bps=1e5))
 

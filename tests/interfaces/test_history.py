@@ -29,6 +29,8 @@ from wirelessagent.store.store import Store
 from wirelessagent.store.stored import sealed
 from wirelessagent.testing.turns import decided_turn, random_turn
 
+pytestmark = pytest.mark.machine_code
+
 LOST = wa.loss.random(0.2)
 PROBLEMS = {
     "rate": (wa.Problem("max_rate"), Tools()),

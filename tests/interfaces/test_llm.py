@@ -27,6 +27,8 @@ from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 from wirelessagent.model.errors import InputError, MissingDependencyError
 
+pytestmark = pytest.mark.machine_code
+
 SENTENCE = "Save power, 1 Mbit/s each, at most 10 W"
 KEY = "sk-very-secret"
 TRUE_CONSTRAINTS = {"min_rate_bps": 1e6, "max_power_w": 10.0}

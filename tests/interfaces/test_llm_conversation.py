@@ -13,6 +13,8 @@ from wirelessagent.language.llm import LlmRecogniser
 from wirelessagent.language.llm_prompt import plain
 from wirelessagent.language.llm_settings import LlmSettings
 
+pytestmark = pytest.mark.machine_code
+
 pytest.importorskip("pydantic_ai")
 
 

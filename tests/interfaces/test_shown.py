@@ -17,6 +17,8 @@ from wirelessagent.agent.tools import Tools
 from wirelessagent.model.errors import MissingDependencyError, UnknownNameError
 from wirelessagent.model.shown import Plain, Shown
 
+pytestmark = pytest.mark.machine_code
+
 HOSTILE = "<b>7</b>\x1b[2J\n\u202e"
 TOOLS = Tools(repairer="user_mean", method="equal_power")
 DRAWN = ("Scene", "ChannelObservation", "ChannelEstimate", "Decision", "Outcome", "Report", "Comparison", "Run", "Turn")

@@ -34,6 +34,8 @@ from wirelessagent.store.store import Store
 from wirelessagent.store.stored import StoredTurn
 from wirelessagent.testing.turns import SENTENCES, random_turn, turn_of
 
+pytestmark = pytest.mark.machine_code
+
 WRITER = """
 import sys
 from wirelessagent.store.store import Store

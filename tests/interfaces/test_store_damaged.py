@@ -15,6 +15,8 @@ import pytest
 from wirelessagent.interfaces.cli import run
 from wirelessagent.store.schema import CONTENT, TURN
 
+pytestmark = pytest.mark.machine_code
+
 CELL = ("--num-users", "2", "--num-subcarriers", "4")
 RNG = np.random.default_rng(7)
 

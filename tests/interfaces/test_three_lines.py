@@ -19,6 +19,8 @@ from wirelessagent.interfaces.cli import run
 from wirelessagent.store.record_of import understood
 from wirelessagent.telling.catalogue import message
 
+pytestmark = pytest.mark.machine_code
+
 SCENE = wa.simulate("rayleigh", wa.Cell(max_power_w=20), num_users=4, num_subcarriers=12, seed=3)
 
 
@@ -157,3 +159,28 @@ def test_a_stored_turn_tells_the_lines(tmp_path: Path, capsys: pytest.CaptureFix
     assert run(["history", "show", "1", "--store", store, "--json"]) == 0
     turn = json.loads(capsys.readouterr().out)["turn"]
     assert turn["intent"]["lines"]["decided"] in turn["reply"]
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("show the allocation", "Of 12 subcarriers, counted from 1:"),
+        ("show me the current allocation", "Of 12 subcarriers, counted from 1:"),
+        ("显示子载波分配", "12 个子载波"),
+        ("zeige die Zuteilung", "12"),
+        ("montre l'allocation", "12"),
+        ("muestra la asignación", "12"),
+    ],
+)
+def test_the_allocation_and_the_powers_come_when_they_are_asked_for(line: str, told: str) -> None:
+    turn = said("Highest total rate, at most 10 W", line)[-1]
+    assert turn.lines.decided.startswith(told) or told in turn.lines.decided.split("\n")[0]
+    assert len(turn.lines.decided.split("\n")) > 1
+    assert turn.stage == "answered"
+
+
+@pytest.mark.parametrize("line", ["show the powers", "list the rates", "显示功率", "zeige die Leistungen"])
+def test_what_each_user_gets_comes_when_it_is_asked_for(line: str) -> None:
+    turn = said("Highest total rate, at most 10 W", line)[-1]
+    assert turn.run is None
+    assert [table.columns[2] for table in turn.tables][:1] in (["power"], ["功率"], ["Leistung"])

@@ -16,12 +16,14 @@ class Answer:
         self.voice, self.language, self.recogniser = voice, language, recogniser
 
     def ask(
-        self, key: str, confidence: float = 0.5, pending: Mapping[str, Constraint] | None = None, **names: str
-    ) -> Intent:
-        """A question back; ``pending`` are the constraints that were understood already."""
+        self, key: str, confidence: float = 0.5, pending: Mapping[str, Constraint] | None = None,
+        offered: str | None = None, **names: str,
+    ) -> Intent:  # fmt: skip
+        """A question back: ``pending`` was understood already, ``offered`` is what a plain yes means."""
         return self._intent(
-            kind="clarify", confidence=confidence, reply=self.voice.say(key, **names), pending=pending or {}
-        )
+            kind="clarify", confidence=confidence, reply=self.voice.say(key, **names), pending=pending or {},
+            offered=offered, asks=key,
+        )  # fmt: skip
 
     def tell(self, kind: IntentKind, key: str, confidence: float, **names: str) -> Intent:
         """A question, a command or something out of scope, with the sentence of a key."""

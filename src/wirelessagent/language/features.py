@@ -7,7 +7,6 @@ on every machine and in every process.
 from __future__ import annotations
 
 import functools
-import unicodedata
 import zlib
 from collections.abc import Iterator, Sequence
 
@@ -17,7 +16,7 @@ import numpy.typing as npt
 from wirelessagent.language.base_words import based
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.spelling import SOUND_OF
-from wirelessagent.language.text import CJK, is_chinese
+from wirelessagent.language.text import CJK, is_chinese, unaccented
 
 BUCKETS = 1 << 16
 _MAX_TOKENS = 120
@@ -42,13 +41,7 @@ def word_hashes(text: str) -> list[int]:
 
 @functools.lru_cache(maxsize=16)
 def _tokens(text: str) -> tuple[str, ...]:
-    return tuple(match.group() for match in _TOKEN.finditer(_plain(text)))[:_MAX_TOKENS]
-
-
-def _plain(text: str) -> str:
-    """Lower case without accents, so that "máximo" and "maximo" are one."""
-    lowered = unicodedata.normalize("NFD", text.lower()) if not text.isascii() else text.lower()
-    return "".join(letter for letter in lowered if unicodedata.category(letter) != "Mn") if lowered != text else lowered
+    return tuple(match.group() for match in _TOKEN.finditer(unaccented(text.lower())))[:_MAX_TOKENS]
 
 
 def _grams(tokens: Sequence[str], concepts: Sequence[str], language: str) -> Iterator[str]:

@@ -13,11 +13,9 @@ from __future__ import annotations
 import dataclasses
 import functools
 import re
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.followups import dropped_in
@@ -26,6 +24,7 @@ from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words
 from wirelessagent.language.text import languages_of, normalise
+from wirelessagent.language.word_tables import table
 
 if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Context
@@ -245,11 +244,9 @@ def stranger(plain: str, context: Context | None) -> Span | None:
     return None
 
 
-@functools.cache
 def table_of(language: str) -> Mapping[str, Mapping[str, Sequence[str]]]:
     """The classes of a language: words by class and by how far they reach."""
-    file = Path(__file__).with_name("moods") / f"{language}.toml"
-    return cast("dict[str, dict[str, list[str]]]", tomllib.loads(file.read_text(encoding="utf-8")))
+    return table("moods", language)
 
 
 def _places(words: Sequence[str], plain: str) -> Iterator[Span]:

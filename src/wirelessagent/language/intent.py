@@ -68,6 +68,8 @@ class Intent:
             ``{"power_w": 1.0}``, and ``{"constraints": {…}}`` for what-if.
         pending: constraints that were read although the sentence leads to a question back; the answer may use them.
         guess: what a plain yes to the question back carries out; None where it asks for more than that.
+        offered: the objective or the command that a plain yes to the question back means; None where it offers none.
+        asks: which question is asked back, as the key of its sentence; "" for every other kind, and where it has none.
         acts: what the sentence does, where the other fields don't say all of it.
         language: the operator's, as in "en" or "zh".
         confidence: 0 to 1; of the kind and the objective together.
@@ -91,6 +93,8 @@ class Intent:
     details: Mapping[str, Detail] = field(default_factory=dict[str, Detail])
     pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     guess: Intent | None = None
+    offered: str | None = None
+    asks: str = ""
     acts: tuple[Act, ...] = ()
 
     def __post_init__(self) -> None:

@@ -8,7 +8,6 @@ tie to the objective. The rules' own reading needs neither.
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 
 from wirelessagent.language import forms
@@ -18,7 +17,7 @@ from wirelessagent.language.intent import Intent
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.llm_reasons import Objection
 from wirelessagent.language.sentence import Sentence
-from wirelessagent.language.text import normalise
+from wirelessagent.language.text import normalise, unaccented
 from wirelessagent.language.vocabulary import OwnWords, units_of
 
 _A_QUESTION, _SOMETHING_ELSE, _REFUSED = 0.5, 0.8, 0.5
@@ -134,5 +133,4 @@ def _words(text: str, language: str) -> Iterator[str]:
     """The words of a text, and their base words."""
     tokens = [unit.word for unit in units_of(normalise(text))]
     yield from (word for word in tokens if len(word) > 1)
-    plain = ["".join(sign for sign in unicodedata.normalize("NFD", word) if sign.isascii()) or word for word in tokens]
-    yield from based(plain, language)
+    yield from based([unaccented(word) for word in tokens], language)

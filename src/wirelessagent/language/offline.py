@@ -141,7 +141,8 @@ class _Understanding:
             return dataclasses.replace(told, topic=topic, details=details)
         if judged.kind == "command":
             if is_unsure(topic, self._sentence.plain, judged.certainty):
-                return self._answer.ask("unsure_command", judged.certainty, text=self._voice.say(f"command.{topic}"))
+                said = self._voice.say(f"command.{topic}")
+                return self._answer.ask("unsure_command", judged.certainty, offered=topic, text=said)
             assert topic in COMMANDS
             details = details_of(topic, self._sentence)
             told = self._answer.tell("command", f"command.{topic}", judged.certainty)
@@ -253,7 +254,7 @@ class _Understanding:
         guess = self._goal.objective if found else self._judged.objective
         if guess in self._voice.labels and (found or self._judged.likeliest > 0.4):
             others = self._voice.choices(without=guess)
-            return self._answer.ask("weak", 0.6, values, goal=self._voice.label(guess), choices=others)
+            return self._answer.ask("weak", 0.6, values, guess, goal=self._voice.label(guess), choices=others)
         return self._answer.ask("greeting" if "greeting" in self._sentence.concepts else "unclear", 0.5, values)
 
     def _quoted(self, values: Mapping[str, Constraint]) -> str:

@@ -30,10 +30,6 @@ class Voice:
         }
         return message(self.language, f"reply.{key}", **(given | places))
 
-    def ending(self, key: str, **places: str) -> str:
-        """How the reply of this key ends, behind the operator's own words in it."""
-        return self.say(key, text="\0", **places).partition("\0")[2]
-
     def choices(self, last: str = "or", *, without: str = "") -> str:
         """The objectives on offer, "a, b or c"."""
         return self.both([name for name in self.labels if name != without], last)
@@ -58,13 +54,13 @@ class Voice:
         return users_in_words(references, self.language)
 
     def amended(self, values: Mapping[str, Constraint], dropped: Sequence[str]) -> str:
-        """What changes in the current request, as one sentence."""
+        """What changes in the current request, as one sentence; "" where no figure of it is known yet."""
         gone = [message(self.language, f"dropped.{name}") for name in dropped if name not in values]
         parts = [self.constraints(values)] if values else []
         if gone:
             parts.append(self.say("taken_off", text=self._listed(gone, "and")))
         said = message(self.language, "text.comma").join(parts)
-        return message(self.language, "text.sentence", line=said[:1].upper() + said[1:])
+        return message(self.language, "text.sentence", line=said[:1].upper() + said[1:]) if said else ""
 
     def restated(self, objective: str, values: Mapping[str, Constraint], not_used: Sequence[str]) -> str:
         """What was understood, as one sentence."""

@@ -7,7 +7,6 @@ apart from what is near; letters within words catch compounds such as "Ruheverbr
 from __future__ import annotations
 
 import functools
-import unicodedata
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -18,7 +17,7 @@ import numpy.typing as npt
 
 from wirelessagent.language.base_words import based
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.text import CJK
+from wirelessagent.language.text import CJK, unaccented
 
 BUCKETS = 1 << 14
 _REACH = 12
@@ -65,8 +64,7 @@ def _words(plain: str, start: int, end: int) -> Iterator[Token]:
 @functools.lru_cache(maxsize=4096)
 def _simple(word: str) -> str:
     """Lower case without accents."""
-    decomposed = unicodedata.normalize("NFD", word.lower())
-    return "".join(letter for letter in decomposed if unicodedata.category(letter) != "Mn") or word
+    return unaccented(word.lower()) or word
 
 
 def in_base_words(tokens: Sequence[Token], language: str) -> list[Token]:

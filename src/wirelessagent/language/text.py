@@ -6,6 +6,7 @@ Deliberately not NFKC: that would turn "10² W" into "102 W".
 from __future__ import annotations
 
 import functools
+import unicodedata
 
 from wirelessagent.language.deferred import deferred
 
@@ -78,6 +79,17 @@ def lowered(text: str) -> str:
     if len(small) == len(text):
         return small
     return "".join(low if len(low := letter.lower()) == 1 else letter for letter in text)
+
+
+def unaccented(text: str) -> str:
+    """The text without the marks on its letters, which quick fingers leave out.
+
+    >>> unaccented("máximo"), unaccented("über")
+    ('maximo', 'uber')
+    """
+    if text.isascii():
+        return text
+    return "".join(sign for sign in unicodedata.normalize("NFD", text) if unicodedata.category(sign) != "Mn")
 
 
 def is_chinese(word: str) -> bool:

@@ -9,22 +9,31 @@ from __future__ import annotations
 
 import dataclasses
 
-from wirelessagent.language.conversation.about import asked_instead, given_instead, read_question
-from wirelessagent.language.conversation.amendments import read_amendment
+from wirelessagent.language.conversation.amendments import keeping_what_holds, read_amendment
 from wirelessagent.language.conversation.assent import read_assent
-from wirelessagent.language.conversation.certain import made_certain
-from wirelessagent.language.conversation.commands import read_command
-from wirelessagent.language.conversation.comparing import read_comparison
-from wirelessagent.language.conversation.fragments import read_fragment, referred
-from wirelessagent.language.conversation.holding import keeping_what_holds
+from wirelessagent.language.conversation.commands import (
+    beside_method,
+    by_method,
+    made_certain,
+    read_command,
+    read_method,
+    with_method,
+)
+from wirelessagent.language.conversation.fragments import read_fragment, read_wondered, referred
 from wirelessagent.language.conversation.line import NAME, Line
-from wirelessagent.language.conversation.methods import beside_method, by_method, read_method, with_method
-from wirelessagent.language.conversation.needing import read_needed
-from wirelessagent.language.conversation.promisable import read_promisable
-from wirelessagent.language.conversation.relative import read_relative
-from wirelessagent.language.conversation.shares import read_share
+from wirelessagent.language.conversation.questions import (
+    asked_instead,
+    given_instead,
+    is_worked_out,
+    only_supposed,
+    read_comparison,
+    read_needed,
+    read_promisable,
+    read_question,
+    supposed,
+    wondered,
+)
 from wirelessagent.language.conversation.unanswered import Unanswered, leaves_the_question, unanswered
-from wirelessagent.language.conversation.wondering import is_worked_out, only_supposed, supposed, wondered
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -34,8 +43,8 @@ __all__ = ["NAME", "Unanswered", "unanswered", "understood"]
 _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""
 _READERS = (
-    read_command, read_assent, read_method, read_comparison, read_needed, read_relative, read_promisable,
-    read_question, read_share, read_amendment,
+    read_command, read_assent, read_method, read_comparison, read_needed, read_promisable,
+    read_question, read_amendment,
 )  # fmt: skip
 """What a line may be because of its conversation, the closest first."""
 
@@ -79,9 +88,9 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
 def _possible(line: Line, asked: str, recogniser: Recogniser) -> Intent:
     """A what-if of what a line asks to be possible, where that is a request; else what the whole line means."""
     plain = Line.of(asked, line.context)
-    for read in (read_relative, read_amendment):
+    for read in (read_wondered, read_amendment):
         intent = read(plain)
-        if intent is not None and intent.kind == "allocate":
+        if intent is not None and intent.kind != "clarify":
             return supposed(line, intent)
     whole = recogniser.read(line.text, line.context)
     if whole.kind in ("allocate", "command") or is_worked_out(whole):

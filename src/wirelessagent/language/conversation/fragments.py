@@ -11,7 +11,7 @@ import dataclasses
 import math
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any, cast
+from typing import cast
 
 from wirelessagent.language.acts import (
     Act,
@@ -27,42 +27,24 @@ from wirelessagent.language.acts import (
     Undo,
     Whom,
 )  # fmt: skip
-from wirelessagent.language.conversation.fragment_tokens import Token, speaks_of_one, tokens_of
-from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.line import Line, is_all
+from wirelessagent.language.conversation.relative import read_relative
+from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, speaks_of_one, tokens_of, words_of
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
-from wirelessagent.language.intent_acts import acts_of
+from wirelessagent.language.intent_acts import acts_of, stated
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.text import languages_of, normalise
 from wirelessagent.model.units import human
 
-_UNITS: Mapping[str, tuple[str, ...]] = {
-    "power": ("max_power_w", "subcarrier_max_power_w", "circuit_power_w"),
-    "rate": ("min_rate_bps", "max_rate_bps"),
-    "ratio": ("outage_probability",),
-}
-"""Limits that a figure with such a unit may be."""
-
-_NOUNS: Mapping[str, tuple[str, ...]] = {
-    "power": ("max_power_w",),
-    "limit": ("max_power_w", "max_rate_bps", "subcarrier_max_power_w"),
-    "rate": ("min_rate_bps", "max_rate_bps"),
-    "promise": ("min_rate_bps",),
-    "weight": ("weights",),
-    "certainty": ("outage_probability",),
-    "circuit": ("circuit_power_w",),
-    "subcarrier": ("subcarrier_max_power_w",),
-    "group": ("resource_block_group_size",),
-}
-"""Limits that a noun may name."""
-
 _COUNTS = ("weights", "resource_block_group_size")
 """Limits without a unit."""
 
 _FIGURE = re.compile(r"^[-+\d.,\s]+")
-_ASKED = re.compile(r"[?？]\s*$|[呢吗]\s*[?？]?\s*$")
 _LONGEST = 120
 _SHORT = 40
+_MOST_STEPS = 20
+_BUT = re.compile(r"(?:\s(?=(?:but|and)\s)|(?=但|而))(.+)$")
 _LAST_CLAUSE = re.compile(r"[,，;；.。!！]\s*([^,，;；.。!！]+)[.。!！\s]*$")
 _FAR = 20.0
 """How many times a figure may change where its unit is left out."""
@@ -76,14 +58,15 @@ def read_fragment(line: Line) -> Intent | None:
         return None
     if _takes_back(line):
         return line.command("undo", steps=1.0)
-    spoken = [context.language] if context.language else []
-    for language in dict.fromkeys([*spoken, *languages_of(line.text)]):
-        tokens = tokens_of(line, language)
-        if tokens:
-            found = _Fragment(line, tokens).intent()
-            if found is not None:
-                return found
-    return None
+    line = _without_what_stays(line)
+    found = (fragment.intent() for fragment in words_of(line, _Fragment))
+    return next((intent for intent in found if intent is not None), None)
+
+
+def read_wondered(line: Line) -> Intent | None:
+    """The what-if of a change by what holds, of a line that asks whether it is possible; None for any other."""
+    found = (read_relative(words, wonders=True) for words in words_of(line, Words))
+    return next((intent for intent in found if intent is not None), None)
 
 
 def referred(line: Line, intent: Intent) -> Intent:
@@ -93,15 +76,20 @@ def referred(line: Line, intent: Intent) -> Intent:
     if intent.kind != "allocate" or context.objective is None or intent.acts or not kinds:
         return intent
     plain = normalise(line.text)
-    roles = {each.role for each in mentions(plain, context.user_names)}
+    roles = {each.role for each in mentions(plain, context.user_names)} - {"pronoun"}
+    supposed = acts_of(context.guess) if context.guess is not None else ()
     last = {
-        act.whom for act in context.acts if isinstance(act, Limit | Scale | LeaveOut) and isinstance(act.whom, Named)
+        act.whom
+        for act in (*context.acts, *supposed)
+        if isinstance(act, Limit | Scale | LeaveOut) and isinstance(act.whom, Named)
     }
     whom: Whom | None = Others() if roles == {"others"} else None
     if not roles and len(last) == 1 and speaks_of_one(plain):
         whom = last.pop()
     if whom is None:
-        return intent
+        if roles or not speaks_of_one(plain, "one"):
+            return intent
+        return line.ask("whose_figure", text=intent.evidence[kinds[0]], users=line.voice.users(context.user_names))
     acts = [dataclasses.replace(act, whom=whom) if isinstance(act, Limit) and act.kind in kinds else act
             for act in acts_of(intent)]  # fmt: skip
     return dataclasses.replace(intent, acts=tuple(acts))
@@ -116,17 +104,32 @@ def named_alone(line: Line) -> tuple[str, ...]:
     return ()
 
 
+def _without_what_stays(line: Line) -> Line:
+    """The line without a last clause that only says what stays: "…, but keep the promise to user 3"."""
+    clause = _LAST_CLAUSE.search(line.text) or _BUT.search(line.text)
+    stays = clause is not None and is_all("kept", Line.of(clause[1], line.context).shape.rstrip(".!。 "))
+    return Line.of(line.text[: clause.start()], line.context) if clause is not None and stays else line
+
+
 def _takes_back(line: Line) -> bool:
     """Whether the last clause of a short line is an undo and nothing else: "call's over, undo that"."""
     clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or len(line.text) > _SHORT or _ASKED.search(line.text):
+    if clause is None or len(line.text) > _SHORT or line.is_asked:
         return False
     last = Line.of(clause[1], line.context)
     for language in languages_of(line.text):
         tokens = tokens_of(last, language)
-        if tokens and any("undo" in token.classes for token in tokens):
-            return all(token.classes & {"undo", "skip", "it", "again"} for token in tokens)
+        if tokens and _is_undo(Words(last, tokens, language), "again"):
+            return True
     return False
+
+
+def _is_undo(words: Words, *further: str) -> bool:
+    """Whether a line takes the last change back and says nothing else: "undo that", "undo the raise"."""
+    changes = ("make", "more", "less", "factor", "rate", "limit", "promise", "power", "weight")
+    names = any(words.has(name) for name in changes[:3])
+    bare = not (words.figures or words.users)
+    return bare and words.has("undo") and words.only("undo", "it", *further, *(changes if names else ()))
 
 
 def _denies(tokens: Sequence[Token]) -> bool:
@@ -136,70 +139,89 @@ def _denies(tokens: Sequence[Token]) -> bool:
     return any("correct" in token.classes and not token.classes & {"skip", "lead"} for token in behind)
 
 
-class _Fragment:
-    """The tokens of a line in its conversation."""
-
-    def __init__(self, line: Line, tokens: Sequence[Token]) -> None:
-        self.line, self.tokens, self.last = line, tokens, line.context.acts
-        self.figures = [token.figure for token in tokens if token.figure is not None]
-        self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
-        self.held = line.context.constraints
-
-    def has(self, name: str) -> bool:
-        return any(name in token.classes for token in self.tokens)
-
-    @property
-    def _is_read(self) -> bool:
-        """Whether recognisers read whole sentences of the language well, so that those are theirs."""
-        return self.line.voice.language in ("en", "zh")
-
-    def only(self, *names: str) -> bool:
-        """Whether every token is in one of these classes, or says nothing."""
-        allowed = {"skip", *names}
-        return all(token.classes & allowed for token in self.tokens)
+class _Fragment(Words):
+    """A line that leans on the acts before it."""
 
     def intent(self) -> Intent | None:
-        if _ASKED.search(self.line.text):
-            return self._stated()
+        if self.line.is_asked:
+            return read_relative(self) or self._stated()
         readers = (
             self._moved, self._undone, self._as_another, self._again, self._taken_up, self._dropped, self._served,
-            self._scaled, self._stated,
+            self._scaled, self._stated, self._corrected,
         )  # fmt: skip
         readers = readers[: 1 if _denies(self.tokens) else None]
         return next((found for read in readers if (found := read()) is not None), None)
 
     def _undone(self) -> Intent | None:
         """ "nah, undo that"; a bare command is a sentence of its own where recognisers read it."""
-        what = ("more", "less", "factor", "make", "rate", "limit", "promise", "power", "weight")
-        named = any(self.has(name) for name in ("more", "less", "make")) and not self.has("factor")  # "undo the raise"
-        if named and self.has("undo") and self.only("undo", "lead", *what) and not self.figures and not self.users:
-            return self.line.command("undo", steps=1.0)
         if (
-            (self.has("correct") or not self._is_read)
-            and self.has("undo")
-            and self.only("undo", "correct", "it", "lead", "again")
+            self.has("undo")
+            and not self.is_read
+            and self.only("undo", "bare", "factor", "change_noun", "lead", "again")
         ):
+            counts = [figure.value for figure in self.figures] + [token.factor for token in self.tokens if token.factor]
+            if len(counts) == 1 and counts[0] in range(1, _MOST_STEPS):
+                return self.line.command("undo", steps=float(counts[0]))
+        changes = any(self.has(name) for name in ("more", "less", "make"))  # "undo the raise"
+        if (changes or self.has("correct") or not self.is_read) and _is_undo(self, "correct", "lead", "again"):
             return self.line.command("undo", steps=1.0)
         return None
 
     def _moved(self) -> Intent | None:
         """ "no, user 5", "I mean user 6, not 3": what was said last of one user, of another."""
-        last = [act for act in self._last(Limit, LeaveOut, Serve) if isinstance(act.whom, Named)]
-        if len(last) != 1 or not self.has("correct") or not self.only("users", "bare", "correct", "lead", "it"):
+        if (
+            not self.users
+            or not self.has("correct")
+            or not self.only("users", "bare", "correct", "lead", "it", "revise")
+        ):
+            return None
+        if self.taken_off:
+            return self._taken_off_another()
+        last = [act for act in self.last(Limit, LeaveOut, Serve) if isinstance(act.whom, Named)]
+        if not last:
+            return self._for_all_moved()
+        if len(last) != 1:
             return None
         old = last[0].whom
-        denied = [f"{figure.value:g}" for figure in self.figures]
         users = tuple(user for user in self.users if user not in old.users)
-        if len(users) != 1 or not {*denied, *self.users} - {*users} <= {*old.users}:
+        denied = {*(f"{figure.value:g}" for figure in self.figures), *self.users} - {*users}
+        if not users or not denied <= {*old.users}:
             return None
-        back: Act = LeaveOut(whom=old) if isinstance(last[0], Serve) else Serve(whom=old)
+        gone = Named(tuple(user for user in old.users if user in denied or not denied))
+        back: Act = LeaveOut(whom=gone) if isinstance(last[0], Serve) else Serve(whom=gone)
         if isinstance(last[0], Limit):
-            back = Drop(kind=last[0].kind, whom=old, own=True)
-        return self._acts([back, dataclasses.replace(last[0], whom=Named(users))])
+            back = Drop(kind=last[0].kind, whom=gone, own=True)
+        return self.acts([back, dataclasses.replace(last[0], whom=Named(users))])
+
+    def _for_all_moved(self) -> Intent:
+        """What was said last for everybody, for these users alone; where nothing was, what is meant is asked."""
+        last = [act for act in self.last(Limit) if act.kind in FIGURES_OF_USERS and isinstance(act.whom, Everybody)]
+        if len(last) != 1 or self.figures:
+            return self.line.ask("what_of_user", users=self.line.voice.users(self.users))
+        return self.acts([Drop(kind=last[0].kind), dataclasses.replace(last[0], whom=Named(self.users))])
+
+    @property
+    def taken_off(self) -> Mapping[str, Mapping[str, float]]:
+        """The figures of users that the last change took off."""
+        return {
+            kind: stated
+            for kind, stated in self.line.context.stated.items()
+            if isinstance(stated, Mapping) and EVERYBODY not in stated
+            and isinstance(held := self.held.get(kind, {}), Mapping) and not stated.keys() & held.keys()
+        }  # fmt: skip
+
+    def _taken_off_another(self) -> Intent | None:
+        """ "Sorry, user 3": the limit of another user goes, in the place of the one that was taken off."""
+        kind, stated = next(iter(self.taken_off.items()))
+        held = cast("Mapping[str, float]", self.held.get(kind, {}))
+        gone = {user: held[user] for user in self.users if user in held}
+        back = [Limit(kind=kind, value=value, whom=Named((user,))) for user, value in stated.items()]
+        off = Drop(kind=kind, whom=Named(tuple(gone)))
+        return self.acts([*back, off], {"taken_off": {kind: gone}}) if len(gone) == len(self.users) else None
 
     def _again(self) -> Intent | None:
         """ "once more" behind an undo."""
-        if self.has("again") and self.only("again", "lead") and self._last(Undo):
+        if self.has("again") and self.only("again", "lead") and self.last(Undo):
             return self.line.command("undo", steps=1.0)
         return None
 
@@ -212,44 +234,52 @@ class _Fragment:
 
     def _dropped(self) -> Intent | None:
         """ "remove the cap again", "all weights equal"."""
-        whom = self._whom()
+        whom = self.whom()
         if self.has("equal") and self.has("weight") and self.only("equal", "weight", "every", "make", "again", "lead"):
-            return self._acts([Drop(kind="weights")]) if "weights" in self.held else None
-        said = ("remove", "users", "bare", "every", "again", "lead", "correct", "more", "by", *_NOUNS)
+            return self.acts([Drop(kind="weights")]) if "weights" in self.held else None
+        said = ("remove", "users", "bare", "every", "again", "lead", "correct", "more", "by", *NOUNS)
         users = self._counted() if self.figures else ()
         if (self.figures and not users) or not self.has("remove") or not self.only(*said):
             return None
         whom = Named(users) if users else whom
         own = [name for name, value in self.held.items() if isinstance(value, Mapping) and isinstance(whom, Named)
                and set(whom.users) <= value.keys()]  # fmt: skip
-        kinds = [kind for kind in self._named_kinds() if kind in self.held]
+        kinds = [kind for kind in self.named_kinds() if kind in self.held]
         if len(kinds) > 1:
-            kinds = [act.kind for act in self._last(Limit) if act.kind in kinds][-1:]
+            kinds = [act.kind for act in self.last(Limit) if act.kind in kinds][-1:]
         if len(kinds) != 1 or (isinstance(whom, Named) and kinds[0] not in own and kinds[0] != "min_rate_bps"):
             return None
-        return self._acts([Drop(kind=kinds[0], whom=whom or Everybody())])
+        return self.acts([Drop(kind=kinds[0], whom=whom or Everybody())])
 
     def _served(self) -> Intent | None:
         """ "take 7 off the list", "user 7 back in", and users of whom the same is said as of the last ones."""
         users = self.users or self._counted()
         if self.has("every") and self.has("serve") and self.only("every", "serve", "again", "lead", "take", "make"):
-            return self._acts([Serve(whom=Everybody())]) if {"users", "leave_out"} & self.held.keys() else None
+            return self.acts([Serve(whom=Everybody())]) if {"users", "leave_out"} & self.held.keys() else None
+        out = self.held.get("leave_out", ())
+        if self.has("both") and self.has("serve") and self.only("both", "serve", "again", "lead", "every"):
+            return (
+                self.acts([Serve(whom=Named(cast("tuple[str, ...]", out)))])
+                if len(cast("tuple[str, ...]", out)) == 2
+                else None
+            )
         if not users or (self.figures and self.users):
             return None
-        whom, lists = Named(users), [*self._last(LeaveOut), *self._last(Serve)]
+        whom, lists = Named(users), [*self.last(LeaveOut), *self.last(Serve)]
         said = ("users", "bare", "lead", "again")
         if self.has("serve") and self.only("serve", "too", "take", "make", *said) and not self._serves(users):
-            return self._acts([Serve(whom=whom)])
-        if self.has("leave") and self.only("leave", "too", "take", *said) and (lists or not self._is_read):
-            return self._acts([LeaveOut(whom=whom)])
+            return self.acts([Serve(whom=whom)])
+        if self.has("leave") and self.only("leave", "too", "take", *said) and (lists or not self.is_read):
+            return self.acts([LeaveOut(whom=whom)])
         if not (self.has("too") or self.has("lead")) or not self.only("too", "pronoun", "it", "correct", *said):
             return None
         if not (self.has("too") or self.users):
             return None
-        again = [dataclasses.replace(act, whom=whom) for act in self._last(Limit, Drop, LeaveOut, Scale, Serve)
-                 if isinstance(act.whom, Named)]  # fmt: skip
+        moved = {act.kind for act in self.last(Limit)}
+        again = [dataclasses.replace(act, whom=whom) for act in self.last(Limit, Drop, LeaveOut, Scale, Serve)
+                 if isinstance(act.whom, Named) and not (isinstance(act, Drop) and act.kind in moved)]  # fmt: skip
         again = [dataclasses.replace(act, alone=False) if isinstance(act, Serve) else act for act in again]
-        return self._acts(again) if len(set(again)) == 1 else None
+        return self.acts(again) if len(set(again)) == 1 else None
 
     def _as_another(self) -> Intent | None:
         """ "user 8 the same as user 3": the one figure of a user, for another one too."""
@@ -263,7 +293,7 @@ class _Fragment:
         figures = [(kind, value[named[1][0]]) for kind in FIGURES_OF_USERS
                    if isinstance(value := self.held.get(kind), Mapping) and named[1][0] in value]  # fmt: skip
         acts = [Limit(kind=kind, value=value, whom=Named(named[0])) for kind, value in figures]
-        return self._acts(acts) if len(acts) == 1 else None
+        return self.acts(acts) if len(acts) == 1 else None
 
     def _serves(self, users: tuple[str, ...]) -> bool:
         served, out = self.held.get("users"), self.held.get("leave_out")
@@ -271,61 +301,34 @@ class _Fragment:
         return (served is None and not set(users) & set(cast("tuple[str, ...]", out or ()))) or set(users) <= {*listed}
 
     def _scaled(self) -> Intent | None:
-        """ "double his rate", "20 % more for user 4", "halve the power", "no, by 30 %"."""
-        factor, corrected = self._factor(), self.has("correct") and bool(self._last(Scale))
-        said = ("users", "every", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
-                "promise", "power", "limit", "again", "by")  # fmt: skip
-        if factor is None or not self.only(*said, *(("correct",) if corrected else ())):
-            return None
-        if factor < 1 and self.has("by") and self.has("less") and not self.figures:
-            factor = 1 - factor
-        if corrected:
-            last = self._last(Scale)[-1]
-            return self._acts([Scale(kind=last.kind, factor=factor / last.factor, whom=last.whom)])
-        weighed = [act for act in self._last(Limit) if act.kind == "weights"]
-        if self.has("weight") or (weighed and len(weighed) == len(self._last(Limit)) and factor > 1):
-            whom = self._whom() or (weighed[-1].whom if len(weighed) == 1 else None)
-            return self._acts([Limit(kind="weights", value=factor, whom=whom)]) if isinstance(whom, Named) else None
-        if self.has("power"):
-            return self._acts([Scale(kind="max_power_w", factor=factor, reference="radiated")])
-        named = self._named_kinds() or [act.kind for act in self._last(Limit)] or [*_UNITS["rate"]]
-        kinds = list(dict.fromkeys(kind for kind in named if kind in self.held))
-        whom = self._whom() or self._last_whom()
-        if len(kinds) != 1 or kinds[0] not in ("max_power_w", "min_rate_bps", "max_rate_bps"):
-            return None
-        if self.has("pronoun") and not isinstance(whom, Named):
-            return None
-        of_users = kinds[0] in FIGURES_OF_USERS
-        return self._acts([Scale(kind=kinds[0], factor=factor, whom=whom if of_users else Everybody())])
+        return read_relative(self)
 
-    def _factor(self) -> float | None:
-        factors = [token.factor for token in self.tokens if token.factor is not None]
-        ratios = [figure.value for figure in self.figures if figure.kind == "ratio"]
-        if len(factors) == 1 and not self.figures:
-            return factors[0]
-        if len(ratios) != 1 or len(self.figures) != 1 or factors:
+    def _corrected(self) -> Intent | None:
+        """ "No, a third", where no share was said before."""
+        shares = any(token.classes & {"ratio", "factor"} for token in self.tokens)
+        if (
+            not shares
+            or not self.has("correct")
+            or not self.only("correct", "ratio", "factor", "lead", "by", "to", "less", "more")
+        ):
             return None
-        last = self._last(Scale)
-        if self.has("correct") and last and not self.has("more") and not self.has("less"):
-            is_less = last[-1].factor < 1 and not self.has("to")
-            return 1 - ratios[0] if is_less else ratios[0] if self.has("to") else 1 + ratios[0]
-        if self.has("more") == self.has("less"):
-            return None
-        return 1 + ratios[0] if self.has("more") else 1 - ratios[0] if ratios[0] < 1 else None
+        return None if "outage_probability" in self.line.context.stated else self.line.ask("what_changes")
 
     def _stated(self) -> Intent | None:
         """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
         said = (
             "users", "every", "others", "pronoun", "it", "lead", "make", "correct", "suppose", "take", "figure",
-            "ratio", "bare", "with", "by", *_NOUNS,
+            "ratio", "bare", "with", "by", "to", "revise", *NOUNS,
         )  # fmt: skip
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
             return self.line.ask("what_changes")
-        if len(self.figures) != 1 or not self.only(*said):
+        if len(self.figures) != 1 or not self.only(*said, *(("been",) if self.has("suppose") else ())):
             return None
         figure = self.figures[0]
-        supposed = [act for one in self._last(Suppose) for act in one.acts if isinstance(act, Limit)]
-        before = supposed or [*self._last(Limit), *map(self._as_held, self._last(Scale))]
+        supposed = [act for one in self.last(Suppose) for act in one.acts if isinstance(act, Limit)]
+        before = supposed or [*self.last(Limit), *map(self._as_held, self.last(Scale))]
+        if self.has("correct") and self.taken_off:
+            before = [act for act in stated(self.taken_off) if isinstance(act, Limit)]
         kinds = self._kinds_of(figure, before)
         if len(kinds) != 1:
             return None
@@ -333,11 +336,15 @@ class _Fragment:
         models = [act for act in before if act.kind == kind]
         model = models[-1] if models else None
         several = len({act.whom for act in models}) > 1 and not (self.users or self.has("others") or self.has("every"))
-        if several or (self.has("correct") and (self.line.context.share_of or (model is None and self._last(Drop)))):
+        if several and model is not None and self.has("correct"):
+            users = [user for act in models if isinstance(act.whom, Named) for user in act.whom.users]
+            return self.line.ask("whose_figure", text=figure.text, users=self.line.voice.users(users))
+        if several or (self.has("correct") and (self.line.context.share_of or (model is None and self.last(Drop)))):
             return None
         leaning = ["correct", "take", "others", "subcarrier", "group", "pronoun"]
         leaning += ["make", "lead", "with", "suppose"] if figure.kind == "bare" or supposed else []
-        if len(self._named_kinds()) == 1:
+        leaning += ["revise"] if model is not None and isinstance(model.whom, Named) else []
+        if len(self.named_kinds()) == 1:
             leaning.append("make")
         alone = (
             model is not None
@@ -347,7 +354,7 @@ class _Fragment:
         leans = alone or any(self.has(name) for name in leaning)
         leans = leans and not (self.has("by") and self.has("make"))
         value = _value(figure, kind, model)
-        whom = self._whom() or (model.whom if model is not None else Everybody())
+        whom = self.whom() or (model.whom if model is not None else Everybody())
         led = any(self.has(name) for name in ("lead", "correct", "with", "make"))
         if value is None or not leans or (self.users and not led):
             return None
@@ -355,10 +362,19 @@ class _Fragment:
             if self.users or self.has("others"):
                 return None
             whom = Everybody()
-        wondered = bool(_ASKED.search(self.line.text)) or self.has("suppose")
+        named = isinstance(whom, Named)
+        if (
+            self.has("instead")
+            or (self.has("one") and not named)
+            or (self.has("pronoun") and self.has("each") and named)
+        ):
+            return None
+        if self.replaced is not None and _value(self.replaced, kind, model) not in _figures(self.held.get(kind)):
+            return None
+        wondered = self.line.is_asked or self.has("suppose")
         if (wondered or supposed) and not (self.has("take") or self.has("make") or self.has("correct")):
             return self._wondered(kind, value, whom) if self.has("suppose") or supposed else None
-        return self._acts([Limit(kind=kind, value=value, whom=whom, words=_words(figure, kind, model))])
+        return self.acts([Limit(kind=kind, value=value, whom=whom, words=_words(figure, kind, model))])
 
     def _as_held(self, act: Scale) -> Limit:
         """A figure that was scaled, as it holds."""
@@ -369,11 +385,11 @@ class _Fragment:
 
     def _kinds_of(self, figure: Quantity, before: Sequence[Limit]) -> list[str]:
         """The limits that a figure may be, the closest first by what was said last."""
-        fitting = _UNITS.get(figure.kind, ())
-        named = self._named_kinds()
+        fitting = UNITS.get(figure.kind, ())
+        named = self.named_kinds()
         possible = [kind for kind in named if not fitting or kind in fitting] if named else list(fitting)
         last = [act.kind for act in before if not (named or fitting) or act.kind in possible][-1:]
-        if not named and any(self.has(name) for name in _NOUNS):
+        if not named and any(self.has(name) for name in NOUNS):
             return []
         if figure.kind == "bare" and not named:
             return last
@@ -388,24 +404,6 @@ class _Fragment:
         users = dict.fromkeys(whom.users, value) if isinstance(whom, Named) else value
         return self.line.question("what_if", constraints={kind: users})
 
-    def _named_kinds(self) -> list[str]:
-        """Limits that the nouns of the line name together."""
-        sets = [_NOUNS[name] for name in _NOUNS if self.has(name)]
-        return [kind for kind in dict.fromkeys(sets[0]) if all(kind in kinds for kinds in sets)] if sets else []
-
-    def _whom(self) -> Whom | None:
-        if self.users:
-            return Named(self.users)
-        if self.has("others"):
-            return Others()
-        if self.has("pronoun") and isinstance(self._last_whom(), Named):
-            return self._last_whom()
-        return Everybody() if self.has("every") else None
-
-    def _last_whom(self) -> Whom:
-        last = self._last(Limit, Scale, Drop)
-        return last[-1].whom if last else Everybody()
-
     def _counted(self) -> tuple[str, ...]:
         """Users named by their number alone: "and 3 too"."""
         found = [token.figure for token in self.tokens if "bare" in token.classes and token.figure is not None]
@@ -413,47 +411,35 @@ class _Fragment:
         users = tuple(f"{figure.value:g}" for figure in found)
         if not users or len(found) != len(self.figures) or not set(users) <= names:
             return ()
-        named = any(isinstance(act.whom, Named) for act in self._last(Limit, Drop, LeaveOut, Serve, Scale))
+        named = any(isinstance(act.whom, Named) for act in self.last(Limit, Drop, LeaveOut, Serve, Scale))
         return users if named or self.has("leave") or self.has("serve") else ()
 
-    def _last(self, *kinds: type[Any]) -> list[Any]:
-        return [act for act in self.last if isinstance(act, kinds)]
 
-    def _acts(self, acts: Sequence[Act]) -> Intent:
-        """A change of the request by these acts."""
-        stated: dict[str, Constraint] = {}
-        for act in acts:
-            if isinstance(act, Limit):
-                users = act.whom.users if isinstance(act.whom, Named) else (EVERYBODY,)
-                stated[act.kind] = dict.fromkeys(users, act.value) if isinstance(act.whom, Named) else act.value
-            elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
-                stated["leave_out"] = act.whom.users
-        dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
-        intent = self.line.allocate(str(self.line.context.objective), stated, amends=True, dropped=dropped)
-        return dataclasses.replace(intent, acts=tuple(acts))
+def _figures(held: Constraint | None) -> tuple[float, ...]:
+    """All figures of a limit that holds."""
+    if isinstance(held, Mapping):
+        return tuple(held.values())
+    return (held,) if isinstance(held, float) else ()
 
 
 def _value(figure: Quantity, kind: str, model: Limit | None) -> float | None:
     """A figure in SI units; one without a unit has that of the figure in whose place it is."""
-    if figure.kind != "bare" or kind in _COUNTS:
-        value = figure.value
-    else:
+    value, bare = figure.value, figure.kind == "bare" and kind not in _COUNTS
+    if bare:
         unit = None if model is None else _unit(model)
         found = parse_quantities(f"{figure.value:g} {unit}" if unit else "")
         value = found[0].value if found and found[0].kind != "bare" else math.nan
-        if model is None or not model.value / _FAR < value < model.value * _FAR:  # another unit may be meant
-            return None
     if kind == "outage_probability":
-        value = 1 - value if value > 0.5 else value
-        value = round(value, 12)
-        return value if 0 < value < 1 else None
-    return value if value > 0 and math.isfinite(value) else None
+        value = round(1 - value if value > 0.5 else value, 12)
+    if bare and (model is None or not model.value / _FAR < value < model.value * _FAR):  # another unit may be meant
+        return None
+    return value if 0 < value < (1 if kind == "outage_probability" else math.inf) else None
 
 
 def _unit(model: Limit) -> str:
     """The unit in which a limit was said, or in which it is shown."""
     for one in parse_quantities(model.words):
-        if one.kind in _UNITS and (one.value == model.value or one.kind == "ratio"):
+        if one.kind in UNITS and (one.value == model.value or one.kind == "ratio"):
             return _FIGURE.sub("", one.text).strip() or "W"
     if model.kind == "outage_probability":
         return "%"

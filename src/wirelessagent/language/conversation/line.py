@@ -1,11 +1,15 @@
 """One line of a conversation as its shape: "@" for the users it names, "#" for its figures, the words as they are.
 
-``User 2's rate: 1 Mbit/s`` has the shape ``@'s rate: #``, so that one pattern reads every user and every figure.
+``User 2's rate: 1 Mbit/s`` has the shape ``@'s rate: #``, so that one pattern reads every user and every figure. What a
+shape says is told by forms, as data by language (``talk_forms/<language>.toml``): one that has Chinese in it by the
+Chinese ones, every other by those of the European languages, of which only English has all.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import functools
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,15 +20,57 @@ from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Voice
-from wirelessagent.language.sentence import labels_of, own_words
-from wirelessagent.language.text import language_of, normalise
+from wirelessagent.language.sentence import Sentence, labels_of, own_words
+from wirelessagent.language.text import has_chinese, language_of, normalise
+from wirelessagent.language.word_tables import table, written
 
 NAME = READ_IN_A_TALK
+_ASKED = deferred(r"[?？]\s*$|[呢吗]\s*[?？]?\s*$")
 _WORD = deferred(r"[^\W\d_]{3,}")
 _POLITE = deferred(
     r"^(?:(?:(?:ok(?:ay)?|please|hey|well|then|so|now|and|(?:could|can|would|will) you|let's|let us)\b|请|"
     r"麻烦(?:你|您)?|帮我|那就?)[,，\s]*)+(?=\S)|[,，\s]*(?:please|thanks|thank you|谢谢|吧|了吧)?[\s.!。！~]*$"
 )
+
+
+@functools.cache
+def form(name: str, language: str) -> tuple[re.Pattern[str], ...]:
+    """The patterns of a form; none where a language has no such form."""
+    patterns = table("talk_forms", language).get("forms", {}).get(name, ())
+    return tuple(re.compile(written("talk_forms", language, pattern)) for pattern in patterns)
+
+
+def is_all(name: str, said: str) -> re.Match[str] | None:
+    """The match of a form that is all that is said."""
+    found = (pattern.fullmatch(said) for pattern in _forms(name, said))
+    return next((match for match in found if match is not None), None)
+
+
+def begins(name: str, said: str) -> re.Match[str] | None:
+    """The match of a form that what is said begins with."""
+    found = (pattern.match(said) for pattern in _forms(name, said))
+    return next((match for match in found if match is not None), None)
+
+
+def has(name: str, said: str) -> re.Match[str] | None:
+    """The first match of a form in what is said.
+
+    >>> has("promise", "what can we promise?") is None, has("promise", "10 W") is None
+    (False, True)
+    """
+    found = (pattern.search(said) for pattern in _forms(name, said))
+    return next((match for match in found if match is not None), None)
+
+
+def _forms(name: str, said: str) -> Iterator[re.Pattern[str]]:
+    for language in ("zh",) if has_chinese(said) else ("en", "de", "es", "fr"):
+        yield from form(name, language)
+
+
+def group(match: re.Match[str], *names: str) -> str:
+    """What the first of these groups, or of all, that took part holds; "" where none did."""
+    groups = match.groupdict()
+    return next((groups[name] for name in names or groups if groups.get(name)), "")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,6 +81,7 @@ class Line:
         text: what was said.
         shape: the same in lower case with "@" for named users and "#" for rates and powers.
         wish: the shape without the words of politeness around it.
+        said: the wish without the stop or the question mark at its end.
         users: the references of the users named, in their order.
         figures: the rates and powers, in their order.
         context: what the line may refer to.
@@ -67,6 +114,20 @@ class Line:
             voice=Voice(language, labels_of(own_words(), language)),
         )  # fmt: skip
 
+    @property
+    def said(self) -> str:
+        return self.wish.rstrip("?.。! ")
+
+    @property
+    def is_asked(self) -> bool:
+        return _ASKED.search(self.text) is not None
+
+    @property
+    def sentence(self) -> Sentence:
+        """The line as those who read sentences see it."""
+        context = self.context
+        return Sentence(self.text, own_words(), names=context.user_names, max_power_w=context.max_power_w)
+
     def allocate(
         self, objective: str, constraints: Mapping[str, Constraint], *, amends: bool, dropped: tuple[str, ...] = (),
         taken_off: Mapping[str, Constraint] | None = None, details: Mapping[str, Detail] | None = None,
@@ -93,7 +154,12 @@ class Line:
 
     def ask(self, key: str, pending: Mapping[str, Constraint] | None = None, /, **names: str) -> Intent:
         """A question back, whose answer may use what is pending."""
-        return self._intent("clarify", self.voice.say(key, **names), pending=pending or {})
+        return self._intent("clarify", self.voice.say(key, **names), pending=pending or {}, asks=key)
+
+    def ask_whether(self, topic: str) -> Intent:
+        """The question of yes or no whether a command was meant."""
+        said = self.voice.say("unsure_command", text=self.voice.say(f"command.{topic}"))
+        return self._intent("clarify", said, offered=topic, asks="unsure_command")
 
     def _intent(self, kind: IntentKind, reply: str, **fields: Any) -> Intent:
         given: dict[str, Any] = {

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from wirelessagent.language.conversation.line import Line
-from wirelessagent.language.conversation.reports import is_report
+from wirelessagent.language.conversation.line import Line, has
 from wirelessagent.language.excess import too_many_figures
 from wirelessagent.language.followups import merged
-from wirelessagent.language.intent import COMMANDS, Constraint, Intent
+from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.text import normalise
@@ -41,7 +40,7 @@ def unanswered(text: str, intent: Intent, context: Context) -> Unanswered:
     settled = {user for value in intent.pending.values() for user in _users_of(value)}
     users = tuple(user for user in line.users if user not in settled)
     objective = goal.objective if goal.verdict == "clear" else None
-    offered = _offered(intent, line)
+    offered = intent.offered
     if context.awaits != "clarification" or leaves_the_question(line):
         return Unanswered(pending=intent.pending, objective=objective, users=users, offered=offered)
     return Unanswered(
@@ -56,20 +55,14 @@ def leaves_the_question(line: Line) -> bool:
     return is_report(line) or (bool(asked and line.users) and not set(asked) & set(line.users))
 
 
-def _offered(intent: Intent, line: Line) -> str | None:
-    """The objective or the command that a question back puts forward for a yes."""
-    voice = line.voice
-    for topic in COMMANDS:
-        if intent.reply == voice.say("unsure_command", text=voice.say(f"command.{topic}")):
-            return topic
-    for name in voice.labels:
-        goal = voice.label(name)
-        if intent.reply == voice.say("weak", goal=goal, choices=voice.choices(without=name)):
-            return name
-    return None
-
-
 def _users_of(value: Constraint) -> tuple[str, ...]:
     if isinstance(value, tuple):
         return value
     return tuple(value) if isinstance(value, Mapping) else ()
+
+
+def is_report(line: Line) -> bool:
+    """Whether a line only states what was or what somebody says, with no word that asks for anything."""
+    said = line.shape
+    tells = has("past", said) or (has("reported", said) and has("states", said))
+    return tells is not None and not has("directs", said)

@@ -1,0 +1,288 @@
+"""Questions about what holds, what was decided, and what would be: read as a whole, by their forms.
+
+What an answer needs stands in the details of the question: "rank" ("least" or "most") and "of" ("rate", "power" or
+"subcarriers") of who has what, "listed", "subcarrier" (its number from 1), "asked" ("gain", "limits", "duration",
+"power" or "most"), and "either_1", "either_2" … or "aims" of a comparison.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+
+from wirelessagent.language import forms
+from wirelessagent.language.conversation.line import Line, begins, group, has, is_all
+from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
+from wirelessagent.language.named_tools import tools_named
+from wirelessagent.language.numerals import chinese_value
+from wirelessagent.language.quantities import Quantity, parse_quantities
+from wirelessagent.language.sentence import Sentence, own_words
+from wirelessagent.language.text import lowered, normalise
+
+_ASKED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
+    "channel": ("uncertainty", {}),
+    "how_sure": ("uncertainty", {}),
+    "for_the_others": ("users", {"rank": "least", "of": "rate"}),
+    "wasting": ("what_if", {"asked": "power"}),
+    "whom_to_leave_out": ("users", {"listed": "dearest"}),
+    "of_each": ("users", {}),
+}
+"""What questions about the result are about, whichever users or figures they name."""
+
+_ORDERED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
+    "was_better": ("compare", {"with": "last"}),
+    "result": ("explain", {}),
+}
+"""Questions that a command answers."""
+
+_RATES = ("min_rate_bps", "outage_probability", "users", "leave_out")
+_LIMITS = ("max_power_w", "outage_probability", "users", "leave_out")
+_MOST_COMPARED = 4
+_WORKED_OUT = ("constraints", "rate_bps", "missing_share")
+
+
+def read_question(line: Line) -> Intent | None:
+    """The question that a line is as a whole; None for any other line."""
+    if is_all("thanks", line.shape.rstrip(".!。~ ")):
+        return line.courtesy("welcome")
+    if is_all("in_force", line.said):
+        return line.command("status")
+    match = is_all("turn_said", line.said)
+    if match is not None:
+        return line.command("history", turn=float(group(match)))
+    if line.context.objective is None:
+        return None
+    for name, (topic, details) in _ASKED.items():
+        if is_all(name, line.said):
+            return line.question(topic, **details)
+    if not line.figures and has("missing", line.said):
+        return line.question("what_if", missing_share=0.0)
+    for name, (topic, details) in _ORDERED.items():
+        if is_all(name, line.said):
+            return line.command(topic, **details)
+    return None if line.figures else _of_what_was_measured(line) or _of_shares(line)
+
+
+def _of_what_was_measured(line: Line) -> Intent | None:
+    """Questions for the time it took, what holds the result back, and gains: "what is the SNR of user 3?"."""
+    if is_all("duration", line.said):
+        return line.question("other", asked="duration")
+    if is_all("bottleneck", line.said) and not line.users:
+        return line.question("other", asked="limits")
+    if not has("gain", line.wish) or not has("asks_for_gain", line.wish):
+        return None
+    place = has("on_subcarrier", lowered(normalise(line.text)))
+    if len(line.users) != 1 and place is None:
+        return None
+    where: dict[str, Detail] = {} if place is None else {"subcarrier": _number(place["place"])}
+    return line.question("users", asked="gain", **_user(line), **where)
+
+
+def _of_shares(line: Line) -> Intent | None:
+    """Questions who has what: "who gets the least?", "which subcarriers does user 3 have?"."""
+    owner = is_all("owner", lowered(normalise(line.text)).strip().rstrip("?.。! "))
+    if owner is not None:
+        return line.question("users", subcarrier=_number(owner["place"]))
+    if len(line.users) <= 1 and is_all("listed", line.said):
+        return line.question("users", listed="subcarriers", **_user(line))
+    if len(line.users) == 1 and is_all("share_of_one", line.said):
+        return line.question("users", **_user(line))
+    match = is_all("ranked", line.said)
+    if match is None:
+        return None
+    of = next((of for of in ("subcarriers", "power") if has(f"of_{of}", line.said)), "rate")
+    return line.question("users", rank="least" if match["least"] else "most", of=of)
+
+
+def _user(line: Line) -> dict[str, Detail]:
+    return {"user": line.users[0]} if line.users else {}
+
+
+def _number(word: str) -> float:
+    return float(word) if word.isdecimal() else float(chinese_value(word) or 0)
+
+
+def read_needed(line: Line) -> Intent | None:
+    """The what-if of a question what power rates take, or whether a power is needed or enough; else None."""
+    powers = [figure.value for figure in line.figures if figure.kind == "power"]
+    rates = len(line.figures) > len(powers)
+    if has("step", line.wish) or (line.users and not rates):
+        return None
+    needs = is_all("needs_power", line.wish)
+    judges = needs or is_all("enough_power", line.wish)
+    if judges and len(powers) == 1 and has("asking", line.shape) and line.context.objective is not None:
+        how: dict[str, Detail] = {"enough_w": powers[0], "judged": "needed" if needs else "enough"}
+    elif has("takes_power", line.wish) and not powers and (rates or line.context.objective is not None):
+        how = {}
+    else:
+        return None
+    asked: dict[str, Constraint] = _read(line, _RATES)
+    further: dict[str, Detail] = {"constraints": asked} if asked else {}
+    if line.context.objective is None:
+        further["objective"] = "min_power"
+    return line.question("what_if", asked="power", **how, **further)
+
+
+def read_promisable(line: Line) -> Intent | None:
+    """The what-if of a question what could be promised at most, to everyone or to one user; else None."""
+    said = line.shape
+    if not has("how_much", said) or len(line.users) > 1 or has("not_promised", said):
+        return None
+    promises, most, can, of_all = (has(name, said) for name in ("promise", "at_most", "can", "of_all"))
+    if of_all or line.users:
+        asked = (promises and (most or can)) or (has("give", said) and most and can)
+    else:
+        asked = promises and can and (most or has("rate", said))
+    if not asked or any(figure.kind == "rate" for figure in line.figures):
+        return None
+    limits = _read(line, _LIMITS)
+    if of_all or not line.users:
+        return _supposed_aim(line, "max_min_rate", limits, "min_rate_bps weights")
+    user = line.users[0]
+    limits = {name: value for name, value in limits.items() if name not in ("users", "leave_out")}
+    weights: Mapping[str, float] = {EVERYBODY: 0.0, user: 1.0}
+    return _supposed_aim(line, "max_rate", {**limits, "weights": weights}, "weights", user=user)
+
+
+def _supposed_aim(line: Line, aim: str, limits: Mapping[str, Constraint], dropped: str, **details: Detail) -> Intent:
+    further: dict[str, Detail] = {"constraints": limits} if limits else {}
+    return line.question("what_if", asked="most", objective=aim, dropped=dropped, **further, **details)
+
+
+def _read(line: Line, names: tuple[str, ...]) -> dict[str, Constraint]:
+    """The constraints of these names that a line states."""
+    return {name: value for name, value in line.sentence.reading.values.items() if name in names}
+
+
+def read_comparison(line: Line) -> Intent | None:
+    """The comparison of figures, aims or methods that a line asks for; None for any other line."""
+    if line.context.objective is None or not has("compares", line.shape) or has("compares_others", line.shape):
+        return None
+    figures = _compared(line.text)
+    if figures:
+        return _of_figures(line, figures)
+    found = Sentence(line.text, own_words()).found
+    aims = dict.fromkeys(each.term.objective for each in found if each.term.objective)
+    if aims:
+        return line.command("compare", aims=" ".join(aims)) if len(aims) <= _MOST_COMPARED else None
+    tools = tools_named(line.text, "method", "repairer") if has("better", line.shape) else ()
+    return line.command("compare", **{"with": " ".join(tools)}) if tools else None
+
+
+def _compared(text: str) -> list[Quantity]:
+    """Powers, rates and shares; a bare number beside a share is one in percent too: "95, 99 and 99.9 %"."""
+    said = parse_quantities(text)
+    shared = any(figure.kind == "ratio" for figure in said)
+    return [
+        dataclasses.replace(figure, kind="ratio", value=figure.value / 100) if figure.kind == "bare" else figure
+        for figure in said
+        if figure.kind in ("power", "rate", "ratio") or (shared and figure.kind == "bare")
+    ]
+
+
+def _of_figures(line: Line, figures: list[Quantity]) -> Intent | None:
+    kinds = {figure.kind for figure in figures}
+    if len(kinds) > 1 or len(figures) > _MOST_COMPARED or any(one.doubtful or one.value <= 0 for one in figures):
+        return None
+    limits = [_limit(line, figure) for figure in figures]
+    details: dict[str, Detail] = {f"either_{place}": limit for place, limit in enumerate(limits, start=1) if limit}
+    return line.command("compare", **details) if len(details) == len(figures) else None
+
+
+def _limit(line: Line, figure: Quantity) -> dict[str, Constraint]:
+    """The limit that a figure is: a probability of 50 % or more is that of keeping a promise. Empty for none."""
+    if figure.kind == "power":
+        return {"max_power_w": figure.value}
+    if figure.kind == "rate":
+        rate: Constraint = dict.fromkeys(line.users, figure.value) if line.users else figure.value
+        return {"max_rate_bps" if has("cap", line.shape) else "min_rate_bps": rate}
+    if has("power", line.shape):
+        held, limit = line.context.constraints.get("max_power_w"), line.context.max_power_w
+        return {"max_power_w": figure.value * (min(held, limit) if isinstance(held, float) else limit)}
+    outage = 1.0 - figure.value if figure.value >= 0.5 else figure.value
+    return {"outage_probability": round(outage, 12)} if 0 < outage < 1 else {}
+
+
+def asked_instead(line: Line, understood: Intent) -> Intent | None:
+    """What to answer instead of a question back about the aim, which is known; None where that is not asked."""
+    if line.context.objective is None or understood.kind != "clarify":
+        return None
+    plain = line.shape
+    asks = forms.is_asked(plain) or forms.begins_like_a_question(plain) or has("asking", plain)
+    if understood.pending or not asks:
+        return _without_the_aim(line, understood)
+    if has("of_channel", plain):
+        return line.question("uncertainty")
+    if has("of_users", plain):
+        return line.question("users", **_user(line))
+    return line.question("other") if has("of_result", plain) else _without_the_aim(line, understood)
+
+
+def given_instead(line: Line, intent: Intent) -> Intent:
+    """A what-if of the channel, which is as it was sensed; any other intent as it is."""
+    wonders = intent.kind == "question" and intent.topic == "what_if"
+    if not wonders or intent.details or not has("given", line.shape):
+        return intent
+    return line.question("what_if", of="channel")
+
+
+def _without_the_aim(line: Line, understood: Intent) -> Intent | None:
+    """The same question back without the aim; None where it does not ask for it."""
+    voice = line.voice
+    if line.users and understood.asks == "named_user":
+        reply = voice.say("what_of_user", users=voice.users(line.users))
+        return dataclasses.replace(understood, reply=reply, asks="what_of_user")
+    if understood.asks == "unclear":
+        return dataclasses.replace(understood, reply=voice.say("what_changes"), asks="what_changes")
+    return None
+
+
+def wondered(text: str) -> str | None:
+    """What a line asks to be possible, without the words that ask; None for any other line.
+
+    >>> wondered("can we leave user 8 out?"), wondered("could you leave user 8 out?")
+    ('leave user 8 out', None)
+    """
+    plain = lowered(normalise(text))
+    match = None if has("polite", plain) else is_all("possible", plain.strip())
+    if match is None:
+        return None
+    start, end = match.span("rest")
+    ahead = len(plain) - len(plain.lstrip())
+    return text[ahead + start : ahead + end]
+
+
+def supposed(line: Line, intent: Intent) -> Intent:
+    """A what-if of what an intent would ask for; an intent that asks for nothing as it is."""
+    if intent.kind != "allocate":
+        return intent
+    details: dict[str, Detail] = {key: value for key, value in intent.details.items() if key.startswith("share_")}
+    if intent.constraints:
+        details["constraints"] = intent.constraints
+    if intent.objective != line.context.objective:
+        details["objective"] = str(intent.objective)
+    if intent.dropped:
+        details["dropped"] = " ".join(intent.dropped)
+    return dataclasses.replace(line.question("what_if", **details), recogniser=intent.recogniser)
+
+
+def is_worked_out(intent: Intent) -> bool:
+    """Whether a question names the figures that it is about, so that it is solved for them."""
+    return intent.kind == "question" and any(intent.details.get(name) for name in _WORKED_OUT)
+
+
+def only_supposed(line: Line, intent: Intent) -> Intent:
+    """A what-if of what a line supposes, weighs or asks about, where it was read as a request; else the intent."""
+    if intent.kind != "allocate" or not supposes(line.text):
+        return intent
+    said = supposed(line, intent)
+    return dataclasses.replace(said, details=said.details or {"objective": str(intent.objective)})
+
+
+def supposes(text: str) -> bool:
+    """Whether a line only supposes or weighs something, and asks for nothing.
+
+    >>> supposes("what if we used 5 W"), supposes("if possible, 1 Mbit/s each"), supposes("要不要省点电？")
+    (True, False, True)
+    """
+    return begins("supposes", " ".join(normalise(text).lower().split())) is not None

@@ -1,0 +1,34 @@
+"""Vocabulary as data: one folder a subject, one TOML file a language, read once."""
+
+from __future__ import annotations
+
+import functools
+import re
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+_FOLDER = Path(__file__).parent
+_PART = re.compile(r"\{([a-z_]+)\}")
+
+
+@functools.cache
+def table(subject: str, language: str) -> Mapping[str, Any]:
+    """What the file of a language says on a subject.
+
+    >>> table("fragment_words", "en")["factors"]["double"]
+    2
+    """
+    return tomllib.loads((_FOLDER / subject / f"{language}.toml").read_text(encoding="utf-8"))
+
+
+@functools.cache
+def languages_with(subject: str) -> tuple[str, ...]:
+    """The languages that have a file on a subject, in the order of their names."""
+    return tuple(sorted(file.stem for file in (_FOLDER / subject).glob("*.toml")))
+
+
+def written(subject: str, language: str, pattern: str) -> str:
+    """A regular expression with what ``[parts]`` of a file says in the place of each ``{part}``."""
+    return _PART.sub(lambda part: written(subject, language, table(subject, language)["parts"][part[1]]), pattern)
