@@ -33,7 +33,7 @@ _APPLY = "|".join(
         rf"use\s+{_PLAN}", rf"(?:put|bring)\s+{_PLAN}\s+(?:in\s?to\s+)(?:effect|force|operation)", r"ship\s+it",
         rf"(?:make|take|push)\s+{_PLAN}\s+live", r"go\s+live", rf"(?:go|proceed)\s+with\s+{_PLAN}",
         # Spanish, French, German
-        r"apl[ií]ca(?:r|lo|la)?(?:\s+(?:el\s+plan|esto))?", r"apl[ií]quelo", r"ponlo\s+en\s+marcha",
+        r"apl[ií]ca(?:r?l[oa]|r)?(?:\s+(?:el\s+plan|esto))?", r"apl[ií]quelo", r"ponlo\s+en\s+marcha",
         r"applique(?:z|r)?(?:[- ]l[ea])?(?:\s+le\s+plan)?", r"mets-le\s+en\s+(?:œuvre|oeuvre|service)",
         r"(?:(?:es|ihn|das|den\s+plan)\s+)?(?:anwenden|übernehmen|umsetzen|ausführen)",
         r"wende(?:n\s+sie)?\s+(?:es|ihn|das|den\s+plan)\s+an", r"setze?(?:n\s+sie)?\s+(?:es|ihn|das|den\s+plan)\s+um",
@@ -102,7 +102,7 @@ _WORDS_KNOWN = (
     "approved proceed understand understood abort can't cannot happens happen safe everything everywhere nowhere live "
     "use used lo la el los apliques aplicar aplica aplicarlo todavía aún espera nada nunca sí si ne n' l'applique "
     "applique appliquer appliquez pas rien jamais le les attends attendez encore oui nicht nichts nie kein keine "
-    "keinen anwenden wende es ihn das den noch warte warten später bitte ja nein umsetzen "
+    "keinen anwenden wende es ihn das den noch warte warten später bitte ja nein umsetzen non merci danke gracias "
 )
 _KNOWN = frozenset(_WORDS_KNOWN.split())
 """Words of which a line about applying or not applying a plan may be made, and nothing else of the cell."""
@@ -148,8 +148,8 @@ _TAKEN_BACK = deferred(r"\b(?:no\s+(?:problem|worries)|why\s+not)\b")
 def assent(text: str) -> Assent:
     """What a line is to a plan that waits.
 
-    >>> assent("Yes, please apply it now!"), assent("apply nothing"), assent("should I apply it?")
-    ('apply', 'no', 'doubtful')
+    >>> assent("Yes, please apply it now!"), assent("apply nothing"), assent("should I apply it?"), assent("non merci")
+    ('apply', 'no', 'doubtful', 'no')
     >>> assent("好的，应用吧"), assent("ok, hold on"), assent("now with 5 W")
     ('apply', 'later', 'other')
     """
