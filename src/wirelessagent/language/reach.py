@@ -101,6 +101,8 @@ class Reach:
             return True
         if any(start < hit.start or start == hit.end for start, _ in self._found("until", clause)):
             return True
+        if self._adjoins("negation", "clause", hit) and not self._is_full(clause, hit):
+            return True  # "not later, now"
         cleft = self._adjoins("that", "words", hit, after=True)  # "c'est lundi que …"
         return self._adjoins("present", "words", hit) and not cleft
 
