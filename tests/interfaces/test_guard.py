@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from importlib import resources
 
 import pytest
@@ -10,11 +11,11 @@ from llm_stub import StubLlm, meaning
 
 import wirelessagent as wa
 from wirelessagent.agent.session import Session
-from wirelessagent.language import guard
 from wirelessagent.language.conversation import understood
-from wirelessagent.language.guard import LANGUAGES, MOODS, doubted, stranger
+from wirelessagent.language.guard import MOODS, doubted, stranger
 from wirelessagent.language.llm import LlmRecogniser
 from wirelessagent.language.llm_settings import LlmSettings
+from wirelessagent.language.moods import LANGUAGES, table_of
 from wirelessagent.language.offline import OfflineRecogniser, recognise
 from wirelessagent.language.recogniser import Context
 
@@ -69,11 +70,69 @@ ASKED_FOR = (
     "Max total rate without user 3", "Max total rate, nobody below 200 kbit/s", "Don't serve user 3, max total rate",
     "Everyone except user 3 gets 300 kbit/s, max total rate", "Max total rate, no minimum for user 4, 1 Mbit/s each",
     "Not speed but power saving", "Don't waste power", "I'd like max total rate, if possible with 10 W",
-    "Why not go for max total rate",
+    "Why not go for max total rate", "Speed, not power saving",
+    "I asked for nothing yesterday, but max total rate, please",
+    "Uncle Bob is on user 3, max total rate with 1 Mbit/s for user 3",
     "The board wants results, so maximise the total rate", "从现在起最大总速率，不超过10瓦", "不服务用户3，最大总速率",
     "Máxima velocidad total desde ahora, sin pasar de 10 W", "Débit total maximal dès maintenant, pas plus de 10 W",
     "Ab sofort maximale Summenrate, keiner unter 200 kbit/s",
 )  # fmt: skip
+
+
+WISHES = {
+    "en": ("max total rate", "save power with 200 kbit/s each", "make the slowest user as fast as possible"),
+    "zh": ("总速率最大", "功率降到最低，每人200 kbit/s", "让最慢的用户尽量快"),
+    "es": ("maximiza la velocidad total", "potencia mínima con 200 kbit/s por usuario"),
+    "fr": ("maximise le débit total", "puissance minimale avec 200 kbit/s chacun"),
+    "de": ("maximiere die Summenrate", "minimale Sendeleistung mit 200 kbit/s für jeden"),
+}
+GOVERNED = {  # the words of a mood govern the wish that a template is filled with
+    "en": (
+        "Tomorrow at nine, {}",
+        "{}, starting Monday",
+        "He told me: {}",
+        "My boss insists that, as it was slow, {}",
+        "{}, he said",
+        "I heard, {}",
+        "{}, that was the plan",
+        "When the guests are gone, {}",
+        "Not today, but tomorrow {}",
+        "Tomorrow is match day, then {}",
+        "Later, {}",
+        "On no account {}",
+        "As of Monday, {}",
+        "Since Monday, {}",
+        "For the cell next door, {}",
+        "{}? I refuse",
+    ),
+    "zh": ("明天九点，{}", "他说，{}", "如果人多，{}", "隔壁小区，{}"),
+    "es": ("Mañana a las nueve, {}", "Según el registro, {}", "Si viene gente, {}"),
+    "fr": ("Demain, {}", "Il paraît que, {}", "Si la foule arrive, {}"),
+    "de": ("Morgen um neun, {}", "Angeblich: {}", "Wenn viele kommen, {}", "Die Chefin meinte, {}"),
+}
+FREE = {  # they stand beside the wish, and say something else
+    "en": (
+        "Since the guests are coming tomorrow, {}",
+        "{}, because the customer asked for it yesterday",
+        "We lost the mains last night and it was a mess, {}",
+        "It was slow yesterday, so {}",
+        "Tomorrow is match day, so {}",
+        "{} until 8 pm",
+        "We have been on the battery since 4 am: {}",
+        "The mayor, who was here, is a lovely man, {}",
+        "I'd appreciate it: {}",
+        "The boss wants something else, but {}",
+        "It's 8 pm, {}",
+        "Once again: {}",
+        "As agreed with the mayor yesterday, {}",
+        "{}, and let me know when it is done",
+        "Since last night the electricity price worries me, {}",
+    ),
+    "zh": ("因为明天有比赛，{}", "昨晚停电了，{}", "下个月电费要涨，现在{}", "今晚八点前{}", "客户投诉，所以{}"),
+    "es": ("Como mañana no llega el gasóleo, {}", "Ayer se quejaron, así que {}", "Los vecinos se quejan, por eso {}"),
+    "fr": ("Comme il sera livré lundi, {}", "Les clients se plaignaient hier, donc {}", "{} jusqu'à lundi"),
+    "de": ("Weil morgen kein Diesel kommt, {}", "Gestern haben sich alle beschwert, also {}", "{} bis Montag"),
+}
 
 
 def session(**options: object) -> Session:
@@ -92,6 +151,40 @@ def test_a_word_that_the_act_accounts_for_asks_nothing(said: str) -> None:
     assert understood(said, HELD, OfflineRecogniser()).kind == "allocate"
 
 
+def filled(templates: dict[str, tuple[str, ...]]) -> list[str]:
+    """Every template of a language with every wish of it."""
+    return [form.format(wish) for language, forms in templates.items() for form in forms for wish in WISHES[language]]
+
+
+@pytest.mark.parametrize("said", filled(GOVERNED))
+def test_whatever_is_wished_a_mood_that_governs_it_asks(said: str) -> None:
+    assert recognise(said).kind != "allocate"
+    assert understood(said, HELD, OfflineRecogniser()).kind != "allocate"
+
+
+@pytest.mark.parametrize("said", filled(FREE))
+def test_whatever_is_wished_a_mood_beside_it_asks_nothing(said: str) -> None:
+    assert recognise(said).kind == "allocate"
+
+
+def test_a_story_is_acted_on_where_an_order_takes_it_up_and_only_there() -> None:
+    intent = dataclasses.replace(asks("min_power"), evidence={"min_rate_bps": "2 Mbit/s"})
+    for story in ("User 3 wants 2 Mbit/s", "User 3 was promised 2 Mbit/s", "They say user 3 pays for 2 Mbit/s"):
+        assert doubted(story, None, intent)
+        for order in ("give him that", "so grant it", "so see to it"):
+            assert doubted(f"{story}, {order}", None, intent) is None, order
+        for order in ("don't give it to him", "forget it", "so he can stream", "and so what"):
+            assert doubted(f"{story}, {order}", None, intent), order
+
+
+@pytest.mark.parametrize(
+    "said", ["Start over, I've been told the figures were wrong", "That was not what I wanted, undo it"]
+)
+def test_a_command_is_no_part_of_the_story_beside_it(said: str) -> None:
+    assert recognise(said).kind == "command"
+    assert recognise("The boss wants us to start over").kind != "command"
+
+
 @pytest.mark.parametrize("mood", MOODS)
 def test_each_class_finds_its_words_by_itself(mood: str) -> None:
     intent = asks("max_rate")
@@ -102,12 +195,12 @@ def test_each_class_finds_its_words_by_itself(mood: str) -> None:
 def test_every_language_has_the_same_classes() -> None:
     folder = resources.files("wirelessagent.language").joinpath("moods")
     assert {file.name for file in folder.iterdir() if file.name.endswith(".toml")} == {f"{x}.toml" for x in LANGUAGES}
-    tables = {language: guard.table_of(language) for language in LANGUAGES}
+    tables = {language: table_of(language) for language in LANGUAGES}
     assert all(list(table) == list(tables["en"]) for table in tables.values())
     for table in tables.values():
         assert set(MOODS) < set(table)
         for mood in MOODS:
-            assert set(table[mood]) <= {"clause", "ahead", "sentence", "text"}
+            assert set(table[mood]) <= {"clause", "ahead", "sentence", "text", "here"}
             assert all(word and word == word.strip() for words in table[mood].values() for word in words)
             assert any(table[mood].values())
 

@@ -65,6 +65,7 @@ _IN_TOTAL = deferred(
     r"(?i)\b(?:total|sum|overall|aggregate|combined|versus|or|than|not|no)\b|总|和速率|合计|不(?!超过|高于)|别|还是|比"
 )
 _SAME_WISH = 0.8
+_CONTRASTED = 0.8
 # Readings that yield to a nearer or plainer one: "save as much power as you can" asks for less of it.
 _VAGUE = {("want", "rate"): 1.5, ("want", "battery"): 1.5, ("want", "efficiency"): 1.5, ("up", "power"): 3.0}
 _ALONE: dict[str, tuple[str, float]] = {
@@ -125,7 +126,7 @@ def goal_of(found: Sequence[Found]) -> Goal:
     if len(strong) > 1 or (strong and strong[0] in negated):
         return Goal(verdict="contradiction", options=tuple(strong), spans=spans)
     if not strong:
-        return _unclear(positive, negated)
+        return _contrasted(signals) or _unclear(positive, negated)
     if strong[0] != "max_min_rate" and ("max_min_rate" in positive or _speaks_of_the_worst(signals, strong[0], found)):
         return Goal(verdict="contradiction", options=(strong[0], "max_min_rate"), spans=spans)
     if _joined_with_another(signals, strong[0], found):
@@ -164,6 +165,18 @@ def _joined_with_another(signals: Sequence[Signal], objective: str, found: Seque
         for a in wished
         for b in others
     )
+
+
+def _contrasted(signals: Sequence[Signal]) -> Goal | None:
+    """The one aim that is named where another is denied in a clause of its own: "speed, not power saving"."""
+    named = {signal.objective for signal in signals if not signal.negated}
+    denied = {signal.objective for signal in signals if signal.negated}
+    clauses = {signal.clause for signal in signals if signal.negated}
+    apart = all(signal.negated or signal.clause not in clauses for signal in signals)
+    if len(named) != 1 or not denied or named & {*denied, *_UNSERVED} or not apart:
+        return None
+    spans = tuple((signal.start, signal.end) for signal in signals if not signal.negated)
+    return Goal(verdict="clear", objective=(one := named.pop()), options=(one,), spans=spans, confidence=_CONTRASTED)
 
 
 def _unclear(positive: dict[str, float], negated: set[str]) -> Goal:

@@ -177,9 +177,8 @@ class _Understanding:
             names = {"goal": self._voice.label(wished), "both": self._voice.both(fair, "or")}
             return self._answer.ask("starving", 0.8, self._reading.values, **names)
         if judged.acts and judged.objective in self._voice.labels:
-            words = (
-                " … ".join(self._text[start:end] for start, end in _merged(goal.spans)) if goal.spans else self._text
-            )
+            spans = _merged(goal.spans) if goal.options[:1] == (judged.objective,) else ()
+            words = " … ".join(self._text[start:end] for start, end in spans) or self._text
             return self._allocate(judged.objective, words, judged.certainty)
         return self._question_back()
 

@@ -8,6 +8,7 @@ from wirelessagent.language import figure_words
 from wirelessagent.language.allotments import Allotments, Target
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.judged import Judged
+from wirelessagent.language.moods import is_taken_up
 from wirelessagent.language.neighbours import Neighbours, is_change
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Notes
@@ -55,14 +56,20 @@ class Rates:
             self._notes.doubt("change", text=figure.text)
         elif role == "none" and sure > _SURE:
             self._notes.counted.append((figure.start, figure.end))
-        elif sure < _SURE or chances["none"] > 1 - _SURE_OF_A_LIMIT:
+        elif (sure < _SURE or chances["none"] > 1 - _SURE_OF_A_LIMIT) and not self._is_taken_up(index):
             self._notes.doubt("status", text=figure.text)
         elif not target.sure:
             self._notes.doubt("whose_rate", text=figure.text)
         else:
+            role = "min_rate_bps" if role == "none" else role  # "she pays for 2 Mbit/s, give her that"
             for name in ("min_rate_bps", "max_rate_bps"):
                 if role in (name, "both"):
                     self._allot(name, target, figure)
+
+    def _is_taken_up(self, index: int) -> bool:
+        """Whether an order that has no rate of its own carries out what was told: "she pays for 2 Mbit/s, give it"."""
+        last = all(figure.kind != "rate" for figure in self._figures[index + 1 :])
+        return last and is_taken_up(self._plain, self._figures[index].end)
 
     def _roles_of_rate(self, index: int) -> Mapping[str, float]:
         """How likely a rate is a floor, a cap, both or nothing."""

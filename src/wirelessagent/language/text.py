@@ -39,16 +39,17 @@ _SMALL: dict[str, str] = {
     "es": (
         "el la los las de que y en un una por para con del al lo como más menos es son cada usuario usuarios "
         "todos nadie sin mucho máxima máximo mínima mínimo potencia velocidad vatios tasa caudal energía pon haz "
-        "reparte no"
+        "reparte no aplica aplicar aplicarlo deshaz deshacer volver empezar empieza"
     ),
     "fr": (
         "le la les de des du et en un une pour par avec au aux est ce que qui plus moins possible puissance débit "
         "chaque chacun tous tout sans pas je nous on utilisateur vitesse énergie maximal maximale minimale donne "
-        "fais"
+        "fais annule annuler annulez applique appliquer recommence recommencer"
     ),
     "de": (
         "der die das den dem und in ein eine einen für mit auf aus ist sind nicht so wie viel möglich alle jeder "
-        "jeden kein keine bitte leistung rate nutzer soll sollen mach zu bei höchstens mindestens energie strom"
+        "jeden kein keine bitte leistung rate nutzer soll sollen mach zu bei höchstens mindestens energie strom "
+        "anwenden rückgängig zurück"
     ),
 }
 _SMALL_WORDS = {language: frozenset(words.split()) for language, words in _SMALL.items()}

@@ -63,8 +63,8 @@ def _known() -> tuple[frozenset[str], frozenset[str]]:
 def assent(text: str) -> Assent:
     """What a line is to a plan that waits.
 
-    >>> assent("Yes, please apply it now!"), assent("apply nothing"), assent("should I apply it?")
-    ('apply', 'no', 'doubtful')
+    >>> assent("Yes, please apply it now!"), assent("apply nothing"), assent("should I apply it?"), assent("non merci")
+    ('apply', 'no', 'doubtful', 'no')
     >>> assent("好的，应用吧"), assent("ok, hold on"), assent("now with 5 W")
     ('apply', 'later', 'other')
     """

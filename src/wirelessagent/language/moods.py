@@ -1,0 +1,73 @@
+"""Closed classes of words by language, and where they stand: data in ``moods/<language>.toml``."""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Iterator, Mapping, Sequence
+
+from wirelessagent.language.clauses import clause_start
+from wirelessagent.language.text import languages_of
+from wirelessagent.language.word_tables import table
+
+LANGUAGES = ("en", "zh", "es", "fr", "de")
+
+Span = tuple[int, int]
+
+_LETTER = r"[0-9A-Za-zÀ-ɏ]"
+
+
+def table_of(language: str) -> Mapping[str, Mapping[str, Sequence[str]]]:
+    """The classes of a language: words by class and by how far they reach."""
+    return table("moods", language)
+
+
+def places(words: Sequence[str], plain: str) -> Iterator[Span]:
+    """Where any of these words stand, the longest where several begin; "*" is any ending, "#" a number.
+
+    Only words of which a part is in the text are made patterns: a language has hundreds.
+
+    >>> list(places(("so far", "so", "complain*"), "so far they complained"))
+    [(0, 6), (12, 22)]
+    """
+    small, end = plain.lower(), 0
+    found = [match.span() for word in words if _stem(word) in small for match in _pattern(word).finditer(plain)]
+    for span in sorted(found, key=lambda span: (span[0], -span[1])):
+        if span[0] >= end:
+            end = span[1]
+            yield span
+
+
+def is_taken_up(plain: str, place: int) -> bool:
+    """Whether a clause behind a place begins with an order to carry out what was told before.
+
+    >>> is_taken_up("she pays for 2 Mbit/s, so give it that", 21), is_taken_up("she pays for 2 Mbit/s, he says", 21)
+    (True, False)
+    """
+    for language in languages_of(plain):
+        classes = table_of(language)
+        for start, _ in places(classes["taken_up"]["words"], plain):
+            first = clause_start(plain, start)
+            lead = list(places(classes["lead"]["words"], plain[first:start]))
+            said = "".join(sign for at, sign in enumerate(plain[first:start]) if not any(a <= at < b for a, b in lead))
+            if start >= place and not any(map(str.isalnum, said)):
+                return True
+    return False
+
+
+@functools.cache
+def _stem(word: str) -> str:
+    """The longest part of a word that is always written so."""
+    return max(re.split(r"[*# ]+", word.lower()), key=len)
+
+
+@functools.cache
+def _pattern(word: str) -> re.Pattern[str]:
+    return re.compile(_written(word), re.IGNORECASE)
+
+
+def _written(word: str) -> str:
+    body = re.escape(word).replace(r"\ ", r"\s+").replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
+    if "\u3400" <= word[-1] <= "\u9fff" or "\u3400" <= word[0] <= "\u9fff":
+        return body
+    return (rf"(?<!{_LETTER})" if word[0].isalnum() else "") + body + (rf"(?!{_LETTER})" if word[-1].isalnum() else "")
