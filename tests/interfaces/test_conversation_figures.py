@@ -60,7 +60,7 @@ def test_a_share_less_is_solved_and_the_loss_told(said: str) -> None:
     turn = answered(said)
     assert turn.run is not None
     assert turn.run.decision.problem.max_power_w == 9.0
-    assert "bit/s less (" in turn.reply or "即少 " in turn.reply
+    assert "bit/s less than now (" in turn.reply or "比现在少 " in turn.reply
 
 
 def test_a_budget_that_is_not_used_is_told() -> None:

@@ -41,7 +41,7 @@ def shown(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
 def test_solve_says_what_is_promised_at_which_probability(capsys: pytest.CaptureFixture[str], holed: Path) -> None:
     asked = "solve", holed, "--objective", "min_power", "--min-rate-bps", "5e5", "--outage-probability"
     told = shown(capsys, *asked, "0.001")
-    assert "promises sure to 99.9 %" in told
+    assert "each promise is kept with 99.9 %" in told
     assert "promised at 99.9 %" in told
     assert "4 Mbit/s are promised in all" in told
     run([*map(str, asked), "0.001", "--json"])

@@ -229,7 +229,7 @@ def test_a_question_back_hands_what_was_read_to_the_recogniser() -> None:
     assert (second.objective, dict(second.constraints)) == ("max_rate", {"max_power_w": 10.0})
     assert (third.awaits, dict(third.pending)) == ("clarification", {"min_rate_bps": 1e6})
     assert (last.awaits, dict(last.pending), last.objective) == ("nothing", {}, "min_power")
-    assert turns[3].reply.startswith("要求")
+    assert turns[3].reply.startswith("当前要求")
 
 
 def test_users_are_found_by_name_and_place() -> None:

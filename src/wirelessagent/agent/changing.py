@@ -17,10 +17,12 @@ from wirelessagent.agent.restating import changes_in_words, notes, restated
 from wirelessagent.agent.run import applied_line, with_outcome
 from wirelessagent.agent.state import Reply, State, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, shift_between
+from wirelessagent.agent.waiting import plan_named
 from wirelessagent.language.acts import Act, Apply, Forget, No, TurnReference, Undo, Yes
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said, joined, message
 from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.parts import without_anything
 from wirelessagent.telling.tables import decision_tables
 
 
@@ -33,17 +35,19 @@ def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
     new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good, stated=state.stated)
     shift = shift_between(None if state.run is None else state.run.decision, run.decision)
     line = _whole(language, certificate_line(run.decision, language))
+    idle = without_anything(run.decision, language)
     turn = talk.intent.details.get("turn")
     back = [] if turn is None else [talk.say("request.back_to_turn", number=turn)]
     reply = Reply(
-        decided=joined(language, [*back, restated(request, language), line, *notes(run, noted=state.noted)]),
+        decided=joined(language, [*back, restated(request, language), line, idle, *notes(run, noted=state.noted)]),
         changed=changes_in_words(diff, shift, language),
         state=new,
         run=run,
         tables=tuple(decision_tables(run.report, run.estimate, language)),
     )
     if not run.decision.is_usable:
-        return _changing(reply, language, talk.say("plan.not_applied"), stage="nothing")
+        needs = joined(language, [talk.say("ask_back.unmet"), talk.say("ask_back.or_undo") if state.request else ""])
+        return _changing(reply, language, talk.say("plan.not_applied"), stage="nothing", needs=needs)
     if state.on_air is not None and same_allocation(run.decision, state.on_air.decision):
         kept = with_outcome(run, state.on_air.outcome)
         reply = dataclasses.replace(reply, run=kept, state=dataclasses.replace(new, run=kept, on_air=kept))
@@ -115,7 +119,7 @@ def undo(talk: Talk, act: Undo) -> Reply:
     before = past[-count]
     text = talk.say("undo.undone_all")
     if before.request is not None:
-        text = talk.say("undo.undone", request=restated(before.request, talk.language))
+        text = talk.say("undo.undone", request=plan_named(before, talk.language))
     if act.steps is not None and act.steps > count:
         text = joined(talk.language, [talk.say("undo.undone_fewer", count=count), text])
     return dataclasses.replace(_undone(talk, before, text), undone=count)
@@ -125,7 +129,7 @@ def _asked_for(talk: Talk, before: State) -> str:
     """What the request is after something was taken back."""
     if before.request is None:
         return talk.say("request.nothing_asked")
-    return talk.say("request.asked_for", request=restated(before.request, talk.language))
+    return talk.say("request.asked_for", request=plan_named(before, talk.language))
 
 
 def _no_way_back(talk: Talk, turn: TurnReference) -> Said:

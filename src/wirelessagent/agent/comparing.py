@@ -106,8 +106,11 @@ def with_tools(talk: Talk, act: CompareTools) -> Reply:
 
 def _outcomes(columns: Sequence[Column], language: str) -> list[str]:
     """What each of the runs comes to, one sentence each."""
+    met = any(run.decision.is_usable for _, run in columns)
     return [
-        message(language, "compared.outcome", name=_capital(called(language, name)), outcome=_outcome(run, language))
+        message(
+            language, "compared.outcome", name=_capital(called(language, name)), outcome=_outcome(run, language, met)
+        )
         for name, run in columns
     ]
 
@@ -116,9 +119,12 @@ def _capital(name: str) -> str:
     return name[:1].upper() + name[1:]
 
 
-def _outcome(run: Run, language: str) -> str:
+def _outcome(run: Run, language: str, met: bool) -> str:
+    """What a run comes to; that a method found nothing is no news of the request where another one met it."""
     if run.decision.is_usable:
         return outcome_in_words(run.decision, language)
+    if met and run.decision.status == "undecided":
+        return message(language, "compared.found_none")
     because = message(language, "compared.because", reason=reason_in_words(run.decision, language))
     return message(language, f"status.{run.decision.status}") + because
 

@@ -59,8 +59,8 @@ def changes_in_words(diff: Diff, shift: Shift | None, language: str) -> str:
         return ""
     said = list[str]()
     if diff.objective[0] != diff.objective[1] and diff.objective[1] is not None:
-        now, then = (goal_words(str(name), language) for name in reversed(diff.objective))
-        said.append(message(language, "changed.instead", now=now, then=then))
+        then, now = (goal_words(str(name), language) for name in diff.objective)
+        said.append(message(language, "changed.aim", then=then, now=now))
     groups: dict[tuple[str, float | None, float], list[str]] = {}
     for one in diff.changes:
         if one.after is not None:

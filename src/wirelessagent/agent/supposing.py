@@ -183,13 +183,13 @@ def _unused(now: Run | None, run: Run, language: str) -> list[str]:
 
 
 def _beside(now: Decision, then: Decision, language: str) -> dict[str, str]:
-    """What the value is now, and by how much the other one differs; nothing of that where it does not show."""
+    """By how much the other value differs."""
     change, value = then.value - now.value, human(now.value, now.unit)
     if not now.value or value == human(then.value, then.unit):
-        return {"now": value, "change": ""}
+        return {"change": message(language, "what_if.same")}
     size, share = human(abs(change), now.unit), percent(abs(change / now.value))
     key = "what_if.more" if change > 0 else "what_if.less"
-    return {"now": value, "change": message(language, key, size=size, share=share)}
+    return {"change": message(language, key, size=size, share=share)}
 
 
 def _figure_of(run: Run, language: str) -> tuple[str, str]:

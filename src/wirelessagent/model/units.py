@@ -44,6 +44,8 @@ _NOUGHT = 1e-9
 _LEAST_SHARE = 1e-5
 """Shares below this are told as less than it."""
 
+_ALL_BUT_CERTAIN = 0.999
+
 _PREFIXES = ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
@@ -63,6 +65,17 @@ def reliability(outage_probability: float) -> str:
     ('95 %', '99.999 %')
     """
     return f"{100.0 - 100.0 * outage_probability:.10g} %"
+
+
+def probability(share: float) -> str:
+    """A probability in percent; beyond 99.9 % nobody counts, and nothing is certain.
+
+    >>> probability(0.953), probability(0.99999), probability(1e-5)
+    ('95.3 %', '> 99.9 %', '< 0.1 %')
+    """
+    if share > _ALL_BUT_CERTAIN:
+        return f"> {100 * _ALL_BUT_CERTAIN:.3g} %"
+    return f"{100 * share:.3g} %" if share >= 1 - _ALL_BUT_CERTAIN else f"< {100 * (1 - _ALL_BUT_CERTAIN):.1g} %"
 
 
 def percent(share: float) -> str:

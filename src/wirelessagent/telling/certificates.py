@@ -6,7 +6,7 @@ import numpy as np
 
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.objective import Objective
-from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.model.units import human, percent, probability, reliability
 from wirelessagent.telling.catalogue import called, joined, listed, message
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.certainty import Certainty, certainty
@@ -132,7 +132,7 @@ def _sure(case: Case, found: Certainty, language: str) -> list[str]:
     names, outage = case.estimate.user_names, case.problem.outage_probability
     user, subcarrier = found.widest
     low, high = human(found.low_bps, "bit/s"), human(found.high_bps, "bit/s")
-    kept, least_sure = f"{100 * found.least_kept:.3g} %", called(language, names[found.least_sure])
+    kept, least_sure = probability(found.least_kept), called(language, names[found.least_sure])
     served = int((case.decision.committed_bps > 0).sum())
     firm = "certainty.asked" if case.problem.promises_rates else "certainty.commitment"
     key = firm if outage is None else "certainty.promise"

@@ -55,6 +55,19 @@ def outcome_in_words(decision: Decision, language: str) -> str:
     return message(language, key, figure=value_name(decision, language), value=value, power=power)
 
 
+def without_anything(decision: Decision, language: str) -> str:
+    """How many users get nothing though they count, where no promise was asked for them; empty where none is."""
+    objective = decision.problem.objective
+    count = decision.rate_bps.size
+    if not isinstance(objective, Objective) or objective.measure == "power" or not decision.is_usable:
+        return ""
+    counts = decision.problem.serves(count) & (decision.problem.weights_of(count) > 0)
+    idle = int(np.count_nonzero(counts & (decision.rate_bps <= 0)))
+    if not idle or decision.value == 0:
+        return ""
+    return message(language, "decision.without_anything", idle=idle, users=int(np.count_nonzero(counts)))
+
+
 def cannot_be_served(decision: Decision, language: str = "en") -> str:
     """How many users get no rate, where that makes the decision worthless; empty where it does not."""
     objective = decision.problem.objective

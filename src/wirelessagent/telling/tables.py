@@ -9,7 +9,7 @@ import numpy as np
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.forecast import Forecast
-from wirelessagent.model.units import human, percent, prefixed, reliability
+from wirelessagent.model.units import human, percent, prefixed, probability, reliability
 from wirelessagent.telling.catalogue import called, message
 from wirelessagent.telling.reasons import power_in_words
 from wirelessagent.telling.report import Report
@@ -59,7 +59,7 @@ def figures_of_infeasibility(decision: Decision, language: str = "en") -> Table:
         rows.append((label, *(power_in_words(one, language) for one in (need.at_least, need.at_most))))
     if decision.rate_scaling is not None:
         scale, label = decision.rate_scaling, message(language, "label.scaling_of_rates")
-        rows.append((label, f"{scale.at_least:.3g}", f"{scale.at_most:.3g}"))
+        rows.append((label, *(f"{one:.3g}" if one else "–" for one in (scale.at_least, scale.at_most))))
     return _table(language, "needed_title", ("figure", "at_least", "at_most"), rows)
 
 
@@ -76,8 +76,11 @@ def report_table(report: Report, language: str = "en") -> Table:
 
 def user_table(report: Report, estimate: ChannelEstimate | None = None, language: str = "en") -> Table:
     """Each user's subcarriers, power and rates: predicted, how sure, committed and achieved."""
-    decision = report.decision
-    unsure, judged = decision.forecast is not None, decision.expected_rate_bps.size > 0
+    decision, forecast = report.decision, report.decision.forecast
+    unsure, judged = forecast is not None, decision.expected_rate_bps.size > 0
+    band = forecast is not None and any(
+        "(" in _banded(forecast, user, rate) for user, rate in enumerate(report.predicted.user_rate_bps)
+    )
     kind = "asked_for" if decision.problem.promises_rates else "committed"
     columns = [
         "user",
@@ -85,7 +88,7 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None, language
         *([] if estimate is None else ["of_them_repaired"]),
         "power",
         *(["promised_at"] * judged),
-        "predicted_band" if unsure else "predicted_rate",
+        "predicted_band" if band else "predicted_rate",
         *([kind] * (unsure and not judged)),
         *([] if report.achieved is None else ["achieved_rate"]),
     ]
@@ -108,7 +111,7 @@ def _user(report: Report, estimate: ChannelEstimate | None, language: str, user:
     predicted = report.predicted.user_rate_bps[user]
     row.append(human(predicted, "bit/s") if forecast is None else _banded(forecast, user, predicted))
     if forecast is not None and not judged:
-        rate, sure = decision.committed_bps[user], f"{100 * forecast.carried[user]:.0f} %"
+        rate, sure = decision.committed_bps[user], probability(float(forecast.carried[user]))
         row.append(
             message(language, "label.with", value=human(rate, "bit/s"), beside=sure)
             if rate > 0
