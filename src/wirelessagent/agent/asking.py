@@ -15,6 +15,7 @@ from wirelessagent.agent.refusing import able
 from wirelessagent.agent.state import Reply, Talk, nothing_yet
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language.acts import (
+    Act,
     Ask,
     AskCertainty,
     AskDearest,
@@ -34,6 +35,11 @@ from wirelessagent.language.acts import (
     AskUsers,
     AskWhy,
     AskWhyNot,
+    Drop,
+    LeaveOut,
+    Limit,
+    Named,
+    Scale,
 )
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import called, joined, lines_of, message
@@ -43,7 +49,7 @@ from wirelessagent.telling.facts.accounts import account, newcomer
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.contests import contested
 from wirelessagent.telling.facts.marginal_prices import marginal_prices
-from wirelessagent.telling.facts.nearest import nearest
+from wirelessagent.telling.facts.nearest import FewerUsers, MorePower, Nearest, Way, WithoutLimit, nearest
 from wirelessagent.telling.glossary import explained, figure_asked
 from wirelessagent.telling.prices import contested_table, limits_answer, prices_answer, prices_table
 from wirelessagent.telling.remedies import feasible_answer, nearest_answer
@@ -145,8 +151,31 @@ def about_the_decision(talk: Talk, act: Ask) -> Reply:
     in_effect = on_air if not (of_it or run.decision.is_usable) and on_air is not None else run
     other = in_effect is not run and in_effect.decision.is_usable
     run = in_effect if other else run
-    text, tables = answered(Asked(case=run.case, report=run.report, language=talk.language, text=talk.text), act)
+    asked = Asked(case=run.case, report=run.report, language=talk.language, text=talk.text)
+    if run is talk.state.run and _needs_a_decision(act) and not run.decision.is_usable:
+        found = nearest(run.case)
+        state = dataclasses.replace(talk.state, question=None, offers=offers_of(run.case, found))
+        return Reply(decided=nearest_answer(run.case, found, talk.language), state=state)
+    text, tables = answered(asked, act)
     return Reply(decided=talk.say("about.in_effect", answer=text) if other else text, tables=tables)
+
+
+def offers_of(case: Case, found: Nearest) -> tuple[tuple[Act, ...], ...]:
+    """What asks for each of the ways that can be met, in the order in which they are told."""
+    return tuple(_offer(case, way) for way in found.ways)
+
+
+def _offer(case: Case, way: Way) -> tuple[Act, ...]:
+    if isinstance(way, MorePower):
+        return (Limit(kind="max_power_w", value=way.power_w),)
+    if isinstance(way, WithoutLimit):
+        return (Drop(kind=way.limit),)
+    if isinstance(way, FewerUsers):
+        return (LeaveOut(whom=Named(case.named(way.left_out))),)
+    promised = case.promised_bps[case.served]
+    if np.ptp(promised) > 0:
+        return (Scale(kind="min_rate_bps", factor=way.factor),)
+    return (Limit(kind="min_rate_bps", value=float(promised[0]) * way.factor),)
 
 
 def unmet(turns: Sequence[Turn]) -> Run | None:
@@ -160,10 +189,15 @@ def unmet(turns: Sequence[Turn]) -> Run | None:
 def _unmet_answer(asked: Asked, act: Ask) -> Answer:
     """Why nothing was decided and what could be, for a question that needs a decision; empty where there is one."""
     case = asked.case
-    anyway = isinstance(act, AskWhy | AskGain | AskDuration) or (isinstance(act, AskStep) and act.users is None)
-    if anyway or case.decision.is_usable:
+    if case.decision.is_usable or not _needs_a_decision(act):
         return ""
     return nearest_answer(case, nearest(case), asked.language)
+
+
+def _needs_a_decision(act: Ask) -> bool:
+    """Whether a question has no answer where nothing was decided, but what can be met instead."""
+    anyway = isinstance(act, AskWhy | AskGain | AskDuration)
+    return not (anyway or (isinstance(act, AskStep) and act.users is None))
 
 
 def _why(asked: Asked, act: AskWhy) -> Answer:

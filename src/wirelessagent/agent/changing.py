@@ -81,7 +81,7 @@ def apply(talk: Talk, act: Apply | Yes) -> Reply:
 def confirm(talk: Talk, act: Yes) -> Reply:
     """A yes: apply what waits for it."""
     if talk.state.planned is None:
-        return asked_back(talk.say("ask_back.which_way")) if act.chooses else Reply(
+        return asked_back(talk.say("ask_back.which_way")) if act.chooses or act.choice is not None else Reply(
             decided=talk.say("plan.nothing_to_confirm")
         )  # fmt: skip
     return apply(talk, act)

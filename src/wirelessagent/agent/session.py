@@ -33,6 +33,7 @@ from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Lines, Run, Turn, shift_between
 from wirelessagent.language.acts import (
     Act,
+    Aim,
     Apply,
     Ask,
     AskHelp,
@@ -174,7 +175,7 @@ class Session:
     def say(self, text: str) -> Turn:
         """Take a line from the operator: understand it, do what it asks, and reply."""
         context, before = self._context(), self._state
-        intent = self._gone_back(self._answered(text, context) or understood(text, context, self._recogniser))
+        intent = self._taken(self._answered(text, context) or understood(text, context, self._recogniser))
         self._state = dataclasses.replace(self._state, supposed=None)
         self._language = intent.language
         if intent.kind == "allocate":
@@ -219,6 +220,7 @@ class Session:
             supposed_objective=None if supposed is None else supposed.objective,
             supposed={} if supposed is None else supposed.constraints,
             ways=asking.unmet(self._turns) is not None,
+            offers=len(state.offers),
             share_of=cast("Mapping[str, Constraint]", before.get("share_of") or {}),
             share_how=str(before.get("share_how", "of")),
             language=self._language,
@@ -304,9 +306,12 @@ class Session:
         self._turns.append(turn)
         return turn
 
-    def _gone_back(self, intent: Intent) -> Intent:
-        """The request of an earlier turn, for a line that goes back to it; any other intent as it is."""
-        back = next((act.turn for act in acts_of(intent) if isinstance(act, Undo)), None)
+    def _taken(self, intent: Intent) -> Intent:
+        """The request of an earlier turn, or one that was offered, for a line that takes it; any other as it is."""
+        act = next(iter(acts_of(intent)), None)
+        if isinstance(act, Yes) and act.choice is not None:
+            return self._chosen(intent, act.choice)
+        back = act.turn if isinstance(act, Undo) else None
         if not isinstance(back, int) or back not in range(1, len(self._requests) + 1):
             return intent
         request = self._requests[back - 1]
@@ -316,6 +321,17 @@ class Session:
         return dataclasses.replace(
             intent, kind="allocate", objective=request.objective, constraints=request.constraints, topic=None,
             reply=reply, details={"turn": back, "method": request.method or OWN_CHOICE},
+        )  # fmt: skip
+
+    def _chosen(self, intent: Intent, choice: int) -> Intent:
+        """The request that a choice among the offers asks for; a choice of nothing offered as it is."""
+        held, offers = self.request, self._state.offers
+        place = choice - 1 if choice > 0 else len(offers) - 1
+        if held is None or not 0 <= place < len(offers):
+            return intent
+        acts = (Aim(objective=held.objective), *offers[place])
+        return dataclasses.replace(
+            intent, kind="allocate", objective=held.objective, amends=True, topic=None, details={}, acts=acts
         )  # fmt: skip
 
     def _answered(self, text: str, context: Context) -> Intent | None:

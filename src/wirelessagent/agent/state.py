@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Run, Stage, Turn
+from wirelessagent.language.acts import Act
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.language.recogniser import Awaited
 from wirelessagent.model.errors import WirelessAgentError
@@ -61,6 +62,7 @@ class State(Plain):
         question: what the last turn asked back; None where it asked nothing.
         stated: what the last change of the request stated, which "that" refers to.
         supposed: the request of the what-if that was the last turn; None where it was something else.
+        offers: what can be met instead of the request, each as the acts that ask for it; the next lines may take one.
         noted: whether it was told that rates are promised at a probability that nobody named.
     """
 
@@ -73,6 +75,7 @@ class State(Plain):
     question: Question | None = None
     stated: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     supposed: Request | None = None
+    offers: tuple[tuple[Act, ...], ...] = ()
     noted: bool = False
 
     @property
@@ -90,7 +93,7 @@ class State(Plain):
     @property
     def settled(self) -> State:
         """The same with nothing open: no plan that waits, no question, no what-if."""
-        return dataclasses.replace(self, planned=None, undoes=False, question=None, supposed=None)
+        return dataclasses.replace(self, planned=None, undoes=False, question=None, supposed=None, offers=())
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -145,9 +145,13 @@ class Apply(Act):
 
 @dataclass(frozen=True, kw_only=True)
 class Yes(Act):
-    """A yes to what the agent asked; ``chooses`` where it takes up one of several ways without saying which."""
+    """A yes to what the agent asked or offered.
+
+    ``choice`` is the place of what was offered, from 1, −1 the last; ``chooses`` where none of several is named.
+    """
 
     chooses: bool = False
+    choice: int | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

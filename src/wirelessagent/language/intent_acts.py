@@ -183,6 +183,11 @@ def _compared(details: Details) -> Act:
 _SEPARATORS = str.maketrans(",，、;", "    ")
 
 
+def _yes(details: Details) -> Act:
+    choice = _figure(details, "way")
+    return Yes(chooses="way" in details, choice=None if choice is None else int(choice))
+
+
 def _undone(details: Details) -> Act:
     turn, steps = _turn(details, "turn"), details.get("steps", 1.0)
     if turn is not None:
@@ -196,7 +201,7 @@ def _history(details: Details) -> Act:
 
 _TOPICS: Mapping[str, Callable[[Details], Act]] = {
     "apply": lambda details: Apply(),
-    "confirm": lambda details: Yes(chooses="way" in details),
+    "confirm": _yes,
     "reject": lambda details: No(cancels="cancel" in details, stops="stop" in details),
     "undo": _undone,
     "reset": lambda details: Forget(),

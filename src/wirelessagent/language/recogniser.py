@@ -31,6 +31,7 @@ class Context:
         stated: what the last request stated, which "it" and "that" refer to.
         supposed_objective, supposed: the request of a what-if right before; None and empty where there was none.
         ways: whether the line right before was told that it can't be met, and what can be met instead.
+        offers: how many ways were offered that the next line may choose from.
         share_of, share_how: what the line right before changed by a share or an amount, as it was before, and whether
             it became that share "of" it, or that much "less" or "more"; empty where it did not.
         acts: those of the last line that changed or supposed something.
@@ -51,6 +52,7 @@ class Context:
     supposed_objective: str | None = None
     supposed: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     ways: bool = False
+    offers: int = 0
     share_of: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     share_how: str = "of"
     acts: tuple[Act, ...] = ()

@@ -48,7 +48,16 @@ def read_command(line: Line) -> Intent | None:
     said = line.wish.rstrip("? ").strip()
     if said != line.wish.strip() and not has("polite", line.shape):  # what is only asked about is not done
         return _about_a_turn(line, said)
-    return _taken_up(line, said) or _undone(line, said) or _about_a_turn(line, said)
+    return _chosen(line) or _taken_up(line, said) or _undone(line, said) or _about_a_turn(line, said)
+
+
+def _chosen(line: Line) -> Intent | None:
+    """The one that a line takes of several ways that were offered."""
+    match = is_all("choice", line.said) if line.context.offers else None
+    if match is None:
+        return None
+    name = next(name for name, word in match.groupdict().items() if word)
+    return line.command("confirm", way=float(name.removeprefix("way")) if name != "last" else -1.0)
 
 
 def _taken_up(line: Line, said: str) -> Intent | None:
@@ -56,7 +65,7 @@ def _taken_up(line: Line, said: str) -> Intent | None:
     context = line.context
     if not is_all("do_that", said) or context.awaits == "clarification":
         return None
-    if context.ways and context.awaits == "nothing":
+    if (context.ways or context.offers) and context.awaits == "nothing":
         return line.command("confirm", way="which")
     if context.supposed_objective is None or (context.awaits == "confirmation" and is_all("apply_it", said)):
         return None

@@ -15,6 +15,7 @@ import dataclasses
 import itertools
 import math
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -80,6 +81,9 @@ class FewerUsers:
     is_fewest: bool
 
 
+Way: TypeAlias = MorePower | WithoutLimit | LowerRates | FewerUsers
+
+
 @dataclass(frozen=True, kw_only=True)
 class Nearest:
     """What a request that cannot be met would need, and the nearest ones that can; None where there is none.
@@ -97,6 +101,14 @@ class Nearest:
     without_limits: tuple[WithoutLimit, ...]
     lower_rates: LowerRates | None
     fewer_users: FewerUsers | None
+
+    @property
+    def ways(self) -> tuple[Way, ...]:
+        """What can be met within the cell's limit, in the order in which it is told."""
+        power = self.more_power if self.more_power is not None and self.more_power.within_limit else None
+        limits = (one for one in self.without_limits if one.limit != "outage_probability")  # no request can say that
+        found = (power, *limits, self.lower_rates, self.fewer_users)
+        return tuple(way for way in found if way is not None)
 
 
 def nearest(case: Case) -> Nearest:
