@@ -1,4 +1,4 @@
-"""What the agent offers where a request cannot be met is kept as acts, and taken up exactly."""
+"""What the agent offers or asks about is kept as acts, and taken up exactly."""
 
 from __future__ import annotations
 
@@ -61,3 +61,12 @@ def test_nothing_is_offered_where_the_request_is_met_or_changed_since() -> None:
     assert told(*TOO_MUCH, "why not?", "undo").state.offers == ()
     session = told("Save power, 200 kbit/s each")
     assert session.say("the second").stage in ("asked", "answered")
+
+
+@pytest.mark.parametrize("change", ["and user 9 too", "and 600 kbit/s for user 9", "leave user 9 out"])
+def test_naming_who_was_meant_carries_out_what_was_asked(change: str) -> None:
+    session = told("Highest total rate, 300 kbit/s each", change)
+    assert session.turns[-1].stage == "asked"
+    turn = session.say("user 2")
+    assert turn.stage in ("applied", "nothing")
+    assert "9" not in str(session.request)

@@ -55,6 +55,7 @@ from wirelessagent.language.acts import (
     Suppose,
     Undo,
     Yes,
+    with_another,
 )
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
@@ -404,7 +405,8 @@ def _with_user(missing: Missing, name: str) -> Intent:
         {key: _renamed(value, reference, name) for key, value in values.items()}
         for values in (intent.constraints, intent.pending)
     )
-    return dataclasses.replace(intent, details=details, constraints=constraints, pending=pending)
+    acts = tuple(with_another(act, reference, name) for act in intent.acts)
+    return dataclasses.replace(intent, details=details, constraints=constraints, pending=pending, acts=acts)
 
 
 def _check_users(intent: Intent, user_names: tuple[str, ...]) -> None:

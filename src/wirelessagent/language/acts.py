@@ -337,6 +337,26 @@ class Export(Ask):
     format: str = "ts28312"
 
 
+def with_another(act: Act, user: str, name: str) -> Act:
+    """The act with somebody in the place of a user.
+
+    >>> with_another(LeaveOut(whom=Named(("2", "9"))), "9", "3").whom
+    Named(users=('2', '3'))
+    """
+    changed = {field.name: _with_another(getattr(act, field.name), user, name) for field in dataclasses.fields(act)}
+    return dataclasses.replace(act, **changed)
+
+
+def _with_another(value: Any, user: str, name: str) -> Any:
+    if isinstance(value, Named):
+        return Named(tuple(name if one == user else one for one in value.users))
+    if isinstance(value, Act):
+        return with_another(value, user, name)
+    if isinstance(value, tuple):
+        return tuple(_with_another(one, user, name) for one in cast("tuple[Any, ...]", value))
+    return value
+
+
 def shown(act: Act) -> dict[str, Any]:
     """An act as JSON has it: its name, its fields and its words."""
     fields = {field.name: _shown(getattr(act, field.name)) for field in dataclasses.fields(act)}
