@@ -63,10 +63,18 @@ def test_nothing_is_offered_where_the_request_is_met_or_changed_since() -> None:
     assert session.say("the second").stage in ("asked", "answered")
 
 
-@pytest.mark.parametrize("change", ["and user 9 too", "and 600 kbit/s for user 9", "leave user 9 out"])
-def test_naming_who_was_meant_carries_out_what_was_asked(change: str) -> None:
-    session = told("Highest total rate, 300 kbit/s each", change)
+@pytest.mark.parametrize(
+    ("before", "change"),
+    [
+        ("1 Mbit/s for user 3", "and user 9 too"),
+        ("300 kbit/s each", "and 600 kbit/s for user 9"),
+        ("at most 10 W", "leave user 9 out"),
+    ],
+)
+def test_naming_who_was_meant_carries_out_what_was_asked(before: str, change: str) -> None:
+    session = told(f"Highest total rate, {before}", change)
     assert session.turns[-1].stage == "asked"
     turn = session.say("user 2")
     assert turn.stage in ("applied", "nothing")
+    assert "2" in str(session.request)
     assert "9" not in str(session.request)
