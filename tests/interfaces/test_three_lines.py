@@ -184,3 +184,22 @@ def test_what_each_user_gets_comes_when_it_is_asked_for(line: str) -> None:
     turn = said("Highest total rate, at most 10 W", line)[-1]
     assert turn.run is None
     assert [table.columns[2] for table in turn.tables][:1] in (["power"], ["功率"], ["Leistung"])
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "what's the total rate", "what is the least power here", "how high is the energy efficiency",
+        "whats the sum rate",
+        "and what's the radiated power now", "is the total rate highest now", "wie hoch ist die Gesamtrate",
+        "wie hoch ist die Energieeffizienz", "quelle est l'efficacité énergétique", "combien de débit total",
+        "cuál es la tasa total", "总速率是多少",
+    ],
+)  # fmt: skip
+def test_a_question_without_its_mark_changes_nothing(line: str) -> None:
+    session = Session(SCENE, wa.loss.random(0.2), seed=1)
+    session.say("Proportional fairness, at most 10 W")
+    before = session.request
+    turn = session.say(line)
+    assert session.request == before
+    assert turn.stage in ("answered", "asked")

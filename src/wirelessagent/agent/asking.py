@@ -50,7 +50,7 @@ from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.contests import contested
 from wirelessagent.telling.facts.marginal_prices import marginal_prices
 from wirelessagent.telling.facts.nearest import FewerUsers, MorePower, Nearest, Way, WithoutLimit, nearest
-from wirelessagent.telling.glossary import explained, figure_asked
+from wirelessagent.telling.glossary import explained, figures_asked, is_of_now
 from wirelessagent.telling.prices import contested_table, limits_answer, prices_answer, prices_table
 from wirelessagent.telling.remedies import feasible_answer, nearest_answer
 from wirelessagent.telling.report import Report
@@ -126,8 +126,8 @@ def meaning(talk: Talk, act: AskMeaning) -> Reply:
     """What the terms in a line mean; their figures, where it asks for those of now."""
     del act
     run = talk.state.run
-    figure = "" if run is None else figure_asked(talk.text, run.report, talk.language)
-    return Reply(decided=figure or explained(talk.text, talk.language) or talk.say("about.help"))
+    figures = figures_asked(talk.text, run.report, talk.language) if run is not None and is_of_now(talk.text) else ""
+    return Reply(decided=figures or explained(talk.text, talk.language) or talk.say("about.help"))
 
 
 def methods(talk: Talk, act: AskMethods) -> Reply:
@@ -307,7 +307,7 @@ def _dearest(asked: Asked, act: AskDearest) -> Answer:
 
 def _result(asked: Asked, act: AskResult) -> Answer:
     del act
-    return figure_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained())
+    return figures_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained())
 
 
 def _limits(asked: Asked, act: AskLimits) -> Answer:

@@ -12,6 +12,13 @@ _ASKS = deferred(
     r"how (?:much|many|high|fast|long|far|good|sure|big|come|is|are|did|do|does|would|was)\b|(?:is|are|was|were|"
     r"does|did|has|have)\s+\w+)"
 )
+_ASKS_ELSEWHERE = deferred(
+    r"(?i)\s*[¿]?(?:(?:und|et|y) )?(?:wie (?:hoch|viele?|groß|schnell|gut|sicher|ist|sind|war)|wer (?:hat|ist|bekommt)|"
+    r"was (?:ist|sind|kostet|war|bringt)|welche[rsn]? \w+ (?:ist|hat|bekommt)|quel(?:le)?s? (?:est|sont|était)|combien|"
+    r"qu'est-ce|qui (?:a|est|reçoit)|est-ce qu|cuál(?:es)? (?:es|son|era)|cu[aá]nt[oa]s?|qué (?:es|son|tal)|"
+    r"quién (?:tiene|es|recibe))\b"
+)
+_IMPERATIVE = deferred(r"(?i)^\s*(?:\w+,? )?have\b|\bplease\b|\bbitte\b|\bs'il (?:te|vous)\b|\bpor favor\b")
 _ONLY_ASKING = deferred(
     r"(?i)\b(?:just|only|merely) (?:asking|curious|wondering|checking|a question)\b|\bwithout (?:changing|touching|"
     r"applying) (?:anything|it)\b|\b(?:don'?t|do not) (?:touch|change|apply|do) "
@@ -62,6 +69,16 @@ def is_asked(plain: str) -> bool:
 def begins_like_a_question(plain: str) -> bool:
     """Whether a sentence begins with who, what, how much or an auxiliary verb."""
     return _ASKS.match(plain) is not None
+
+
+def asks_without_a_mark(plain: str) -> bool:
+    """Whether a sentence is a question by its first words, with a question mark or without.
+
+    >>> asks_without_a_mark("what's the total rate"), asks_without_a_mark("have everyone at 1 Mbit/s")
+    (True, False)
+    """
+    asks = begins_like_a_question(plain) or _ASKS_ELSEWHERE.match(plain) is not None
+    return asks and _IMPERATIVE.search(plain) is None
 
 
 def is_a_program(text: str) -> bool:

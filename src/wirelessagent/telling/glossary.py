@@ -58,11 +58,14 @@ def explained(text: str, language: str) -> Said:
     return lines_of(dict.fromkeys(entry.told(language) for entry in _named(text)[:2]))
 
 
-def figure_asked(text: str, report: Report, language: str) -> Said:
-    """The figures of a decision that a text asks for as they are now; empty where it asks what a word means."""
+def is_of_now(text: str) -> bool:
+    """Whether a text asks for something as it is now, not for what a word means."""
     said = _plain(text)
-    if not any(_places(said, _plain(word)) for word in _words("term.now")):
-        return Said("")
+    return any(_places(said, _plain(word)) for word in _words("term.now"))
+
+
+def figures_asked(text: str, report: Report, language: str) -> Said:
+    """The figures of a decision that a text names; empty where it names none."""
     rows = {row[0]: row[1:] for row in report.figures(language)}
     told = dict.fromkeys(_FIGURES[entry.key] for entry in _named(text) if entry.key in _FIGURES)
     labels = [message(language, f"label.{name}") for name in told]

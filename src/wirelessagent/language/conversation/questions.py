@@ -273,8 +273,11 @@ def is_worked_out(intent: Intent) -> bool:
 
 def only_supposed(line: Line, intent: Intent) -> Intent:
     """A what-if of what a line supposes, weighs or asks about, where it was read as a request; else the intent."""
-    if intent.kind != "allocate" or not supposes(line.text):
+    supposing = supposes(line.text)
+    if intent.kind != "allocate" or not (supposing or forms.asks_without_a_mark(line.text)):
         return intent
+    if not supposing and not intent.constraints and not intent.dropped and not intent.acts:
+        return line.question("other")  # "what's the total rate" names no aim
     said = supposed(line, intent)
     return dataclasses.replace(said, details=said.details or {"objective": str(intent.objective)})
 
