@@ -107,13 +107,9 @@ def with_tools(talk: Talk, act: CompareTools) -> Reply:
 def _outcomes(columns: Sequence[Column], language: str) -> list[str]:
     """What each of the runs comes to, one sentence each."""
     return [
-        message(language, "compared.outcome", name=_capital(called(language, name)), outcome=_outcome(run, language))
+        message(language, "compared.outcome", name=called(language, name), outcome=_outcome(run, language))
         for name, run in columns
     ]
-
-
-def _capital(name: str) -> str:
-    return name[:1].upper() + name[1:]
 
 
 def _outcome(run: Run, language: str) -> str:

@@ -29,13 +29,15 @@ def prices_answer(case: Case, prices: MarginalPrices, language: str) -> str:
         said.append(message(language, "price.dearest", user=user, direction=direction, figure=figure, price=price))
     elif case.promised_bps.any():
         said.append(message(language, "price.free"))
-    return joined(language, [*said, message(language, "price.slopes")])
+    if case.objective.measure != "power" and prices.power > 0:
+        said.append(message(language, "price.slopes"))
+    return joined(language, said)
 
 
 def _power_price(case: Case, prices: MarginalPrices, figure: str, language: str) -> str:
     budget, spent = human(case.problem.budget_w(case.cell), "W"), human(case.decision.total_power_w, "W")
     if case.objective.measure == "power":
-        return message(language, "price.power_least", budget=budget)
+        return message(language, "price.power_least")
     if np.isnan(prices.power):
         return message(language, "price.power_unknown")
     if prices.power > 0 and prices.binds:

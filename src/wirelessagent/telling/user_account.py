@@ -51,7 +51,7 @@ def _head(case: Case, found: Account, name: str, language: str) -> str:
         language,
         f"account.{found.standing}",
         name=name,
-        rate=human(found.rate_bps, "bit/s"),
+        rate=_rate(case, found, language),
         power=human(found.power_w, "W"),
         share=percent(found.power_w / total if total > 0 else 0.0),
         count=found.subcarriers,
@@ -82,6 +82,17 @@ def _included(case: Case, found: Account, language: str) -> str:
     )
 
 
+def _rate(case: Case, found: Account, language: str) -> str:
+    """What a user gets, as what it must get where it is no more than that."""
+    rate = human(found.rate_bps, "bit/s")
+    due = found.promised_bps > 0 and _exactly(found)
+    return message(language, f"account.exactly_{case.problem.firmness}", rate=rate) if due else rate
+
+
+def _exactly(found: Account) -> bool:
+    return not found.rate_bps > found.promised_bps * _FACTOR
+
+
 def _served(case: Case, found: Account, language: str) -> list[str]:
     said: list[str] = []
     forecast, user = case.decision.forecast, found.user
@@ -90,8 +101,7 @@ def _served(case: Case, found: Account, language: str) -> list[str]:
         said += [message(language, "account.band", low=low, high=high)] if low != high else []
     if found.promised_bps > 0:
         price = found.price_per_bps * _STEP_BPS
-        exactly = not found.rate_bps > found.promised_bps * _FACTOR
-        key = "account.beyond" if not price > 0 else "account.binds" if exactly else "account.above"
+        key = "account.beyond" if not price > 0 else "account.binds" if _exactly(found) else "account.above"
         promised, cost = human(found.promised_bps, "bit/s"), human(price, case.decision.unit)
         due = message(language, f"account.due_{case.problem.firmness}", promised=promised)
         said.append(message(language, key, due=due, price=cost))
