@@ -145,8 +145,8 @@ def test_a_method_that_does_not_solve_it_says_what_it_does_not_know() -> None:
         asks("max_rate", weights={"2": 2.0}, max_power_w=10.0),
         means("command", topic="compare", details={"with": "paper_inversion,paper_bisection"}),
     )
-    assert "paper_inversion does not aim for that: the highest total rate." in compared.reply
-    assert "paper_bisection knows nothing of weights." in compared.reply
+    assert "The paper's inversion does not aim for that: the highest total rate." in compared.reply
+    assert "The paper's bisection knows nothing of weights." in compared.reply
 
 
 def test_who_cannot_be_served_is_counted_in_both_languages() -> None:

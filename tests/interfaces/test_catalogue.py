@@ -106,14 +106,15 @@ def test_nothing_is_left_in_english(language: str) -> None:
 @pytest.mark.parametrize(
     ("language", "one", "several", "following"),
     [
-        ("en", "user 3 gets the least power: 1 W.", "user 1, user 2 get nothing.", "Next are user 1, user 2 with 2 W."),
-        ("zh", "用户3得到的功率最少：1 W。", "用户1、用户2什么也没有得到。", "其次是用户1、用户2：2 W。"),
-        ("de", "Nutzer 3 erhält am wenigsten an Leistung: 1 W.", "Nutzer 1, Nutzer 2 erhalten nichts.",
-         "Es folgen Nutzer 1, Nutzer 2 mit 2 W."),
-        ("es", "usuario 3 recibe menos potencia que nadie: 1 W.", "usuario 1, usuario 2 no reciben nada.",
-         "Después vienen usuario 1, usuario 2 con 2 W."),
-        ("fr", "utilisateur 3 reçoit le moins de puissance : 1 W.", "utilisateur 1, utilisateur 2 ne reçoivent rien.",
-         "Ensuite viennent utilisateur 1, utilisateur 2 avec 2 W."),
+        ("en", "User 3 gets the least power: 1 W.", "User 1 and user 2 get nothing.",
+         "Next are user 1 and user 2 with 2 W."),
+        ("zh", "用户3得到的功率最少：1 W。", "用户1和用户2什么也没有得到。", "其次是用户1和用户2：2 W。"),
+        ("de", "Nutzer 3 erhält am wenigsten an Leistung: 1 W.", "Nutzer 1 und Nutzer 2 erhalten nichts.",
+         "Es folgen Nutzer 1 und Nutzer 2 mit 2 W."),
+        ("es", "Usuario 3 recibe menos potencia que nadie: 1 W.", "Usuario 1 y usuario 2 no reciben nada.",
+         "Después vienen usuario 1 y usuario 2 con 2 W."),
+        ("fr", "Utilisateur 3 reçoit le moins de puissance : 1 W.", "Utilisateur 1 et utilisateur 2 ne reçoivent rien.",
+         "Ensuite viennent utilisateur 1 et utilisateur 2 avec 2 W."),
     ],
 )  # fmt: skip
 def test_sentences_of_several_parts_are_put_together_rightly(

@@ -81,10 +81,10 @@ def test_a_file_is_read_and_then_sensed_once(matrix: Path, capsys: pytest.Captur
 
 def test_rates_are_promised_only_where_some_were_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
     told = shown(capsys, "ask", "Highest total rate", "--num-users", 3, "--loss", "users:1")
-    assert "committed rates kept" in told
+    assert "planned rates kept" in told
     assert "promised rate" not in told
     promised = shown(capsys, "ask", "Least power, 100 kbit/s each", "--num-users", 3, "--loss", "users:1")
-    assert "promised rates kept" in promised
+    assert "promises kept" in promised
     assert "committed" not in promised
 
 

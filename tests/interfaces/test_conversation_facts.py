@@ -34,7 +34,7 @@ def test_why_it_cannot_be_met_is_of_the_request(said: str) -> None:
         ("highest total rate", "why does user 1 get the least?", "user 1 does not get the least"),
         ("highest total rate", "为什么1号什么都没有", "用户1并非什么都没有"),
         ("max-min", "为什么2号分到的最少？", "4 个用户得到的速率一样多"),
-        ("highest total rate", "why does user 2 get the most?", "user 1 gets the most"),
+        ("highest total rate", "why does user 2 get the most?", "User 1 gets the most"),
     ],
 )
 def test_what_is_not_so_is_put_right(aim: str, said: str, told: str) -> None:

@@ -41,7 +41,7 @@ def test_a_method_goes_with_undo_back_to_a_turn_and_the_usual_one() -> None:
         HELD, "use greedy", "undo", "now with 5 W", "use exact", "back to turn 2", "use the usual method"
     )
     assert [method_of(turns[place]) for place in (3, 4, 5, 6)] == ["dual", "exact", "greedy", "dual"]
-    assert "method greedy" in turns[5].reply
+    assert "by greedy" in turns[5].reply
     assert session.request is not None
     assert session.request.method is None
 
@@ -66,7 +66,7 @@ def test_a_method_that_cannot_keep_the_limit_beside_it_is_refused_with_what_can(
     turn = talk("highest total rate", said)[1][1]
     assert turn.stage == "nothing"
     assert "knows nothing of maximum rates" in turn.reply
-    assert "dual, exact, greedy" in turn.reply
+    assert "dual, exact and greedy" in turn.reply
     first = talk(said)[1][0]  # no aim was named yet
     assert first.intent.kind == "clarify"
     assert "method equal_power again" in first.reply
@@ -82,8 +82,12 @@ def test_a_method_is_named_with_the_request() -> None:
 @pytest.mark.parametrize(
     ("said", "refusal", "able"),
     [
-        ("use the paper's method", "paper knows nothing of weights.", "Methods that can: dual, exact, greedy."),
-        ("用论文的方法", "论文方法不支持权重。", "可用的方法：对偶法、精确法、贪心法。"),
+        (
+            "use the paper's method",
+            "The paper's method knows nothing of weights.",
+            "Methods that can: dual, exact and greedy.",
+        ),
+        ("用论文的方法", "论文方法不支持权重。", "可用的方法：对偶法、精确法和贪心法。"),
     ],
 )
 def test_a_method_that_cannot_do_it_is_refused_in_the_operators_language(said: str, refusal: str, able: str) -> None:
@@ -107,7 +111,7 @@ def test_what_a_method_would_make_of_it_is_compared_and_changes_nothing() -> Non
 
 def test_which_methods_there_are_is_told() -> None:
     _, turns = talk(HELD, "do it the paper's way", "which methods are there?", "有哪些方法?")
-    assert turns[2].reply.startswith("In use: paper. Methods that can: dual, ")
+    assert turns[2].reply.startswith("In use: the paper's method. Methods that can: dual, ")
     assert turns[3].reply.startswith("正在使用：论文方法。可用的方法：对偶法、")
 
 
@@ -123,7 +127,10 @@ def test_a_step_that_the_method_cannot_solve_is_solved_by_another() -> None:
 @pytest.mark.parametrize(
     ("said", "told"),
     [
-        ("what if at least 100 kbit/s for everyone?", "paper knows nothing of minimum rates. Solved by dual instead."),
+        (
+            "what if at least 100 kbit/s for everyone?",
+            "The paper's method knows nothing of minimum rates. Solved by dual",
+        ),
         ("10瓦下最多能给每个人保证多少?", "改由对偶法求解。"),
     ],
 )

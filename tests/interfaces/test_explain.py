@@ -68,22 +68,6 @@ def test_the_report_shows_the_objectives_own_figure_predicted_and_achieved() -> 
     assert wa.report(decided("max_rate")).figures()[0][0] == "Sum rate"
 
 
-def test_the_prices_of_a_maximum_say_what_is_gained_and_what_is_lost() -> None:
-    prices = {"price_of_power": 1e5, "price_of_rate": np.array([-0.1, -0.3, 0.0, np.nan])}
-    said = told(decided("proportional_fairness", prices))
-    assert "One more watt would raise the geometric mean rate by about 100 kbit/s" in said
-    assert "100 kbit/s more promised to user 2 would lower the geometric mean rate by about 30 kbit/s" in said
-    assert "几何平均速率约降低 30 kbit/s" in told(decided("proportional_fairness", prices), "zh")
-    assert "One more watt would buy about 100 kbit/s" in told(decided("max_rate", prices))
-
-
-def test_the_price_of_a_promise_in_watts() -> None:
-    prices = {"price_of_rate": np.array([1e-6, 3e-6, 0.0, np.nan])}
-    assert "100 kbit/s more for user 2 would cost about 300 mW" in told(decided("min_power", prices, min_rate_bps=1.0))
-    no_price = {"price_of_rate": np.full(4, np.nan)}
-    assert "100 kbit/s" not in told(decided("min_power", no_price, min_rate_bps=1.0))
-
-
 def test_weights_are_told() -> None:
     weights = (1.0, 3.0, 0.5, 1.0)
     assert "by their weights, from 0.5 to 3" in told(decided("max_rate", weights=weights))
@@ -99,7 +83,7 @@ def test_whoever_cannot_be_served_is_named() -> None:
     )  # fmt: skip
     decision = wa.decide(estimate, wa.Problem(ProportionalFairness()), method="round_robin")
     said = " ".join(explain(estimate, wa.report(decision)))
-    assert "far cannot be given any rate here, and that makes the geometric mean rate zero" in said
+    assert "Far cannot be given any rate here, and that makes the geometric mean rate zero" in said
 
 
 def test_a_dead_channel_is_not_told_as_a_lack_of_promises() -> None:
@@ -135,9 +119,9 @@ def test_rounding_is_no_gap_and_many_times_the_bound_is_a_factor() -> None:
 
 
 def test_rates_are_promised_where_some_were_asked_for_and_committed_elsewhere() -> None:
-    assert "every committed rate was kept" in told(decided("max_rate"))
-    assert "所有预定速率都已兑现" in told(decided("max_rate"), "zh")
-    assert "every rate asked for was reached" in told(decided("max_rate", min_rate_bps=1e3))
+    assert "Every planned rate was kept" in told(decided("max_rate"))
+    assert "所有计划速率都已兑现" in told(decided("max_rate"), "zh")
+    assert "Every rate asked for was reached" in told(decided("max_rate", min_rate_bps=1e3))
 
 
 def test_fairness_is_among_those_to_be_served() -> None:
@@ -154,7 +138,7 @@ def test_who_cannot_be_served_is_said_once() -> None:
     crowd = wa.perfect(wa.simulate("rayleigh", num_users=4, num_subcarriers=3, seed=1))
     decision = wa.decide(crowd, wa.Problem("proportional_fairness"))
     said = " ".join(explain(crowd, wa.report(decision)))
-    assert said.count("user 4") == 1
+    assert said.count("User 4") == 1
     assert "1 of 4 users cannot be served: there are only 3 subcarriers" in certificate_line(decision)
     grouped = wa.decide(
         crowd, wa.Problem("max_min_rate", resource_block_group_size=2, users=("user 1", "user 2", "user 3"))
@@ -163,10 +147,10 @@ def test_who_cannot_be_served_is_said_once() -> None:
 
 
 @pytest.mark.parametrize(
-    ("language", "same", "sure", "band"),
-    [("en", "it would have been the same", "at least 99.9 %", "from"), ("zh", "结果也一样", "至少以 99.9 %", "之间")],
+    ("language", "same", "band"),
+    [("en", "it would have been the same", "from"), ("zh", "结果也一样", "之间")],
 )
-def test_what_hardly_differs_is_told_as_the_same(language: str, same: str, sure: str, band: str) -> None:
+def test_what_hardly_differs_is_told_as_the_same(language: str, same: str, band: str) -> None:
     """Nearly certain gains: no band of one figure, no probability of 100 %, no cost of a hundred-thousandth."""
     scene = wa.simulate("rayleigh", num_users=5, num_subcarriers=24, rms_delay_spread_s=100e-9, seed=1)
     seen = wa.repair(scene.observe(wa.loss.random(0.2), seed=1))
@@ -177,6 +161,6 @@ def test_what_hardly_differs_is_told_as_the_same(language: str, same: str, sure:
     assert 0 < abs(report.regret) < 5e-4
     said = " ".join(explain(seen, report, language=language))
     assert same in said
-    assert sure in said
+    assert "100 %" not in said
     shown = {human(rate, "bit/s") for rate in (forecast.sum_low_bps, forecast.sum_high_bps)}
     assert (band in said) == (len(shown) == 2)

@@ -209,7 +209,7 @@ def test_history_show_tells_a_turn_and_checks_it(
         "Said: higher speed",
         "Understood by offline, 90% sure: allocate, max_min_rate\n",
         "feasible, by dual: ",
-        "read back as decided: 20 W",
+        "checked, as decided: 20 W",
         record["turn"]["hash"],
     ):
         assert text in shown
@@ -239,7 +239,7 @@ def test_a_turn_is_shown_and_replayed_in_the_language_it_was_said_in(
         f"原话：{said[0]}",
         "（已应用）",
         "用户3",
-        "回读与决定一致：",
+        "核对与决定一致：",
         "已检查：本会话没有任何内容被更改或删除。",
     ):
         assert text in shown

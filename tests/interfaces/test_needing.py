@@ -95,11 +95,3 @@ def test_a_cap_that_holds_everybody_back_is_named() -> None:
     assert re.search(
         r"The rate cap of user 2 holds the lowest rate at 1 Mbit/s: without it, it would be .* Mbit/s", said
     )
-
-
-def test_contests_that_cost_nothing_are_no_contests() -> None:
-    scene = wa.simulate("cqi", wa.Cell.nr(), num_users=8, seed=1)
-    session = Session(scene, LOSS, seed=SEED, confirm=False)
-    tables = [session.say(line).tables for line in ("max-min", "user 8 at most 2 Mbit/s", "prices")][-1]
-    rows = [row for table in tables for row in table.rows]
-    assert not any(row[-2:] in (("0 dB", "0 bit/s"), ("0 dB", "-0 bit/s")) for row in rows)

@@ -58,8 +58,8 @@ def test_no_regret_is_told_where_nothing_was_unknown() -> None:
 @pytest.mark.parametrize(
     ("language", "parts"),
     [
-        ("en", ("with a probability of 90 % from", "are committed", "With every gain known", "was kept")),
-        ("zh", ("以 90 % 的概率在", "其中预定", "若增益全部已知", "都已兑现")),
+        ("en", ("with a probability of 90 % from", "are planned", "With every gain known", "was kept")),
+        ("zh", ("以 90 % 的概率在", "其中计划", "若增益全部已知", "都已兑现")),
     ],
 )
 def test_sentences_say_how_sure_it_is_and_what_it_cost(language: str, parts: tuple[str, ...]) -> None:
@@ -73,17 +73,17 @@ def test_promises_on_the_estimate_as_it_stands_are_called_unsure() -> None:
     said = " ".join(explain(ESTIMATE, reported("min_power", min_rate_bps=3e5)))
     assert "asked for without a probability: the least sure one, 300 kbit/s for user 1, is kept with" in said
     assert "an outage probability makes promises of them" in said
-    assert "are committed" not in said
+    assert "are planned" not in said
 
 
 def test_the_table_has_bands_and_commitments() -> None:
     report = reported("proportional_fairness")
     table = user_table(report, ESTIMATE)
-    assert table.columns[-3:] == ("predicted rate (90 % band)", "committed (kept with)", "achieved rate")
+    assert table.columns[-3:] == ("predicted rate (90 % band)", "planned rate (kept with)", "achieved rate")
     assert all("–" in row[-3] and "%" in row[-2] for row in table.rows)
     assert user_table(report, ESTIMATE, "zh").columns[-3:] == (
         "预测速率（90 % 区间）",
-        "预定速率（兑现概率）",
+        "计划速率（兑现概率）",
         "实际速率",
     )
 

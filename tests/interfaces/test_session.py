@@ -152,7 +152,7 @@ def test_compare_with_the_last_and_with_methods_and_repairers() -> None:
         means("command", topic="compare", details={"with": "magic"}),
     )
     assert _columns(turns[2], "power") == (("turn 2", "turn 1"), ("5 W", "10 W"))
-    assert _columns(turns[3], "power")[0] == ("dual", "greedy", "user_mean")
+    assert _columns(turns[3], "power")[0] == ("dual", "greedy", "mean filling")
     assert turns[4].stage == "asked"
     assert "magic" in turns[4].reply
     _, (_, alone) = talk(asks("max_rate"), means("command", topic="compare", details={"with": "last"}))
@@ -262,7 +262,7 @@ def test_what_fits_no_channel_is_asked_about() -> None:
     )
     assert "另外 3 个" in question(names=tuple(f"u{number}" for number in range(15)), language="zh", users=("x",))
     assert "nobody to serve" in question(leave_out=("1", "2", "3", "4", "5"))
-    assert "user 2 can't get at least 2 Mbit/s and at most 1 Mbit/s" in question(
+    assert "User 2 can't get at least 2 Mbit/s and at most 1 Mbit/s" in question(
         min_rate_bps={"2": 2e6}, max_rate_bps=1e6
     )
     assert posed(min_rate_bps=2e6, max_rate_bps={"2": 1e6}, leave_out=("2",)).problem.user_indices == (0, 2, 3, 4)

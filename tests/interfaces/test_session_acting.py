@@ -124,9 +124,9 @@ def applied(run: Run) -> Run:
         ("raise", "The base station moody failed: the radio link broke off half-way."),
         ("fade", "promised arrive, 2"),
         ("unmeasured", "promised arrive, 100 % too little"),
-        ("lists", "The base station moody reads back something that is no allocation."),
-        ("square", "reads back something that is no allocation."),
-        ("words", "reads back something that is no allocation."),
+        ("lists", "The base station moody reports something that is no allocation."),
+        ("square", "reports something that is no allocation."),
+        ("words", "reports something that is no allocation."),
         ("exit", "The base station moody failed: 3."),
         ("colour", "The base station moody failed: link down."),
     ],
@@ -195,7 +195,7 @@ def test_after_a_revert_that_failed_status_tells_that_it_is_not_known_and_what_w
         session, turns = talk(station, ten, five, STATUS)
         assert session.state.on_air is None
         assert "What is in effect is not known" in turns[2].reply
-        assert f"Read back since: {read}." in turns[2].reply
+        assert f"Reported since: {read}." in turns[2].reply
         _, turns = talk(Moody(), ten, STATUS)
         assert "In effect: 10 W" in turns[1].reply
 

@@ -38,7 +38,7 @@ def test_a_first_request_says_what_was_understood_decided_and_done() -> None:
     (turn,) = said("Highest total rate, at most 10 W")
     assert turn.run is not None
     assert turn.lines.decided.startswith("The highest total rate: at most 10 W of radiated power. Total rate ")
-    assert turn.lines.changed.startswith("Simulated: applied and read back")
+    assert turn.lines.changed.startswith("Set on the simulated base station and checked")
     assert turn.lines.needs == ""
     assert turn.shift is None
     assert turn.reply == f"{turn.lines.decided}\n{turn.lines.changed}"

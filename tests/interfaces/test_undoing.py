@@ -46,7 +46,7 @@ def test_undo_to_what_could_not_be_met_keeps_what_is_in_effect_where_the_rest_br
 
 def test_one_user_is_no_users() -> None:
     _, turns = talk("highest total rate, only serve user 1", "status")
-    assert "to 1 user (turn 1)" in turns[-1].reply
+    assert "for 1 user (turn 1)" in turns[-1].reply
 
 
 def exported(session: Session, standard: str = "TS 28.312") -> str:

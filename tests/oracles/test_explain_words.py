@@ -64,13 +64,9 @@ def test_a_user_who_gets_nothing_is_told_why_and_what_would_help(language: str) 
     found = account(case, user)
     said = told(case, "why_user", language, user)
     loss = found.losses[0]
-    for figure in (
-        f"{loss.behind_db:.1f} dB", human(loss.bid_w, "W"), human(loss.winning_bid_value, "bit/s"),
-        f"{found.winning_gain_db:.1f} dB", f"{found.winning_weight:.3g}", "100 kbit/s",
-        called(language, SEEN.user_names[loss.winner]),
-    ):  # fmt: skip
+    for figure in (f"{loss.behind_db:.1f} dB", "100 kbit/s", called(language, SEEN.user_names[loss.winner])):
         assert figure in said
-    assert (f"subcarrier {loss.first + 1}," if language == "en" else f"第 {loss.first + 1} 个子载波，") in said
+    assert (f"subcarrier {loss.first + 1}," if language == "en" else f"{loss.first + 1} 号子载波，") in said
     assert found.promise is not None
     assert human(abs(found.promise.change), "bit/s") in said
 
@@ -87,17 +83,17 @@ def test_every_standing_has_its_sentence(language: str) -> None:
     said = {name: told(case, "why_user", language, user) for name, (case, user) in cases.items()}
     assert len(set(said.values())) == len(said)
     for name, (_, user) in cases.items():
-        assert called(language, SEEN.user_names[user]) in said[name]
+        assert called(language, SEEN.user_names[user]) in said[name].replace("User", "user")
         assert "{" not in said[name]
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_a_step_is_told_beside_its_price(language: str) -> None:
+def test_a_step_is_told(language: str) -> None:
     case = case_of("max_rate")
     step = power_step(case, 15.0)
     assert step is not None
     said = told(case, "step", language, power_w=15.0)
-    for figure in ("25 W", "10 W", human(step.change, "bit/s"), human(step.marginal, "bit/s"), "20 W",
+    for figure in ("25 W", "10 W", human(step.change, "bit/s"), "20 W",
                    percent(step.change / case.decision.value)):  # fmt: skip
         assert figure in said
     assert "10 W" in told(case, "step", language, power_w=-10.0)
@@ -168,17 +164,15 @@ def test_how_sure_it_is_comes_from_the_posterior(language: str) -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_prices_and_contests_are_tabled(language: str) -> None:
+def test_prices_are_tabled(language: str) -> None:
     case = case_of("max_rate", min_rate_bps=4e5)
     found = answer(case, "prices", language)
     assert human(case.decision.price_of_power, "bit/s") in found[0]
-    promises, contests = found[1]
+    (promises,) = found[1]
     assert [row[0] for row in promises.rows] == [called(language, name) for name in SEEN.user_names]
     assert promises.rows[0][3] == human(float(case.decision.price_of_rate[0]) * 1e5, "bit/s")
-    assert len(contests.rows) == 5
-    assert all(row[1] != row[2] for row in contests.rows)
     users = answer(case, "users", language)
-    assert len(users[1]) == 2
+    assert len(users[1]) == 1
     assert answer(case, "other", language)[0] == "\n".join(explain(SEEN, wa.report(case.decision), language=language))
 
 

@@ -47,11 +47,10 @@ from wirelessagent.telling.certificates import certificate_answer, uncertainty_a
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.accounts import account, newcomer
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.contests import contested
 from wirelessagent.telling.facts.marginal_prices import marginal_prices
 from wirelessagent.telling.facts.nearest import FewerUsers, MorePower, Nearest, Way, WithoutLimit, nearest
 from wirelessagent.telling.glossary import explained, figures_asked, is_of_now
-from wirelessagent.telling.prices import contested_table, limits_answer, prices_answer, prices_table
+from wirelessagent.telling.prices import limits_answer, prices_answer, prices_table
 from wirelessagent.telling.remedies import feasible_answer, nearest_answer
 from wirelessagent.telling.report import Report
 from wirelessagent.telling.roster import gain_answer, owner_answer, rank_answer, subcarriers_answer
@@ -259,8 +258,8 @@ def _prices(asked: Asked, act: AskPrices) -> Answer:
     if act.user is not None:
         return _users(asked, AskUsers(user=act.user))
     prices = marginal_prices(case)
-    tables = prices_table(case, prices, language), contested_table(case, contested(case), language)
-    return prices_answer(case, prices, language), tuple(table for table in tables if table is not None)
+    table = prices_table(case, prices, language)
+    return prices_answer(case, prices, language), () if table is None else (table,)
 
 
 def _users(asked: Asked, act: AskUsers) -> Answer:
@@ -269,8 +268,7 @@ def _users(asked: Asked, act: AskUsers) -> Answer:
         user = asked.user(act.user)
         row = user_table(asked.report, case.estimate, language)
         return share_answer(case, user, language), (dataclasses.replace(row, rows=(row.rows[user],)),)
-    contests = contested_table(case, contested(case), language)
-    return asked.explained()[0], (*asked.served(), *(() if contests is None else (contests,)))
+    return asked.explained()[0], asked.served()
 
 
 def _rank(asked: Asked, act: AskRank) -> Answer:

@@ -108,18 +108,12 @@ def _outcomes(columns: Sequence[Column], language: str) -> list[str]:
     """What each of the runs comes to, one sentence each."""
     met = any(run.decision.is_usable for _, run in columns)
     return [
-        message(
-            language, "compared.outcome", name=_capital(called(language, name)), outcome=_outcome(run, language, met)
-        )
+        message(language, "compared.outcome", name=called(language, name), outcome=_outcome(run, language, met=met))
         for name, run in columns
     ]
 
 
-def _capital(name: str) -> str:
-    return name[:1].upper() + name[1:]
-
-
-def _outcome(run: Run, language: str, met: bool) -> str:
+def _outcome(run: Run, language: str, *, met: bool) -> str:
     """What a run comes to; that a method found nothing is no news of the request where another one met it."""
     if run.decision.is_usable:
         return outcome_in_words(run.decision, language)

@@ -72,7 +72,7 @@ def history(talk: Talk, act: AskHistory) -> Reply:
     if not turns:
         return Reply(decided=talk.say("turn.none"))
     rows = tuple(
-        (str(turn.number), _short(turn.text), talk.say(f"came_to.{turn.stage}"), _value(turn.run)) for turn in turns
+        (str(turn.number), _short(turn.text), talk.say(f"came_to.{turn.stage}"), _value(turn)) for turn in turns
     )
     columns = tuple(talk.say(f"label.{label}") for label in ("turn", "said", "came_to", "value"))
     table = Table(title=talk.say("turn.title"), columns=columns, rows=rows)
@@ -84,8 +84,11 @@ def _short(text: str) -> str:
     return plain if len(plain) <= _SHOWN else f"{plain[: _SHOWN - 1]}…"
 
 
-def _value(run: Run | None) -> str:
-    return "–" if run is None else human(run.decision.value, run.decision.unit)
+def _value(turn: Turn) -> str:
+    """What a decision is worth; nothing of one that was only asked about."""
+    if turn.run is None or turn.stage in ("answered", "asked"):
+        return "–"
+    return human(turn.run.decision.value, turn.run.decision.unit)
 
 
 def status(talk: Talk, act: AskStatus) -> Reply:

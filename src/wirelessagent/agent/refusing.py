@@ -7,7 +7,7 @@ from typing import Any
 from wirelessagent import chain, plugins
 from wirelessagent.model.errors import UnsupportedProblemError
 from wirelessagent.model.problem import Problem
-from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.catalogue import joined, listed, message
 from wirelessagent.telling.parts import goal_words
 
 
@@ -36,8 +36,7 @@ def refused(name: str, problem: Problem, language: str) -> str:
 def able(problem: Problem, language: str) -> str:
     """The methods that solve a problem, in a sentence; empty where none does."""
     names = [name for name in plugins.names("method") if _solves(name, problem)]
-    listed = message(language, "text.comma").join(called(language, name) for name in names)
-    return message(language, "refused.able", methods=listed) if names else ""
+    return message(language, "refused.able", methods=listed(language, names)) if names else ""
 
 
 def _solves(name: str, problem: Problem) -> bool:

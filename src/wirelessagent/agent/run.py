@@ -105,5 +105,6 @@ def applied_line(run: Run) -> str:
         return message(language, "applied.unmeasured", station=outcome.base_station)
     promised = outcome.promised_bps > 0
     kept, served = int(np.count_nonzero(promised & ~outcome.missed)), int(np.count_nonzero(promised))
+    count = message(language, "applied.all" if kept == served > 1 else "applied.some", kept=kept, served=served)
     key = f"applied.{run.decision.problem.firmness}"
-    return message(language, key, station=outcome.base_station, kept=kept, served=served)
+    return message(language, key, station=outcome.base_station, count=count)

@@ -53,10 +53,11 @@ def what_if(talk: Talk, act: Suppose) -> Reply:
     if isinstance(act, AskMost) and run.decision.is_usable:
         said = joined(talk.language, [*otherwise, _most(talk, run, act.user)])
     else:
-        answer = joined(talk.language, [*otherwise, _verdict(talk, run)])
+        answer = joined(talk.language, [*otherwise, _verdict(talk, run, share)])
         asked = restated(request, talk.language)
-        suppose = {"request": asked[:1].lower() + asked[1:]} if share is None else {"share": percent(share)}
-        said = talk.say("what_if.answer" if share is None else "what_if.seen", **suppose, answer=answer)
+        said = answer
+        if share is None:
+            said = talk.say("what_if.answer", request=asked[:1].lower() + asked[1:], answer=answer)
     runs = [(talk.say("what_if.column"), run)]
     if talk.state.run is not None:
         runs.insert(0, (talk.say("compared.now"), talk.site.foreseen(talk.state.run)))
@@ -129,7 +130,7 @@ def _most(talk: Talk, run: Run, user: str | None) -> str:
         power=human(decision.problem.budget_w(decision.cell), "W"),
         sure=reliability(decision.problem.outage_probability or 0.0),
     )  # fmt: skip
-    proven = talk.say("what_if.most_proven", bound=human(decision.bound, decision.unit), gap=percent(decision.gap))
+    proven = talk.say("what_if.most_proven", bound=human(decision.bound, decision.unit))
     assumed = notes(run, noted=talk.state.noted)
     return joined(language, [said, *([] if np.isnan(decision.gap) else [proven]), *assumed, *_warned(run, language)])
 
@@ -139,19 +140,21 @@ def _warned(run: Run, language: str) -> list[str]:
     return [message(language, "text.note", note=left_out)] if left_out else []
 
 
-def _verdict(talk: Talk, run: Run) -> str:
-    """Whether a request can be met and with what, or what can be met instead; and what was assumed only here."""
+def _verdict(talk: Talk, run: Run, missing: float | None) -> str:
+    """Whether a request can be met, where a share of the gains were missing, and with what, or what can be met instead;
+    and what was assumed only here.
+    """
     now, language = talk.state.run, talk.language
     assumed = notes(run, noted=talk.state.noted, before=() if now is None else now.notes)
     if not run.decision.is_usable:
-        return joined(language, [*assumed, nearest_answer(run.case, nearest(run.case), language)])
-    outcome = outcome_in_words(run.decision, language)
-    met: str = talk.say("what_if.met", outcome=outcome)
+        unmet = "" if missing is None else talk.say("what_if.unseen", share=percent(missing))
+        return joined(language, [*assumed, unmet, nearest_answer(run.case, nearest(run.case), language)])
+    key = "what_if.met" if missing is None else "what_if.still_met"
+    met = talk.say(key, outcome=outcome_in_words(run.decision, language), share=percent(missing or 0.0))
+    beside = _outcome_beside(now, run, language)
     if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
-        met = talk.say("what_if.now", outcome=outcome, **_beside(now.decision, run.decision, language))
-    elif now is not None and now.decision.is_usable:
-        met = joined(language, [met, _outcome_beside(now, run, language)])
-    return joined(language, [*assumed, met, *_unused(now, run, language), *_warned(run, language)])
+        beside = talk.say("what_if.now", **_beside(now.decision, run.decision, language))
+    return joined(language, [*assumed, met, beside, *_unused(now, run, language), *_warned(run, language)])
 
 
 def _outcome_beside(now: Run | None, run: Run, language: str) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 
 from wirelessagent import plugins
 from wirelessagent.language.deferred import deferred
+from wirelessagent.telling.catalogue import called, languages
 
 _SPOKEN: Mapping[str, tuple[str, ...]] = {
     "dual": ("dual decomposition", "lagrangian", "对偶"),
@@ -53,13 +54,17 @@ def with_tool(text: str, kind: plugins.Kind) -> tuple[str, str]:
 
 
 def _plain(text: str) -> str:
-    return re.sub(r"[-_\s]+", " ", text.lower())
+    return re.sub(r"[-_\s]+", " ", text.lower().replace("’", "'"))
 
 
 @functools.cache
 def _spoken(names: tuple[str, ...]) -> tuple[Mapping[str, str], re.Pattern[str]]:
-    """The plug-in that each name or spoken name means, and a pattern for all of them."""
+    """The plug-in that each name, as it is said or told in any language, means, and a pattern for all of them."""
     spoken = {said: name for name in names for said in (_plain(name), *_SPOKEN.get(name, ()))}
+    told = {_plain(called(language, name)): name for language in sorted(languages()) for name in names}
+    for said, name in told.items():  # as the agent itself says them, where nothing in it says so already
+        if {other for known, other in spoken.items() if known in said} != {name}:
+            spoken[said] = name
     longest_first = sorted(spoken, key=len, reverse=True)
     either = "|".join(rf"\b{re.escape(said)}(?![a-z])" if said.isascii() else said for said in longest_first)
     return spoken, deferred(either or r"(?!)")

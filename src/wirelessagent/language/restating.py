@@ -5,18 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import EVERYBODY, Constraint
 from wirelessagent.model.units import reliability
-from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.catalogue import listed, message
 
 _ROUNDING = 1e-9
 
 _PREFIXES = ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-
-_NUMBERED = deferred(r"(?i)(?:user\s*)?(\d+)")
-_SEVERAL = 3
-"""So many users are named by their numbers alone."""
 
 
 def limits_in_words(limits: Mapping[str, Constraint], language: str) -> str:
@@ -40,10 +35,9 @@ def users_in_words(references: Sequence[str], language: str) -> str:
     >>> users_in_words(("1", "user 3", "4"), "en")
     'users 1, 3 and 4'
     """
-    numbers = [number[1] for number in map(_NUMBERED.fullmatch, references) if number is not None]
-    if len(references) >= _SEVERAL and len(numbers) == len(references):
-        return message(language, "whom.users", numbers=_in_a_row(language, numbers))
-    return _in_a_row(language, [_user(language, reference) for reference in references])
+    everybody_else = message(language, "whom.everybody_else")
+    names = (everybody_else if reference == EVERYBODY else reference for reference in references)
+    return listed(language, (f"user {name}" if name.isdecimal() else name for name in names))
 
 
 def _limit(language: str, name: str, value: Constraint) -> list[str]:
@@ -74,18 +68,6 @@ def _by_figure(language: str, by_user: Mapping[str, float], exempt: list[str]) -
             others = message(language, "whom.but", who=others, users=users_in_words(exempt, language))
         said.append((by_user[EVERYBODY], others))
     return said
-
-
-def _user(language: str, reference: str) -> str:
-    number = _NUMBERED.fullmatch(reference)
-    if number is not None:
-        return message(language, "whom.user", number=number[1])
-    return message(language, "whom.everybody_else") if reference == EVERYBODY else reference
-
-
-def _in_a_row(language: str, names: Sequence[str]) -> str:
-    head = [message(language, "text.comma").join(names[:-1])] if len(names) > 1 else []
-    return message(language, "text.and").join([*head, *names[-1:]])
 
 
 def figure_in_words(name: str, value: float) -> str:

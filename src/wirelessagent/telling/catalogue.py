@@ -18,6 +18,9 @@ _MESSAGES = Path(__file__).with_name("messages")
 _NAMES = frozenset({"user", "name", "station", "method", "recogniser"})
 """Places for what has a name of its own."""
 _NUMBERED = re.compile(r"(?i)user\s*(\d+)")
+_SEVERAL = 3
+"""So many users are named by their numbers alone."""
+_FIRST_WORD = re.compile(r"[^\W\d_]+(?![^\s,:'’])")
 
 
 class Said(str):
@@ -60,7 +63,15 @@ def message(language: str, key: str, /, **places: object) -> Said:
         place: called(language, value) if place in _NAMES and isinstance(value, str) else value
         for place, value in places.items()
     }
-    return Said(_text(language, key).format(**filled), key, places)
+    text = _text(language, key)
+    said = text.format(**filled)
+    return Said(_begun(said) if text.startswith("{") and text.endswith((".", "?")) else said, key, places)
+
+
+def _begun(sentence: str) -> str:
+    """A sentence that a name or a value begins, with a capital; an identifier such as "ue_3" stays as it is."""
+    word = _FIRST_WORD.match(sentence)
+    return sentence[0].upper() + sentence[1:] if word is not None and word[0].islower() else sentence
 
 
 def has_message(language: str, key: str) -> bool:
@@ -85,7 +96,7 @@ def called(language: str, name: str) -> str:
     number = _NUMBERED.fullmatch(name)
     if number is not None and language != "en" and "whom.user" in own:
         return own["whom.user"].format(number=number[1])
-    return own.get(f"name.{name}", name)
+    return own.get(f"name.{name}") or own.get(f"legend.{name}", name)
 
 
 def joined(language: str, sentences: Iterable[str]) -> Said:
@@ -105,8 +116,21 @@ def _together(gap: str, sentences: Iterable[str]) -> Said:
 
 
 def listed(language: str, names: Iterable[str]) -> str:
-    """Users, methods or the like in a row."""
-    return message(language, "text.comma").join(called(language, name) for name in names)
+    """Users, methods or the like in a row.
+
+    >>> listed("en", ["user 1", "user 2", "user 4"]), listed("en", ["user 1", "Ada"]), listed("zh", ["user 1"])
+    ('users 1, 2 and 4', 'user 1 and Ada', '用户1')
+    """
+    given = list(names)
+    numbers = [number[1] for number in map(_NUMBERED.fullmatch, given) if number is not None]
+    if len(numbers) == len(given) >= _SEVERAL:
+        return message(language, "whom.users", numbers=_in_a_row(language, numbers))
+    return _in_a_row(language, [called(language, name) for name in given])
+
+
+def _in_a_row(language: str, names: list[str]) -> str:
+    head = [message(language, "text.comma").join(names[:-1])] if len(names) > 1 else []
+    return message(language, "text.and").join([*head, *names[-1:]])
 
 
 @functools.cache

@@ -14,6 +14,9 @@ from wirelessagent.telling.facts.proof import Certificate, basis, certificate
 from wirelessagent.telling.parts import cannot_be_served, goal_words, outcome_in_words, place
 from wirelessagent.telling.reasons import reason_in_words
 
+_HARDLY_ANY = 0.05
+"""So few of all rates that are expected to fail are none."""
+
 
 def certificate_line(decision: Decision, language: str = "en") -> str:
     """What was decided, and how sure it is that nothing does better, in one line."""
@@ -132,16 +135,18 @@ def _sure(case: Case, found: Certainty, language: str) -> list[str]:
     names, outage = case.estimate.user_names, case.problem.outage_probability
     user, subcarrier = found.widest
     low, high = human(found.low_bps, "bit/s"), human(found.high_bps, "bit/s")
-    kept, least_sure = probability(found.least_kept), called(language, names[found.least_sure])
-    served = int((case.decision.committed_bps > 0).sum())
-    firm = "certainty.asked" if case.problem.promises_rates else "certainty.commitment"
-    key = firm if outage is None else "certainty.promise"
+    key = "holds" if found.expected_missed < _HARDLY_ANY else "may_fail"
+    told = {
+        "user": called(language, names[found.least_sure]),
+        "kept": probability(found.least_kept),
+        "missed": found.expected_missed,
+    }
+    served, sure = int((case.decision.committed_bps > 0).sum()), reliability(outage or 0.0)
+    asked = outage is None and case.problem.promises_rates
     return [
         message(language, "certainty.band", low=low, high=high) if low != high else "",
-        message(
-            language, key, user=least_sure, kept=kept, missed=found.expected_missed, served=served,
-            sure=reliability(outage or 0.0),
-        ),
+        message(language, f"certainty.{key if outage is None else 'promise'}", served=served, sure=sure, **told),
+        message(language, "certainty.asked") if asked else "",
         message(
             language, "certainty.widest", user=names[user], place=place(subcarrier, subcarrier, language),
             low=found.widest_low_db, high=found.widest_high_db,

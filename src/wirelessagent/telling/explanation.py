@@ -10,7 +10,7 @@ from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import db, human, percent, reliability
-from wirelessagent.telling.catalogue import called, listed, message
+from wirelessagent.telling.catalogue import called, joined, listed, message
 from wirelessagent.telling.certificates import certificate_sentence, rests_on
 from wirelessagent.telling.parts import cannot_be_served, name_of_figure
 from wirelessagent.telling.reasons import reason_in_words
@@ -46,11 +46,12 @@ class _Explanation:
             return [self._say(decision.status, reason=reason_in_words(decision, self._language))]
         if objective.measure == "power" and decision.problem.min_rate_bps is None and not decision.power_w.any():
             return [self._say("no_promise")]
-        said = [self._allocation(), *self._goal(), certificate_sentence(decision, self._language)]
+        proven = certificate_sentence(decision, self._language)
+        said = [joined(self._language, [self._allocation(), proven]), *self._goal()]
         if not objective.is_built_in and not np.isnan(decision.gap):
             said.append(rests_on(objective, self._language))
-        said += [*self._promised_at(), *self._forecast(), *self._groups(), *self._remark(), *self._prices()]
-        return [*said, *self._idle_users(), self._repair(), *self._guesses(), *self._outcome(), *self._regret()]
+        said += [*self._promised_at(), *self._forecast(), *self._groups(), *self._remark()]
+        return [*said, *self._idle_users(), self._repair(), *self._outcome(), *self._regret()]
 
     def _say(self, key: str, **places: object) -> str:
         return message(self._language, f"decision.{key}", **places)
@@ -75,8 +76,7 @@ class _Explanation:
         """What else the decision says of itself."""
         if not self._decision.reason or cannot_be_served(self._decision):
             return []
-        said = reason_in_words(self._decision, self._language)
-        return [message(self._language, "text.sentence", line=said[:1].upper() + said[1:])]
+        return [message(self._language, "text.sentence", line=reason_in_words(self._decision, self._language))]
 
     def _allocation(self) -> str:
         decision = self._decision
@@ -99,23 +99,24 @@ class _Explanation:
         return [self._say("outage", sure=reliability(outage), promised=promised)]
 
     def _forecast(self) -> list[str]:
-        """What is expected of the true channel, how sure that is, and what is committed because of it."""
+        """What is expected of the true channel where that is not sure, and what is planned or asked for on it."""
         decision, forecast = self._decision, self._decision.forecast
         if forecast is None:
             return []
         mean, low, high = float(forecast.mean_bps.sum()), forecast.sum_low_bps, forecast.sum_high_bps
         shown = {name: human(rate, "bit/s") for name, rate in (("mean", mean), ("low", low), ("high", high))}
-        said = [self._say("forecast_sure" if shown["low"] == shown["high"] else "forecast", **shown)]
+        said = [] if shown["low"] == shown["high"] else [self._say("forecast", **shown)]
         if decision.expected_rate_bps.size:
             return said
         least = int(np.argmin(np.where(decision.committed_bps > 0, forecast.carried, np.inf)))
         sure = f"{100 * min(float(forecast.carried[least]), _ALL_BUT_CERTAIN):.3g} %"
         if not decision.problem.promises_rates:
-            committed = human(float(decision.committed_bps.sum()), "bit/s")
-            return [*said, self._say("commitment", committed=committed, sure=sure)]
+            planned = human(float(decision.committed_bps.sum()), "bit/s")
+            return [*said, self._say("commitment", planned=planned, sure=sure)] if said else []
+        if forecast.carried[least] >= _SURE:
+            return said
         rate = human(float(decision.committed_bps[least]), "bit/s")
-        key = "asked" if forecast.carried[least] >= _SURE else "asked_unsure"
-        return [*said, self._say(key, name=self._user(least), sure=sure, rate=rate)]
+        return [*said, self._say("asked_unsure", name=self._user(least), sure=sure, rate=rate)]
 
     def _groups(self) -> list[str]:
         """What assigning whole resource-block groups costs at most, by the bound without groups."""
@@ -143,22 +144,6 @@ class _Explanation:
             said.append(self._say(key, least=weight.min(), most=weight.max(), figure=figure))
         return said
 
-    def _prices(self) -> list[str]:
-        """What a watt more and a promise more would change, in the value's unit."""
-        said: list[str] = []
-        decision, figure = self._decision, self._figure
-        worth_saying = 1e-9 * abs(decision.value) / decision.problem.budget_w(decision.cell)
-        if decision.price_of_power > worth_saying:
-            key, price = "power_figure" if figure else "power_max", self._worth(decision.price_of_power)
-            said.append(self._say(key, price=price, figure=figure))
-        # A promise costs: it raises what is to be small, and lowers what is to be large.
-        cost = decision.price_of_rate if self._objective.direction == "min" else -decision.price_of_rate
-        if np.any(cost > 0):
-            dearest = int(np.nanargmax(cost))
-            key, price = "rate_figure" if figure else "rate_price", self._worth(float(cost[dearest]) * 100e3)
-            said.append(self._say(key, step="100 kbit/s", user=self._user(dearest), price=price, figure=figure))
-        return said
-
     def _idle_users(self) -> list[str]:
         """Who of those who count gets nothing, and by what margin the closest of them was beaten."""
         idle = np.flatnonzero((self._decision.rate_bps <= 0) & self._counts())
@@ -174,23 +159,19 @@ class _Explanation:
         return [self._say(key, names=self._users(idle), margin=margin, closest=self._user(idle[closest]))]
 
     def _repair(self) -> str:
-        decision, repaired = self._decision, self._estimate.repaired
+        """How many gains were not measured, and what was made of them."""
+        decision, repaired, language = self._decision, self._estimate.repaired, self._language
         if not repaired.any():
             return self._say("complete")
         in_use = np.flatnonzero((decision.owner >= 0) & (decision.power_w > 0))
-        return self._say(
-            "repaired",
-            missing=int(repaired.sum()),
-            entries=repaired.size,
-            method=self._estimate.method,
-            used=in_use.size,
+        said = message(
+            language, "certainty.repaired", repaired=int(repaired.sum()), entries=repaired.size,
+            share=percent(float(repaired.mean())), method=self._estimate.method, used=in_use.size,
             resting=int(repaired[decision.owner[in_use], in_use].sum()),
-        )
-
-    def _guesses(self) -> list[str]:
-        """A warning for users whose level nobody ever observed."""
+        )  # fmt: skip
         unseen = np.flatnonzero(self._estimate.unobserved_users)
-        return [self._say("guessed", names=self._users(unseen))] if unseen.size else []
+        guess = message(language, "certainty.unseen", names=self._users(unseen)) if unseen.size else ""
+        return joined(language, [said, guess])
 
     def _outcome(self) -> list[str]:
         achieved, missed = self._report.achieved, list(self._report.missed_users)
@@ -211,7 +192,7 @@ class _Explanation:
         plain = not self._figure and self._decision.problem.weights is None and report.perfect.unit == "bit/s"
         lost = report.goodput_regret if plain else report.regret
         if abs(lost) < _NO_REGRET and not report.missed_users:
-            return [self._say("regret_none", perfect=perfect)]
+            return [self._say("regret_none")]
         if self._objective.measure == "power" and report.regret < 0 and report.missed_users:
             return [self._say("saved", perfect=perfect, cost=percent(-report.regret))]
         if self._objective.measure == "power":

@@ -1,4 +1,4 @@
-"""Prices in words: of power and of promises, what holds a decision back, and which subcarriers were won narrowly."""
+"""Prices in words: of power and of promises, and what holds a decision back."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import numpy as np
 from wirelessagent.model.units import human, percent
 from wirelessagent.telling.catalogue import called, joined, listed, message
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.contests import Contested
 from wirelessagent.telling.facts.marginal_prices import MarginalPrices, marginal_prices
 from wirelessagent.telling.facts.steps import WithoutCeilings, without_ceilings
 from wirelessagent.telling.parts import value_name
@@ -15,8 +14,6 @@ from wirelessagent.telling.text_table import Table
 
 _STEP_BPS = 100e3
 _WORTH_TELLING = 1e-3
-_SHOWN_DB, _SHOWN_COST = 0.005, 1e-6
-"""A contest of less margin that costs no larger share of the value either way is none."""
 
 
 def prices_answer(case: Case, prices: MarginalPrices, language: str) -> str:
@@ -32,13 +29,15 @@ def prices_answer(case: Case, prices: MarginalPrices, language: str) -> str:
         said.append(message(language, "price.dearest", user=user, direction=direction, figure=figure, price=price))
     elif case.promised_bps.any():
         said.append(message(language, "price.free"))
-    return joined(language, [*said, message(language, "price.slopes")])
+    if case.objective.measure != "power" and prices.power > 0:
+        said.append(message(language, "price.slopes"))
+    return joined(language, said)
 
 
 def _power_price(case: Case, prices: MarginalPrices, figure: str, language: str) -> str:
     budget, spent = human(case.problem.budget_w(case.cell), "W"), human(case.decision.total_power_w, "W")
     if case.objective.measure == "power":
-        return message(language, "price.power_least", budget=budget)
+        return message(language, "price.power_least")
     if np.isnan(prices.power):
         return message(language, "price.power_unknown")
     if prices.power > 0 and prices.binds:
@@ -65,27 +64,6 @@ def prices_table(case: Case, prices: MarginalPrices, language: str) -> Table | N
     heads = ("label.user", "price.promised", "price.gets", "price.price")
     columns = tuple(message(language, key) for key in heads)
     return Table(title=message(language, "price.promises"), columns=columns, rows=rows)
-
-
-def contested_table(case: Case, found: list[Contested], language: str) -> Table | None:
-    """Who won the most contested subcarriers, and by how much; None where nothing was contested."""
-    names, unit = case.estimate.user_names, case.decision.unit
-    least = _SHOWN_COST * abs(case.decision.value)
-    found = [one for one in found if np.isnan(one.cost) or one.cost > least or abs(one.contest.margin_db) >= _SHOWN_DB]
-    rows = tuple(
-        (
-            f"{one.first + 1}" if one.first == one.last else f"{one.first + 1}–{one.last + 1}",
-            called(language, names[one.contest.winner]),
-            called(language, names[one.contest.runner_up]),
-            f"{one.contest.margin_db:.2g} dB" if abs(one.contest.margin_db) >= _SHOWN_DB else "0 dB",
-            message(language, "contest.not_met") if np.isnan(one.cost) else human(one.cost, unit),
-        )
-        for one in found
-    )
-    columns = tuple(
-        message(language, f"contest.{key}") for key in ("subcarrier", "winner", "runner_up", "margin", "other_way")
-    )  # fmt: skip
-    return Table(title=message(language, "contest.contests"), columns=columns, rows=rows) if rows else None
 
 
 def limits_answer(case: Case, language: str) -> str:

@@ -23,19 +23,16 @@ def nearest_answer(case: Case, found: Nearest, language: str) -> str:
     proven = "remedy.proven" if case.decision.status == "infeasible" else "remedy.open"
     head = [message(language, proven, reason=reason_in_words(case.decision, language))]
     lifted = [_lifted(case, one, language) for one in found.without_limits]
-    ways = [_power(case, found, language), *lifted, _rates(case, found, language), _users(case, found, language)]
-    ways = [way for way in ways if way]
-    head.append(message(language, "remedy.ways" if ways else "remedy.none"))
-    return lines_of([joined(language, head), *ways])
-
-
-def _power(case: Case, found: Nearest, language: str) -> str:
+    ways = [_rates(case, found, language), _users(case, found, language), *lifted]
     more = found.more_power
-    if more is None or more.power_w > BEYOND_W:
-        return ""
-    limit = "" if more.within_limit else message(language, "remedy.limit", limit=human(case.cell.max_power_w, "W"))
-    outcome = outcome_in_words(more.decision, language)
-    return message(language, "remedy.power", power=human(more.power_w, "W"), outcome=outcome, limit=limit)
+    power = "" if more is None or more.power_w > BEYOND_W else human(more.power_w, "W")
+    if power and more is not None and more.within_limit:
+        ways, power = [message(language, "remedy.power", power=power), *ways], ""
+    ways = [way for way in ways if way]
+    head.append(message(language, "remedy.ways") if ways else "" if power else message(language, "remedy.none"))
+    limit = human(case.cell.max_power_w, "W")
+    beyond = message(language, "remedy.beyond", power=power, limit=limit) if power else ""
+    return lines_of([joined(language, head), *ways, beyond])
 
 
 def _lifted(case: Case, one: WithoutLimit, language: str) -> str:

@@ -27,8 +27,7 @@ def rank_answer(case: Case, rank: str, of: str, language: str) -> str:
     said = [message(language, "roster.nothing", names=_names(case, nobody, language), gets=_gets(nobody, language))]
     some = users[size > 0]
     if some.size:
-        sentence = _ranked(case, some, rank, of, language)[0]
-        said.append(message(language, "roster.of_the_rest", sentence=sentence))
+        said.append(_next(case, some[np.argsort(_sizes(case, of)[some], kind="stable")], of, language))
     return joined(language, said)
 
 
@@ -49,11 +48,17 @@ def _ranked(case: Case, users: IntArray, rank: str, of: str, language: str) -> l
     ]  # fmt: skip
     rest = order[~np.isin(order, first)]
     if rest.size and size[rest[0]] > 0:
-        following = _alike(rest, size)
-        verb = message(language, "roster.is_one" if following.size == 1 else "roster.is_several")
-        names, figure = _names(case, following, language), _size(float(size[rest[0]]), of)
-        said.append(message(language, "roster.next", is_=verb, names=names, size=figure))
+        said.append(_next(case, rest, of, language))
     return said
+
+
+def _next(case: Case, order: IntArray, of: str, language: str) -> str:
+    """Who comes next, at the head of ``order``."""
+    size = _sizes(case, of)
+    following = _alike(order, size)
+    verb = message(language, "roster.is_one" if following.size == 1 else "roster.is_several")
+    names, figure = _names(case, following, language), _size(float(size[order[0]]), of)
+    return message(language, "roster.next", is_=verb, names=names, size=figure)
 
 
 def _alike(order: IntArray, size: FloatArray) -> IntArray:

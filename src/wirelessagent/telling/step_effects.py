@@ -1,4 +1,4 @@
-"""Finite steps in words, beside what the marginal price makes of them."""
+"""Finite steps in words."""
 
 from __future__ import annotations
 
@@ -90,7 +90,6 @@ def step_answer(case: Case, step: Step, kept: Reach | None, language: str) -> st
     if before.is_usable and after.is_usable:
         budget = case.problem.budget_w(case.cell)
         said += [] if kept is None else [_reached(case, kept, "step.kept", language, before_w=budget)]
-        said += _marginal(step, language)
         said += _bound(case, step, language)
     if after.is_usable and not np.isnan(step.limit_w):
         said.append(message(language, "step.limit", limit=human(step.limit_w, "W")))
@@ -153,13 +152,6 @@ def _unmet(case: Case, step: Step, language: str) -> str:
     if not step.after.is_usable:
         return message(language, "step.still_not", step=told, reason=reason_in_words(step.after, language))
     return message(language, "step.now_met", step=told, outcome=outcome_in_words(step.after, language))
-
-
-def _marginal(step: Step, language: str) -> list[str]:
-    if np.isnan(step.marginal) or abs(step.change) <= _NOTHING * abs(step.before.value):
-        return []
-    key = "step.marginal_power" if step.of_power else "step.marginal_rate"
-    return [message(language, key, size=human(abs(step.marginal), step.before.unit))]
 
 
 def _bound(case: Case, step: Step, language: str) -> list[str]:

@@ -14,8 +14,6 @@ from wirelessagent.telling.step_effects import change_in_words
 
 _TIE_DB = 0.05
 _KNOWN_DB = 0.1
-_MOST_BUDGETS = 10.0
-"""A bid of more than so many budgets tells nothing."""
 _STEP_BPS = 100e3
 _FACTOR = 1.0005
 
@@ -27,8 +25,7 @@ def user_answer(case: Case, found: Account, language: str) -> str:
     if found.standing == "served":
         said += _served(case, found, language)
     if found.losses:
-        said += _loss(case, found.losses[0], name, language)
-    said += _would_win(found, language)
+        said += _loss(case, found.losses[0], language)
     said += _promise(case, found, language)
     return joined(language, said)
 
@@ -54,7 +51,7 @@ def _head(case: Case, found: Account, name: str, language: str) -> str:
         language,
         f"account.{found.standing}",
         name=name,
-        rate=human(found.rate_bps, "bit/s"),
+        rate=_rate(case, found, language),
         power=human(found.power_w, "W"),
         share=percent(found.power_w / total if total > 0 else 0.0),
         count=found.subcarriers,
@@ -85,6 +82,17 @@ def _included(case: Case, found: Account, language: str) -> str:
     )
 
 
+def _rate(case: Case, found: Account, language: str) -> str:
+    """What a user gets, as what it must get where it is no more than that."""
+    rate = human(found.rate_bps, "bit/s")
+    due = found.promised_bps > 0 and _exactly(found)
+    return message(language, f"account.exactly_{case.problem.firmness}", rate=rate) if due else rate
+
+
+def _exactly(found: Account) -> bool:
+    return not found.rate_bps > found.promised_bps * _FACTOR
+
+
 def _served(case: Case, found: Account, language: str) -> list[str]:
     said: list[str] = []
     forecast, user = case.decision.forecast, found.user
@@ -93,8 +101,7 @@ def _served(case: Case, found: Account, language: str) -> list[str]:
         said += [message(language, "account.band", low=low, high=high)] if low != high else []
     if found.promised_bps > 0:
         price = found.price_per_bps * _STEP_BPS
-        exactly = not found.rate_bps > found.promised_bps * _FACTOR
-        key = "account.beyond" if not price > 0 else "account.binds" if exactly else "account.above"
+        key = "account.beyond" if not price > 0 else "account.binds" if _exactly(found) else "account.above"
         promised, cost = human(found.promised_bps, "bit/s"), human(price, case.decision.unit)
         due = message(language, f"account.due_{case.problem.firmness}", promised=promised)
         said.append(message(language, key, due=due, price=cost))
@@ -106,20 +113,12 @@ def _served(case: Case, found: Account, language: str) -> list[str]:
     return [*said, message(language, key, **rest)]
 
 
-def _loss(case: Case, loss: Loss, name: str, language: str) -> list[str]:
+def _loss(case: Case, loss: Loss, language: str) -> list[str]:
     key = "account.tie" if abs(loss.behind_db) < _TIE_DB else "account.behind" if loss.behind_db > 0 else "account.more"
-    names = {
-        "name": name,
-        "place": place(loss.first, loss.last, language),
-        "winner": called(language, case.estimate.user_names[loss.winner]),
-        "bid": _bid(case, loss.bid_w, loss.bid_value, language),
-        "winning": _bid(case, loss.winning_bid_w, loss.winning_bid_value, language),
-    }
-    said: list[str] = [message(language, key, behind=abs(loss.behind_db), **names)]
+    where, winner = place(loss.first, loss.last, language), called(language, case.estimate.user_names[loss.winner])
+    said: list[str] = [message(language, key, behind=abs(loss.behind_db), place=where, winner=winner)]
     if key != "account.behind":
         return said
-    if loss.winning_bid_w <= _MOST_BUDGETS * case.problem.budget_w(case.cell):  # else power is next to free
-        said.append(message(language, "account.worths", **names))
     if np.isnan(loss.chance):
         return [*said, message(language, "account.gain_measured")]
     if loss.repaired and max(abs(loss.low_db), abs(loss.high_db)) < _KNOWN_DB:
@@ -127,25 +126,6 @@ def _loss(case: Case, loss: Loss, name: str, language: str) -> list[str]:
     kind = "account.gain_repaired" if loss.repaired else "account.gain_noisy"
     chance = percent(loss.chance) if loss.chance > 0 else "< 0.1 %"
     return [*said, message(language, kind, low=loss.low_db, high=loss.high_db, chance=chance)]
-
-
-def _bid(case: Case, bid_w: float, value: float, language: str) -> str:
-    if bid_w <= 0:
-        return message(language, "account.no_bid")
-    power = human(bid_w, "W")
-    return (
-        power
-        if np.isnan(value)
-        else message(language, "account.bid", power=power, value=human(value, case.decision.unit))
-    )
-
-
-def _would_win(found: Account, language: str) -> list[str]:
-    gain, weight = found.winning_gain_db, found.winning_weight
-    if np.isnan(gain):
-        return [] if np.isnan(weight) else [message(language, "account.only_weight", weight=weight)]
-    also = "" if np.isnan(weight) else message(language, "account.or_weight", weight=weight)
-    return [message(language, "account.would_win", gain=gain, weight=also)]
 
 
 def _promise(case: Case, found: Account, language: str) -> list[str]:

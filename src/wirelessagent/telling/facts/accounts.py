@@ -1,9 +1,8 @@
-"""One user's account: what it gets, where it lost, and what would have won it something."""
+"""One user's account: what it gets, where it lost, and what a promise to it would cost."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -28,9 +27,6 @@ PROMISE_BPS = 100e3
 _LOSSES = 3
 _LEAST_BAND, _MOST_BAND = 0.05, 0.95
 _DRAWS, _SEED = 4000, 5
-_ACCURACY = 1.01
-_MOST_FACTOR = 1e6
-_CERTAIN = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,8 +37,6 @@ class Loss:
         first, last: its subcarriers, from 0.
         winner: who got it.
         behind_db: the factor by which the user's gains there are too low; below 0 where it bids more.
-        bid_w, winning_bid_w: what it is worth to either at the prices, in W.
-        bid_value, winning_bid_value: the same in the decision's unit; NaN where power has no price in it.
         repaired: whether any of the user's gains there was not measured.
         low_db, high_db: the 90 % band of the user's gain there around the one that counts, in dB; 0 for certain gains.
         chance: the probability that the true gains there are high enough to win; NaN where nothing is uncertain.
@@ -52,10 +46,6 @@ class Loss:
     last: int
     winner: int
     behind_db: float
-    bid_w: float
-    winning_bid_w: float
-    bid_value: float
-    winning_bid_value: float
     repaired: bool
     low_db: float
     high_db: float
@@ -76,8 +66,6 @@ class Account:
         price_per_bps: what one bit/s more promised to it costs at the margin, where it is served and promised a rate.
         repaired, entries: gains of its own that were not measured, and all.
         losses: groups that it came closest to winning, the closest first.
-        winning_gain_db: by how much all its gains would have to be higher for it to get something, by solving anew.
-        winning_weight: the factor on its weight that would do, likewise. Both NaN where it is not known or not enough.
         promise: what a small minimum rate would give it and cost; None where it has something.
         included: the decision if it were served too; None where it is, or is not left out.
     """
@@ -93,8 +81,6 @@ class Account:
     repaired: int = 0
     entries: int = 0
     losses: tuple[Loss, ...] = ()
-    winning_gain_db: float = np.nan
-    winning_weight: float = np.nan
     promise: Step | None = None
     included: Decision | None = None
 
@@ -104,20 +90,16 @@ def account(case: Case, user: int) -> Account:
     plain = share(case, user)
     standing = plain.standing
     found = bids(case) if standing in ("served", "outbid", "no_weight") else None
-    losses = () if found is None else _losses(case, found, user)
-    outbid = standing == "outbid"
     return dataclasses.replace(
         plain,
-        losses=losses,
-        winning_gain_db=_winning_gain_db(case, user, losses) if outbid else np.nan,
-        winning_weight=_winning_weight(case, user) if outbid else np.nan,
+        losses=() if found is None else _losses(case, found, user),
         included=_included(case, user) if standing == "left_out" else None,
         promise=promise_step(case, user, PROMISE_BPS) if standing in ("outbid", "no_weight", "no_promise") else None,
     )
 
 
 def share(case: Case, user: int) -> Account:
-    """The account of a user, from 0, without what would have won it something."""
+    """The account of a user, from 0, without where it lost."""
     decision, estimate = case.decision, case.estimate
     own = (decision.owner == user) & (decision.power_w > 0)
     standing, promised = _standing(case, user, bool(own.any())), float(case.promised_bps[user])
@@ -183,20 +165,14 @@ def _loss(case: Case, found: Bids, user: int, group: int) -> Loss:
     first, last = found.members(group)
     inside = np.arange(first, last + 1)
     winner, behind = int(found.owner[group]), float(found.behind_db[user, group])
-    estimate, price = case.estimate, case.decision.price_of_power
-    value = price if case.objective.measure == "utility" and price > 0 else np.nan
+    estimate = case.estimate
     unsure = bool((estimate.gain_variance[user, inside] > 0).any())
     low_db, high_db, chance = _spread(case, user, inside, behind) if unsure else (0.0, 0.0, np.nan)
-    bid, winning = float(found.bid_w[user, group]), float(found.bid_w[winner, group])
     return Loss(
         first=first,
         last=last,
         winner=winner,
         behind_db=behind,
-        bid_w=bid,
-        winning_bid_w=winning,
-        bid_value=bid * value,
-        winning_bid_value=winning * value,
         repaired=bool(estimate.repaired[user, inside].any()),
         low_db=low_db,
         high_db=high_db,
@@ -214,54 +190,3 @@ def _spread(case: Case, user: int, inside: IntArray, behind_db: float) -> tuple[
     low, high = (float(one) for one in np.quantile(drawn, (_LEAST_BAND, _MOST_BAND)))
     with np.errstate(divide="ignore"):
         return float(10 * np.log10(low)), float(10 * np.log10(high)), float(np.mean(drawn >= 10 ** (behind_db / 10)))
-
-
-def _winning_gain_db(case: Case, user: int, losses: tuple[Loss, ...]) -> float:
-    """By how many dB all of a user's gains would have to be higher."""
-
-    def with_gain(factor: float) -> Decision:
-        gain = case.counted.gain.copy()
-        gain[user] *= factor
-        return case.counted_solved(gain)
-
-    guess = 10 ** (losses[0].behind_db / 10) if losses else 1.0
-    factor = least_winning(with_gain, user, guess)
-    return float(10 * np.log10(factor))
-
-
-def _winning_weight(case: Case, user: int) -> float:
-    """The factor on a user's weight that would win it something, where its utility is a rate times that weight."""
-    weight = case.problem.weights_of(case.num_users)
-
-    def with_weight(factor: float) -> Decision:
-        raised = weight.copy()
-        raised[user] *= factor
-        return case.counted_solved(weights=raised)
-
-    return least_winning(with_weight, user, 1.1) if case.objective.joined == "sum" else np.nan
-
-
-def least_winning(decided: Callable[[float], Decision], user: int, guess: float) -> float:
-    """The least factor above 1, within 1 %, at which a user gets something; NaN where none up to a million does.
-
-    ``decided`` solves the problem for a factor; ``guess`` is where to look first.
-    """
-
-    def wins(factor: float) -> bool:
-        found = decided(factor)
-        return found.is_usable and bool(((found.owner == user) & (found.power_w > 0)).any())
-
-    low, high = 1.0, max(guess, 1.0) * _ACCURACY
-    while not wins(high):
-        low, high = high, high * min(max((high / low) ** 2, 1.1), 10.0)
-        if high > _MOST_FACTOR:
-            return np.nan
-    if low == 1.0 and guess > 1.0 and not wins(guess / _ACCURACY):
-        low = guess / _ACCURACY
-    while high / low > _ACCURACY:
-        middle = float(np.sqrt(low * high))
-        if wins(middle):
-            high = middle
-        else:
-            low = middle
-    return high if high - 1.0 > _CERTAIN else np.nan

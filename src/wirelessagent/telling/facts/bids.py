@@ -51,26 +51,6 @@ class Bids:
         return int(self.start[group]), int(self.start[group + 1]) - 1
 
 
-@dataclass(frozen=True, kw_only=True)
-class Contest:
-    """One group of subcarriers and the two highest bids for it.
-
-    Attributes:
-        group: its number.
-        winner, runner_up: users.
-        margin_db: the factor on the runner-up's gains that would make its bid as high; below 0 where it bids more, and
-            the group went elsewhere because whole subcarriers cannot be shared as the prices would have it.
-        winner_bid_w, runner_up_bid_w: in W.
-    """
-
-    group: int
-    winner: int
-    runner_up: int
-    margin_db: float
-    winner_bid_w: float
-    runner_up_bid_w: float
-
-
 def bids(case: Case) -> Bids:
     """The bids for a usable decision, at its own prices or, where its method has none, at the dual's."""
     form, price = case.form, prices_of_rates(case)
@@ -93,28 +73,6 @@ def prices_of_rates(case: Case) -> FloatArray:
     if found is None:
         return _closed_prices(case)
     return np.minimum(np.exp(np.minimum(found.log_rate, 300.0)), _DEAREST)
-
-
-def contests(found: Bids) -> list[Contest]:
-    """The groups that more than one user bids for, the closest first."""
-    listed: list[Contest] = []
-    for group in np.flatnonzero(found.owner >= 0).tolist():
-        winner = int(found.owner[group])
-        others = found.behind_db[:, group].copy()
-        others[winner] = np.inf
-        second = int(np.argmin(others))
-        if np.isfinite(others[second]):
-            listed.append(
-                Contest(
-                    group=group,
-                    winner=winner,
-                    runner_up=second,
-                    margin_db=float(others[second]),
-                    winner_bid_w=float(found.bid_w[winner, group]),
-                    runner_up_bid_w=float(found.bid_w[second, group]),
-                )
-            )
-    return sorted(listed, key=lambda one: (abs(one.margin_db), one.group))
 
 
 def _closed_prices(case: Case) -> FloatArray:

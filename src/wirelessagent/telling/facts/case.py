@@ -127,8 +127,3 @@ class Case:
     def otherwise(self, problem: Problem, cell: Cell | None = None, **options: Any) -> Decision:
         """The default method's decision on the same channel for another problem: it proves and prices the most."""
         return chain.decide(self.estimate, problem, cell or self.cell, "dual", **options)
-
-    def counted_solved(self, gain: FloatArray | None = None, **changes: Any) -> Decision:
-        """The default method's decision on the channel that counts with other gains (user, subcarrier) or limits."""
-        channel = self.counted if gain is None else dataclasses.replace(self.counted, gain=gain)
-        return chain.decide(channel, dataclasses.replace(self.plain, **changes), self.cell, "dual")

@@ -6,19 +6,14 @@ same problem: they speak of the problem, not of the allocation.
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from wirelessagent import chain
-from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.telling.facts.case import Case
-
-FIRST_BPS = 1e3
-"""A promise so low that its price is that of the first bits."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -50,23 +45,6 @@ def marginal_prices(case: Case) -> MarginalPrices:
     return MarginalPrices(power=power, rate=rate, binds=case.spends_all)
 
 
-def prices_of_promises(case: Case, users: IntArray) -> FloatArray:
-    """:attr:`MarginalPrices.rate` of ``users`` (number,), shape (number,).
-
-    For users who get nothing and are promised nothing it is the price of their first bits, together: that of a promise
-    so low that it changes nothing else.
-    """
-    first = users[(case.promised_bps[users] <= 0) & (case.decision.rate_bps[users] <= 0)]
-    rate = marginal_prices(case).rate
-    if first.size:
-        promised = case.promised_bps.copy()
-        promised[first] = FIRST_BPS
-        priced = _priced(case, min_rate_bps=promised).price_of_rate
-        rate = rate.copy()
-        rate[first] = priced[first] if priced.size else np.nan
-    return rate[users]
-
-
-def _priced(case: Case, **changes: Any) -> Decision:
+def _priced(case: Case) -> Decision:
     """The decision of the dual with nothing searched, for its prices."""
-    return chain.decide(case.counted, dataclasses.replace(case.plain, **changes), case.cell, "dual", restarts=0)
+    return chain.decide(case.counted, case.plain, case.cell, "dual", restarts=0)

@@ -16,7 +16,6 @@ from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.marginal_prices import marginal_prices, prices_of_promises
 
 _AT_THE_CEILING = 1e-6
 
@@ -30,7 +29,6 @@ class Step:
         step: what was added, in W or bit/s.
         level: what the step leads to: the budget in W, or the promised rate in bit/s (of the user, or the lowest).
         user: whom more is promised; None for the budget, or for everybody.
-        marginal: the price of the step, its size times the slope of the bound, in the value's unit; NaN if not known.
         of_power: whether it is one of the budget, or of what is promised.
         limit_w: the cell's limit where the budget would exceed it; NaN elsewhere. The step is solved all the same.
     """
@@ -40,7 +38,6 @@ class Step:
     step: float
     level: float
     user: int | None
-    marginal: float
     of_power: bool
     limit_w: float = np.nan
 
@@ -87,14 +84,12 @@ def power_step(case: Case, step_w: float) -> Step | None:
     if budget > cell.max_power_w * (1 + 1e-12):
         cell, limit = dataclasses.replace(cell, max_power_w=budget), cell.max_power_w
     after = case.solved(dataclasses.replace(case.problem, max_power_w=budget), cell)
-    price = marginal_prices(case).power
     return Step(
         before=case.decision,
         after=after,
         step=step_w,
         level=budget,
         user=None,
-        marginal=price * step_w,
         of_power=True,
         limit_w=limit,
     )
@@ -146,7 +141,6 @@ def _promised(case: Case, promised: FloatArray, users: IntArray, step: float) ->
         step=step,
         level=float(promised[users].min()),
         user=int(users[0]) if users.size == 1 else None,
-        marginal=float(prices_of_promises(case, users).sum()) * step,
         of_power=False,
     )
 
