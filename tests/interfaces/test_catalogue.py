@@ -10,8 +10,10 @@ from pathlib import Path
 import pytest
 
 import wirelessagent as wa
+from wirelessagent import plugins
 from wirelessagent.agent.session import Session
 from wirelessagent.language.conversation import understood
+from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 from wirelessagent.telling.catalogue import called, has_message, joined, languages, listed, message, messages
@@ -156,6 +158,13 @@ def test_what_people_are_told_to_say_is_understood(language: str) -> None:
     read = {said: understood(said, _HELD, OfflineRecogniser()) for said in offered}
     unclear = {said for said, intent in read.items() if intent.kind in ("clarify", "out_of_scope")}
     assert unclear <= _NOT_FOR_THE_READER
+
+
+@pytest.mark.parametrize("language", sorted(languages()))
+def test_methods_and_repairers_are_understood_as_they_are_told(language: str) -> None:
+    names = [name for kind in ("method", "repairer") for name in plugins.names(kind)]
+    told = {name: tools_named(f"compare with {called(language, name)}", "method", "repairer") for name in names}
+    assert told == {name: (name,) for name in names}
 
 
 _TALKS = {

@@ -61,10 +61,15 @@ def _plain(text: str) -> str:
 def _spoken(names: tuple[str, ...]) -> tuple[Mapping[str, str], re.Pattern[str]]:
     """The plug-in that each name, as it is said or told in any language, means, and a pattern for all of them."""
     spoken = {said: name for name in names for said in (_plain(name), *_SPOKEN.get(name, ()))}
+    plain = _either(spoken)
     told = {_plain(called(language, name)): name for language in sorted(languages()) for name in names}
     for said, name in told.items():  # as the agent itself says them, where nothing in it says so already
-        if {other for known, other in spoken.items() if known in said} != {name}:
-            spoken[said] = name
+        if {spoken[match[0]] for match in plain.finditer(said)} != {name}:
+            spoken = {**spoken, said: name}
+    return spoken, _either(spoken)
+
+
+def _either(spoken: Mapping[str, str]) -> re.Pattern[str]:
     longest_first = sorted(spoken, key=len, reverse=True)
     either = "|".join(rf"\b{re.escape(said)}(?![a-z])" if said.isascii() else said for said in longest_first)
-    return spoken, deferred(either or r"(?!)")
+    return deferred(either or r"(?!)")

@@ -21,7 +21,7 @@ def feasible_answer(case: Case, language: str) -> str:
 def nearest_answer(case: Case, found: Nearest, language: str) -> str:
     """Why a request cannot be met, what it would need, and what can be met instead, a line each."""
     proven = "remedy.proven" if case.decision.status == "infeasible" else "remedy.open"
-    head = [message(language, proven, reason=reason_in_words(case.decision, language))]
+    head: list[str] = [message(language, proven, reason=reason_in_words(case.decision, language))]
     lifted = [_lifted(case, one, language) for one in found.without_limits]
     ways = [_rates(case, found, language), _users(case, found, language), *lifted]
     more = found.more_power

@@ -24,7 +24,9 @@ def rank_answer(case: Case, rank: str, of: str, language: str) -> str:
     nobody = users[size <= 0]
     if rank == "most" or not nobody.size:
         return joined(language, _ranked(case, users, rank, of, language))
-    said = [message(language, "roster.nothing", names=_names(case, nobody, language), gets=_gets(nobody, language))]
+    said: list[str] = [
+        message(language, "roster.nothing", names=_names(case, nobody, language), gets=_gets(nobody, language))
+    ]
     some = users[size > 0]
     if some.size:
         said.append(_next(case, some[np.argsort(_sizes(case, of)[some], kind="stable")], of, language))
