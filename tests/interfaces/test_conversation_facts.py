@@ -80,7 +80,7 @@ def test_how_sure_it_is_is_of_the_channel_and_the_promises(said: str) -> None:
         ("4瓦的话是什么样", "不超过 4 W"),
         ("what if the delay spread were 1 us?", "as it was sensed"),
         ("how much do we lose to missing CSI?", "0 % of the gains"),
-        ("compare with foo", "foo is neither"),
+        ("compare with foo", "No method or repairer called foo"),
         ("和foo比较", "foo 既不是"),
         ("export as foo", "got foo"),
         ("导出为pdf", "收到 pdf"),

@@ -136,9 +136,9 @@ def test_figures_are_compared_side_by_side(
 
 def test_aims_and_several_methods_are_compared_side_by_side() -> None:
     assert len(answered("compare max rate and proportional fairness").tables[0].columns) == 3
-    assert answered("compare with equal power and greedy").tables[0].columns[1:] == ("dual", "equal_power", "greedy")
+    assert answered("compare with equal power and greedy").tables[0].columns[1:] == ("dual", "equal power", "greedy")
     assert answered("和论文的方法以及等功率比较").tables[0].columns[1:] == ("对偶法", "论文方法", "等功率法")
-    assert answered("what's better, equal power or greedy?").tables[0].columns[2:] == ("equal_power", "greedy")
+    assert answered("what's better, equal power or greedy?").tables[0].columns[2:] == ("equal power", "greedy")
     assert "Greedy: total rate" in answered("compare with greedy").reply
 
 

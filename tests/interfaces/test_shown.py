@@ -98,7 +98,7 @@ def test_the_first_line_says_what_it_is(small: dict[str, Any]) -> None:
     assert repr(small["Decision"]).startswith("Decision: feasible, ")
     assert repr(small["ChannelObservation"]).startswith("ChannelObservation: 8 users × 20 subcarriers, 48 of 160 gains")
     assert repr(small["ChannelEstimate"]).splitlines()[0].endswith("48 of 160 gains repaired by user_mean")
-    assert repr(small["Run"]).startswith("Run: feasible, by equal_power: ")
+    assert repr(small["Run"]).startswith("Run: feasible, by equal power: ")
     assert repr(small["Turn"]).splitlines()[:2] == ["Turn 1: applied", "  said    Highest total rate, at most 10 W"]
     assert repr(wa.Problem("max_rate", max_power_w=10)) == (
         "Problem('max_rate', max_power_w=10, resource_block_group_size=1)"

@@ -124,8 +124,8 @@ def test_ask_shows_three_lines_and_the_users_served_and_the_rest_when_asked(
     assert "Users served" in shown[""]
     assert record["explanation"][0] not in shown[""]
     assert all(line in shown["--full"] for line in record["explanation"])
-    assert "of them repaired" in shown["--full"]
-    assert "of them repaired" not in shown[""]
+    assert "not measured" in shown["--full"]
+    assert "not measured" not in shown[""]
 
 
 LINES = ("Highest total rate, at most 10 W", "now with 5 W", "least power, 200 kbit/s each", "leave user 2 out",
