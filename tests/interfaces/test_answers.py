@@ -78,7 +78,7 @@ def test_whether_a_user_can_get_a_rate_is_solved_for(language: str) -> None:
     assert cannot.run is not None
     assert cannot.run.decision.status == "infeasible"
     best = wa.decide(cannot.run.estimate, wa.Problem("max_min_rate", max_power_w=10.0, outage_probability=0.05))
-    offered = [float(found) for found in re.findall(r"- \D*([\d.]+) Mbit/s", cannot.reply)]
+    offered = [float(found) for found in re.findall(r"\d\. \D*([\d.]+) Mbit/s", cannot.reply)]
     assert any(figure == pytest.approx(best.value / 1e6, rel=0.02) for figure in offered)
     assert all(
         ("没有作任何更改" if language == "zh" else "Nothing was changed") in turn.reply for turn in (can, cannot)

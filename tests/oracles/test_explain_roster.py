@@ -48,7 +48,7 @@ def test_those_who_get_nothing_are_named_apart_from_the_least(language: str) -> 
     assert 0 < served.size < 4
     said = rank_answer(case, "least", "rate", language)
     nothing, others = re.split("[.。]", said)[:2]
-    named = {int(number) - 1 for number in re.findall(r"\d+", nothing)}  # "Users 1, 2 and 4 get nothing"
+    named = {int(number) - 1 for number in re.findall(r"\d+", nothing)}
     assert named == set(range(4)) - set(served.tolist())
     assert called(language, SEEN.user_names[int(served[np.argmin(rates[served])])]) in others
     assert "720" not in rank_answer(case_of("min_power", min_rate_bps=1e5), "least", "rate", language)

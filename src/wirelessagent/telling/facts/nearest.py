@@ -107,7 +107,7 @@ class Nearest:
         """What can be met within the cell's limit, in the order in which it is told."""
         power = self.more_power if self.more_power is not None and self.more_power.within_limit else None
         limits = (one for one in self.without_limits if one.limit != "outage_probability")  # no request can say that
-        found = (power, *limits, self.lower_rates, self.fewer_users)
+        found = (power, self.lower_rates, self.fewer_users, *limits)
         return tuple(way for way in found if way is not None)
 
 
