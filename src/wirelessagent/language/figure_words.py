@@ -12,7 +12,7 @@ CIRCUIT = deferred(
     r"energy))|stand-?by|quiescent|electronics|hardware|"
     r"cooling|constant)\b"
     r"(?:\s+(?:power|energy|consumption|draw|load)\b)*|(?<![A-Za-z])p[_ ]?c(?:ircuit)?(?![A-Za-z])|\b(?:fij[oa]s?|"
-    r"circuitos?|fixe|statique|schaltung\w*|"
+    r"circuitos?|(?<!on )(?<!je )fixe(?!\s+(?:à|un|une|le|la|[0-9]))|statique|schaltung\w*|"
     r"fest\w{0,2}|grundlast|grundverbrauch|ruheverbrauch|elektronik)\b|(?:\b(?:cabinet|rack|baseband|bbu|boards?|"
     r"equipment|shelter|fans?|rectifier)\b)|\b(?:regardless of (?:the )?(?:traffic|load)|no matter the load|"
     r"even (?:when |while )?idle|by itself|on its own|at zero load|without any traffic)\b|(?:机柜|基带|主设备|空载|"

@@ -69,6 +69,12 @@ def _begins_a_clause(plain: str, name: str, place: int) -> bool:
     return False
 
 
+_GAP = (  # between words of an expression: "he'd also like"
+    r"\s+(?:(?:also|really|very much|just|rather|only|even|still|dearly|always|never|much|auch|gern|sehr|eben|aussi|"
+    r"bien|encore|también|mucho|solo)\s+)?"
+)
+
+
 @functools.cache
 def _stem(word: str) -> str:
     """The longest part of a word that is always written so."""
@@ -81,7 +87,7 @@ def _pattern(word: str) -> re.Pattern[str]:
 
 
 def _written(word: str) -> str:
-    body = re.escape(word).replace(r"\ ", r"\s+").replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
+    body = re.escape(word).replace(r"\ ", _GAP).replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
     if "\u3400" <= word[-1] <= "\u9fff" or "\u3400" <= word[0] <= "\u9fff":
         return body
     return (rf"(?<!{_LETTER})" if word[0].isalnum() else "") + body + (rf"(?!{_LETTER})" if word[-1].isalnum() else "")

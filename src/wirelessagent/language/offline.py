@@ -39,9 +39,10 @@ _DEFAULT_CONFIDENCE = 0.75
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
 _UNFAIR_OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency")
 _FAIR_WORDS = {"fair", "same", "fairly"}
-_ONLY_ORDERED = {"leave_out", "users", "weights", "subcarrier_max_power_w", "resource_block_group_size"}
+_ONLY_ORDERED = {"users", "weights", "subcarrier_max_power_w", "resource_block_group_size"}
 """What hardly anybody speaks of but to order it."""
-_SURE, _SURE_TO_SAVE = 0.7, 0.95
+_WITH_A_LEXICON = ("en", "zh")
+_PERHAPS, _SURE, _SURE_TO_SAVE = 0.7, 0.85, 0.95
 """How sure an aim must be beside figures where a request holds, which else only change that one; by frames_dev*."""
 _ASKED = deferred(r"[?\uff1f]\s*$")
 
@@ -120,6 +121,11 @@ class _Understanding:
         saves = judged.objective == "min_power" and "max_power_w" in reading.values  # a limit of it, more likely
         if judged.acts and (self._goal.verdict != "none" or judged.certainty > (_SURE_TO_SAVE if saves else _SURE)):
             return None
+        unsure = judged.acts and judged.certainty > _PERHAPS and judged.objective != context.objective and not saves
+        if unsure and reading.values and self._voice.language not in _WITH_A_LEXICON:
+            others = self._voice.choices(without=judged.objective)
+            label = self._voice.label(judged.objective)
+            return self._answer.ask("weak", 0.6, reading.values, judged.objective, goal=label, choices=others)
         if self._goal.verdict == "contradiction" or (
             self._goal.verdict == "clear" and self._goal.objective != context.objective
         ):
