@@ -70,7 +70,7 @@ def _begins_a_clause(plain: str, name: str, place: int) -> bool:
 
 
 _GAP = (  # between words of an expression: "he'd also like"
-    r"\s+(?:(?:also|really|very much|just|rather|only|even|still|dearly|always|never|much|auch|gern|sehr|eben|aussi|"
+    r"\s+(?:(?:also|really|very much|just|rather|only|even|still|dearly|much|auch|gern|sehr|eben|aussi|"
     r"bien|encore|también|mucho|solo)\s+)?"
 )
 

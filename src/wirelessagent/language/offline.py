@@ -133,6 +133,9 @@ class _Understanding:
         doubt = self._unfulfillable()
         if doubt is not None:
             return doubt
+        out = reading.values.get("leave_out")
+        if self._dropped and isinstance(out, tuple):  # "sin tasa mínima para el usuario 3", who has none
+            return self._answer.ask("no_limit_of_its_own", 0.8, users=self._voice.users(out))
         values, dropped = with_users_back(reading, context) if reading.back else (dict(reading.values), ())
         dropped = tuple(dict.fromkeys((*self._dropped, *dropped)))
         if context.awaits == "clarification":

@@ -109,7 +109,8 @@ def referred(line: Line, intent: Intent) -> Intent:
 def _of_last_kind(line: Line, intent: Intent, last: Sequence[Limit]) -> Intent:
     """A limit of the power as one of the kind that was stated last, where no noun says that it is the cell's."""
     kinds, plain = {act.kind for act in last}, normalise(line.text)
-    leans = speaks_of_one(plain, "correct") or not any(isinstance(act, Aim) for act in line.context.acts)
+    aims = any(isinstance(act, Aim) and act.words for act in line.context.acts)
+    leans = speaks_of_one(plain, "correct") or not aims
     name = kinds.pop() if len(kinds) == 1 and leans and line.context.awaits != "clarification" else ""
     stated = "max_power_w" in intent.constraints and name in UNITS["power"] and name not in intent.constraints
     if not stated or any(speaks_of_one(plain, noun) for noun in ("power", "limit")):
