@@ -87,3 +87,40 @@ def test_what_stays_is_told() -> None:
     turn = talk(HELD, "proportional fairness, 5 W")[1][-1]
     assert "at least 300 kbit/s for each user" in turn.lines.decided
     assert "发射功率不超过 10 W" in talk(HELD, "最大化能效，每人200k")[1][-1].lines.decided
+
+
+@pytest.mark.parametrize(
+    ("lines", "held"),
+    [
+        (("user 4 at least 2 Mbit/s", "please set it to 1.5 Mbit/s"), {"min_rate_bps": {"4": 1.5e6}}),
+        (("no more than 300 mW on any one subcarrier", "Geh auf 250 mW"), {"subcarrier_max_power_w": 0.25}),
+        (("at most 14 W", "cap user 1 at 5 Mbit/s", "the power limit can go"), {"max_rate_bps": {"1": 5e6}}),
+        (("user 1 at least 1 Mbit/s", "user 2 at least 2 Mbit/s", "set both guarantees to 1.5 Mbit/s"),
+         {"min_rate_bps": {"1": 1.5e6, "2": 1.5e6}}),
+        (("nobody above four megabits a second", "user three can have up to six"),
+         {"max_rate_bps": {"all": 4e6, "3": 6e6}}),
+        (("Rmin(user 2) = 900 kbit/s", "Rmin(user 2) x2"), {"min_rate_bps": {"2": 1.8e6}}),
+        (("user 3 at least 1 Mbit/s", "oops, the hospital is user 4, not 3"), {"min_rate_bps": {"4": 1e6}}),
+        (("at least 300 kbit/s each", "keep the emitted power at or below 4 W"),
+         {"min_rate_bps": 3e5, "max_power_w": 4.0}),
+        (("user 2 weight 4", "wipe the slate clean, then maximise the total rate"), {}),
+    ],
+)  # fmt: skip
+def test_what_a_line_leaves_out_is_that_of_the_last_act(lines: tuple[str, ...], held: dict[str, Any]) -> None:
+    assert talk("highest total rate", *lines)[0] == held
+
+
+@pytest.mark.parametrize("said", ["perdón, para el 3", "non, pardon, pour le 3", "nein, für 3", "no, for 3"])
+def test_a_number_behind_for_is_a_user(said: str) -> None:
+    assert talk("highest total rate", "user 2 at least 1 Mbit/s", said)[0] == {"min_rate_bps": {"3": 1e6}}
+
+
+@pytest.mark.parametrize("said", ["sin tasa mínima para el usuario 3", "utilisateur 3 sans débit minimal"])
+def test_no_least_rate_leaves_nobody_out(said: str) -> None:
+    assert talk("highest total rate", "user 2 at least 1 Mbit/s", said)[0] == {"min_rate_bps": {"2": 1e6}}
+    assert talk("highest total rate, 300 kbit/s each", said)[0] == {"min_rate_bps": {"all": 3e5, "3": 0.0}}
+
+
+@pytest.mark.parametrize("said", ["haz eso", "fais cela", "mach das", "do that", "就这样办"])
+def test_what_was_supposed_is_taken_up_in_every_language(said: str) -> None:
+    assert talk("highest total rate", "what if we used 5 W", said)[0] == {"max_power_w": 5.0}

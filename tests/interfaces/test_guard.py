@@ -278,3 +278,36 @@ def test_the_guard_stands_behind_a_language_model_too() -> None:
         assert talk.say("yes").stage == "applied"
         assert talk.request is not None
         assert talk.request.objective == "max_rate"
+
+
+_WISHES = ("highest total rate with 10 W", "at least 1 Mbit/s for user 3")
+_ELSEWHERE_AND_OTHERS = (
+    "provided that finance agrees, {}", "the plan for next quarter is {}", "our investors keep raving about {}",
+    "the council would also like {}", "we are not going to ask for {}", "in two hours, {}", "{}, and pigs might fly",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("wish", _WISHES)
+@pytest.mark.parametrize("frame", _ELSEWHERE_AND_OTHERS)
+def test_a_wish_in_a_frame_of_others_or_of_later_is_asked_about(frame: str, wish: str) -> None:
+    for context in (None, Context(user_names=("a", "b", "c", "d"), objective="max_rate", language="en")):
+        intent = recognise(frame.format(wish), context)
+        assert intent.kind != "allocate"
+
+
+@pytest.mark.parametrize(
+    ("said", "kind", "value"),
+    [("Subcarriers in groups of 4", "resource_block_group_size", 4.0),
+     ("子载波四个一组来分", "resource_block_group_size", 4.0),
+     ("Asigna las subportadoras en grupos de diez", "resource_block_group_size", 10.0),
+     ("Attribuez les sous-porteuses par paquets de six", "resource_block_group_size", 6.0),
+     ("Unterträger in Zwölfergruppen vergeben", "resource_block_group_size", 12.0),
+     ("no more than 250 mW on any one subcarrier", "subcarrier_max_power_w", 0.25),
+     ("Pro Unterträger bitte maximal 250 mW", "subcarrier_max_power_w", 0.25),
+     ("Stay below 8 watts at all times, will you?", "max_power_w", 8.0),
+     ("Keep the total radiated power to 14 watts, would you?", "max_power_w", 14.0)],
+)  # fmt: skip
+def test_a_bare_limit_amends_the_request_that_holds(said: str, kind: str, value: float) -> None:
+    held = Context(user_names=("a", "b", "c", "d"), objective="max_rate", language="en")
+    intent = recognise(said, held)
+    assert (intent.kind, intent.objective, dict(intent.constraints)) == ("allocate", "max_rate", {kind: value})

@@ -12,7 +12,7 @@ CIRCUIT = deferred(
     r"energy))|stand-?by|quiescent|electronics|hardware|"
     r"cooling|constant)\b"
     r"(?:\s+(?:power|energy|consumption|draw|load)\b)*|(?<![A-Za-z])p[_ ]?c(?:ircuit)?(?![A-Za-z])|\b(?:fij[oa]s?|"
-    r"circuitos?|fixe|statique|schaltung\w*|"
+    r"circuitos?|(?<!on )(?<!je )fixe(?!\s+(?:à|un|une|le|la|[0-9]))|statique|schaltung\w*|"
     r"fest\w{0,2}|grundlast|grundverbrauch|ruheverbrauch|elektronik)\b|(?:\b(?:cabinet|rack|baseband|bbu|boards?|"
     r"equipment|shelter|fans?|rectifier)\b)|\b(?:regardless of (?:the )?(?:traffic|load)|no matter the load|"
     r"even (?:when |while )?idle|by itself|on its own|at zero load|without any traffic)\b|(?:机柜|基带|主设备|空载|"
@@ -148,27 +148,39 @@ SHARES = {
     "half": 1 / 2, "zh_half": 1 / 2, "of_half": 1 / 2, "third": 1 / 3, "zh_third": 1 / 3, "thirds": 2 / 3,
     "zh_thirds": 2 / 3, "quarter": 1 / 4, "zh_quarter": 1 / 4, "quarters": 3 / 4,
 }  # fmt: skip
+_CARRIER = (
+    r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|(?:unter|sub)träger[ns]?)"
+)
+_ONE = (
+    r"(?:each|every|any|no|an?|one|the|single|individual|cada|una|ninguna|sola|chaque|une|aucune|seule|jede[mnr]?|"
+    r"eine[mnr]?|keine?[mnr]?|einzelne[mnr]?)"
+)
 SUBCARRIER = deferred(
-    r"(?i)\s*(?:of\s+power\s+)?(?:/|per|on (?:each|every|any|a)|for (?:each|every)|each|any)\s*(?:sub-?carrier|"
-    r"tone|carrier|rb|resource block)\b|\s*(?:per|on any) (?:sub-?carrier|tone)"
+    r"(?i)\s*(?:of\s+power\s+)?(?:/|(?:per|por|par|pro|je|on|for|in|at|into|over|en|sur|auf)(?!\w)|(?=each|any))"
+    rf"[\s-]*(?:{_ONE}\s+)*{_CARRIER}(?!\w)"
 )
 SUBCARRIER_BEFORE = deferred(
-    r"(?i)(?:\b(?:each|every|any|per|no|single)\s+(?:single\s+)?(?:sub-?carrier|tone|carrier)\b|(?:每个|每|单个|"
-    r"任一|各)子载波)[^,;.，。]{0,40}$"
+    rf"(?i)(?:(?<!\w)(?:{_ONE}|per|por|par|pro|je)[\s-]+(?:{_ONE}\s+)*{_CARRIER}(?!\w)|"
+    r"(?:每个?|单个?|任一|任何|各)子载波)[^,;.，。]{0,40}$"
 )
+_SIZE = r"[0-9]{1,3}|[a-zäéöûü]{3,8}"
+_GROUP = r"(?:groups?|blocks?|bundles?|chunks?|clusters?|packs?|rbgs?|grupos|bloques|groupes?|blocs|paquets|paquetes)"
 BLOCKS = Phrases(
-    r"(?:\b(?:groups?|blocks?|bundles?|chunks?|clusters?|packs?|rbgs?)\s+of\s+(?P<of>[0-9]{1,3}|two|three|four|"
-    r"six|eight|twelve|sixteen)(?:\s+(?:adjacent\s+|neighbouring\s+)?(?:sub-?carriers?|tones?|carriers?|rbs?|"
-    r"resource blocks?))?"
-    r"|\b(?P<per>[0-9]{1,3}|two|three|four|six|eight|twelve|sixteen)\s+(?:adjacent\s+|"
-    r"neighbouring\s+)?(?:sub-?carriers?|tones?|rbs?)\s+(?:per|in (?:a|each|every)|to a|each)\s+(?:group|block|"
-    r"bundle|rbg)"
-    r"|\b(?:rbg|resource[- ]block[- ]group|block|group)\s+size\s*(?:of|=|:|is)?\s*(?P<size>[0-9]{1,3})"
-    r"|(?:每|按)?(?P<zh>[0-9]{1,3}|[二两三四六八十]{1,2})个?子载波(?:一组|为一组|一块|为一块|捆绑|绑定|分组|一个组|"
-    r"成组))",
-    marks="group block bundle chunk cluster pack rbg 子载波",
+    rf"(?:\b{_GROUP}\s+(?:of|de)\s+(?P<of>{_SIZE})\b(?:\s+(?:adjacent\s+|neighbouring\s+)?{_CARRIER}(?!\w))?"
+    rf"|\b(?:gruppen|blöcken?)\s+(?:von|zu|à|aus)\s+(?:je\s+)?(?P<zu>{_SIZE})\b"
+    rf"|\b(?P<per>{_SIZE})\s+(?:adjacent\s+|neighbouring\s+)?{_CARRIER}\s+(?:per|in (?:a|each|every)|to a|each)\s+"
+    r"(?:group|block|bundle|rbg)"
+    r"|\b(?:rbg|resource[- ]block[- ]group|block|group)\s?(?:size|大小)\s*(?:of|=|:|is|为|是)?\s*(?P<size>[0-9]{1,3})"
+    rf"|{_CARRIER}(?:\s+\w+){{0,3}}\s+(?:in|par)\s+(?P<in>pairs|deux|trois|quatre|six|huit|[0-9]{{1,3}})\b"
+    rf"|{_CARRIER}(?:\s+\w+){{0,2}}\s+(?P<by>[a-z]{{3,6}}) by (?P=by)\b"
+    r"|\b(?P<fold>zweier|dreier|vierer|fünfer|sechser|achter|zehner|zwölfer)(?:gruppen|blöcken?|päckchen)\b"
+    r"|(?:每|按)?(?P<zh>[0-9]{1,3}|[二两三四五六八十]{1,2})个?子载波(?:一组|为一组|一块|为一块|捆绑|绑定|分组|一个组|成组)"
+    r"|子载波(?:按|以|每)?(?P<apart>[0-9]{1,3}|[二两三四五六八十]{1,2})个?(?:为|分)?(?:一|成)?[组块](?:来?分(?:配)?)?)",
+    marks="group block bundle chunk cluster pack rbg 子载波 grup bloq bloc paq gruppe blöck päck pair carrier porteuse",
 )
-BLOCK_WORDS = {"two": 2, "three": 3, "four": 4, "six": 6, "eight": 8, "twelve": 12, "sixteen": 16}
+BLOCK_WORDS = {"pairs": 2, **{f"{word}er": size for word, size in (
+    ("zwei", 2), ("drei", 3), ("vier", 4), ("fünf", 5), ("sechs", 6), ("acht", 8), ("zehn", 10), ("zwölf", 12),
+)}}  # fmt: skip
 STEP = Phrases(
     r"\b(?:one|an?|another|an? (?:extra|additional|further))\s+(?:more\s+|extra\s+|"
     r"additional\s+)?watt(?:\s+more)?\b|(?:再?多|再加|加)一瓦|"

@@ -52,11 +52,26 @@ _ASKS_IN_CHINESE = deferred(
     r"为什么|谁|哪[个些里]|几[个瓦位]|"
     r"啥)[^\uff0c。,]{0,8}[\uff1f?]\s*$"
 )
+_TAG = deferred(  # "…, will you?", "…, ¿vale?", "…，好吗？"
+    r"(?i)(?:[\s,]+(?:will|would|could|can|won't) (?:you|ya)|,\s*(?:please|ok(?:ay)?|right|yes|vale|sí|por favor|"
+    r"puedes|d'accord|s'il (?:te|vous) pla[iî]t|ja|bitte|gut|in ordnung)|"
+    r"[,\uff0c]?\s*(?:好吗|好吧|行吗|可以吗|好不好|行不行))\s*[?\uff1f]\s*$"
+)
 _STATED = deferred(
     r"(?i)\s*(?:the|our|this|that|your)\s+[\w -]{2,30}?\s+(?:is|are|looks?|seems?|was|feels?)\s+(?:good|fine|ok|"
     r"okay|nice|"
     r"all right|alright|great|perfect|normal|acceptable)\b[^,;:\n]{0,20}"
 )
+
+
+def without_a_tag(text: str) -> str:
+    """A text without the polite question at its end.
+
+    >>> without_a_tag("stay below 8 W, will you?"), without_a_tag("is 8 W enough?")
+    ('stay below 8 W', 'is 8 W enough?')
+    """
+    tag = _TAG.search(text.replace("¿", ""))
+    return text.replace("¿", "")[: tag.start()] if tag is not None else text
 
 
 def is_asked(plain: str) -> bool:

@@ -38,21 +38,41 @@ def places(words: Sequence[str], plain: str) -> Iterator[Span]:
             yield span
 
 
+def is_ordered(plain: str) -> bool:
+    """Whether a clause begins with a word of order.
+
+    >>> is_ordered("he is only testing, so leave user 3 out"), is_ordered("user 3 is left out")
+    (True, False)
+    """
+    return _begins_a_clause(plain, "imperative", 0)
+
+
 def is_taken_up(plain: str, place: int) -> bool:
     """Whether a clause behind a place begins with an order to carry out what was told before.
 
     >>> is_taken_up("she pays for 2 Mbit/s, so give it that", 21), is_taken_up("she pays for 2 Mbit/s, he says", 21)
     (True, False)
     """
+    return _begins_a_clause(plain, "taken_up", place)
+
+
+def _begins_a_clause(plain: str, name: str, place: int) -> bool:
+    """Whether a clause behind a place begins with a word of a class, perhaps behind words that lead up to it."""
     for language in languages_of(plain):
         classes = table_of(language)
-        for start, _ in places(classes["taken_up"]["words"], plain):
+        for start, _ in places(classes[name]["words"], plain):
             first = clause_start(plain, start)
             lead = list(places(classes["lead"]["words"], plain[first:start]))
             said = "".join(sign for at, sign in enumerate(plain[first:start]) if not any(a <= at < b for a, b in lead))
             if start >= place and not any(map(str.isalnum, said)):
                 return True
     return False
+
+
+_GAP = (  # between words of an expression: "he'd also like"
+    r"\s+(?:(?:also|really|very much|just|rather|only|even|still|dearly|much|auch|gern|sehr|eben|aussi|"
+    r"bien|encore|también|mucho|solo)\s+)?"
+)
 
 
 @functools.cache
@@ -67,7 +87,7 @@ def _pattern(word: str) -> re.Pattern[str]:
 
 
 def _written(word: str) -> str:
-    body = re.escape(word).replace(r"\ ", r"\s+").replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
+    body = re.escape(word).replace(r"\ ", _GAP).replace(r"\*", r"\w*").replace(r"\#", r"\s?\d+\s?")
     if "\u3400" <= word[-1] <= "\u9fff" or "\u3400" <= word[0] <= "\u9fff":
         return body
     return (rf"(?<!{_LETTER})" if word[0].isalnum() else "") + body + (rf"(?!{_LETTER})" if word[-1].isalnum() else "")

@@ -14,6 +14,7 @@ import dataclasses
 import re
 from collections.abc import Mapping, Sequence
 
+from wirelessagent.language import forms
 from wirelessagent.language.answer import Answer
 from wirelessagent.language.command_cues import CHANGING, is_unsure
 from wirelessagent.language.deferred import deferred
@@ -22,6 +23,7 @@ from wirelessagent.language.followups import dropped_in, keeps_the_limits, merge
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
 from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
+from wirelessagent.language.moods import is_ordered
 from wirelessagent.language.nobody_starves import nobody_starves
 from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -37,6 +39,11 @@ _DEFAULT_CONFIDENCE = 0.75
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
 _UNFAIR_OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency")
 _FAIR_WORDS = {"fair", "same", "fairly"}
+_ONLY_ORDERED = {"users", "weights", "subcarrier_max_power_w", "resource_block_group_size"}
+"""What hardly anybody speaks of but to order it."""
+_WITH_A_LEXICON = ("en", "zh")
+_PERHAPS, _SURE, _SURE_TO_SAVE = 0.7, 0.85, 0.95
+"""How sure an aim must be beside figures where a request holds, which else only change that one; by frames_dev*."""
 _ASKED = deferred(r"[?\uff1f]\s*$")
 
 
@@ -99,28 +106,36 @@ class _Understanding:
 
     def _follow_up(self) -> Intent | None:
         """A change of the current request that names no wish of its own: "now with 10 W", "leave user 3 out"."""
-        context, reading = self._context, self._reading
+        context, reading, judged = self._context, self._reading, self._judged
         changes = bool(reading.values or self._dropped or reading.back)
-        if (
-            context is None
-            or context.objective is None
-            or not changes
-            or self._judged.kind not in ("clarify", "command", "allocate")
+        if context is None or context.objective is None or not changes or judged.objective_clear:
+            return None
+        asked = _ASKED.search(forms.without_a_tag(self._text)) is not None
+        commands = judged.kind == "command" and judged.topic not in (*CHANGING, "reject")
+        if judged.kind in ("question", "out_of_scope") or commands:
+            ordered = reading.values.keys() & _ONLY_ORDERED or is_ordered(self._sentence.plain)
+            if reading.doubts or asked or not ordered:
+                return None  # "exclude user 7, he is only testing" is an order, whatever it is like
+        elif asked:
+            return None
+        saves = judged.objective == "min_power" and "max_power_w" in reading.values  # a limit of it, more likely
+        if judged.acts and (self._goal.verdict != "none" or judged.certainty > (_SURE_TO_SAVE if saves else _SURE)):
+            return None
+        unsure = judged.acts and judged.certainty > _PERHAPS and judged.objective != context.objective and not saves
+        if unsure and reading.values and self._voice.language not in _WITH_A_LEXICON:
+            others = self._voice.choices(without=judged.objective)
+            label = self._voice.label(judged.objective)
+            return self._answer.ask("weak", 0.6, reading.values, judged.objective, goal=label, choices=others)
+        if self._goal.verdict == "contradiction" or (
+            self._goal.verdict == "clear" and self._goal.objective != context.objective
         ):
-            return None
-        if (
-            self._judged.acts and (self._goal.verdict != "none" or self._judged.certainty > 0.85)
-        ) or self._judged.objective_clear:
-            return None
-        if self._goal.verdict == "clear" and self._goal.objective != context.objective:
             return None  # "fair, at most 5 W": a wish that is not sure is no mere limit
-        if (self._judged.kind == "command" and self._judged.topic not in (*CHANGING, "reject")) or _ASKED.search(
-            self._text
-        ):
-            return None
         doubt = self._unfulfillable()
         if doubt is not None:
             return doubt
+        out = reading.values.get("leave_out")
+        if self._dropped and isinstance(out, tuple):  # "sin tasa mínima para el usuario 3", who has none
+            return self._answer.ask("no_limit_of_its_own", 0.8, users=self._voice.users(out))
         values, dropped = with_users_back(reading, context) if reading.back else (dict(reading.values), ())
         dropped = tuple(dict.fromkeys((*self._dropped, *dropped)))
         if context.awaits == "clarification":

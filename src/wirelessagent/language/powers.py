@@ -98,7 +98,10 @@ class Powers:
             self._notes.take("circuit_power_w", figure.value, figure)
         elif figure.value > figure_words.HUGE_POWER_W:
             self._notes.doubt("huge", text=figure.text)
-        elif figure_words.SUBCARRIER.match(after) or figure_words.SUBCARRIER_BEFORE.search(before):
+        elif self._neighbours.is_of_a_subcarrier(index):
+            of_each = figure_words.SUBCARRIER.match(after)
+            if of_each is not None:  # "on a single subcarrier" counts nothing
+                self._notes.masked.append((figure.end, figure.end + of_each.end()))
             self._notes.take("subcarrier_max_power_w", figure.value, figure)
         elif figure_words.PER_USER.match(after):
             self._notes.doubt("power_per_user", text=figure.text)

@@ -10,6 +10,7 @@ alone that follows from it, or that is for now. An act is doubted where a part o
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -67,7 +68,7 @@ class Reach:
         self._plain = plain = _DASH.sub(lambda cut: ",".ljust(len(cut[0])), sentence.plain)
         self._figures = sentence.reading.masked
         self._own = list(places(self._table["own"]["words"], plain))
-        self._read = [*self._figures, *sentence.reading.counted, *sentence.goal.spans, *dropped]
+        self._read, self._counted = [*self._figures, *sentence.goal.spans, *dropped], sentence.reading.counted
         self._left_out = [span for part in self._parts_of("leave_out") for span in part]
         self._clauses = list(self._cut())
         self._parts, self._placed = self._act(sentence)
@@ -79,6 +80,8 @@ class Reach:
         if hit.mood == "negation" and self._plain[hit.end : hit.end + 2].strip()[:1].isdigit() and not order:
             return False  # "give him no 2 W"
         spans = [*self._own, *self._read] if hit.mood in _READ else self._own
+        if hit.mood in _READ and hit.mood != "time":  # "in two hours" counts hours, and says when
+            spans = [*spans, *self._counted]
         if any(start <= hit.start and hit.end <= end for start, end in spans):
             return True
         if hit.mood == "others" and (
@@ -151,6 +154,13 @@ class Reach:
             tag = not later and not _worded(self._plain[hit.end : clause.end])
             if hit.reach == "ahead" and full and not told:
                 end = self._next(later, "imperative", end)
+            if (
+                hit.mood == "others" and not told and hit.reach == "clause"
+            ):  # "the council wants less power, 5 W at most"
+                for each in later:
+                    if each.opens or any(self._found(name, each) for name in ("statement", "imperative", "now")):
+                        break
+                    clause = dataclasses.replace(clause, end=each.end)
             return start if tag else clause.start, end if told or hit.reach == "ahead" else clause.end
         if self._is_since(hit, clause):
             return alone if full or not self._is_short(hit, clause) else (clause.start, later[0].end if later else end)

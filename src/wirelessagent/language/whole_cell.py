@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from wirelessagent.language import figure_words
 from wirelessagent.language.clauses import clause_end, clause_start
-from wirelessagent.language.numerals import chinese_value
+from wirelessagent.language.numerals import numbers
 from wirelessagent.language.stated import Notes, Span
 from wirelessagent.language.surroundings import describes_all
 
@@ -20,8 +20,11 @@ def take_blocks(notes: Notes) -> None:
     match = figure_words.BLOCKS.search(notes.plain)
     if match is None or match.lastgroup is None:
         return
-    word = match[match.lastgroup]
-    size = int(word) if word.isdigit() else figure_words.BLOCK_WORDS.get(word) or int(chinese_value(word) or 0)
+    word, place = match[match.lastgroup], match.start(match.lastgroup)
+    said = next((number.value for number in numbers(notes.plain) if number.start == place), None)
+    size = int(figure_words.BLOCK_WORDS.get(word) or said or 0)
+    if size < 1 and word.isalpha():
+        return  # "groups of users"
     notes.spoken_for.append(match.span())
     notes.masked.append(match.span())
     if size < 1:

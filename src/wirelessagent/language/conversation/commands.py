@@ -13,6 +13,7 @@ import functools
 import re
 
 from wirelessagent.language import forms
+from wirelessagent.language.acts import Prefer
 from wirelessagent.language.conversation.line import Line, begins, form, group, has, is_all
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Detail, Intent
@@ -219,7 +220,7 @@ def beside_method(text: str) -> tuple[str, str] | None:
 def with_method(line: Line, intent: Intent, name: str) -> Intent | None:
     """A request by a method that is named beside it; None for what is neither a request nor a question back."""
     if intent.kind == "allocate":
-        return dataclasses.replace(intent, details={**intent.details, "method": name})
+        return _with_method(intent, name)
     if intent.kind != "clarify":
         return None
     later = line.voice.say("method_later", method_name=name)
@@ -229,6 +230,9 @@ def with_method(line: Line, intent: Intent, name: str) -> Intent | None:
 def by_method(line: Line, intent: Intent) -> Intent:
     """A request with the method that its sentence names beside it; any other intent as it is."""
     shape, name = with_tool(line.shape, "method")
-    if intent.kind != "allocate" or not name or not has("with_method", shape):
-        return intent
-    return dataclasses.replace(intent, details={**intent.details, "method": name})
+    return _with_method(intent, name) if intent.kind == "allocate" and name and has("with_method", shape) else intent
+
+
+def _with_method(intent: Intent, name: str) -> Intent:
+    acts = (*intent.acts, Prefer(method="" if name == OWN_CHOICE else name)) if intent.acts else ()
+    return dataclasses.replace(intent, details={**intent.details, "method": name}, acts=acts)

@@ -15,6 +15,7 @@ from typing import cast
 
 from wirelessagent.language.acts import (
     Act,
+    Aim,
     Drop,
     Everybody,
     LeaveOut,
@@ -27,7 +28,7 @@ from wirelessagent.language.acts import (
     Undo,
     Whom,
 )  # fmt: skip
-from wirelessagent.language.conversation.line import Line, is_all
+from wirelessagent.language.conversation.line import NAME, Line, begins, is_all
 from wirelessagent.language.conversation.relative import read_relative
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, speaks_of_one, tokens_of, words_of
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
@@ -58,7 +59,7 @@ def read_fragment(line: Line) -> Intent | None:
         return None
     if _takes_back(line):
         return line.command("undo", steps=1.0)
-    line = _without_what_stays(line)
+    line = _without_a_description(_without_what_stays(line))
     found = (fragment.intent() for fragment in words_of(line, _Fragment))
     return next((intent for intent in found if intent is not None), None)
 
@@ -70,29 +71,55 @@ def read_wondered(line: Line) -> Intent | None:
 
 
 def referred(line: Line, intent: Intent) -> Intent:
-    """A figure for everybody as one for whom the line refers to: "the rest", or "her" behind a line about user 2."""
+    """A request whose figure leaves out what it is of as the line or the last act has it.
+
+    A figure for everybody is for whom the line refers to: "the rest", "both", "her" behind a line about user 2. A power
+    that no noun calls the cell's is of the kind of the last one: "go to 250 mW" behind a limit of each subcarrier.
+    """
     context = line.context
+    if intent.kind != "allocate" or context.objective is None or intent.recogniser == NAME:
+        return intent
+    supposed = acts_of(context.guess) if context.guess is not None else ()
+    wondered = (act for one in context.acts if isinstance(one, Suppose) for act in one.acts)
+    last = [act for act in (*context.acts, *wondered, *supposed) if isinstance(act, Limit | Scale | LeaveOut)]
+    intent = _of_last_kind(line, intent, [act for act in last if isinstance(act, Limit)])
     kinds = [kind for kind in FIGURES_OF_USERS if isinstance(intent.constraints.get(kind), float)]
-    if intent.kind != "allocate" or context.objective is None or intent.acts or not kinds:
+    if not kinds:
         return intent
     plain = normalise(line.text)
     roles = {each.role for each in mentions(plain, context.user_names)} - {"pronoun"}
-    supposed = acts_of(context.guess) if context.guess is not None else ()
-    last = {
-        act.whom
-        for act in (*context.acts, *supposed)
-        if isinstance(act, Limit | Scale | LeaveOut) and isinstance(act.whom, Named)
-    }
+    named = {act.whom for act in last if isinstance(act.whom, Named)}
     whom: Whom | None = Others() if roles == {"others"} else None
-    if not roles and len(last) == 1 and speaks_of_one(plain):
-        whom = last.pop()
+    held = context.constraints.get(kinds[0])
+    if not roles and speaks_of_one(plain, "both") and isinstance(held, Mapping) and len(held.keys() - {EVERYBODY}) == 2:
+        whom = Named(tuple(user for user in held if user != EVERYBODY))
+    elif not roles and len(named) == 1 and (speaks_of_one(plain) or (line.is_read and speaks_of_one(plain, "it"))):
+        whom = named.pop()
     if whom is None:
-        if roles or not speaks_of_one(plain, "one"):
+        leans = {act.kind for act in last if isinstance(act, Limit | Scale) and act.whom in named} & {*kinds}
+        leans = leans if not speaks_of_one(plain, "rate") and not speaks_of_one(plain, "promise") else set()
+        if roles or not (speaks_of_one(plain, "one") or leans):
             return intent
         return line.ask("whose_figure", text=intent.evidence[kinds[0]], users=line.voice.users(context.user_names))
     acts = [dataclasses.replace(act, whom=whom) if isinstance(act, Limit) and act.kind in kinds else act
             for act in acts_of(intent)]  # fmt: skip
     return dataclasses.replace(intent, acts=tuple(acts))
+
+
+def _of_last_kind(line: Line, intent: Intent, last: Sequence[Limit]) -> Intent:
+    """A limit of the power as one of the kind that was stated last, where no noun says that it is the cell's."""
+    kinds, plain = {act.kind for act in last}, normalise(line.text)
+    aims = any(isinstance(act, Aim) and act.words for act in line.context.acts)
+    leans = speaks_of_one(plain, "correct") or not aims
+    name = kinds.pop() if len(kinds) == 1 and leans and line.context.awaits != "clarification" else ""
+    stated = "max_power_w" in intent.constraints and name in UNITS["power"] and name not in intent.constraints
+    if not stated or any(speaks_of_one(plain, noun) for noun in ("power", "limit")):
+        return intent
+    constraints = {name if each == "max_power_w" else each: value for each, value in intent.constraints.items()}
+    evidence = {name if each == "max_power_w" else each: words for each, words in intent.evidence.items()}
+    return dataclasses.replace(
+        intent, constraints=constraints, evidence=evidence, reply=line.voice.amended(constraints, intent.dropped)
+    )
 
 
 def named_alone(line: Line) -> tuple[str, ...]:
@@ -109,6 +136,16 @@ def _without_what_stays(line: Line) -> Line:
     clause = _LAST_CLAUSE.search(line.text) or _BUT.search(line.text)
     stays = clause is not None and is_all("kept", Line.of(clause[1], line.context).shape.rstrip(".!。 "))
     return Line.of(line.text[: clause.start()], line.context) if clause is not None and stays else line
+
+
+def _without_a_description(line: Line) -> Line:
+    """The line without what it says about its user beside what it wants: "oops, the hospital is user 8, not 3"."""
+    match = begins("described", line.shape)
+    if match is None or not line.users:
+        return line
+    words = match["words"]
+    place = line.text.lower().find(words)
+    return line if place < 0 else Line.of(line.text[:place] + line.text[place + len(words) :], line.context)
 
 
 def _takes_back(line: Line) -> bool:
@@ -168,23 +205,24 @@ class _Fragment(Words):
         return None
 
     def _moved(self) -> Intent | None:
-        """ "no, user 5", "I mean user 6, not 3": what was said last of one user, of another."""
-        if (
-            not self.users
-            or not self.has("correct")
-            or not self.only("users", "bare", "correct", "lead", "it", "revise")
-        ):
+        """ "no, user 5", "I mean user 6, not 3", "for 3": what was said last of one user, of another."""
+        if not self.has("correct") or not self.only("users", "bare", "correct", "lead", "it", "revise", "whose"):
+            return None
+        if not self.users:
+            self.users = self._meant()
+        if not self.users:
             return None
         if self.taken_off:
             return self._taken_off_another()
-        last = [act for act in self.last(Limit, LeaveOut, Serve) if isinstance(act.whom, Named)]
+        last = self._of_named()
         if not last:
             return self._for_all_moved()
         if len(last) != 1:
             return None
         old = last[0].whom
         users = tuple(user for user in self.users if user not in old.users)
-        denied = {*(f"{figure.value:g}" for figure in self.figures), *self.users} - {*users}
+        figures = [*self.figures, *([self.replaced] if self.replaced is not None else [])]
+        denied = {*(f"{figure.value:g}" for figure in figures), *self.users} - {*users}
         if not users or not denied <= {*old.users}:
             return None
         gone = Named(tuple(user for user in old.users if user in denied or not denied))
@@ -192,6 +230,26 @@ class _Fragment(Words):
         if isinstance(last[0], Limit):
             back = Drop(kind=last[0].kind, whom=gone, own=True)
         return self.acts([back, dataclasses.replace(last[0], whom=Named(users))])
+
+    def _of_named(self) -> list[Limit | LeaveOut | Serve]:
+        """What was said last of named users; the same of several is said once."""
+        said: dict[Act, tuple[str, ...]] = {}
+        for act in self.last(Limit, LeaveOut, Serve):
+            if isinstance(act.whom, Named):
+                same = dataclasses.replace(act, whom=Everybody(), words="")
+                said[same] = (*said.get(same, ()), *act.whom.users)
+        return [dataclasses.replace(act, whom=Named(users)) for act, users in said.items()]  # type: ignore[misc, call-arg]
+
+    def _meant(self) -> tuple[str, ...]:
+        """A user by the number alone, where it is one's by the words or can be no figure: "for 3", "4, not 3"."""
+        users, last = self._counted(), self._of_named()
+        if len(users) != 1 or len(last) != 1:
+            return ()
+        limit = last[0] if isinstance(last[0], Limit) else None
+        figure = self.figures[0]
+        instead = self.replaced is not None and f"{self.replaced.value:g}" in last[0].whom.users
+        is_figure = limit is not None and _value(figure, limit.kind, limit) is not None
+        return users if instead or self.has("whose") or not is_figure else ()
 
     def _for_all_moved(self) -> Intent:
         """What was said last for everybody, for these users alone; where nothing was, what is meant is asked."""
@@ -237,7 +295,21 @@ class _Fragment(Words):
         whom = self.whom()
         if self.has("equal") and self.has("weight") and self.only("equal", "weight", "every", "make", "again", "lead"):
             return self.acts([Drop(kind="weights")]) if "weights" in self.held else None
-        said = ("remove", "users", "bare", "every", "again", "lead", "correct", "more", "by", *NOUNS)
+        said = (
+            "remove",
+            "users",
+            "bare",
+            "every",
+            "others",
+            "both",
+            "pronoun",
+            "again",
+            "lead",
+            "correct",
+            "more",
+            "by",
+            *NOUNS,
+        )
         users = self._counted() if self.figures else ()
         if (self.figures and not users) or not self.has("remove") or not self.only(*said):
             return None
@@ -245,6 +317,8 @@ class _Fragment(Words):
         own = [name for name, value in self.held.items() if isinstance(value, Mapping) and isinstance(whom, Named)
                and set(whom.users) <= value.keys()]  # fmt: skip
         kinds = [kind for kind in self.named_kinds() if kind in self.held]
+        if self.has("own") and whom is not None and not any(self.has(name) for name in NOUNS):  # "cancel user 5's"
+            kinds = own
         if len(kinds) > 1:
             kinds = [act.kind for act in self.last(Limit) if act.kind in kinds][-1:]
         if len(kinds) != 1 or (isinstance(whom, Named) and kinds[0] not in own and kinds[0] != "min_rate_bps"):
@@ -269,11 +343,11 @@ class _Fragment(Words):
         said = ("users", "bare", "lead", "again")
         if self.has("serve") and self.only("serve", "too", "take", "make", *said) and not self._serves(users):
             return self.acts([Serve(whom=whom)])
-        if self.has("leave") and self.only("leave", "too", "take", *said) and (lists or not self.is_read):
+        if self.has("leave") and self.only("leave", "too", "take", "make", *said) and (lists or not self.is_read):
             return self.acts([LeaveOut(whom=whom)])
         if not (self.has("too") or self.has("lead")) or not self.only("too", "pronoun", "it", "correct", *said):
             return None
-        if not (self.has("too") or self.users):
+        if not (self.has("too") or self.has("whose") or self.users):
             return None
         moved = {act.kind for act in self.last(Limit)}
         again = [dataclasses.replace(act, whom=whom) for act in self.last(Limit, Drop, LeaveOut, Scale, Serve)
@@ -318,7 +392,7 @@ class _Fragment(Words):
         """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
         said = (
             "users", "every", "others", "pronoun", "it", "lead", "make", "correct", "suppose", "take", "figure",
-            "ratio", "bare", "with", "by", "to", "revise", *NOUNS,
+            "ratio", "bare", "with", "by", "to", "revise", "both", "at_most", *NOUNS,
         )  # fmt: skip
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
             return self.line.ask("what_changes")
@@ -335,13 +409,19 @@ class _Fragment(Words):
         kind = kinds[0]
         models = [act for act in before if act.kind == kind]
         model = models[-1] if models else None
-        several = len({act.whom for act in models}) > 1 and not (self.users or self.has("others") or self.has("every"))
+        if self.has("others") or self.has("every") or self.users:
+            model = next((act for act in models if isinstance(act.whom, Named) is bool(self.users)), model)
+        several = len({act.whom for act in models}) > 1
+        several = several and not (self.users or any(self.has(name) for name in ("others", "every", "both")))
         if several and model is not None and self.has("correct"):
             users = [user for act in models if isinstance(act.whom, Named) for user in act.whom.users]
             return self.line.ask("whose_figure", text=figure.text, users=self.line.voice.users(users))
-        if several or (self.has("correct") and (self.line.context.share_of or (model is None and self.last(Drop)))):
+        of_share = bool(self.line.context.share_of) and figure.kind == "bare"
+        if several or (self.has("correct") and (of_share or (model is None and self.last(Drop)))):
             return None
-        leaning = ["correct", "take", "others", "subcarrier", "group", "pronoun"]
+        if self.has("at_most") and kind not in ("max_rate_bps", *UNITS["power"]):
+            return None
+        leaning = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun"]
         leaning += ["make", "lead", "with", "suppose"] if figure.kind == "bare" or supposed else []
         leaning += ["revise"] if model is not None and isinstance(model.whom, Named) else []
         if len(self.named_kinds()) == 1:
@@ -352,10 +432,17 @@ class _Fragment(Words):
             and all(token.figure or token.classes & {"skip"} for token in self.tokens)
         )
         leans = alone or any(self.has(name) for name in leaning)
+        leans = leans or (self.has("limit") and figure.kind == "power")
         leans = leans and not (self.has("by") and self.has("make"))
         value = _value(figure, kind, model)
         whom = self.whom() or (model.whom if model is not None else Everybody())
-        led = any(self.has(name) for name in ("lead", "correct", "with", "make"))
+        if self.has("both"):
+            held = self.held.get(kind)
+            own = tuple(user for user in held if user != EVERYBODY) if isinstance(held, Mapping) else ()
+            if len(own) != 2:
+                return None
+            whom = Named(own)
+        led = any(self.has(name) for name in ("lead", "correct", "with", "make", "at_most"))
         if value is None or not leans or (self.users and not led):
             return None
         if kind not in FIGURES_OF_USERS:
@@ -439,7 +526,7 @@ def _value(figure: Quantity, kind: str, model: Limit | None) -> float | None:
 def _unit(model: Limit) -> str:
     """The unit in which a limit was said, or in which it is shown."""
     for one in parse_quantities(model.words):
-        if one.kind in UNITS and (one.value == model.value or one.kind == "ratio"):
+        if one.kind in UNITS and one.text[:1].isdigit() and (one.value == model.value or one.kind == "ratio"):
             return _FIGURE.sub("", one.text).strip() or "W"
     if model.kind == "outage_probability":
         return "%"

@@ -123,6 +123,11 @@ class Line:
         return _ASKED.search(self.text) is not None
 
     @property
+    def is_read(self) -> bool:
+        """Whether recognisers read whole sentences of the language well."""
+        return self.voice.language in ("en", "zh")
+
+    @property
     def sentence(self) -> Sentence:
         """The line as those who read sentences see it."""
         context = self.context

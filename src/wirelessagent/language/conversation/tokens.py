@@ -15,6 +15,7 @@ from typing import Any, TypeVar, cast
 
 from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Whom
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.factors import factors
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.numerals import numbers
@@ -45,7 +46,7 @@ NOUNS: Mapping[str, tuple[str, ...]] = {
 _CLASS = {"power": "figure", "rate": "figure"}
 """What a figure with a unit is called, beside nouns."""
 
-_SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…-]+")
+_SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…=-]+")
 _PREFIXED = re.compile(r"[0-9]\s?[kMG]$")
 _WORD = re.compile(r"[^\W\d_]+")
 _ONES = frozenset(
@@ -118,6 +119,10 @@ def tokens_of(line: Line, language: str) -> list[Token] | None:
                 phrase_start=number.start, phrase_end=number.end,
             )  # fmt: skip
             figures.append(bare)
+    for factor in factors(plain):
+        if plain[factor.start : factor.end].strip()[0] in "x0123456789" and factor.value is not None:  # "x2", "2x"
+            figures = [figure for figure in figures if not factor.start <= figure.start < factor.end]
+            spans[factor.start] = (factor.end, Token(frozenset({"factor"}), factor=float(factor.value)))
     for figure in figures:
         spans[figure.start] = (figure.end, Token(frozenset({_CLASS.get(figure.kind, figure.kind)}), figure=figure))
     return _segmented(plain, spans, language)
