@@ -96,8 +96,8 @@ def referred(line: Line, intent: Intent) -> Intent:
     elif not roles and len(named) == 1 and (speaks_of_one(plain) or (line.is_read and speaks_of_one(plain, "it"))):
         whom = named.pop()
     if whom is None:
-        leans = {act.kind for act in last if isinstance(act, Limit | Scale) and act.whom in named} & {*kinds}
-        leans = leans if not speaks_of_one(plain, "rate") and not speaks_of_one(plain, "promise") else set[str]()
+        of_named = {act.kind for act in last if isinstance(act, Limit | Scale) and act.whom in named}
+        leans = bool(of_named & {*kinds}) and not any(speaks_of_one(plain, noun) for noun in ("rate", "promise"))
         if roles or not (speaks_of_one(plain, "one") or leans):
             return intent
         return line.ask("whose_figure", text=intent.evidence[kinds[0]], users=line.voice.users(context.user_names))
@@ -219,7 +219,7 @@ class _Fragment(Words):
             return self._for_all_moved()
         if len(last) != 1:
             return None
-        act, old = last[0]
+        ((act, old),) = last
         users = tuple(user for user in self.users if user not in old)
         figures = [*self.figures, *([self.replaced] if self.replaced is not None else [])]
         denied = {*(f"{figure.value:g}" for figure in figures), *self.users} - {*users}
@@ -232,23 +232,23 @@ class _Fragment(Words):
         return self.acts([back, dataclasses.replace(act, whom=Named(users))])
 
     def _of_named(self) -> list[tuple[Limit | LeaveOut | Serve, tuple[str, ...]]]:
-        """What was said last of named users, and of whom; the same of several is said once."""
+        """What was said last of named users, with them; the same of several is said once."""
         said: dict[Limit | LeaveOut | Serve, tuple[str, ...]] = {}
-        for act in self.last(Limit, LeaveOut, Serve):
+        for act in cast("list[Limit | LeaveOut | Serve]", self.last(Limit, LeaveOut, Serve)):
             if isinstance(act.whom, Named):
                 same = dataclasses.replace(act, whom=Everybody(), words="")
                 said[same] = (*said.get(same, ()), *act.whom.users)
-        return list(said.items())
+        words = next((act.words for act in self.last(Limit)), "")
+        return [(dataclasses.replace(act, words=words), users) for act, users in said.items()]
 
     def _meant(self) -> tuple[str, ...]:
         """A user by the number alone, where it is one's by the words or can be no figure: "for 3", "4, not 3"."""
         users, last = self._counted(), self._of_named()
         if len(users) != 1 or len(last) != 1:
             return ()
-        act, of = last[0]
-        limit, figure = act if isinstance(act, Limit) else None, self.figures[0]
-        instead = self.replaced is not None and f"{self.replaced.value:g}" in of
-        is_figure = limit is not None and _value(figure, limit.kind, limit) is not None
+        ((act, named),) = last
+        instead = self.replaced is not None and f"{self.replaced.value:g}" in named
+        is_figure = isinstance(act, Limit) and _value(self.figures[0], act.kind, act) is not None
         return users if instead or self.has("whose") or not is_figure else ()
 
     def _for_all_moved(self) -> Intent:
