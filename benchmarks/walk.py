@@ -1,6 +1,6 @@
 """The walk of a line from ``Session.say`` to its reply: the modules of the talking half that it enters.
 
-Run with ``python benchmarks/walk.py ["a line" …] [--list]``. The talking half is ``language``, ``telling`` and ``agent``;
+Run with ``python benchmarks/walk.py ["a line" …] [--list]``. The talking half is ``language``, ``telling``, ``agent``;
 what senses, repairs and decides is not counted. The first line of each talk is said before, so that what is loaded once
 is loaded; the last line is walked.
 """
