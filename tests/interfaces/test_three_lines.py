@@ -18,6 +18,7 @@ from wirelessagent.agent.turn import Turn
 from wirelessagent.interfaces.cli import run
 from wirelessagent.store.record_of import understood
 from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.tables import decision_tables
 
 pytestmark = pytest.mark.machine_code
 
@@ -203,3 +204,12 @@ def test_a_question_without_its_mark_changes_nothing(line: str) -> None:
     turn = session.say(line)
     assert session.request == before
     assert turn.stage in ("answered", "asked")
+
+
+def test_the_tables_of_a_turn_are_those_of_the_run_that_it_speaks_of() -> None:
+    wish, other = "Highest total rate, at most 10 W", "now with 5 W"
+    turns = [*said(wish, wish, other, "undo"), *said(wish, "yes", other, "yes", "undo", confirm=True)]
+    assert [turn.stage for turn in turns[-2:]] == ["applied", "planned"]
+    for turn in turns:
+        assert turn.run is not None
+        assert list(turn.tables) == decision_tables(turn.run.report, turn.run.estimate)

@@ -7,18 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from questions import answer
 
 import wirelessagent as wa
-from wirelessagent.agent.asking import Asked, answered
-from wirelessagent.language.acts import Ask
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.intent_acts import acts_of
 from wirelessagent.model.units import human
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.reach import Reach, for_the_total, has_reach, reach
 from wirelessagent.telling.facts.steps import rate_step
 from wirelessagent.telling.step_effects import step_answer
-from wirelessagent.telling.text_table import Table
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
@@ -34,19 +30,6 @@ AIMS: tuple[tuple[str, dict[str, Any]], ...] = (
 def case_of(objective: Any, **constraints: Any) -> Case:
     problem = wa.Problem(objective, **{"max_power_w": 10.0, **constraints})
     return Case(decision=wa.decide(SEEN, problem, CELL), estimate=SEEN)
-
-
-def answer(
-    case: Case, topic: str, language: str = "en", user: int | None = None, **figures: float
-) -> tuple[str, tuple[Table, ...]]:
-    details: dict[str, Any] = {**figures, **({} if user is None else {"user": SEEN.user_names[user]})}
-    intent = Intent(
-        kind="question", objective=None, constraints={}, language=language, confidence=1.0, evidence={}, reply="",
-        recogniser="test", topic=topic, details=details,
-    )  # fmt: skip
-    act = acts_of(intent)[0]
-    assert isinstance(act, Ask)
-    return answered(Asked(case=case, report=wa.report(case.decision), language=language), act)
 
 
 def told(case: Case, topic: str, language: str = "en", user: int | None = None, **figures: float) -> str:

@@ -7,14 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from questions import answer
 
 import wirelessagent as wa
 from wirelessagent import plugins
-from wirelessagent.agent.asking import Asked, answered
 from wirelessagent.deciding.objectives.max_rate import MaxRate
-from wirelessagent.language.acts import Ask
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.intent_acts import acts_of
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human, percent
 from wirelessagent.telling import glossary
@@ -25,7 +22,6 @@ from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import nearest
 from wirelessagent.telling.facts.proof import certificate
 from wirelessagent.telling.facts.steps import power_step, rate_step
-from wirelessagent.telling.text_table import Table
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
@@ -36,19 +32,6 @@ LANGUAGES = ("en", "zh")
 def case_of(objective: Any, estimate: wa.ChannelEstimate = SEEN, method: str | None = None, **constraints: Any) -> Case:
     problem = wa.Problem(objective, **{"max_power_w": 10.0, **constraints})
     return Case(decision=wa.decide(estimate, problem, CELL, method), estimate=estimate, method=method)
-
-
-def answer(
-    case: Case, topic: str, language: str = "en", user: int | None = None, **figures: float
-) -> tuple[str, tuple[Table, ...]]:
-    details: dict[str, Any] = {**figures, **({} if user is None else {"user": SEEN.user_names[user]})}
-    intent = Intent(
-        kind="question", objective=None, constraints={}, language=language, confidence=1.0, evidence={}, reply="",
-        recogniser="test", topic=topic, details=details,
-    )  # fmt: skip
-    act = acts_of(intent)[0]
-    assert isinstance(act, Ask)
-    return answered(Asked(case=case, report=wa.report(case.decision), language=language), act)
 
 
 def told(case: Case, topic: str, language: str = "en", user: int | None = None, **figures: float) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -88,6 +89,11 @@ class Asked:
     language: str
     text: str = ""
 
+    @functools.cached_property
+    def instead(self) -> Nearest:
+        """What can be met instead of what was asked for."""
+        return nearest(self.case)
+
     def user(self, reference: str) -> int:
         """The number of a user.
 
@@ -111,7 +117,9 @@ def answered(asked: Asked, act: Ask) -> tuple[str, tuple[Table, ...]]:
     Raises:
         UnknownUserError: it is about a user who is not there, or names none where it has to; the message asks back.
     """
-    answer = _unmet_answer(asked, act) or _ANSWERS[type(act)](asked, act)
+    if _is_unmet(asked, act):
+        return nearest_answer(asked.case, asked.instead, asked.language), ()
+    answer = _ANSWERS[type(act)](asked, act)
     return (answer, ()) if isinstance(answer, str) else answer
 
 
@@ -151,12 +159,11 @@ def about_the_decision(talk: Talk, act: Ask) -> Reply:
     other = in_effect is not run and in_effect.decision.is_usable
     run = in_effect if other else run
     asked = Asked(case=run.case, report=run.report, language=talk.language, text=talk.text)
-    if run is talk.state.run and _needs_a_decision(act) and not run.decision.is_usable:
-        found = nearest(run.case)
-        state = dataclasses.replace(talk.state, question=None, offers=offers_of(run.case, found))
-        return Reply(decided=nearest_answer(run.case, found, talk.language), state=state)
     text, tables = answered(asked, act)
-    return Reply(decided=talk.say("about.in_effect", answer=text) if other else text, tables=tables)
+    state = None
+    if run is talk.state.run and _is_unmet(asked, act):
+        state = dataclasses.replace(talk.state, question=None, offers=offers_of(run.case, asked.instead))
+    return Reply(decided=talk.say("about.in_effect", answer=text) if other else text, tables=tables, state=state)
 
 
 def offers_of(case: Case, found: Nearest) -> tuple[tuple[Act, ...], ...]:
@@ -185,18 +192,10 @@ def unmet(turns: Sequence[Turn]) -> Run | None:
     return None if run is None or run.decision.is_usable else run
 
 
-def _unmet_answer(asked: Asked, act: Ask) -> Answer:
-    """Why nothing was decided and what could be, for a question that needs a decision; empty where there is one."""
-    case = asked.case
-    if case.decision.is_usable or not _needs_a_decision(act):
-        return ""
-    return nearest_answer(case, nearest(case), asked.language)
-
-
-def _needs_a_decision(act: Ask) -> bool:
-    """Whether a question has no answer where nothing was decided, but what can be met instead."""
-    anyway = isinstance(act, AskWhy | AskGain | AskDuration)
-    return not (anyway or (isinstance(act, AskStep) and act.users is None))
+def _is_unmet(asked: Asked, act: Ask) -> bool:
+    """Whether nothing was decided that a question could be answered of, so that what can be met instead is told."""
+    anyway = isinstance(act, AskWhy | AskGain | AskDuration) or (isinstance(act, AskStep) and act.users is None)
+    return not (anyway or asked.case.decision.is_usable)
 
 
 def _why(asked: Asked, act: AskWhy) -> Answer:

@@ -23,7 +23,6 @@ from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said, joined, message
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.parts import without_anything
-from wirelessagent.telling.tables import decision_tables
 
 
 def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
@@ -43,7 +42,6 @@ def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
         changed=changes_in_words(diff, shift, language),
         state=new,
         run=run,
-        tables=tuple(decision_tables(run.report, run.estimate, language)),
     )
     if not run.decision.is_usable:
         needs = joined(language, [talk.say("ask_back.unmet"), talk.say("ask_back.or_undo") if state.request else ""])
@@ -144,8 +142,7 @@ def _undone(talk: Talk, before: State, text: str) -> Reply:
     site, state, language = talk.site, talk.state, talk.language
     good, wanted = before.on_air, before.run
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
-    tables = () if wanted is None else tuple(decision_tables(wanted.report, wanted.estimate, language))
-    reply = Reply(decided=text, stage="undone", state=held, run=wanted, tables=tables)
+    reply = Reply(decided=text, stage="undone", state=held, run=wanted)
     if wanted is not None and _never_applied(before) and site.station(wanted) is not None:
         if state.on_air is not None and same_allocation(wanted.decision, state.on_air.decision):
             return reply
@@ -203,8 +200,7 @@ def _apply(talk: Talk, reply: Reply, run: Run, station: BaseStation) -> Reply:
     talk.site.progress(_applying(talk, station))
     effect = talk.site.carry_out(run, station, state.last_good)
     new = dataclasses.replace(state, run=effect.run, planned=None, question=None)
-    tables = tuple(decision_tables(effect.run.report, effect.run.estimate, language))
-    reply = dataclasses.replace(reply, run=effect.run, tables=tables, restored=effect.restored)
+    reply = dataclasses.replace(reply, run=effect.run, restored=effect.restored)
     if not effect.faults:
         new = dataclasses.replace(new, on_air=effect.run, last_good=effect.run)
         return _changing(reply, language, _whole(language, applied_line(effect.run)), stage="applied", state=new)
@@ -229,10 +225,7 @@ def _put_back(talk: Talk, reply: Reply, good: Run, station: BaseStation) -> Repl
         state, run=back if state.run is good else state.run, planned=None, question=None,
         on_air=None if trouble else back, last_good=state.last_good if trouble else back,
     )  # fmt: skip
-    tables = tuple(decision_tables(back.report, back.estimate, talk.language))
-    return _changing(
-        reply, talk.language, told, stage="undone", state=new, run=back, restored=outcome, tables=tables
-    )  # fmt: skip
+    return _changing(reply, talk.language, told, stage="undone", state=new, run=back, restored=outcome)
 
 
 def _applying(talk: Talk, station: BaseStation) -> Event:

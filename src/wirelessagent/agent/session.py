@@ -68,6 +68,7 @@ from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.tables import decision_tables
 
 _USER = re.compile(
     r"(?i)\s*(?:(?:no|sorry|i mean|i meant|make it|我是说|是)[,，\s]*)*"
@@ -240,7 +241,7 @@ class Session:
         """What the intent leads to; what cannot be done becomes a reply, and changes nothing."""
         intent = talk.intent
         try:
-            return _handled(talk, context)
+            return _with_tables(_handled(talk, context), intent.language)
         except UnclearRequestError as question:
             reference = question.reference if isinstance(question, UnknownUserError) else None
             missing = None if reference is None else Missing(intent=intent, reference=reference)
@@ -366,6 +367,14 @@ def _handled(talk: Talk, context: Context) -> Reply:
     act = acts[0]
     doubt = waiting.doubted(talk, act) if isinstance(act, Apply | Yes) else None
     return doubt or _REPLIES[type(act)](talk, act)
+
+
+def _with_tables(reply: Reply, language: str) -> Reply:
+    """A reply to what was asked for or done with the tables of its decision; an answer has its own."""
+    run = reply.run
+    if run is None or reply.stage == "answered":
+        return reply
+    return dataclasses.replace(reply, tables=tuple(decision_tables(run.report, run.estimate, language)))
 
 
 def _open_question(talk: Talk, context: Context) -> Reply:

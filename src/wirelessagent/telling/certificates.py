@@ -7,11 +7,11 @@ import numpy as np
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human, percent, probability, reliability
-from wirelessagent.telling.catalogue import called, has_message, joined, listed, message
+from wirelessagent.telling.catalogue import called, joined, listed, message
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.certainty import Certainty, certainty
 from wirelessagent.telling.facts.proof import Certificate, basis, certificate
-from wirelessagent.telling.parts import cannot_be_served, outcome_in_words, place
+from wirelessagent.telling.parts import cannot_be_served, goal_named, outcome_in_words, place
 from wirelessagent.telling.reasons import reason_in_words
 
 _HARDLY_ANY = 0.05
@@ -94,8 +94,7 @@ def rests_on(objective: Objective, language: str) -> str:
         return ""
     alpha = objective.power_law() or 0.0
     law = {0.0: "r", 1.0: "ln r"}.get(alpha, f"r^(1 − α)/(1 − α) with α = {alpha:g}")
-    key = f"goal.{objective.name}"
-    named = message(language, key) if has_message(language, key) else objective.name
+    named = goal_named(objective.name, objective.name, language)
     return message(language, f"proof.rests_on_{on}", objective=named, law=law)
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from wirelessagent import plugins
 from wirelessagent.model.objective import Objective
 from wirelessagent.telling.catalogue import Said, has_message, joined, languages, lines_of, message, messages
+from wirelessagent.telling.parts import goal_named
 from wirelessagent.telling.report import Report
 
 _NAMES, _MEANING = "term.names.", "term.meaning."
@@ -43,14 +44,11 @@ class Entry:
         meaning = message(language, key) if has_message(language, key) else self.summary
         if one is None:
             return meaning
-        spoken = one.name if language == "en" else next(iter(one.phrases.get(language, ())), self._goal(language))
+        spoken = one.name if language == "en" else next(
+            iter(one.phrases.get(language, ())), goal_named(self.key, self.key, language)
+        )  # fmt: skip
         unit = message(language, "term.unit", unit=one.unit) if one.unit else ""
         return message(language, "term.objective", objective=spoken, meaning=meaning) + unit
-
-    def _goal(self, language: str) -> str:
-        """What an objective without a phrase in the language is called; its registered name where nothing else is."""
-        key = f"goal.{self.key}"
-        return message(language, key) if has_message(language, key) else self.key
 
 
 def explained(text: str, language: str) -> Said:

@@ -29,8 +29,13 @@ def goal_words(objective: str, language: str) -> str:
     """What an objective is called: in the built-in words, else by its own first phrase."""
     own = plugins.objective(objective).phrases
     spoken = own.get(language) or own.get("en") or next(iter(own.values()), (objective.replace("_", " "),))
+    return goal_named(objective, spoken[0], language)
+
+
+def goal_named(objective: str, otherwise: str, language: str) -> str:
+    """What a built-in objective is called; one of a plug-in is called otherwise."""
     key = f"goal.{objective}"
-    return message(language, key) if has_message(language, key) else spoken[0]
+    return message(language, key) if has_message(language, key) else otherwise
 
 
 def value_name(decision: Decision, language: str) -> str:
@@ -61,7 +66,7 @@ def without_anything(decision: Decision, language: str) -> str:
     count = decision.rate_bps.size
     if not isinstance(objective, Objective) or objective.measure == "power" or not decision.is_usable:
         return ""
-    counts = decision.problem.serves(count) & (decision.problem.weights_of(count) > 0)
+    counts = decision.problem.weights_of(count) > 0
     idle = int(np.count_nonzero(counts & (decision.rate_bps <= 0)))
     if not idle or decision.value == 0:
         return ""
