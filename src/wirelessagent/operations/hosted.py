@@ -17,6 +17,7 @@ from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.run import station_of
 from wirelessagent.agent.tools import Tools
+from wirelessagent.agent.turn import Turn
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
 from wirelessagent.model.outcome import Outcome
@@ -84,7 +85,7 @@ class _Kept(BaseStation):
 
 
 class Hosted:
-    """A conversation about a cell.
+    """A conversation about a cell; ``turns`` are those that were said so far.
 
     Args:
         request: the cell, and where its turns are recorded.
@@ -96,6 +97,7 @@ class Hosted:
         self, request: ChatRequest, identity: str, progress: Progress, *, recalled: Sequence[tuple[str, bool]] = ()
     ) -> None:
         self._request, self._progress = request, progress
+        self.turns = list[HostedTurn]()
         self._pressed = False
         self._again: StoredTurn | None = None
         self._session = request.session(self._tell, confirm=True, station_of=self._station)
@@ -103,19 +105,21 @@ class Hosted:
         self._take_up(recalled)
 
     @property
-    def turns(self) -> int:
-        """How many were said so far."""
+    def number(self) -> int:
+        """Of the last turn; 0 before the first."""
         return len(self._session.turns)
 
-    def say(self, text: str, progress: Progress, *, by: str = "") -> HostedTurn:
-        """The turn of a line; it applies nothing."""
-        return self._said(text, progress, by)
+    def say(self, text: str, progress: Progress, *, by: str = "") -> None:
+        """Take a line; it applies nothing."""
+        self._progress = progress
+        turn, stored = self._request.said(self._session, text, by=by)
+        self._keep(turn, stored)
 
-    def press(self, what: Press, progress: Progress, *, by: str = "") -> HostedTurn:
-        """The turn of a button."""
+    def press(self, what: Press, progress: Progress, *, by: str = "") -> None:
+        """Take a button."""
         self._pressed = what == "yes"
         try:
-            return self._said(message(self._session.language, f"pressed.{what}"), progress, by)
+            self.say(message(self._session.language, f"pressed.{what}"), progress, by=by)
         finally:
             self._pressed = False
 
@@ -135,16 +139,15 @@ class Hosted:
             repaired=estimate.repaired.tolist(),
         )
 
-    def _said(self, text: str, progress: Progress, by: str) -> HostedTurn:
-        self._progress = progress
-        turn, stored = self._request.said(self._session, text, by=by)
-        return HostedTurn(
+    def _keep(self, turn: Turn, stored: int | None) -> None:
+        kept = HostedTurn(
             record=TurnRecord.of(turn, self._session, stored),
             language=turn.intent.language,
-            by=by,
+            by=turn.by,
             in_effect=self._in_effect(),
             waits=self._session.state.awaits == "confirmation",
         )
+        self.turns.append(kept)
 
     def _tell(self, event: Event) -> None:
         self._progress(event)
@@ -176,11 +179,11 @@ class Hosted:
         """Say again what was said: lines recorded elsewhere, then those in the store."""
         for text, pressed in recalled:
             self._pressed = pressed
-            self._session.say(text)
+            self._keep(self._session.say(text), None)
         self._pressed = False
         for turn in self._stored():
             self._again = turn
-            self._session.say(turn.text, by=str(turn.intent.get("by", "")))
+            self._keep(self._session.say(turn.text, by=str(turn.intent.get("by", ""))), turn.number)
         self._again = None
 
     def _stored(self) -> list[StoredTurn]:
@@ -210,4 +213,31 @@ def facts_of(request: ChatRequest, progress: Progress) -> CellFacts:
         num_subcarriers=scene.sensed.num_subcarriers,
         base_station=None if station is None else station.name,
         max_power_w=scene.cell.max_power_w,
+    )
+
+
+class SeenAnswer(Record):
+    """What a file with gains holds; ``gain`` is the current slot, null = missing."""
+
+    facts: dict[str, str]
+    user_names: list[str]
+    num_users: int
+    num_subcarriers: int
+    num_slots: int
+    missing: int
+    gain: Matrix
+
+
+def seen_in(request: ChatRequest, progress: Progress) -> SeenAnswer:
+    """What is seen of the channel that a request is about, with nothing lost."""
+    scene = request.scene(progress)
+    seen = scene.sensed
+    return SeenAnswer(
+        facts=dict(scene.facts),
+        user_names=list(seen.user_names),
+        num_users=seen.num_users,
+        num_subcarriers=seen.num_subcarriers,
+        num_slots=seen.num_slots,
+        missing=int(seen.missing.sum()),
+        gain=seen.current.tolist(),
     )

@@ -10,6 +10,7 @@ be ended at any moment, and what was recorded is all that its successor needs.
 
 from __future__ import annotations
 
+import base64
 import json
 import os
 import sys
@@ -18,10 +19,11 @@ from typing import IO, Any
 
 from pydantic import BaseModel
 
+from wirelessagent.operations.allocation_file import allocation_file
 from wirelessagent.operations.catalogue import OPERATIONS, load
 from wirelessagent.operations.chat import CHAT, ChatRequest
 from wirelessagent.operations.forms import filled, form_of, needs_channel, takes_channel, telling_what_is_wrong
-from wirelessagent.operations.hosted import Hosted, facts_of
+from wirelessagent.operations.hosted import Hosted, facts_of, seen_in
 from wirelessagent.operations.operation import Event, InputError, Progress, WirelessAgentError
 from wirelessagent.operations.record import Block, Files, Table
 
@@ -73,28 +75,42 @@ class Worker:
     def say(self, told: Mapping[str, Any], progress: Progress) -> Any:
         """A line of a conversation."""
         hosted = self._conversation(told, progress)
-        return self._with_channel(hosted, hosted.say(told["text"], progress, by=told["by"]))
+        hosted.say(told["text"], progress, by=told["by"])
+        return _since(hosted, told["turns"])
 
     def press(self, told: Mapping[str, Any], progress: Progress) -> Any:
         """A button of a conversation."""
         hosted = self._conversation(told, progress)
-        return self._with_channel(hosted, hosted.press(told["what"], progress, by=told["by"]))
+        hosted.press(told["what"], progress, by=told["by"])
+        return _since(hosted, told["turns"])
 
-    @staticmethod
-    def _with_channel(hosted: Hosted, turn: BaseModel) -> Any:
-        channel = hosted.channel()
-        return {
-            "turn": turn.model_dump(mode="json"),
-            "channel": None if channel is None else channel.model_dump(mode="json"),
-        }
+    def inspect(self, told: Mapping[str, Any], progress: Progress) -> Any:
+        """What a file with gains holds."""
+        return seen_in(_cell(told), progress)
+
+    def allocation(self, told: Mapping[str, Any], progress: Progress) -> Any:
+        """The allocation of a recorded turn as a file."""
+        del progress
+        media_type, content = allocation_file(told["number"], told["format"])
+        return {"media_type": media_type, "content": base64.b64encode(content).decode("ascii")}
 
     def _conversation(self, told: Mapping[str, Any], progress: Progress) -> Hosted:
         """The conversation that is meant; taken up again where this process does not have it."""
         identity = told["session"]
-        if identity not in self._hosted or told["turns"] != self._hosted[identity].turns:
+        if identity not in self._hosted or told["turns"] != self._hosted[identity].number:
             recalled = [(text, pressed) for text, pressed in told.get("recalled", ())]
             self._hosted[identity] = Hosted(_cell(told), identity, progress, recalled=recalled)
         return self._hosted[identity]
+
+
+def _since(hosted: Hosted, number: int) -> dict[str, Any]:
+    """The turns behind the one of this number, and what is known of the channel."""
+    turns = [turn for turn in hosted.turns if turn.record.number > number]
+    channel = hosted.channel()
+    return {
+        "turns": [turn.model_dump(mode="json") for turn in turns],
+        "channel": None if channel is None else channel.model_dump(mode="json"),
+    }
 
 
 def _cell(told: Mapping[str, Any]) -> ChatRequest:
