@@ -58,6 +58,7 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
 
         from wirelessagent.interfaces.http.app import make_app
         from wirelessagent.interfaces.http.deadline import DeadlineProtocol
+        from wirelessagent.interfaces.http.logs import log_as_json
         from wirelessagent.interfaces.http.shield import Doors
         from wirelessagent.service.limits import Limits
         from wirelessagent.service.opening import open_service
@@ -90,6 +91,7 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
         app, http=DeadlineProtocol, loop="asyncio", ws="none", log_level="warning", access_log=False,
         server_header=False, proxy_headers=bool(proxies), forwarded_allow_ips=proxies, timeout_graceful_shutdown=5,
     )  # fmt: skip
+    log_as_json()
     uvicorn.Server(config).run(sockets=[listening])
     return ServeRecord(url=url)
 

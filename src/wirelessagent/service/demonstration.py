@@ -25,6 +25,7 @@ def _record() -> dict[str, Any]:
     from wirelessagent.operations.chat import ChatRequest
     from wirelessagent.operations.hosted import Hosted, facts_of
     from wirelessagent.operations.operation import silent
+    from wirelessagent.operations.record import as_json
 
     request = ChatRequest(**_OPTIONS, no_store=True)  # pyright: ignore[reportArgumentType]
     hosted, recalled = Hosted(request, "demonstration", silent), list[tuple[str, bool]]()
@@ -34,16 +35,16 @@ def _record() -> dict[str, Any]:
         if applied:
             hosted.press("yes", silent)
             recalled.append((hosted.turns[-1].record.text, True))
-    turns = [turn.model_dump(mode="json") for turn in hosted.turns]
+    turns = [as_json(turn) for turn in hosted.turns]
     last, channel = turns[-1], hosted.channel()
     assert channel is not None
     return {
         "cell": {"name": "Demonstration", "options": _OPTIONS, "observation": None,
-                 **facts_of(request, silent).model_dump(mode="json")},
+                 **as_json(facts_of(request, silent))},
         "session": {"turns": len(turns), "recalled": recalled, "in_effect": last["in_effect"],
                     "language": last["language"], "awaits": "nothing"},
         "turns": [{**turn["record"], "by": "", "language": turn["language"]} for turn in turns],
-        "channel": channel.model_dump(mode="json"),
+        "channel": as_json(channel),
         "last": {**last, "record": {"stage": last["record"]["stage"], "number": last["record"]["number"]}},
     }  # fmt: skip
 

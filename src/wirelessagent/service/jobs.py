@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import secrets
 from collections import OrderedDict
 from collections.abc import AsyncGenerator, Awaitable, Callable
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
+from wirelessagent.operations.operation import WirelessAgentError
 from wirelessagent.service.problems import NotFoundError, ProblemError
+
+_log = logging.getLogger("wirelessagent.service")
 
 State: TypeAlias = Literal["running", "done", "failed", "cancelled"]
 
@@ -89,10 +93,13 @@ class Job:
         except ProblemError as problem:
             self.problem = problem
             self._end("failed", problem.body)
-        except BaseException:
+        except WirelessAgentError as error:
+            self.problem = ProblemError(str(error), status=500, title="This failed")
+            self._end("failed", self.problem.body)
+        except Exception:
+            _log.exception("a job failed")
             self.problem = ProblemError("the server's log says more", status=500, title="Internal error")
             self._end("failed", self.problem.body)
-            raise
         else:
             self._end("done", self.result)
 

@@ -190,7 +190,7 @@ class Service:
         async with self._lock(session):
             if what != "undo":
                 await self._take(session, what, plan)
-            return await self._turn(session, caller, tell, "press", what=what)
+            return await self._turn(session, caller, tell, "press", button=what)
 
     async def _take(self, session: str, what: Press, plan: str | None) -> None:
         """Take the plan that waits, so that nobody else can.

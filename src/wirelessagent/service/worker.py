@@ -17,15 +17,13 @@ import sys
 from collections.abc import Callable, Mapping
 from typing import IO, Any
 
-from pydantic import BaseModel
-
 from wirelessagent.operations.allocation_file import allocation_file
 from wirelessagent.operations.catalogue import OPERATIONS, load
 from wirelessagent.operations.chat import CHAT, ChatRequest
 from wirelessagent.operations.forms import filled, form_of, needs_channel, takes_channel, telling_what_is_wrong
 from wirelessagent.operations.hosted import Hosted, facts_of, seen_in
 from wirelessagent.operations.operation import Event, InputError, Progress, WirelessAgentError
-from wirelessagent.operations.record import Block, Files, Table
+from wirelessagent.operations.record import Block, Files, Record, Table, as_json
 
 _DEFAULT_MEMORY_BYTES = 6 << 30
 
@@ -48,7 +46,7 @@ class Worker:
             form = form_of(operation)(**told["form"])
         record = operation.run(filled(operation, form, channel), progress)
         return {
-            "record": record.model_dump(mode="json"),
+            "record": as_json(record),
             "blocks": [_plain(block) for block in record.blocks()],
             "conclusion": record.conclusion,
         }
@@ -81,7 +79,7 @@ class Worker:
     def press(self, told: Mapping[str, Any], progress: Progress) -> Any:
         """A button of a conversation."""
         hosted = self._conversation(told, progress)
-        hosted.press(told["what"], progress, by=told["by"])
+        hosted.press(told["button"], progress, by=told["by"])
         return _since(hosted, told["turns"])
 
     def inspect(self, told: Mapping[str, Any], progress: Progress) -> Any:
@@ -108,8 +106,8 @@ def _since(hosted: Hosted, number: int) -> dict[str, Any]:
     turns = [turn for turn in hosted.turns if turn.record.number > number]
     channel = hosted.channel()
     return {
-        "turns": [turn.model_dump(mode="json") for turn in turns],
-        "channel": None if channel is None else channel.model_dump(mode="json"),
+        "turns": [as_json(turn) for turn in turns],
+        "channel": None if channel is None else as_json(channel),
     }
 
 
@@ -163,7 +161,7 @@ def serve(lines: IO[str], answers: IO[str]) -> None:
                 _log(error)
             answer(identity, failed=_told(error))
         else:
-            answer(identity, done=found.model_dump(mode="json") if isinstance(found, BaseModel) else found)
+            answer(identity, done=as_json(found) if isinstance(found, Record) else found)
 
 
 def _log(error: BaseException) -> None:

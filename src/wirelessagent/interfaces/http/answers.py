@@ -76,6 +76,8 @@ def problem_of(error: Exception) -> ProblemError:
             first = error.errors()[0]
             place = ".".join(str(part) for part in first["loc"] if part != "body") or "the body"
             return UnusableError(f"{place}: {first['msg'].removeprefix('Value error, ')}")
+        case HTTPException(__cause__=ProblemError() as problem):  # from reading the body
+            return problem
         case HTTPException():
             return ProblemError(str(error.detail), status=error.status_code, title=str(error.detail))
         case InputError():

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import logging
 import time
 import uuid
 from collections.abc import Mapping
@@ -20,6 +19,7 @@ from urllib.parse import urlsplit
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from wirelessagent.interfaces.http.logs import REQUESTS
 from wirelessagent.service.access import LOCAL, Caller
 from wirelessagent.service.limits import Budgets
 from wirelessagent.service.problems import (
@@ -30,8 +30,6 @@ from wirelessagent.service.problems import (
     UnusableError,
 )
 from wirelessagent.service.service import Service
-
-_log = logging.getLogger("wirelessagent.http")
 
 COOKIE = "wirelessagent"
 """The name of the cookie of a browser session."""
@@ -104,12 +102,10 @@ class Shield:
         finally:
             route = getattr(scope.get("route"), "path", "") or "other"
             self._service.metrics.answered(route, status, time.monotonic() - began)
-            _log.info(
-                "%s", json.dumps({
-                    "request": identity, "method": scope["method"], "path": scope["path"][:200], "status": status,
-                    "ms": round(1000 * (time.monotonic() - began), 1), "by": self._name(scope),
-                }),
-            )  # fmt: skip
+            REQUESTS.info({
+                "request": identity, "method": scope["method"], "path": scope["path"][:200], "status": status,
+                "ms": round(1000 * (time.monotonic() - began), 1), "by": self._name(scope),
+            })  # fmt: skip
 
     @staticmethod
     def _name(scope: Scope) -> str:
