@@ -31,7 +31,7 @@ def allocation_file(number: int, format: str) -> tuple[str, bytes]:
     """
     if format not in MEDIA_TYPES:
         raise InputError(f"format: known are {', '.join(MEDIA_TYPES)}; got {format!r}")
-    with opened(StoreOptions()) as store:
+    with opened(StoreOptions(store=None)) as store:
         turn = store.turn(number).whole()
         if turn.estimate is None or turn.observation is None:
             raise InputError(f"turn {number} decided nothing ({turn.stage}), so there is no allocation")

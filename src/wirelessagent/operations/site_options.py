@@ -68,7 +68,7 @@ class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions)
         from wirelessagent.sensing.loss import parse
 
         default_loss = [] if self.csi else ["random:0.2"]
-        options = {
+        options: dict[str, Any] = {
             "seed": self.seed,
             "recogniser": self.chosen_recogniser(),
             "confirm": False if self.yes else None,

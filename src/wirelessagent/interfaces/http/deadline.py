@@ -43,5 +43,4 @@ class DeadlineProtocol(H11Protocol):
 
     def _hang_up(self) -> None:
         self._deadline = None
-        if self.cycle is None or self.cycle.response_complete:
-            self.transport.close()
+        self.transport.close()

@@ -16,10 +16,7 @@ class _AsJson(logging.Formatter):
     def format(self, record: logging.LogRecord) -> str:
         at = datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds")
         said: dict[str, Any] = {"at": at, "level": record.levelname.lower(), "logger": record.name}
-        if isinstance(record.msg, dict):
-            said |= record.msg
-        else:
-            said["message"] = record.getMessage()
+        said |= getattr(record, "request", None) or {"message": record.getMessage()}
         if record.exc_info:
             said["trace"] = self.formatException(record.exc_info)
         return json.dumps(said, ensure_ascii=True)

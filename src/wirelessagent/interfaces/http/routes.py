@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Awaitable, Callable
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 from fastapi import APIRouter, Path, Query, Request, Response
 from fastapi.responses import JSONResponse
@@ -20,6 +20,7 @@ from wirelessagent.interfaces.http.answers import (
 )
 from wirelessagent.operations.operation import installed_version
 from wirelessagent.service.jobs import Tell
+from wirelessagent.service.problems import UnusableError
 from wirelessagent.service.service import Press
 from wirelessagent.service.words import LANGUAGES, words
 
@@ -191,16 +192,14 @@ async def list_operations(request: Request) -> dict[str, Any]:
 async def operate(request: Request, name: Annotated[str, Path(min_length=1, max_length=40)]) -> Response:
     """Run an operation of the catalogue; ``observation`` names the channel where it works on one."""
     body, service = await request.body(), service_of(request)
-    form: Any = strict_json(body) if body.strip() else {}
+    form = strict_json(body) if body.strip() else {}
     if not isinstance(form, dict):
-        raise forms_error()
-    return await worked(request, lambda tell: service.operate(name, form, tell), shown=body.decode("utf-8", "replace"))
-
-
-def forms_error() -> Exception:
-    from wirelessagent.service.problems import UnusableError
-
-    return UnusableError("the body is an object with the fields of the operation's form")
+        raise UnusableError("the body is an object with the fields of the operation's form")
+    return await worked(
+        request,
+        lambda tell: service.operate(name, cast("dict[str, Any]", form), tell),
+        shown=body.decode("utf-8", "replace"),
+    )
 
 
 @router.get("/history", tags=["history"])

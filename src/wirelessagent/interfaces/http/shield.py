@@ -102,10 +102,11 @@ class Shield:
         finally:
             route = getattr(scope.get("route"), "path", "") or "other"
             self._service.metrics.answered(route, status, time.monotonic() - began)
-            REQUESTS.info({
+            told = {
                 "request": identity, "method": scope["method"], "path": scope["path"][:200], "status": status,
                 "ms": round(1000 * (time.monotonic() - began), 1), "by": self._name(scope),
-            })  # fmt: skip
+            }  # fmt: skip
+            REQUESTS.info("request", extra={"request": told})
 
     @staticmethod
     def _name(scope: Scope) -> str:
