@@ -96,7 +96,7 @@ class Job:
         except WirelessAgentError as error:
             self.problem = ProblemError(str(error), status=500, title="This failed")
             self._end("failed", self.problem.body)
-        except Exception:
+        except Exception:  # noqa: BLE001  # whoever waits is told, and the log says what it was
             _log.exception("a job failed")
             self.problem = ProblemError("the server's log says more", status=500, title="Internal error")
             self._end("failed", self.problem.body)

@@ -192,14 +192,11 @@ async def list_operations(request: Request) -> dict[str, Any]:
 async def operate(request: Request, name: Annotated[str, Path(min_length=1, max_length=40)]) -> Response:
     """Run an operation of the catalogue; ``observation`` names the channel where it works on one."""
     body, service = await request.body(), service_of(request)
-    form = strict_json(body) if body.strip() else {}
-    if not isinstance(form, dict):
+    given: Any = strict_json(body) if body.strip() else {}
+    if not isinstance(given, dict):
         raise UnusableError("the body is an object with the fields of the operation's form")
-    return await worked(
-        request,
-        lambda tell: service.operate(name, cast("dict[str, Any]", form), tell),
-        shown=body.decode("utf-8", "replace"),
-    )
+    form = cast("dict[str, Any]", given)
+    return await worked(request, lambda tell: service.operate(name, form, tell), shown=body.decode("utf-8", "replace"))
 
 
 @router.get("/history", tags=["history"])
