@@ -32,7 +32,7 @@ export function allocationPicture(decisions, { width, top, id, moved }) {
   const cell = Math.max(LEAST, (width - LEFT) / count);
   const base = BARS + 10;
   const right = LEFT + cell * count;
-  const height = base + decisions.length * (STRIP + 3) + (moved.length ? 18 : 4);
+  const height = base + decisions.length * (STRIP + 3) + 16;
   const { scale } = prefixed(top, "W");
   const gap = cell > 8 ? 2 : cell > 4 ? 1 : 0;
   const parts = [patterns(decision.user_names.length, id),

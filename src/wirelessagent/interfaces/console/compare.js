@@ -3,7 +3,7 @@
 import { allocationPicture, highestPower, userLegend } from "./allocation.js";
 import { byId, element, onWidth } from "./dom.js";
 import { highestRate, ratesPicture } from "./rates.js";
-import { changedHands, inShort, isUsable, limitRows, sum } from "./turns.js";
+import { changedHands, inShort, isUsable, limitRows, saidFor, sum } from "./turns.js";
 import { clock, human, percent, rate, watts } from "./units.js";
 import { aimName, heading, say } from "./words.js";
 
@@ -33,14 +33,15 @@ function figures(turns) {
 
 /**
  * Open the comparison of two turns or more.
+ * @param {object} session that they are of
  * @param {object[]} turns
  */
-export function openComparison(turns) {
+export function openComparison(session, turns) {
   const dialog = byId("compare");
   const usable = turns.filter(isUsable);
   const [power, most] = [highestPower(usable.map((turn) => turn.decision)), highestRate(usable) * 1.08];
   const head = element("tr", {}, element("td"), turns.map((turn) => element("th", { scope: "col" },
-    `${heading(say("turn.column", { number: turn.number }))} · ${clock(turn.at_utc)}`, element("small", {}, turn.text))));
+    `${heading(say("turn.column", { number: turn.number }))} · ${clock(turn.at_utc)}`, element("small", {}, saidFor(session, turn)))));
   const pictures = element("div", { class: "columns" }, usable.map((turn, place) => {
     const [allocation, rates] = [element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": say("console.allocation") }), element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": say("console.rates") })];
     const moved = place ? changedHands(usable[0].decision, turn.decision) : [];

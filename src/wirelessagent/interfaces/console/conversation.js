@@ -85,6 +85,14 @@ export function setUpConversation(actions) {
   });
 }
 
+/** Put a line that came to nothing back into the input, unless something else is being typed there. */
+export function giveBack(text) {
+  const input = byId("line");
+  if (!text || input.value) return;
+  input.value = text;
+  input.dispatchEvent(new Event("input"));
+}
+
 /**
  * Draw what is new; what was drawn stays, so that opened details stay open.
  * @param {object} state

@@ -6,14 +6,14 @@ import { drawCells, setUpNewCell } from "./cells.js";
 import { drawCertificate, drawPrices } from "./certificate.js";
 import { drawChannel } from "./channel.js";
 import { openComparison } from "./compare.js";
-import { drawConversation, setUpConversation } from "./conversation.js";
+import { drawConversation, giveBack, setUpConversation } from "./conversation.js";
 import { byId } from "./dom.js";
 import { drawExport } from "./exporting.js";
 import { drawPlan } from "./plan.js";
 import { drawRates } from "./rates.js";
 import { setUpLanguages, setUpTheme, signOut, wantedLanguage } from "./settings.js";
 import { drawTimeline } from "./timeline.js";
-import { inShort, isUsable, turnOf } from "./turns.js";
+import { inShort, isUsable, saidFor, turnOf } from "./turns.js";
 import { nameUnits, setUpUpload } from "./upload.js";
 import { say, speak } from "./words.js";
 
@@ -71,7 +71,7 @@ function draw() {
   byId("in-effect").textContent = now.effect ? say("console.in_effect_is", { what: inShort(now.effect) }) : say("console.nothing_in_effect");
   byId("in-effect").classList.toggle("on", Boolean(now.effect));
   byId("looking").hidden = !now.looked;
-  if (now.looked) byId("looking-text").textContent = say("console.looking", { number: now.looked.number, text: now.looked.text });
+  if (now.looked) byId("looking-text").textContent = say("console.looking", { number: now.looked.number, text: saidFor(state.session, now.looked) });
   byId("return").hidden = !now.canAct || now.looked === now.effect;
 }
 
@@ -143,6 +143,7 @@ async function work(id, text) {
     });
   } catch (problem) {
     fail(problem);
+    giveBack(text);
   }
   state.job = null;
   await tick();
@@ -182,7 +183,7 @@ const actions = {
     draw();
     byId("pictures").scrollIntoView({ block: "nearest" });
   },
-  compare: openComparison,
+  compare: (turns) => openComparison(state.session, turns),
   pick: choose,
 };
 

@@ -1,18 +1,16 @@
 /** The decisions in time: each can be opened, two can be compared. */
 
 import { byId, element } from "./dom.js";
-import { inShort } from "./turns.js";
+import { inShort, planOf } from "./turns.js";
 import { clock } from "./units.js";
 import { say, stageName } from "./words.js";
 
 const marked = new Set();
 
-const same = (one, other) => JSON.stringify([one.owner, one.power_w]) === JSON.stringify([other.owner, other.power_w]);
-
 /** The turns that decided something; a plan that was applied as it was is told once. */
-export function decisionsOf(session) {
-  return session.turns.filter((turn) => turn.decision && !(turn.stage === "planned"
-    && session.turns.some((later) => later.number > turn.number && later.stage === "applied" && same(turn.decision, later.decision))));
+function decisionsOf(session) {
+  const told = new Set(session.turns.map((turn) => planOf(session, turn)));
+  return session.turns.filter((turn) => turn.decision && !told.has(turn));
 }
 
 function stateOf(turn, { effect, planTurn }) {

@@ -84,6 +84,19 @@ export function changedHands(before, after) {
 
 export const sum = (values) => values.reduce((total, value) => total + value, 0);
 
+/** Whether two decisions are the same allocation. */
+const sameAllocation = (one, other) => JSON.stringify([one.owner, one.power_w]) === JSON.stringify([other.owner, other.power_w]);
+
+/** The plan that a turn applied as it was, or null: "yes" says less than the line that planned it. */
+export function planOf(session, turn) {
+  if (turn.stage !== "applied" || !turn.decision) return null;
+  return session.turns.findLast((one) => one.number < turn.number && one.stage === "planned" && one.decision
+    && sameAllocation(one.decision, turn.decision)) ?? null;
+}
+
+/** What was said for a turn's decision. */
+export const saidFor = (session, turn) => (planOf(session, turn) ?? turn).text;
+
 /** A turn in one short line: its aim and what it is worth. */
 export function inShort(turn) {
   const { objective, value, unit } = turn.decision;
