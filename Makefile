@@ -4,11 +4,11 @@ UV_VERSION := 0.13.8
 PYTHON ?= python3
 # uv from the path if there is one, else a copy of our own.
 UV := $(shell command -v uv 2>/dev/null || echo .tools/uv/bin/uv)
-RUN := $(UV) run --frozen --extra plot --extra evaluate --extra llm
+RUN := $(UV) run --frozen --extra plot --extra evaluate --extra llm --extra serve
 
 export UV_COMPILE_BYTECODE ?= 1
 
-.PHONY: demo test check quick bars lint code bench docs format clean
+.PHONY: demo serve test check quick bars lint code bench docs format clean
 
 demo: $(UV)  ## run the chain on measured and on simulated channels and leave the pictures in demo/
 	$(UV) sync --frozen --quiet --inexact --no-default-groups --extra plot
@@ -17,15 +17,19 @@ demo: $(UV)  ## run the chain on measured and on simulated channels and leave th
 		--csi examples/data/measured_wifi.npz --loss random:0.2 --plot demo/measured.png
 	.venv/bin/wirelessagent ask "Higher speed for video streaming" --plot demo/simulated.png
 
+serve: $(UV)  ## open the console on a demonstration cell
+	$(UV) sync --frozen --quiet --inexact --no-default-groups --extra plot --extra serve
+	.venv/bin/wirelessagent serve --open
+
 test: $(UV)  ## all that CI needs: lint and types beside compiling, all tests, the third-party example
-	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm
+	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve
 	$(MAKE) --no-print-directory -j2 lint code
 	$(RUN) pytest -n auto --dist worksteal
 	$(UV) pip install --quiet --no-deps --target build/third_party ./examples/third_party_objective
 	WIRELESSAGENT_COMPILE=never PYTHONPATH=build/third_party $(RUN) pytest examples/third_party_objective/tests
 
 check: $(UV)  ## lint, types, and the tests that need no machine code
-	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm
+	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve
 	$(MAKE) --no-print-directory -j2 lint quick
 
 quick:
@@ -42,7 +46,7 @@ bars: $(UV) code  ## the full counts behind the figures in the documentation; ho
 	$(RUN) python benchmarks/bars_intents.py
 
 lint: $(UV)
-	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm
+	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve
 	$(RUN) ruff format --check .
 	$(RUN) ruff check .
 	$(RUN) lint-imports

@@ -13,7 +13,8 @@ from pydantic import ValidationError
 from wirelessagent.language.llm_settings import LlmSettings
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.catalogue import OPERATIONS, load
-from wirelessagent.operations.llm_tools import OFFERED, form_of, llm_tools, tool_of
+from wirelessagent.operations.forms import form_of
+from wirelessagent.operations.llm_tools import OFFERED, llm_tools, tool_of
 from wirelessagent.plugins import names
 
 pytest.importorskip("pydantic_ai")

@@ -27,6 +27,7 @@ from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.restating import noted_after
+from wirelessagent.agent.run import station_of
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Missing, Question, Reply, State, Talk, asked_back
 from wirelessagent.agent.tools import Tools
@@ -132,6 +133,7 @@ class Session:
         store: keeps every turn.
         progress: is told of each stage as it happens.
         raises: raise what goes wrong instead of telling it; questions back are told all the same.
+        station_of: finds the base station for tools and a scene, where none is given.
     """
 
     def __init__(
@@ -147,16 +149,17 @@ class Session:
         store: TurnStore | None = None,
         progress: Progress = silent,
         raises: bool = False,
+        station_of: Callable[[Tools, Scene], BaseStation | None] = station_of,
     ) -> None:
         self._site = Site(
             scene, losses, seed=seed, tools=tools or Tools(), base_station=base_station, confirm=confirm,
-            tolerance=tolerance, progress=progress,
+            tolerance=tolerance, progress=progress, station_of=station_of,
         )  # fmt: skip
         self._recogniser = recogniser or OfflineRecogniser()
         self._store, self._progress, self._raises = store, progress, raises
         self._state, self._past = State(), list[State]()
         self._turns, self._requests = list[Turn](), list[Request | None]()
-        self._language = ""
+        self._language = self._by = ""
         self.id = uuid.uuid4().hex[:12]
 
     @property
@@ -174,8 +177,14 @@ class Session:
         """What holds: the request, the decision, what waits for a yes, and what is in effect."""
         return self._state
 
-    def say(self, text: str) -> Turn:
-        """Take a line from the operator: understand it, do what it asks, and reply."""
+    @property
+    def language(self) -> str:
+        """The operator's, as of the last line; English before the first."""
+        return self._language or "en"
+
+    def say(self, text: str, *, by: str = "") -> Turn:
+        """Take a line from the operator (``by`` name, where that is known): understand it, do what it asks, reply."""
+        self._by = by
         context, before = self._context(), self._state
         intent = self._taken(self._answered(text, context) or understood(text, context, self._recogniser))
         self._state = dataclasses.replace(self._state, supposed=None)
@@ -298,6 +307,7 @@ class Session:
             faulty=reply.faulty,
             diff=difference(before.request, after.request),
             shift=shift_between(then, now),
+            by=self._by,
         )
         if self._store is not None:
             try:

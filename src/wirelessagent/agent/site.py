@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Sequence
 
 from wirelessagent import chain
 from wirelessagent.acting.base_station import BaseStation
@@ -46,7 +46,9 @@ class Site:
         confirm: bool | None,
         tolerance: float,
         progress: Progress,
+        station_of: Callable[[Tools, Scene], BaseStation | None] = station_of,
     ) -> None:
+        self._station_of = station_of
         self.scene, self.losses, self.seed, self.tools = scene, tuple(losses), seed, tools
         self.tolerance, self.progress = tolerance, progress
         self._base_station, self._confirm = base_station, confirm
@@ -100,7 +102,7 @@ class Site:
 
     def station(self, run: Run) -> BaseStation | None:
         """The base station that a run would be applied at; None where there is none."""
-        return self._base_station or station_of(self.tools, run.scene)
+        return self._base_station or self._station_of(self.tools, run.scene)
 
     def asks(self, station: BaseStation) -> bool:
         """Whether the operator has to say yes before anything is applied."""

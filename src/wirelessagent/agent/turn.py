@@ -173,6 +173,7 @@ class Turn(Shown):
         faulty: whether what is in effect now is not as it was decided or promised, with nothing to go back to.
         diff: what the turn changed of what is asked for.
         shift: what it changed of the allocation that held; None where it decided nothing, or nothing held.
+        by: the operator's name, where several are known.
     """
 
     number: int
@@ -192,6 +193,7 @@ class Turn(Shown):
     faulty: bool = False
     diff: Diff = field(default_factory=Diff)
     shift: Shift | None = None
+    by: str = ""
 
     @property
     def reply(self) -> str:

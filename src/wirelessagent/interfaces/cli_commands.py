@@ -12,7 +12,7 @@ from click.shell_completion import CompletionItem
 from wirelessagent.interfaces.cli_help import family_sections, page, parameter_sections, program_sections
 from wirelessagent.interfaces.cli_options import Parameters
 from wirelessagent.interfaces.cli_output import tell_page
-from wirelessagent.operations.catalogue import FAMILIES, OPERATIONS, load
+from wirelessagent.interfaces.commands import COMMANDS, FAMILIES, load
 from wirelessagent.operations.operation import AnyOperation
 
 Perform: TypeAlias = Callable[[AnyOperation, dict[str, Any], bool], int]
@@ -40,7 +40,7 @@ class OperationCommand(click.Command):
     """The command of one operation. Its options are its request's; those of plug-ins come when one of them is used."""
 
     def __init__(self, name: str, perform: Perform) -> None:
-        super().__init__(name.split()[-1], callback=self.run, help=OPERATIONS[name], add_help_option=False)
+        super().__init__(name.split()[-1], callback=self.run, help=COMMANDS[name], add_help_option=False)
         self._operation_name, self._perform = name, perform
 
     @functools.cached_property
@@ -72,7 +72,7 @@ class OperationCommand(click.Command):
             self._parameters.find_plugins()
         return page(
             " ".join([ctx.command_path, *self.collect_usage_pieces(ctx)]),
-            OPERATIONS[self._operation_name],
+            COMMANDS[self._operation_name],
             parameter_sections(self.get_params(ctx), everything=everything),
             examples=self.operation.examples,
         )
@@ -92,23 +92,23 @@ class Commands(click.Group):
     def __init__(self, family: str, perform: Perform, options: Sequence[click.Parameter] = ()) -> None:
         super().__init__(
             family or None, callback=self._run, params=list(options), invoke_without_command=True,
-            help=OPERATIONS.get(family) or FAMILIES.get(family, _SUMMARY), add_help_option=False,
+            help=COMMANDS.get(family) or FAMILIES.get(family, _SUMMARY), add_help_option=False,
         )  # fmt: skip
         self._family, self._perform = family, perform
-        self._own = OperationCommand(family, perform) if family in OPERATIONS else None
+        self._own = OperationCommand(family, perform) if family in COMMANDS else None
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         del ctx
         if not self._family:
-            return list(dict.fromkeys(name.split()[0] for name in OPERATIONS))
+            return list(dict.fromkeys(name.split()[0] for name in COMMANDS))
         start = f"{self._family} "
-        return [name.removeprefix(start) for name in OPERATIONS if name.startswith(start)]
+        return [name.removeprefix(start) for name in COMMANDS if name.startswith(start)]
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         name = f"{self._family} {cmd_name}".strip()
-        if any(other.startswith(f"{name} ") for other in OPERATIONS):
+        if any(other.startswith(f"{name} ") for other in COMMANDS):
             return Commands(name, self._perform)
-        if name in OPERATIONS:
+        if name in COMMANDS:
             return OperationCommand(name, self._perform)
         if not ctx.resilient_parsing:
             load(name)  # the error says which there are

@@ -8,7 +8,7 @@ import click
 
 from wirelessagent.interfaces.cli_layout import listed, name_width, output_width, wrapped
 from wirelessagent.interfaces.cli_options import FieldArgument, FieldOption
-from wirelessagent.operations.catalogue import FAMILIES, GROUPS, OPERATIONS
+from wirelessagent.interfaces.commands import COMMANDS, FAMILIES, GROUPS
 from wirelessagent.operations.fields import described
 
 _WIDEST = 110
@@ -43,7 +43,7 @@ def program_sections() -> Sections:
 
 def family_sections(family: str, names: Sequence[str]) -> Sections:
     """The commands of a family."""
-    return [("Commands", [(name, OPERATIONS[f"{family} {name}"]) for name in names])]
+    return [("Commands", [(name, COMMANDS[f"{family} {name}"]) for name in names])]
 
 
 def parameter_sections(parameters: Sequence[click.Parameter], *, everything: bool) -> Sections:
@@ -58,7 +58,7 @@ def parameter_sections(parameters: Sequence[click.Parameter], *, everything: boo
 
 
 def _summary(name: str) -> str:
-    return OPERATIONS.get(name) or FAMILIES[name]
+    return COMMANDS.get(name) or FAMILIES[name]
 
 
 def _flags(option: click.Option) -> str:

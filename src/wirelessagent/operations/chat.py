@@ -90,6 +90,7 @@ CHAT = Operation(
     name="chat",
     request=ChatRequest,
     record=ChatRecord,
+    local=True,
     run=run,
     converse=converse,
     examples=("chat", "chat --csi gains.csv", 'chat --say "maximum rate" --say "why user 3?"'),

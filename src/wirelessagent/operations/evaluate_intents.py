@@ -191,6 +191,7 @@ EVALUATE_INTENTS = Operation(
     name="evaluate intents",
     request=EvaluateIntentsRequest,
     record=IntentsFigures,
+    local=True,
     run=run,
     examples=("evaluate intents sentences.jsonl --errors",),
 )

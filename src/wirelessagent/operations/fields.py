@@ -13,7 +13,7 @@ from wirelessagent.plugins import Kind, Option, plugin, plugins
 from wirelessagent.plugins import names as plugin_names
 
 __all__ = [
-    "Advanced", "Kind", "Known", "Names", "Option", "OptionsOf", "PerEntry", "PluginName", "PluginOptions",
+    "Advanced", "Kind", "Known", "Local", "Names", "Option", "OptionsOf", "PerEntry", "PluginName", "PluginOptions",
     "Positional", "described", "mark_of", "plugin_names", "plugin_options",
 ]  # fmt: skip
 
@@ -26,6 +26,11 @@ class Positional:
 @dataclass(frozen=True)
 class Advanced:
     """The field is one that few people set: a surface shows it to those who ask for everything."""
+
+
+@dataclass(frozen=True)
+class Local:
+    """The field is only for whoever sits at the machine: no form for callers elsewhere has it."""
 
 
 @dataclass(frozen=True)

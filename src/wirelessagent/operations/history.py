@@ -62,6 +62,7 @@ class HistoryLine(Record):
     unit: str | None = None
     applied: str | None = None
     put_back: str | None = None
+    by: str | None = None
 
     @classmethod
     def of(cls, turn: StoredTurn) -> HistoryLine:
@@ -70,9 +71,9 @@ class HistoryLine(Record):
                 number=number_of(turn.number), at_utc=str(turn.at_utc), session=str(turn.session),
                 turn=number_of(turn.turn), text=str(turn.text), stage="changed",
             )  # fmt: skip
-        same = {name: getattr(turn, name) for name in cls.model_fields if name not in ("applied", "put_back")}
+        same = {name: getattr(turn, name) for name in cls.model_fields if name not in ("applied", "put_back", "by")}
         applied, put_back = (None if one is None else one["base_station"] for one in (turn.applied, turn.restored))
-        return cls(**same, applied=applied, put_back=put_back)
+        return cls(**same, applied=applied, put_back=put_back, by=turn.intent.get("by"))
 
     def row(self) -> tuple[str, ...]:
         """What a list shows of it."""

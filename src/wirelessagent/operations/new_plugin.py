@@ -126,6 +126,7 @@ NEW_PLUGIN = Operation(
     name="new-plugin",
     request=NewPluginRequest,
     record=NewPluginRecord,
+    local=True,
     run=run,
     examples=("new-plugin objective log_rate",),
 )

@@ -77,6 +77,7 @@ class Operation(Generic[Req, Rec]):
         converse: of an operation that goes on line by line: opens it, so that each line gets a record, and None ends
             it. Where a surface can, it hands the lines over as they come; ``run`` takes those of the request.
         examples: what people type after the program's name.
+        local: whether it is only for whoever sits at the machine: it reads or writes files of theirs.
     """
 
     name: str
@@ -85,6 +86,7 @@ class Operation(Generic[Req, Rec]):
     run: Callable[[Req, Progress], Rec]
     converse: Callable[[Req, Progress], Conversation] | None = None
     examples: tuple[str, ...] = ()
+    local: bool = False
 
     @property
     def summary(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
@@ -60,6 +61,11 @@ class Record(BaseModel):
     def faults(self) -> tuple[str, ...]:
         """What went wrong in parts, for the error output."""
         return ()
+
+
+def as_json(record: Record) -> Any:
+    """A record as plain data that JSON can hold: what the command line prints."""
+    return json.loads(record.model_dump_json())
 
 
 def _as_list(value: Any) -> Any:

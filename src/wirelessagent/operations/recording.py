@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 from pydantic import Field
 
 from wirelessagent.model.errors import WirelessAgentError
-from wirelessagent.operations.fields import Advanced
+from wirelessagent.operations.fields import Advanced, Local
 from wirelessagent.operations.operation import Request
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ _log = logging.getLogger("wirelessagent.store")
 class StoreOptions(Request):
     """Which audit store."""
 
-    store: Annotated[str | None, Advanced()] = Field(
+    store: Annotated[str | None, Advanced(), Local()] = Field(
         None,
         description="audit store, an SQLite file or a SQLAlchemy URL; that of WIRELESSAGENT_STORE_URL, or a file in "
         "the user's data folder, if not given",
@@ -32,15 +32,15 @@ class StoreOptions(Request):
 class RecordingOptions(StoreOptions):
     """Whether turns are recorded, and where."""
 
-    no_store: Annotated[bool, Advanced()] = Field(
+    no_store: Annotated[bool, Advanced(), Local()] = Field(
         False, description="record nothing; WIRELESSAGENT_STORE=no does so for good"
     )
 
-    def said(self, session: Session, text: str) -> tuple[Turn, int | None]:
+    def said(self, session: Session, text: str, *, by: str = "") -> tuple[Turn, int | None]:
         """The turn of a line, recorded; so is one that was broken off after the base station was told."""
         turns = len(session.turns)
         try:
-            turn = session.say(text)
+            turn = session.say(text, by=by)
         except BaseException:
             for broken_off in session.turns[turns:]:
                 self.remember(broken_off)

@@ -79,6 +79,7 @@ REPRODUCE = Operation(
     name="reproduce",
     request=ReproduceRequest,
     record=ReproduceRecord,
+    local=True,
     run=run,
     examples=("reproduce --draws 200", "reproduce rate_versus_power --out figures"),
 )

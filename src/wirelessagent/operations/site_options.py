@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import Field
 
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.channel_file import file_scene
-from wirelessagent.operations.fields import Advanced, Known, OptionsOf, PluginName, PluginOptions
+from wirelessagent.operations.fields import Advanced, Known, Local, OptionsOf, PluginName, PluginOptions
 from wirelessagent.operations.operation import Progress
 from wirelessagent.operations.recognisers import RecogniserOption
 from wirelessagent.operations.simulate import loss_patterns
@@ -44,7 +44,7 @@ class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions)
     base_station_options: Annotated[PluginOptions, OptionsOf("base_station")] = Field(
         default_factory=dict, description="options of the base station"
     )
-    yes: bool = Field(False, description="apply without asking; simulated base stations never ask")
+    yes: Annotated[bool, Local()] = Field(False, description="apply without asking; simulated base stations never ask")
     tolerance: Annotated[float | None, Advanced()] = Field(
         None,
         ge=0,
@@ -60,22 +60,21 @@ class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions)
 
         return chain.simulate(self.source, self.cell(), seed=self.seed, **self.source_options)
 
-    def session(self, progress: Progress, *, raises: bool = False) -> Session:
-        """A conversation about the cell that was not begun yet."""
+    def session(self, progress: Progress, **settings: Any) -> Session:
+        """A conversation about the cell that was not begun yet; ``settings`` of the session win over the options."""
         from wirelessagent.agent.acting import TOLERANCE
         from wirelessagent.agent.session import Session
         from wirelessagent.agent.tools import Tools
         from wirelessagent.sensing.loss import parse
 
         default_loss = [] if self.csi else ["random:0.2"]
-        return Session(
-            self.scene(progress),
-            *(parse(text) for text in (default_loss if self.loss is None else self.loss)),
-            seed=self.seed,
-            recogniser=self.chosen_recogniser(),
-            confirm=False if self.yes else None,
-            tolerance=TOLERANCE if self.tolerance is None else self.tolerance,
-            tools=Tools(**{item.name: getattr(self, item.name) for item in dataclasses.fields(Tools)}),
-            progress=progress,
-            raises=raises,
-        )
+        options: dict[str, Any] = {
+            "seed": self.seed,
+            "recogniser": self.chosen_recogniser(),
+            "confirm": False if self.yes else None,
+            "tolerance": TOLERANCE if self.tolerance is None else self.tolerance,
+            "tools": Tools(**{item.name: getattr(self, item.name) for item in dataclasses.fields(Tools)}),
+            "progress": progress,
+        }
+        losses = [parse(text) for text in (default_loss if self.loss is None else self.loss)]
+        return Session(self.scene(progress), *losses, **{**options, **settings})

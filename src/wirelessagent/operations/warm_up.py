@@ -139,6 +139,7 @@ WARM_UP = Operation(
     name="warm-up",
     request=WarmUpRequest,
     record=WarmUpRecord,
+    local=True,
     run=run,
     examples=("warm-up",),
 )

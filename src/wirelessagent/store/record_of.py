@@ -77,6 +77,7 @@ def understood(turn: Turn) -> dict[str, Any]:
         "shift": plain(turn.shift),
         "lines": {name: str(line) for name, line in lines.items()},
         "messages": {name: line.messages() if isinstance(line, Said) else [] for name, line in lines.items()},
+        **({"by": turn.by} if turn.by else {}),
     }
 
 

@@ -1,0 +1,174 @@
+"""How routes read requests and write answers: strict JSON in, problems out, long work as jobs."""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import json
+from collections.abc import AsyncGenerator, Awaitable, Callable
+from typing import Any, NoReturn
+
+from fastapi import Request, Response
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse, StreamingResponse
+from fastapi.routing import APIRoute
+from starlette.exceptions import HTTPException
+
+from wirelessagent.operations.operation import InputError, WirelessAgentError
+from wirelessagent.service.access import Caller
+from wirelessagent.service.jobs import Job, Tell
+from wirelessagent.service.problems import ConflictError, ProblemError, UnusableError
+from wirelessagent.service.service import Service
+
+_KEEP_ALIVE_S = 15.0
+
+
+class StrictRequest(Request):
+    """A request whose JSON is JSON: no NaN, no infinity, and not nested without end."""
+
+    async def json(self) -> Any:
+        if not hasattr(self, "_json"):
+            self._json = strict_json(await self.body())
+        return self._json
+
+
+class StrictRoute(APIRoute):
+    """A route with such requests."""
+
+    def get_route_handler(self) -> Callable[[Request], Any]:
+        handle = super().get_route_handler()
+
+        async def strict(request: Request) -> Response:
+            return await handle(StrictRequest(request.scope, request.receive))
+
+        return strict
+
+
+def strict_json(body: bytes) -> Any:
+    """What a body says.
+
+    Raises:
+        UnusableError: it is not JSON.
+    """
+    try:
+        return json.loads(body, parse_constant=_refuse, object_pairs_hook=_unique)
+    except (ValueError, RecursionError) as error:
+        raise UnusableError(f"the body is not JSON that can be used: {error}") from error
+
+
+def _refuse(constant: str) -> NoReturn:
+    raise ValueError(f"{constant} is no number of JSON's")
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        raise ValueError("a name stands twice in one object")
+    return found
+
+
+def problem_of(error: Exception) -> ProblemError:
+    """Whatever went wrong as a problem."""
+    match error:
+        case ProblemError():
+            return error
+        case RequestValidationError():
+            first = error.errors()[0]
+            place = ".".join(str(part) for part in first["loc"] if part != "body") or "the body"
+            return UnusableError(f"{place}: {first['msg'].removeprefix('Value error, ')}")
+        case HTTPException(__cause__=ProblemError() as problem):  # from reading the body
+            return problem
+        case HTTPException():
+            return ProblemError(str(error.detail), status=error.status_code, title=str(error.detail))
+        case InputError():
+            return UnusableError(str(error))
+        case WirelessAgentError():
+            return ProblemError(str(error), status=500, title="This failed")
+        case _:
+            return ProblemError("the server's log says more", status=500, title="Internal error")
+
+
+def caller_of(request: Request) -> Caller:
+    """Who asks."""
+    caller = request.scope["state"]["caller"]
+    assert isinstance(caller, Caller)
+    return caller
+
+
+def service_of(request: Request) -> Service:
+    """What is asked."""
+    return request.app.state.service
+
+
+async def worked(
+    request: Request, work: Callable[[Tell], Awaitable[Any]], *, status: int = 200, shown: str = ""
+) -> Response:
+    """The answer to a request that needs work: what came of it, or 202 and the job where the caller prefers that.
+
+    A caller who goes away ends the work. A request with an ``Idempotency-Key`` is done once: who sends it again gets
+    the same answer. ``shown`` names the body that the key belongs to.
+    """
+    service, caller = service_of(request), caller_of(request)
+    key = request.headers.get("idempotency-key")
+    job = _known(request, key, shown) if key else None
+    if job is None:
+        job = service.job(caller, work)
+        if key:
+            _keys(request)[_key(request, key)] = (shown, job)
+    if "respond-async" in request.headers.get("prefer", ""):
+        place = request.url_for("read_job", id=job.id).path
+        headers = {"Location": place, "Preference-Applied": "respond-async"}
+        return JSONResponse(job.body, status_code=202, headers=headers)
+    gone = asyncio.create_task(_gone(request))
+    done = asyncio.create_task(job.finished())
+    try:
+        await asyncio.wait({gone, done}, return_when=asyncio.FIRST_COMPLETED)
+        if not done.done():
+            job.cancel()
+        return JSONResponse(await done, status_code=status)
+    finally:
+        gone.cancel()
+
+
+async def _gone(request: Request) -> None:
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
+
+
+def _keys(request: Request) -> dict[str, tuple[str, Job]]:
+    return request.app.state.idempotency_keys
+
+
+def _key(request: Request, key: str) -> str:
+    return hashlib.sha256(f"{caller_of(request).name}\n{request.url.path}\n{key}".encode()).hexdigest()
+
+
+def _known(request: Request, key: str, shown: str) -> Job | None:
+    """The job of an earlier request with this key."""
+    found = _keys(request).get(_key(request, key))
+    if found is None:
+        return None
+    if found[0] != shown:
+        raise ConflictError("this Idempotency-Key was used for another request")
+    return found[1]
+
+
+def streamed(job: Job, after: int) -> StreamingResponse:
+    """The events of a job as server-sent events, from behind number ``after``."""
+
+    async def events() -> AsyncGenerator[bytes]:
+        told = job.told(after)
+        following = asyncio.ensure_future(anext(told, None))
+        while True:
+            done, _ = await asyncio.wait({following}, timeout=_KEEP_ALIVE_S)
+            if not done:
+                yield b": still at work\n\n"
+                continue
+            event = following.result()
+            if event is None:
+                return
+            number, kind, said = event
+            yield f"id: {number}\nevent: {kind}\ndata: {json.dumps(said, ensure_ascii=False)}\n\n".encode()
+            following = asyncio.ensure_future(anext(told, None))
+
+    return StreamingResponse(events(), media_type="text/event-stream", headers={"X-Accel-Buffering": "no"})

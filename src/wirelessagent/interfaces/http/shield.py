@@ -1,0 +1,239 @@
+"""What every request passes before it reaches a route: host, origin, size, time, who asks, how often.
+
+What is refused is answered by a problem in the sense of RFC 9457, and every answer carries the headers that keep a
+browser from running, framing or sniffing what we did not send.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+import uuid
+from collections.abc import Mapping
+from dataclasses import dataclass
+from http.cookies import CookieError, SimpleCookie
+from typing import Any, TypeAlias
+from urllib.parse import urlsplit
+
+from starlette.datastructures import Headers
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from wirelessagent.interfaces.http.logs import REQUESTS
+from wirelessagent.service.access import LOCAL, Caller
+from wirelessagent.service.limits import Budgets
+from wirelessagent.service.problems import (
+    ForbiddenError,
+    NotSignedInError,
+    ProblemError,
+    TooLargeError,
+    UnusableError,
+)
+from wirelessagent.service.service import Service
+
+COOKIE = "wirelessagent"
+"""The name of the cookie of a browser session."""
+
+_SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
+_OPEN = frozenset({"/healthz", "/readyz", "/sign-in", "/sign-out", "/favicon.ico"})
+"""What needs no token: whether the server is well, and the way in."""
+
+_UPLOADS = "/v1/observations"
+_MEDIA_TYPES = frozenset({"application/json", "application/octet-stream"})
+
+_HEADERS: Mapping[str, str] = {
+    "content-security-policy": "default-src 'self'; img-src 'self' data: blob:; object-src 'none'; base-uri 'none'; "
+    "form-action 'self'; frame-ancestors 'none'",
+    "x-content-type-options": "nosniff",
+    "x-frame-options": "DENY",
+    "referrer-policy": "no-referrer",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "permissions-policy": "camera=(), microphone=(), geolocation=()",
+}
+
+Body: TypeAlias = dict[str, Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Doors:
+    """How a server can be reached.
+
+    Attributes:
+        hosts: the names that requests may be for.
+        only_local: whether only this machine reaches it, so that no token is needed while there is none.
+        base_path: what a proxy in front takes off the path.
+    """
+
+    hosts: frozenset[str]
+    only_local: bool
+    base_path: str = ""
+
+
+class Shield:
+    """The middleware around an application."""
+
+    def __init__(self, app: ASGIApp, *, service: Service, doors: Doors) -> None:
+        self._app, self._service, self._doors = app, service, doors
+        self._budgets = Budgets(service.limits)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http":
+            if scope["type"] == "websocket":
+                await send({"type": "websocket.close", "code": 1008})
+                return
+            await self._app(scope, receive, send)
+            return
+        began, identity, status = time.monotonic(), uuid.uuid4().hex[:16], 500
+
+        async def sent(message: Message) -> None:
+            nonlocal status
+            if message["type"] == "http.response.start":
+                status = message["status"]
+                message["headers"] = [*message.get("headers", []), *self._added(scope, message, identity)]
+            await send(message)
+
+        try:
+            caller = await self._checked(scope)
+            scope.setdefault("state", {})["caller"] = caller
+            await self._app(scope, self._limited(scope, receive), sent)
+        except ProblemError as problem:
+            await answer_problem(problem, scope, receive, sent)
+        finally:
+            route = getattr(scope.get("route"), "path", "") or "other"
+            self._service.metrics.answered(route, status, time.monotonic() - began)
+            told = {
+                "request": identity, "method": scope["method"], "path": scope["path"][:200], "status": status,
+                "ms": round(1000 * (time.monotonic() - began), 1), "by": self._name(scope),
+            }  # fmt: skip
+            REQUESTS.info("request", extra={"request": told})
+
+    @staticmethod
+    def _name(scope: Scope) -> str:
+        caller = scope.get("state", {}).get("caller")
+        return caller.name if isinstance(caller, Caller) else "-"
+
+    @staticmethod
+    def _added(scope: Scope, message: Message, identity: str) -> list[tuple[bytes, bytes]]:
+        there = {name for name, _ in message.get("headers", [])}
+        added = {**_HEADERS, "x-request-id": identity}
+        if not scope["path"].startswith("/console/"):
+            added["cache-control"] = "no-store"
+        return [(name.encode(), value.encode()) for name, value in added.items() if name.encode() not in there]
+
+    async def _checked(self, scope: Scope) -> Caller | None:
+        headers, path, method = Headers(scope=scope), scope["path"], scope["method"]
+        self._check_host(headers)
+        if method not in _SAFE:
+            self._check_origin(headers)
+            self._check_content(headers, path)
+        peer = (scope.get("client") or ("unknown", 0))[0]
+        try:
+            caller = await self._caller(headers)
+        except NotSignedInError:
+            self._budgets.spend(f"address {peer}")
+            if path in _OPEN or path.startswith("/console/"):
+                return None
+            raise
+        self._budgets.spend(f"caller {caller.name}" if caller is not LOCAL else f"address {peer}")
+        if not caller.may_change and method not in _SAFE and path not in _OPEN:
+            raise ForbiddenError(f"{caller.name!r} is a viewer and changes nothing: ask an operator")
+        return caller
+
+    def _check_host(self, headers: Headers) -> None:
+        host = _host_of(headers.get("host", ""))
+        if host not in self._doors.hosts:
+            raise ProblemError(
+                f"this server does not go by the name {host[:100]!r}: start it with --allowed-host to have it so",
+                status=421,
+                title="Misdirected request",
+            )
+
+    def _check_origin(self, headers: Headers) -> None:
+        """Refuse what another site's page sends in its visitor's name."""
+        origin, site = headers.get("origin"), headers.get("sec-fetch-site", "same-origin")
+        if site not in ("same-origin", "none") or (origin is not None and not self._is_ours(origin, headers)):
+            raise ForbiddenError("this request comes from another site's page")
+
+    @staticmethod
+    def _is_ours(origin: str, headers: Headers) -> bool:
+        return urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
+
+    def _check_content(self, headers: Headers, path: str) -> None:
+        said = headers.get("content-length", "0")
+        length = int(said) if said.isdecimal() else 0
+        if length > self._most_bytes(path):
+            raise TooLargeError(f"at most {self._most_bytes(path)} bytes are taken here; got {length}")
+        media_type = headers.get("content-type", "").partition(";")[0].strip().lower()
+        empty = length == 0 and "transfer-encoding" not in headers
+        if not (empty and not media_type) and media_type not in _MEDIA_TYPES:
+            raise UnusableError(
+                f"send application/json (files with gains: application/octet-stream); got {media_type[:100]!r}"
+            )
+        if headers.get("content-encoding", "identity") != "identity":
+            raise UnusableError("send it without compression")
+
+    def _most_bytes(self, path: str) -> int:
+        limits = self._service.limits
+        return limits.upload_bytes if path == _UPLOADS else limits.body_bytes
+
+    async def _caller(self, headers: Headers) -> Caller:
+        """Who asks: by a token in a header, else by the cookie of a browser session."""
+        access = self._service.access
+        kind, _, token = headers.get("authorization", "").partition(" ")
+        token = headers.get("x-api-key", "") or (token.strip() if kind.lower() == "bearer" else "")
+        if token:
+            return await asyncio.to_thread(access.by_token, token)
+        cookie = cookie_of(headers)
+        if cookie:
+            return await asyncio.to_thread(access.by_cookie, cookie)
+        if self._doors.only_local and not await asyncio.to_thread(lambda: access.callers):
+            return LOCAL
+        raise NotSignedInError("say who you are by a token: Authorization: Bearer …, or sign in at /sign-in")
+
+    def _limited(self, scope: Scope, receive: Receive) -> Receive:
+        """What is received, as long as it comes in time and is not too much."""
+        most, until = self._most_bytes(scope["path"]), time.monotonic() + self._service.limits.receive_s
+        got, whole = 0, False
+
+        async def limited() -> Message:
+            nonlocal got, whole
+            if whole:
+                return await receive()
+            try:
+                message = await asyncio.wait_for(receive(), max(until - time.monotonic(), 0.0))
+            except TimeoutError as error:
+                raise ProblemError("the request did not arrive in time", status=408, title="Too slow") from error
+            got += len(message.get("body", b""))
+            if got > most:
+                raise TooLargeError(f"at most {most} bytes are taken here")
+            whole = not message.get("more_body", False)
+            return message
+
+        return limited
+
+
+def cookie_of(headers: Headers) -> str:
+    """The browser session that a request names; empty where it names none."""
+    try:
+        found = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+    except CookieError:
+        return ""
+    return "" if found is None else found.value
+
+
+def _host_of(host: str) -> str:
+    """The name in a Host header, without its port."""
+    if host.startswith("["):
+        return host.partition("]")[0].strip("[").lower()
+    return host.partition(":")[0].lower()
+
+
+async def answer_problem(problem: ProblemError, scope: Scope, receive: Receive, send: Send) -> None:
+    """Send a problem."""
+    del scope, receive
+    body = json.dumps(problem.body, ensure_ascii=False).encode()
+    headers = {"content-type": "application/problem+json", "content-length": str(len(body)), **problem.headers}
+    pairs = [(name.lower().encode(), value.encode()) for name, value in headers.items()]
+    await send({"type": "http.response.start", "status": problem.status, "headers": pairs})
+    await send({"type": "http.response.body", "body": body})

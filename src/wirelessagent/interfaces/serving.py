@@ -1,0 +1,156 @@
+"""serve and token: the service as commands."""
+
+from __future__ import annotations
+
+import os
+import platform
+import socket
+import webbrowser
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from wirelessagent.operations.fields import Advanced, Positional
+from wirelessagent.operations.operation import Event, InputError, Operation, Progress
+from wirelessagent.operations.record import Block, Files, Record
+from wirelessagent.operations.recording import StoreOptions
+
+COMMANDS = {
+    "serve": "Serve the console, the REST interface, MCP and the plug-in document, in one process",
+    "token": "Make a token for somebody who uses a server, as a viewer or an operator; it is shown once",
+}
+"""What a server is run and looked after with, in a sentence each."""
+
+_LOCAL = frozenset({"127.0.0.1", "localhost", "::1"})
+
+
+class ServeRequest(StoreOptions):
+    panel = "Options"
+
+    host: str = Field("127.0.0.1", description="address to listen on; any but 127.0.0.1 needs a token first")
+    port: int = Field(8642, ge=0, le=65535, description="port to listen on; 0 for any that is free")
+    open: bool = Field(False, description="open the console in a browser")
+    demonstration: bool = Field(True, description="begin with a demonstration cell where there is no cell yet")
+    workers: Annotated[int, Advanced()] = Field(1, ge=1, le=64, description="processes that do the work")
+    allowed_host: Annotated[list[str] | None, Advanced()] = Field(
+        None, description="name by which the server is reached, beside its address; several times for several"
+    )
+    base_path: Annotated[str, Advanced()] = Field("", description="path that a proxy in front takes off, as /cell")
+    trusted_proxy: Annotated[list[str] | None, Advanced()] = Field(
+        None, description="address whose X-Forwarded headers are believed; several times for several"
+    )
+    work_limit_s: Annotated[float, Advanced()] = Field(120.0, gt=0, description="time for one piece of work, s")
+    requests_per_s: Annotated[float, Advanced()] = Field(20.0, gt=0, description="requests of one caller, 1/s")
+
+
+class ServeRecord(Record):
+    """A server that has ended."""
+
+    url: str
+
+    def blocks(self) -> list[Block]:
+        return [f"The server at {self.url} has ended."]
+
+
+def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
+    try:
+        import uvicorn
+
+        from wirelessagent.interfaces.http.app import make_app
+        from wirelessagent.interfaces.http.deadline import DeadlineProtocol
+        from wirelessagent.interfaces.http.logs import log_as_json
+        from wirelessagent.interfaces.http.shield import Doors
+        from wirelessagent.service.limits import Limits
+        from wirelessagent.service.opening import open_service
+    except ImportError as error:
+        raise InputError(
+            f"serving needs packages that are not installed ({error.name}): pip install 'wirelessagent[serve]'"
+        ) from error
+    limits = Limits(work_s=request.work_limit_s, requests_per_s=request.requests_per_s)
+    service = open_service(request.store, limits, workers=request.workers)
+    only_local = request.host in _LOCAL
+    if not only_local and not service.access.callers:
+        raise InputError(
+            f"host: {request.host} is open to others, so a token is needed: make one with 'wirelessagent token NAME "
+            "--role operator' first, or listen on 127.0.0.1"
+        )
+    listening = _listening(request.host, request.port)
+    port = listening.getsockname()[1]
+    hosts = {request.host.lower(), *(_LOCAL if only_local else ()), *(request.allowed_host or ())}
+    if request.host in ("0.0.0.0", "::"):
+        hosts |= {platform.node().lower(), *_LOCAL}
+    doors = Doors(hosts=frozenset(hosts), only_local=only_local, base_path=request.base_path.rstrip("/"))
+    app = make_app(service, doors, demonstration=request.demonstration)
+    shown = f"[{request.host}]" if ":" in request.host else request.host
+    url = f"http://{shown}:{port}{doors.base_path}/"
+    progress(Event(stage="serve", message=f"the console is at {url} (Ctrl-C ends it)"))
+    if request.open:
+        webbrowser.open(url)
+    proxies = request.trusted_proxy or []
+    config = uvicorn.Config(
+        app, http=DeadlineProtocol, loop="asyncio", ws="none", log_level="warning", access_log=False,
+        server_header=False, proxy_headers=bool(proxies), forwarded_allow_ips=proxies, timeout_graceful_shutdown=5,
+    )  # fmt: skip
+    log_as_json()
+    uvicorn.Server(config).run(sockets=[listening])
+    return ServeRecord(url=url)
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    listening = socket.socket(family)
+    if os.name == "posix":
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listening.bind((host, port))
+    except OSError as error:
+        listening.close()
+        raise InputError(
+            f"port: cannot listen on {host}:{port}: {error.strerror}; choose another with --port"
+        ) from error
+    return listening
+
+
+SERVE = Operation(
+    name="serve", request=ServeRequest, record=ServeRecord, run=serve, local=True,
+    examples=("serve --open", "serve --port 9000 --store cell.sqlite3"),
+)  # fmt: skip
+
+
+class TokenRequest(StoreOptions):
+    panel = "Options"
+
+    name: Annotated[str, Positional()] = Field(min_length=1, max_length=100, description="whose token it is")
+    role: Literal["viewer", "operator"] = Field("viewer", description="what they may do")
+    revoke: bool = Field(False, description="take the token back instead")
+
+
+class TokenRecord(Record):
+    """A token that was made; it cannot be shown again."""
+
+    name: str
+    role: str
+    token: str | None
+
+    def blocks(self) -> list[Block]:
+        if self.token is None:
+            return [f"{self.name} has no token any more."]
+        return [f"The token of {self.name} ({self.role}); it is not shown again:", Files("token", (self.token,))]
+
+
+def grant(request: TokenRequest, progress: Progress) -> TokenRecord:
+    del progress
+    from wirelessagent.service.opening import open_access
+
+    access = open_access(request.store)
+    if request.revoke and not access.revoke(request.name):
+        known = ", ".join(caller.name for caller in access.callers) or "nobody"
+        raise InputError(f"name: {request.name!r} has no token; {known} has")
+    token = None if request.revoke else access.grant(request.name, request.role)
+    return TokenRecord(name=request.name, role=request.role, token=token)
+
+
+TOKEN = Operation(
+    name="token", request=TokenRequest, record=TokenRecord, run=grant, local=True,
+    examples=("token alice --role operator", "token alice --revoke"),
+)  # fmt: skip

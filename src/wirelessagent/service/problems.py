@@ -1,0 +1,79 @@
+"""What can go wrong with a request to the service, as problems in the sense of RFC 9457."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+class ProblemError(Exception):
+    """A request that cannot be answered as it was meant; ``detail`` says what was wrong and what to do.
+
+    Attributes:
+        status: of HTTP.
+        title: the kind of problem.
+        headers: what the answer says beside.
+    """
+
+    status = 400
+    title = "This cannot be done"
+
+    def __init__(self, detail: str, *, status: int | None = None, title: str | None = None, **headers: str) -> None:
+        super().__init__(detail)
+        self.detail, self.headers = detail, {name.replace("_", "-"): value for name, value in headers.items()}
+        self.status, self.title = status or type(self).status, title or type(self).title
+
+    @property
+    def body(self) -> dict[str, Any]:
+        """The problem as JSON."""
+        return {"type": "about:blank", "title": self.title, "status": self.status, "detail": self.detail}
+
+
+class NotFoundError(ProblemError):
+    """There is no such thing."""
+
+    status, title = 404, "There is no such thing"
+
+
+class ConflictError(ProblemError):
+    """Things are not as the caller has seen them."""
+
+    status, title = 409, "Things have changed"
+
+
+class NotSignedInError(ProblemError):
+    """The caller has to say who they are."""
+
+    status, title = 401, "Sign in first"
+
+    def __init__(self, detail: str) -> None:
+        super().__init__(detail, WWW_Authenticate='Bearer realm="wirelessagent"')
+
+
+class ForbiddenError(ProblemError):
+    """The caller may not do this."""
+
+    status, title = 403, "This is not allowed"
+
+
+class TooMuchError(ProblemError):
+    """The caller asks too often or for too much."""
+
+    status, title = 429, "Too many requests"
+
+
+class TooLargeError(ProblemError):
+    """What was sent is larger than allowed."""
+
+    status, title = 413, "Too large"
+
+
+class UnusableError(ProblemError):
+    """What was sent cannot be used."""
+
+    status, title = 422, "This cannot be used"
+
+
+class TimedOutError(ProblemError):
+    """The work took longer than it may."""
+
+    status, title = 504, "This took too long"

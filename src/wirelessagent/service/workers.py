@@ -1,0 +1,119 @@
+"""The server's side of its workers: starts them when they are needed, tells them what to do, ends them when it must."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import itertools
+import json
+import os
+import sys
+import zlib
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from wirelessagent.service.problems import ProblemError, TimedOutError
+
+_LONGEST_ANSWER_BYTES = 256 << 20
+
+
+class Workers:
+    """So many processes, each of which does one thing at a time.
+
+    Args:
+        number: of processes; none is started before it has something to do.
+        time_limit_s: how long one thing may take before its process is ended.
+        environment: what the processes know beside this one's environment.
+    """
+
+    def __init__(self, number: int = 1, *, time_limit_s: float, environment: Mapping[str, str]) -> None:
+        self._time_limit_s = time_limit_s
+        self._processes = [_Process(environment) for _ in range(number)]
+
+    async def do(self, what: str, tell: Callable[[dict[str, Any]], None], *, of: str = "", **told: Any) -> Any:
+        """Have one thing done by the worker that conversation ``of`` belongs to, or by the least busy one.
+
+        Raises:
+            TimedOutError: it took too long; the worker was ended.
+            ProblemError: it failed.
+        """
+        mine = self._processes[zlib.crc32(of.encode()) % len(self._processes)]
+        process = mine if of else min(self._processes, key=lambda one: one.waiting)
+        return await process.do({"do": what, **told}, tell, self._time_limit_s)
+
+    async def close(self) -> None:
+        """End all processes."""
+        for process in self._processes:
+            await process.end()
+
+
+class _Process:
+    def __init__(self, environment: Mapping[str, str]) -> None:
+        self._environment = environment
+        self._process: asyncio.subprocess.Process | None = None
+        self._turn = asyncio.Lock()
+        self._numbers = itertools.count(1)
+        self.waiting = 0
+
+    async def do(self, told: Mapping[str, Any], tell: Callable[[dict[str, Any]], None], time_limit_s: float) -> Any:
+        self.waiting += 1
+        try:
+            async with self._turn:
+                try:
+                    async with asyncio.timeout(time_limit_s):
+                        return await self._done(told, tell)
+                except TimeoutError as error:
+                    await self.end()
+                    raise TimedOutError(
+                        f"the work took longer than {time_limit_s:g} s and was ended; ask for less, or for a faster "
+                        "method (option deadline_s)"
+                    ) from error
+                except asyncio.CancelledError:
+                    await self.end()
+                    raise
+        finally:
+            self.waiting -= 1
+
+    async def end(self) -> None:
+        """End the process, if there is one."""
+        process, self._process = self._process, None
+        if process is not None and process.returncode is None:
+            with contextlib.suppress(ProcessLookupError):
+                process.kill()
+            await process.wait()
+
+    async def _done(self, told: Mapping[str, Any], tell: Callable[[dict[str, Any]], None]) -> Any:
+        process, number = await self._running(), next(self._numbers)
+        assert process.stdin is not None
+        assert process.stdout is not None
+        try:
+            process.stdin.write(json.dumps({"id": number, **told}).encode() + b"\n")
+            await process.stdin.drain()
+            while line := await process.stdout.readline():
+                answer = json.loads(line)
+                if "event" in answer:
+                    tell(answer["event"])
+                elif "failed" in answer:
+                    problem = answer["failed"]
+                    raise ProblemError(problem["detail"], status=problem["status"], title=problem["title"])
+                else:
+                    return answer["done"]
+        except (BrokenPipeError, ConnectionResetError):
+            pass
+        await self.end()
+        raise ProblemError(
+            "the work ended its process, as too large an input does; nothing else was lost",
+            status=500,
+            title="The work broke off",
+        )
+
+    async def _running(self) -> asyncio.subprocess.Process:
+        if self._process is None or self._process.returncode is not None:
+            self._process = await asyncio.create_subprocess_exec(
+                sys.executable, "-m", "wirelessagent.service.worker",
+                stdin=asyncio.subprocess.PIPE,
+                stdout=asyncio.subprocess.PIPE,
+                limit=_LONGEST_ANSWER_BYTES,
+                env={**os.environ, **self._environment},
+            )  # fmt: skip
+        return self._process
