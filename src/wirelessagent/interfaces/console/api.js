@@ -1,4 +1,4 @@
-/** The REST interface, the only place that speaks to the server. All paths are relative to the page. */
+/** The REST interface, the only place that speaks to the server. All paths are relative to where the server is mounted. */
 
 /** An answer that is a problem document (RFC 9457). */
 export class Problem extends Error {
@@ -14,8 +14,10 @@ export class Disconnected extends Error {}
 
 const AWAY = new Set([502, 503, 504]);
 
-/** The absolute address of a path of the interface, wherever the console is mounted. */
-export const address = (path) => new URL(path.replace(/^\//, ""), document.baseURI).href;
+const ROOT = new URL("../", import.meta.url);
+
+/** The absolute address of a path of the interface: the console lies one folder below it. */
+export const address = (path) => new URL(path, ROOT).href;
 
 async function call(method, path, { body = null, type = null, later = false } = {}) {
   const headers = { Accept: "application/json" };

@@ -6,7 +6,7 @@ import { watts } from "./units.js";
 import { say } from "./words.js";
 
 /** A cell in one line. */
-export const cellLine = (cell) => say("console.cell_line", { users: cell.num_users, subcarriers: cell.num_subcarriers });
+export const cellLine = (cell) => say("console.cell_line", { users: cell.user_names.length, subcarriers: cell.num_subcarriers });
 
 /** Draw the picker. */
 export function drawCells(cells, cell, canAct, actions) {

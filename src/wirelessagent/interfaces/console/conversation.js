@@ -20,7 +20,7 @@ function more(turn) {
   return parts.length ? element("details", {}, element("summary", {}, say("console.more")), element("div", { class: "more" }, parts)) : null;
 }
 
-function answered(turn, actions) {
+function answered(turn, people, actions) {
   const asks = turn.stage === "asked";
   const lines = Object.keys(LINES).filter((name) => turn.lines[name]).map((name) => [
     element("dt", {}, say(LINES[name])),
@@ -28,7 +28,7 @@ function answered(turn, actions) {
   ]);
   return element("article", { class: "turn", id: `turn-${turn.number}`, "aria-label": say("turn.column", { number: turn.number }) },
     element("p", { class: "said" }, turn.text),
-    element("p", { class: "by" }, [turn.by, clock(turn.at_utc)].filter(Boolean).join(" · ")),
+    element("p", { class: "by" }, [people && turn.by, clock(turn.at_utc)].filter(Boolean).join(" · ")),
     element("div", { class: asks ? "answer asked" : "answer", lang: turn.language ?? null },
       element("dl", {}, lines.flat()),
       element("div", { class: "foot" }, more(turn),
@@ -99,7 +99,7 @@ export function giveBack(text) {
  * @param {object} scene
  * @param {object} actions
  */
-export function drawConversation({ session, job, problem }, { effect, canAct, busy }, actions) {
+export function drawConversation({ session, job, problem }, { effect, canAct, busy, people }, actions) {
   const [log, input] = [byId("log"), byId("line")];
   const asIs = [session.id, document.documentElement.lang].join();
   if (asIs !== drawnAs) {
@@ -110,7 +110,7 @@ export function drawConversation({ session, job, problem }, { effect, canAct, bu
   }
   const added = session.turns.slice(drawnTurns);
   if (added.length && !drawnTurns) log.replaceChildren();
-  log.append(...added.map((turn) => answered(turn, actions)));
+  log.append(...added.map((turn) => answered(turn, people, actions)));
   const first = drawnTurns === 0;
   drawnTurns = session.turns.length;
   if (!drawnTurns && !log.childElementCount) {

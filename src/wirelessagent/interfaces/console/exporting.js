@@ -16,7 +16,7 @@ function save(name, text) {
 async function standard(number, format, failed) {
   try {
     const { record } = await post("v1/operations/export", { number, format });
-    save(`${format}-${number}.json`, JSON.stringify(record.document ?? record, null, 2));
+    save(`${format}-${number}.json`, JSON.stringify(record, null, 2));
   } catch (problem) {
     failed(problem);
   }

@@ -41,7 +41,7 @@ function scene() {
   const shown = looked ?? planTurn ?? failed ?? effect ?? last;
   return {
     plan: session.plan, planTurn, effect, shown, looked,
-    canAct: state.console.role === "operator", busy: Boolean(state.job),
+    canAct: state.console.role === "operator", busy: Boolean(state.job), people: state.console.signed_in,
   };
 }
 
@@ -248,7 +248,7 @@ async function start() {
   byId("broken").hidden = true;
   try {
     state.console = await get("v1/console");
-    const { languages, sign_in_needed: signInNeeded } = state.console;
+    const { languages, signed_in: signedIn } = state.console;
     const wanted = wantedLanguage(languages);
     await speak(wanted);
     nameUnits();
@@ -257,7 +257,7 @@ async function start() {
       nameUnits();
       draw();
     });
-    byId("sign-out").hidden = !signInNeeded;
+    byId("sign-out").hidden = !signedIn;
     byId("version").textContent = state.console.version;
     setUp();
     await choose(localStorage.getItem(CELL));

@@ -53,15 +53,15 @@ function movesList(moves, names) {
 
 /**
  * Draw the card; it goes where nothing waits.
- * @param {{plan: object|null, planTurn: object|null, effect: object|null, canAct: boolean, busy: boolean}} scene
+ * @param {{plan: object|null, planTurn: object|null, effect: object|null, canAct: boolean, busy: boolean, people: boolean}} scene
  * @param {{apply: () => void, discard: () => void}} actions
  */
-export function drawPlan({ plan, planTurn, effect, canAct, busy }, actions) {
+export function drawPlan({ plan, planTurn, effect, canAct, busy, people }, actions) {
   const card = byId("plan-card");
   card.hidden = !plan || !planTurn?.decision;
   if (card.hidden) return;
   const { rows, more, hands, moves, rest } = difference(effect, planTurn);
-  byId("plan-note").textContent = say(plan.by ? "console.plan_note_by" : "console.plan_note", { time: clock(plan.made_utc), who: plan.by });
+  byId("plan-note").textContent = say(people && plan.by ? "console.plan_note_by" : "console.plan_note", { time: clock(plan.made_utc), who: plan.by });
   const moving = hands ? element("tr", {}, element("th", { scope: "row" }, say("console.subcarriers_moved")), element("td", {}, hands)) : null;
   const details = moves.length || more.length ? element("details", {},
     element("summary", {}, say("console.more")),

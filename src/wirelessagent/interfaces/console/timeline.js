@@ -24,7 +24,7 @@ function entry(turn, scene, actions, redraw) {
   const name = say("turn.column", { number: turn.number });
   return element("li", { class: `entry ${kind}` },
     element("button", { type: "button", class: "open", "aria-current": scene.shown === turn ? "true" : null, click: () => actions.look(turn.number) },
-      element("span", { class: "when" }, `${turn.number} · ${clock(turn.at_utc)}`, turn.by ? ` · ${turn.by}` : ""),
+      element("span", { class: "when" }, `${turn.number} · ${clock(turn.at_utc)}`, scene.people && turn.by ? ` · ${turn.by}` : ""),
       element("b", {}, inShort(turn)), element("span", { class: `badge ${kind}` }, text)),
     element("label", { class: "pick" }, element("input", {
       type: "checkbox", "aria-label": say("console.pick", { turn: name }), checked: marked.has(turn.number),

@@ -53,13 +53,19 @@ const LIMITS = {
   resource_block_group_size: "limit.resource_block_group_size",
 };
 
+/** What a turn asks for, with the probability that was assumed where none was named. */
+function asksOf(turn) {
+  const assumed = turn?.decision?.outage_probability;
+  return { ...(assumed ? { outage_probability: assumed } : {}), ...turn?.request?.constraints };
+}
+
 /**
  * What is asked for before and after, a row for each limit of each user.
  * @returns {Array<{label: string, before: string, after: string, same: boolean}>}
  */
 export function limitRows(before, after) {
   const rows = [];
-  const [old, now] = [before?.request?.constraints ?? {}, after?.request?.constraints ?? {}];
+  const [old, now] = [asksOf(before), asksOf(after)];
   for (const kind of new Set([...Object.keys(old), ...Object.keys(now)])) {
     const [was, is] = [byUser(old[kind]), byUser(now[kind])];
     const users = [...new Set([...Object.keys(was), ...Object.keys(is)])];
