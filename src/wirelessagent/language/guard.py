@@ -109,6 +109,19 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
     return None
 
 
+def tells_no_mere_fact(text: str) -> bool:
+    """Whether a clause that is no order has a word of a mood in it, but of what was or what is denied.
+
+    >>> tells_no_mere_fact("user 7 has paid"), tells_no_mere_fact("once user 7 has paid")
+    (False, True)
+    """
+    plain = normalise(text)
+    moods = [mood for mood in MOODS if mood not in ("negation", "past", "elsewhere")]
+    found = (places(words, plain) for language in languages_of(text) for mood in moods
+             for words in table_of(language)[mood].values())  # fmt: skip
+    return any(any(spans) for spans in found)
+
+
 def stranger(plain: str, context: Context | None) -> Span | None:
     """The name of somebody who is no user of the cell, where one is to be served, promised or left out.
 

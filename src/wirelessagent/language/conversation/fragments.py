@@ -30,6 +30,7 @@ from wirelessagent.language.acts import (
 )  # fmt: skip
 from wirelessagent.language.conversation.line import NAME, Line, begins, is_all
 from wirelessagent.language.conversation.relative import read_relative
+from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, speaks_of_one, tokens_of, words_of
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.intent_acts import acts_of, stated
@@ -54,14 +55,27 @@ _FAR = 20.0
 def read_fragment(line: Line) -> Intent | None:
     """What a line does that leans on the last act; None for any other line."""
     context = line.context
-    open_ = context.pending or context.pending_objective or context.pending_users or context.offered or context.guess
+    whose = context.pending_users and context.pending_users != context.spoken_of  # "what of user 5?", "leave him out"
+    whose = whose or (context.pending_users and not speaks_of_one(normalise(line.text)))
+    open_ = context.pending or context.pending_objective or whose or context.offered or context.guess
     if context.objective is None or (context.awaits == "clarification" and open_) or len(line.text) > _LONGEST:
         return None
     if _takes_back(line):
         return line.command("undo", steps=1.0)
     line = _without_a_description(_without_what_stays(line))
-    found = (fragment.intent() for fragment in words_of(line, _Fragment))
+    found = (fragment.intent() for each in (line, _order_about_one(line)) if each for fragment in words_of(each, _Fragment))
     return next((intent for intent in found if intent is not None), None)
+
+
+def _order_about_one(line: Line) -> Line | None:
+    """What is ordered of one user behind a clause that only tells of that user: "user 7 has paid, let him back in"."""
+    clause = _LAST_CLAUSE.search(line.text)
+    if clause is None or line.is_asked or not speaks_of_one(normalise(clause[1])):
+        return None
+    story = Line.of(line.text[: clause.start()], line.context)
+    if len(story.users) != 1 or story.figures or story.is_asked or tells_no_mere_fact(story.text):
+        return None
+    return Line.of(clause[1], dataclasses.replace(line.context, spoken_of=story.users))
 
 
 def read_wondered(line: Line) -> Intent | None:
@@ -89,6 +103,8 @@ def referred(line: Line, intent: Intent) -> Intent:
     plain = normalise(line.text)
     roles = {each.role for each in mentions(plain, context.user_names)} - {"pronoun"}
     named = {act.whom for act in last if isinstance(act.whom, Named)}
+    if len(context.spoken_of) == 1:
+        named = {Named(context.spoken_of)}
     whom: Whom | None = Others() if roles == {"others"} else None
     held = context.constraints.get(kinds[0])
     if not roles and speaks_of_one(plain, "both") and isinstance(held, Mapping) and len(held.keys() - {EVERYBODY}) == 2:
@@ -183,8 +199,8 @@ class _Fragment(Words):
         if self.line.is_asked:
             return read_relative(self) or self._stated()
         readers = (
-            self._moved, self._undone, self._as_another, self._again, self._taken_up, self._dropped, self._served,
-            self._scaled, self._stated, self._corrected,
+            self._moved, self._undone, self._as_another, self._again, self._taken_up, self._as_it_was, self._dropped,
+            self._served, self._scaled, self._stated, self._corrected,
         )  # fmt: skip
         readers = readers[: 1 if _denies(self.tokens) else None]
         return next((found for read in readers if (found := read()) is not None), None)
@@ -215,6 +231,8 @@ class _Fragment(Words):
         if self.taken_off:
             return self._taken_off_another()
         last = self._of_named()
+        if not last and len(self.last(Scale)) == 1:
+            return self._scaled_another(self.last(Scale)[0])
         if not last:
             return self._for_all_moved()
         if len(last) != 1:
@@ -230,6 +248,17 @@ class _Fragment(Words):
         if isinstance(act, Limit):
             back = Drop(kind=act.kind, whom=gone, own=True)
         return self.acts([back, dataclasses.replace(act, whom=Named(users))])
+
+    def _scaled_another(self, act: Scale) -> Intent | None:
+        """ "no, I meant user 7" behind "user 8 needs double"."""
+        if not isinstance(act.whom, Named) or set(act.whom.users) & set(self.users) or self.figures:
+            return None
+        held = self.held.get(act.kind)
+        common = isinstance(held, Mapping) and EVERYBODY in held
+        back = Drop(kind=act.kind, whom=act.whom, own=True) if common else dataclasses.replace(act, factor=1 / act.factor)
+        if not common and not (isinstance(held, Mapping) and set(self.users) <= held.keys()):
+            return None
+        return self.acts([back, dataclasses.replace(act, whom=Named(self.users))])
 
     def _of_named(self) -> list[tuple[Limit | LeaveOut | Serve, tuple[str, ...]]]:
         """What was said last of named users, with them; the same of several is said once."""
@@ -277,6 +306,30 @@ class _Fragment(Words):
         off = Drop(kind=kind, whom=Named(tuple(gone)))
         return self.acts([*back, off], {"taken_off": {kind: gone}}) if len(gone) == len(self.users) else None
 
+    def _as_it_was(self) -> Intent | None:
+        """ "back to how it was before the power limit": to the turn before the last one that set or dropped it."""
+        before, after = self.has("before"), self.has("after")
+        if not self.has("as_it_was") or before is after or self.figures:
+            return None
+        if not self.only("as_it_was", "before", "after", "users", "lead", "correct", "make", "undo", "told", "leave", *NOUNS):
+            return None
+        kinds = self.named_kinds()
+        if not kinds and not self.users:
+            return None
+        turns = [place for place, acts in enumerate(self.line.context.earlier, start=1)
+                 if any(self._is_about(act, kinds) for act in acts)]  # fmt: skip
+        turn = turns[-1] - before if turns else 0
+        return self.line.command("undo", turn=float(turn)) if turn > 0 else None
+
+    def _is_about(self, act: Act, kinds: Sequence[str]) -> bool:
+        """Whether an act changes one of these limits, or something of the users of the line."""
+        if isinstance(act, Limit | Scale | Drop) and kinds and act.kind not in kinds:
+            return False
+        if kinds and not isinstance(act, Limit | Scale | Drop):
+            return False
+        whom = getattr(act, "whom", None)
+        return not self.users or (isinstance(whom, Named) and set(self.users) <= set(whom.users))
+
     def _again(self) -> Intent | None:
         """ "once more" behind an undo."""
         if self.has("again") and self.only("again", "lead") and self.last(Undo):
@@ -303,6 +356,8 @@ class _Fragment(Words):
             "others",
             "both",
             "pronoun",
+            "one",
+            "too",
             "again",
             "lead",
             "correct",
@@ -327,9 +382,11 @@ class _Fragment(Words):
 
     def _served(self) -> Intent | None:
         """ "take 7 off the list", "user 7 back in", and users of whom the same is said as of the last ones."""
-        users = self.users or self._counted()
+        users = self.users or self._counted() or (self.spoken_of.users if self.spoken_of else ())
         if self.has("every") and self.has("serve") and self.only("every", "serve", "again", "lead", "take", "make"):
             return self.acts([Serve(whom=Everybody())]) if {"users", "leave_out"} & self.held.keys() else None
+        if self.has("others") and self.has("serve") and self.only("others", "serve", "again", "lead", "too", "make", "bare"):
+            return self._others_served()
         out = self.held.get("leave_out", ())
         if self.has("both") and self.has("serve") and self.only("both", "serve", "again", "lead", "every"):
             return (
@@ -340,12 +397,13 @@ class _Fragment(Words):
         if not users or (self.figures and self.users):
             return None
         whom, lists = Named(users), [*self.last(LeaveOut), *self.last(Serve)]
-        said = ("users", "bare", "lead", "again")
+        said = ("users", "bare", "lead", "again", "pronoun", "one")
         if self.has("serve") and self.only("serve", "too", "take", "make", *said) and not self._serves(users):
             return self.acts([Serve(whom=whom)])
-        if self.has("leave") and self.only("leave", "too", "take", "make", *said) and (lists or not self.is_read):
+        leans = bool(lists) or not self.is_read or self.spoken_of is not None
+        if self.has("leave") and self.only("leave", "too", "take", "make", *said) and leans:
             return self.acts([LeaveOut(whom=whom)])
-        if not (self.has("too") or self.has("lead")) or not self.only("too", "pronoun", "it", "correct", *said):
+        if not (self.has("too") or self.has("lead")) or not self.only("too", "it", "correct", *said):
             return None
         if not (self.has("too") or self.has("whose") or self.users):
             return None
@@ -354,6 +412,13 @@ class _Fragment(Words):
                  if isinstance(act.whom, Named) and not (isinstance(act, Drop) and act.kind in moved)]  # fmt: skip
         again = [dataclasses.replace(act, alone=False) if isinstance(act, Serve) else act for act in again]
         return self.acts(again) if len(set(again)) == 1 else None
+
+    def _others_served(self) -> Intent | None:
+        """ "let the other five in": everybody is served again, where so many are not."""
+        served, out = (cast("tuple[str, ...]", self.held.get(name, ())) for name in ("users", "leave_out"))
+        missing = len(self.line.context.user_names) - len(served) if served else len(out)
+        counted = [figure.value for figure in self.figures]
+        return self.acts([Serve(whom=Everybody())]) if missing and counted in ([], [missing]) else None
 
     def _as_another(self) -> Intent | None:
         """ "user 8 the same as user 3": the one figure of a user, for another one too."""
@@ -391,7 +456,7 @@ class _Fragment(Words):
     def _stated(self) -> Intent | None:
         """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
         said = (
-            "users", "every", "others", "pronoun", "it", "lead", "make", "correct", "suppose", "take", "figure",
+            "users", "every", "others", "pronoun", "one", "it", "lead", "make", "correct", "suppose", "take", "figure",
             "ratio", "bare", "with", "by", "to", "revise", "both", "at_most", *NOUNS,
         )  # fmt: skip
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
@@ -412,7 +477,8 @@ class _Fragment(Words):
         if self.has("others") or self.has("every") or self.users:
             model = next((act for act in models if isinstance(act.whom, Named) is bool(self.users)), model)
         several = len({act.whom for act in models}) > 1
-        several = several and not (self.users or any(self.has(name) for name in ("others", "every", "both")))
+        said_whose = self.users or self.spoken_of or any(self.has(name) for name in ("others", "every", "both"))
+        several = several and not said_whose
         if several and model is not None and self.has("correct"):
             users = [user for act in models if isinstance(act.whom, Named) for user in act.whom.users]
             return self.line.ask("whose_figure", text=figure.text, users=self.line.voice.users(users))
@@ -421,7 +487,7 @@ class _Fragment(Words):
             return None
         if self.has("at_most") and kind not in ("max_rate_bps", *UNITS["power"]):
             return None
-        leaning = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun"]
+        leaning = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
         leaning += ["make", "lead", "with", "suppose"] if figure.kind == "bare" or supposed else []
         leaning += ["revise"] if model is not None and isinstance(model.whom, Named) else []
         if len(self.named_kinds()) == 1:
