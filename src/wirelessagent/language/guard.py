@@ -106,6 +106,12 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
             first = min(reached, key=lambda hit: hit.start, default=None)
             if first is not None:
                 return first
+        if "others" in moods and intent.kind == "allocate":
+            names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
+            sentence = sentence or Sentence(plain, own_words(), names=names, max_power_w=limit)
+            subject = Reach(sentence, dropped_in(plain, context)[1], intent, language).foreign_subject()
+            if subject is not None:
+                return subject
     return None
 
 
