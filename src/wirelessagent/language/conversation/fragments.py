@@ -35,6 +35,7 @@ from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Word
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.intent_acts import acts_of, stated
 from wirelessagent.language.mentions import mentions
+from wirelessagent.language.moods import is_ordered
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.text import languages_of, normalise
 from wirelessagent.model.units import human
@@ -63,19 +64,24 @@ def read_fragment(line: Line) -> Intent | None:
     if _takes_back(line):
         return line.command("undo", steps=1.0)
     line = _without_a_description(_without_what_stays(line))
-    found = (fragment.intent() for each in (line, _order_about_one(line)) if each for fragment in words_of(each, _Fragment))
+    order = _order_about_one(line)
+    found = [fragment.intent() for fragment in words_of(line, _Fragment)]
+    if order is not None:
+        found += [fragment.intent() for fragment in words_of(order, _Fragment) if fragment.spoken_of is not None]
     return next((intent for intent in found if intent is not None), None)
 
 
 def _order_about_one(line: Line) -> Line | None:
-    """What is ordered of one user behind a clause that only tells of that user: "user 7 has paid, let him back in"."""
+    """What is ordered of one user behind a clause that only tells something: "user 7 has paid, let him back in"."""
     clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or line.is_asked or not speaks_of_one(normalise(clause[1])):
+    if clause is None or line.is_asked:
         return None
     story = Line.of(line.text[: clause.start()], line.context)
-    if len(story.users) != 1 or story.figures or story.is_asked or tells_no_mere_fact(story.text):
+    users = story.users or line.context.spoken_of
+    acts = story.figures or is_ordered(story.text) or any(True for _ in words_of(story, Words))
+    if len(users) != 1 or acts or story.is_asked or tells_no_mere_fact(story.text):
         return None
-    return Line.of(clause[1], dataclasses.replace(line.context, spoken_of=story.users))
+    return Line.of(clause[1], dataclasses.replace(line.context, spoken_of=users))
 
 
 def read_wondered(line: Line) -> Intent | None:
@@ -309,11 +315,13 @@ class _Fragment(Words):
     def _as_it_was(self) -> Intent | None:
         """ "back to how it was before the power limit": to the turn before the last one that set or dropped it."""
         before, after = self.has("before"), self.has("after")
-        if not self.has("as_it_was") or before is after or self.figures:
-            return None
-        if not self.only("as_it_was", "before", "after", "users", "lead", "correct", "make", "undo", "told", "leave", *NOUNS):
+        said = ("as_it_was", "before", "after", "users", "lead", "correct", "make", "undo", "told", "leave", "first")
+        if not self.has("as_it_was") or before is after or self.figures or not self.only(*said, *NOUNS):
             return None
         kinds = self.named_kinds()
+        if self.has("first") and after and not kinds and not self.users:
+            turns = [place for place, acts in enumerate(self.line.context.earlier, start=1) if any(map(_changes, acts))]
+            return self.line.command("undo", turn=float(turns[0])) if turns else None
         if not kinds and not self.users:
             return None
         turns = [place for place, acts in enumerate(self.line.context.earlier, start=1)
@@ -366,7 +374,8 @@ class _Fragment(Words):
             *NOUNS,
         )
         users = self._counted() if self.figures else ()
-        if (self.figures and not users) or not self.has("remove") or not self.only(*said):
+        gone = self.has("remove") or (self.has("too") and bool(self.last(Drop)) and not self.last(Limit, Scale))
+        if (self.figures and not users) or not gone or not self.only(*said):
             return None
         whom = Named(users) if users else whom
         own = [name for name, value in self.held.items() if isinstance(value, Mapping) and isinstance(whom, Named)
@@ -403,7 +412,8 @@ class _Fragment(Words):
         leans = bool(lists) or not self.is_read or self.spoken_of is not None
         if self.has("leave") and self.only("leave", "too", "take", "make", *said) and leans:
             return self.acts([LeaveOut(whom=whom)])
-        if not (self.has("too") or self.has("lead")) or not self.only("too", "it", "correct", *said):
+        nouns = ("promise", "rate") if {act.kind for act in self.last(Limit)} & {*self.named_kinds()} else ()
+        if not (self.has("too") or self.has("lead")) or not self.only("too", "it", "correct", *nouns, *said):
             return None
         if not (self.has("too") or self.has("whose") or self.users):
             return None
@@ -457,11 +467,13 @@ class _Fragment(Words):
         """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
         said = (
             "users", "every", "others", "pronoun", "one", "it", "lead", "make", "correct", "suppose", "take", "figure",
-            "ratio", "bare", "with", "by", "to", "revise", "both", "at_most", *NOUNS,
+            "ratio", "bare", "with", "grant", "by", "to", "revise", "both", "at_most", *NOUNS,
         )  # fmt: skip
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
             return self.line.ask("what_changes")
-        if len(self.figures) != 1 or not self.only(*said, *(("been",) if self.has("suppose") else ())):
+        if len(self.figures) != 1 or not self.only(
+            *said, *(("been",) if self.has("suppose") else ()), *(("more", "less") if self.has("to") else ())
+        ):
             return None
         figure = self.figures[0]
         supposed = [act for one in self.last(Suppose) for act in one.acts if isinstance(act, Limit)]
@@ -485,10 +497,12 @@ class _Fragment(Words):
         of_share = bool(self.line.context.share_of) and figure.kind == "bare"
         if several or (self.has("correct") and (of_share or (model is None and self.last(Drop)))):
             return None
-        if self.has("at_most") and kind not in ("max_rate_bps", *UNITS["power"]):
+        raised = self.has("more") or self.has("make")  # "bump her up to 600 kbit/s" sets no cap
+        caps = any("at_most" in token.classes and not (raised and "to" in token.classes) for token in self.tokens)
+        if caps and kind not in ("max_rate_bps", *UNITS["power"]):
             return None
         leaning = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
-        leaning += ["make", "lead", "with", "suppose"] if figure.kind == "bare" or supposed else []
+        leaning += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposed else []
         leaning += ["revise"] if model is not None and isinstance(model.whom, Named) else []
         if len(self.named_kinds()) == 1:
             leaning.append("make")
@@ -508,7 +522,7 @@ class _Fragment(Words):
             if len(own) != 2:
                 return None
             whom = Named(own)
-        led = any(self.has(name) for name in ("lead", "correct", "with", "make", "at_most"))
+        led = any(self.has(name) for name in ("lead", "correct", "with", "make", "at_most", "grant", "promise"))
         if value is None or not leans or (self.users and not led):
             return None
         if kind not in FIGURES_OF_USERS:
@@ -541,7 +555,8 @@ class _Fragment(Words):
         fitting = UNITS.get(figure.kind, ())
         named = self.named_kinds()
         possible = [kind for kind in named if not fitting or kind in fitting] if named else list(fitting)
-        last = [act.kind for act in before if not (named or fitting) or act.kind in possible][-1:]
+        whose = FIGURES_OF_USERS if self.users and figure.kind == "bare" else [act.kind for act in before]
+        last = [act.kind for act in before if (not (named or fitting) or act.kind in possible) and act.kind in whose][-1:]
         if not named and any(self.has(name) for name in NOUNS):
             return []
         if figure.kind == "bare" and not named:
@@ -566,6 +581,10 @@ class _Fragment(Words):
             return ()
         named = any(isinstance(act.whom, Named) for act in self.last(Limit, Drop, LeaveOut, Serve, Scale))
         return users if named or self.has("leave") or self.has("serve") else ()
+
+
+def _changes(act: Act) -> bool:
+    return isinstance(act, Aim | Limit | LeaveOut | Serve)
 
 
 def _figures(held: Constraint | None) -> tuple[float, ...]:

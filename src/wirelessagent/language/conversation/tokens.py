@@ -46,7 +46,7 @@ NOUNS: Mapping[str, tuple[str, ...]] = {
 _CLASS = {"power": "figure", "rate": "figure"}
 """What a figure with a unit is called, beside nouns."""
 
-_SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…=-]+")
+_SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…=>→-]+")
 _PREFIXED = re.compile(r"[0-9]\s?[kMG]$")
 _WORD = re.compile(r"[^\W\d_]+")
 _ONES = frozenset(
