@@ -98,20 +98,16 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
         if "quotation" in moods:
             marks = (match.span() for match in _QUOTED.finditer(plain))
             hits += [Doubt(mood="quotation", reach="inside", start=start, end=end) for start, end in marks]
-        if hits:
+        told = "others" in moods and intent.kind == "allocate" and any(places(table_of(language)["subject"]["finite"], plain))
+        if hits or told:
             names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
             sentence = sentence or Sentence(plain, own_words(), names=names, max_power_w=limit)
             known = Reach(sentence, dropped_in(plain, context)[1], intent, language)
             reached = (hit for hit in hits if not known.accounts_for(hit) and known.touches(hit))
             first = min(reached, key=lambda hit: hit.start, default=None)
+            first = first or (known.foreign_subject() if told else None)
             if first is not None:
                 return first
-        if "others" in moods and intent.kind == "allocate":
-            names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
-            sentence = sentence or Sentence(plain, own_words(), names=names, max_power_w=limit)
-            subject = Reach(sentence, dropped_in(plain, context)[1], intent, language).foreign_subject()
-            if subject is not None:
-                return subject
     return None
 
 

@@ -338,10 +338,11 @@ class Reach:
                     if (first or reach == "words") and not kept and not bare:
                         place = last if first else start
                         cuts[place] = (name, cuts.get(place, ("", ""))[1])
-        for start, end in places(self._table["imperative"]["words"], plain):
+        aside = any(name in ("who", "because") for name, _ in cuts.values())
+        for start, _ in places(self._table["imperative"]["words"], plain) if aside else ():
             last = max(place for place in cuts if place <= start)
-            joint = self._joint_before(start)
-            if joint > last and cuts[last][0] in _ASIDE:  # "qui n'a pas payé et pousse le débit"
+            joint = self._joint_before(start) if cuts[last][0] in ("who", "because") else -1
+            if _worded(plain[last : max(joint, last)]):  # "qui n'a pas payé et pousse le débit"
                 cuts[joint] = ("", "")
         starts = sorted(cuts)
         for start, end in zip(starts, [*starts[1:], len(plain)], strict=True):

@@ -8,6 +8,7 @@ sentences. So nothing is done that a word of the line may not have meant.
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -387,7 +388,9 @@ class _Fragment(Words):
             kinds = [act.kind for act in self.last(Limit) if act.kind in kinds][-1:]
         if len(kinds) != 1 or (isinstance(whom, Named) and kinds[0] not in own and kinds[0] != "min_rate_bps"):
             return None
-        return self.acts([Drop(kind=kinds[0], whom=whom or Everybody())])
+        held = self.held.get(kinds[0])
+        common = kinds == own and self.has("own") and isinstance(held, Mapping) and EVERYBODY in held
+        return self.acts([Drop(kind=kinds[0], whom=whom or Everybody(), own=common)])
 
     def _served(self) -> Intent | None:
         """ "take 7 off the list", "user 7 back in", and users of whom the same is said as of the last ones."""
@@ -467,12 +470,12 @@ class _Fragment(Words):
         """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
         said = (
             "users", "every", "others", "pronoun", "one", "it", "lead", "make", "correct", "suppose", "take", "figure",
-            "ratio", "bare", "with", "grant", "by", "to", "revise", "both", "at_most", *NOUNS,
+            "ratio", "bare", "with", "grant", "too", "by", "to", "revise", "both", "at_most", *NOUNS,
         )  # fmt: skip
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
             return self.line.ask("what_changes")
         if len(self.figures) != 1 or not self.only(
-            *said, *(("been",) if self.has("suppose") else ()), *(("more", "less") if self.has("to") else ())
+            *said, *(("been",) if self.has("suppose") else ()), *(("more", "less") if self.has("to") or self._says_anew() else ())
         ):
             return None
         figure = self.figures[0]
@@ -485,7 +488,7 @@ class _Fragment(Words):
             return None
         kind = kinds[0]
         models = [act for act in before if act.kind == kind]
-        model = models[-1] if models else None
+        model = models[-1] if models else self._as_named(kind, figure)
         if self.has("others") or self.has("every") or self.users:
             model = next((act for act in models if isinstance(act.whom, Named) is bool(self.users)), model)
         several = len({act.whom for act in models}) > 1
@@ -505,7 +508,7 @@ class _Fragment(Words):
         leaning += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposed else []
         leaning += ["revise"] if model is not None and isinstance(model.whom, Named) else []
         if len(self.named_kinds()) == 1:
-            leaning.append("make")
+            leaning += ["make", "promise"] if self.users else ["make"]
         alone = (
             model is not None
             and self.line.context.awaits == "nothing"
@@ -522,7 +525,9 @@ class _Fragment(Words):
             if len(own) != 2:
                 return None
             whom = Named(own)
-        led = any(self.has(name) for name in ("lead", "correct", "with", "make", "at_most", "grant", "promise"))
+        led = any(self.has(name) for name in ("lead", "correct", "with", "make", "at_most", "grant"))
+        pairs = itertools.pairwise(self.tokens)
+        led = led or any(token.figure and "promise" in behind.classes for token, behind in pairs)  # "1 Mbit/s promised"
         if value is None or not leans or (self.users and not led):
             return None
         if kind not in FIGURES_OF_USERS:
@@ -542,6 +547,20 @@ class _Fragment(Words):
         if (wondered or supposed) and not (self.has("take") or self.has("make") or self.has("correct")):
             return self._wondered(kind, value, whom) if self.has("suppose") or supposed else None
         return self.acts([Limit(kind=kind, value=value, whom=whom, words=_words(figure, kind, model))])
+
+    def _as_named(self, kind: str, figure: Quantity) -> Limit | None:
+        """The limit that holds and that a noun names, in the place of which a figure without a unit stands."""
+        held = self.held.get(kind)
+        named = figure.kind == "bare" and kind in self.named_kinds() and isinstance(held, float)
+        return Limit(kind=kind, value=held) if named and isinstance(held, float) else None
+
+    def _says_anew(self) -> bool:
+        """Whether a figure is what something is to be, and not by how much: "a bit more for everyone, say 350"."""
+        pairs = itertools.pairwise(self.tokens)
+        return any(
+            behind.figure is not None and "make" in token.classes and not token.classes & {"more", "less"}
+            for token, behind in pairs
+        )
 
     def _as_held(self, act: Scale) -> Limit:
         """A figure that was scaled, as it holds."""
