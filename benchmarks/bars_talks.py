@@ -64,10 +64,12 @@ def judged(talk: Mapping[str, Any], tell: Any) -> list[str]:
         radiated_w = 0.0 if decided is None else decided.decision.total_power_w
         before = session.request
         turn = session.say(line["text"])
-        shares = {figure for figure in (line["request"] or {}).get("constraints", {}).values() if isinstance(figure, str)}
+        shares = {
+            figure for figure in (line["request"] or {}).get("constraints", {}).values() if isinstance(figure, str)
+        }
         kept_w = {figure: watts for figure, watts in kept_w.items() if figure in shares}
         if any(holds(session, line["request"], watts) for watts in (radiated_w, *kept_w.values())):
-            kept_w |= {figure: radiated_w for figure in shares - kept_w.keys()}
+            kept_w |= dict.fromkeys(shares - kept_w.keys(), radiated_w)
             found.append("right")
             continue
         found.append("missed" if session.request == before else "wrong")

@@ -76,7 +76,9 @@ def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tu
             names.append(name)
             spans.append(match.span())
     for name, english, _ in _LIMITS * bool(spans):  # "forget the weights, and the power limit too"
-        behind = re.compile(rf"(?i)(?:\s*,|\s+(?:and|or|nor))+\s+(?:(?:the|any|all|my|our|that)\s+)?(?:{english})(?![A-Za-z])")
+        behind = re.compile(
+            rf"(?i)(?:\s*,|\s+(?:and|or|nor))+\s+(?:(?:the|any|all|my|our|that)\s+)?(?:{english})(?![A-Za-z])"
+        )
         found = (behind.match(plain, end) for _, end in spans)
         match = next((each for each in found if each is not None), None)
         if match is not None and name not in names:

@@ -98,7 +98,11 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
         if "quotation" in moods:
             marks = (match.span() for match in _QUOTED.finditer(plain))
             hits += [Doubt(mood="quotation", reach="inside", start=start, end=end) for start, end in marks]
-        told = "others" in moods and intent.kind == "allocate" and any(places(table_of(language)["subject"]["finite"], plain))
+        told = (
+            "others" in moods
+            and intent.kind == "allocate"
+            and any(places(table_of(language)["subject"]["finite"], plain))
+        )
         if hits or told:
             names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
             sentence = sentence or Sentence(plain, own_words(), names=names, max_power_w=limit)

@@ -58,7 +58,9 @@ _AND = (
     r"et|ou|ainsi\s+que|und|oder|noch|sowie)\s+(?:(?:the|el|al|del|le|au|du|die|den|der)\s+)?)"
 )
 _TO = r"(?:\s*(?:-|–|~)\s*|\s+(?:up\s+to|to|through|al?|hasta\s+el|hasta|à|au|jusqu'(?:à|au)|bis(?:\s+zu)?)\s+)"
-_OF_ITS_OWN = r"(?!\s+(?:for|to(?!\s+(?:have|get|receive|be|reach|see|go|run|enjoy|count|share|stay))|para|pour|für)\s)"  # "6 for user 2, 3 for user 3": no list of users
+_OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …" is
+    r"(?!\s+(?:for|to(?!\s+(?:have|get|receive|be|reach|see|go|run|enjoy|count|share|stay))|para|pour|für)\s)"
+)
 _NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"
 _DIGITS = r"[0-9]{1,4}(?![0-9.,]*[0-9%]|[A-Za-z])"
 _WORD_LIST = rf"{_WORD_NUMBER}\b(?:(?:{_AND}|{_TO}){_WORD_NUMBER}\b)*"

@@ -158,7 +158,7 @@ class Reach:
         )
 
     def foreign_subject(self) -> Doubt | None:
-        """Who it is that the aim is told of, where that is neither the operator nor the cell: "the landlord is after …".
+        """Who the aim is told of, where that is neither the operator nor the cell: "the landlord is after max rate".
 
         Somebody stands as the subject where, before the aim in its clause, a finite verb follows a word that no wish
         of an operator's own begins with; a user, a figure or a word for an aim is no such word.
@@ -225,7 +225,7 @@ class Reach:
             if hit.mood == "elsewhere":
                 turns = self._plain[start : clause.start].strip()
                 return clause.start, self._first_of(later, end, "besides") if turns else end
-            return clause.start, self._first_of(later, end, "so")
+            return clause.start, self._next(later, "now", end)
         if hit.mood == "time" and hit.reach == "ahead" and not told:
             return clause.start, self._next(later, "now", end)
         return clause.start, end if told and hit.mood != "elsewhere" else clause.end
@@ -272,7 +272,9 @@ class Reach:
 
     def _first_of(self, clauses: Sequence[Clause], end: int, name: str) -> int:
         """Where the first of these clauses begins that opens so, or begins with such a word."""
-        found = (each.start for each in clauses if each.opens == name or (name == "besides" and self._begins(name, each)))
+        found = (
+            each.start for each in clauses if each.opens == name or (name == "besides" and self._begins(name, each))
+        )
         return min(found, default=end)
 
     def _next(self, clauses: Sequence[Clause], name: str, end: int) -> int:

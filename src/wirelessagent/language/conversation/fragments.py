@@ -31,8 +31,8 @@ from wirelessagent.language.acts import (
 )  # fmt: skip
 from wirelessagent.language.conversation.line import NAME, Line, begins, is_all
 from wirelessagent.language.conversation.relative import read_relative
-from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, speaks_of_one, tokens_of, words_of
+from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.intent_acts import acts_of, stated
 from wirelessagent.language.mentions import mentions
@@ -48,6 +48,7 @@ _FIGURE = re.compile(r"^[-+\d.,\s]+")
 _LONGEST = 120
 _SHORT = 40
 _MOST_STEPS = 20
+_FIRST_NUMBER = re.compile(r"\s*(\d{1,3})\s+(?=[^\W\d_]{2,}\s)")
 _BUT = re.compile(r"(?:\s(?=(?:but|and)\s)|(?=但|而))(.+)$")
 _LAST_CLAUSE = re.compile(r"[,，;；.。!！]\s*([^,，;；.。!！]+)[.。!！\s]*$")
 _FAR = 20.0
@@ -73,12 +74,14 @@ def read_fragment(line: Line) -> Intent | None:
 
 
 def _order_about_one(line: Line) -> Line | None:
-    """What is ordered of one user behind a clause that only tells something: "user 7 has paid, let him back in"."""
+    """What is ordered of one user behind a clause that only tells of that user: "user 7 has paid, let him back in"."""
     clause = _LAST_CLAUSE.search(line.text)
     if clause is None or line.is_asked:
         return None
     story = Line.of(line.text[: clause.start()], line.context)
-    users = story.users or line.context.spoken_of
+    first = _FIRST_NUMBER.match(story.text)
+    numbered = first is not None and int(first[1]) in range(1, len(line.context.user_names) + 1)
+    users = story.users or ((first[1],) if first is not None and numbered else ())
     acts = story.figures or is_ordered(story.text) or any(True for _ in words_of(story, Words))
     if len(users) != 1 or acts or story.is_asked or tells_no_mere_fact(story.text):
         return None
@@ -262,7 +265,9 @@ class _Fragment(Words):
             return None
         held = self.held.get(act.kind)
         common = isinstance(held, Mapping) and EVERYBODY in held
-        back = Drop(kind=act.kind, whom=act.whom, own=True) if common else dataclasses.replace(act, factor=1 / act.factor)
+        back = (
+            Drop(kind=act.kind, whom=act.whom, own=True) if common else dataclasses.replace(act, factor=1 / act.factor)
+        )
         if not common and not (isinstance(held, Mapping) and set(self.users) <= held.keys()):
             return None
         return self.acts([back, dataclasses.replace(act, whom=Named(self.users))])
@@ -397,7 +402,11 @@ class _Fragment(Words):
         users = self.users or self._counted() or (self.spoken_of.users if self.spoken_of else ())
         if self.has("every") and self.has("serve") and self.only("every", "serve", "again", "lead", "take", "make"):
             return self.acts([Serve(whom=Everybody())]) if {"users", "leave_out"} & self.held.keys() else None
-        if self.has("others") and self.has("serve") and self.only("others", "serve", "again", "lead", "too", "make", "bare"):
+        if (
+            self.has("others")
+            and self.has("serve")
+            and self.only("others", "serve", "again", "lead", "too", "make", "bare")
+        ):
             return self._others_served()
         out = self.held.get("leave_out", ())
         if self.has("both") and self.has("serve") and self.only("both", "serve", "again", "lead", "every"):
@@ -475,7 +484,9 @@ class _Fragment(Words):
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
             return self.line.ask("what_changes")
         if len(self.figures) != 1 or not self.only(
-            *said, *(("been",) if self.has("suppose") else ()), *(("more", "less") if self.has("to") or self._says_anew() else ())
+            *said,
+            *(("been",) if self.has("suppose") else ()),
+            *(("more", "less") if self.has("to") or self._says_anew() else ()),
         ):
             return None
         figure = self.figures[0]
@@ -575,7 +586,9 @@ class _Fragment(Words):
         named = self.named_kinds()
         possible = [kind for kind in named if not fitting or kind in fitting] if named else list(fitting)
         whose = FIGURES_OF_USERS if self.users and figure.kind == "bare" else [act.kind for act in before]
-        last = [act.kind for act in before if (not (named or fitting) or act.kind in possible) and act.kind in whose][-1:]
+        last = [act.kind for act in before if (not (named or fitting) or act.kind in possible) and act.kind in whose][
+            -1:
+        ]
         if not named and any(self.has(name) for name in NOUNS):
             return []
         if figure.kind == "bare" and not named:

@@ -18,9 +18,9 @@ from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constrain
 from wirelessagent.language.quantities import Quantity
 
 _SAID = (
-    "users", "every", "each", "pronoun", "one", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
+    "users", "every", "each", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
     "promise", "power", "limit", "again", "by", "to", "figure", "decibel", "bare", "at_most", "suppose", "worth",
-    "spend", "effect", "been", "with",
+    "spend", "effect", "been", "with", "one",
 )  # fmt: skip
 _SCALED = ("max_power_w", "min_rate_bps", "max_rate_bps")
 

@@ -198,7 +198,9 @@ def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:
     changed = list(tokens)
     for place, (ahead, token) in enumerate(itertools.pairwise(tokens), start=1):
         others = any(each.figure or each.factor for each in tokens if each is not token)
-        counts = token.figure is not None and token.figure.kind == "bare" and token.figure.value in range(1, num_users + 1)
+        counts = (
+            token.figure is not None and token.figure.kind == "bare" and token.figure.value in range(1, num_users + 1)
+        )
         if counts and others and "whose" in ahead.classes and not any(each.users for each in tokens):
             assert token.figure is not None
             changed[place] = Token(frozenset({"users"}), users=(f"{token.figure.value:g}",))
