@@ -12,6 +12,7 @@ import { drawExport } from "./exporting.js";
 import { drawPlan } from "./plan.js";
 import { drawRates } from "./rates.js";
 import { setUpLanguages, setUpTheme, signOut, wantedLanguage } from "./settings.js";
+import { scene, state } from "./state.js";
 import { drawTimeline } from "./timeline.js";
 import { inShort, isUsable, saidFor, turnOf } from "./turns.js";
 import { nameUnits, setUpUpload } from "./upload.js";
@@ -23,29 +24,10 @@ const LONGEST_MS = 15000;
 const CALMER = 1.25;
 const JOB = "wirelessagent.job";
 
-const state = {
-  console: null, cell: null, session: null, channel: null,
-  looking: null, job: null, problem: null, connected: true,
-};
 let drawn = "";
 let wait = EVERY_MS;
 let timer = 0;
 let shownChannel;
-
-/** What follows from the state: which turns count, what is looked at, and what may be done. */
-function scene() {
-  const { session, looking } = state;
-  const effect = turnOf(session, session.in_effect);
-  const planTurn = session.plan ? turnOf(session, session.plan.turn) : null;
-  const looked = looking === null ? null : turnOf(session, looking);
-  const last = session.turns.findLast((turn) => isUsable(turn)) ?? null;
-  const failed = session.turns.at(-1)?.stage === "nothing" && session.turns.at(-1).decision ? session.turns.at(-1) : null;
-  const shown = looked ?? planTurn ?? failed ?? effect ?? last;
-  return {
-    plan: session.plan, planTurn, effect, shown, looked,
-    canAct: state.console.role === "operator", busy: Boolean(state.job), people: state.console.signed_in,
-  };
-}
 
 function shownName({ shown, planTurn }) {
   return shown === planTurn ? say("console.plan") : say("turn.column", { number: shown?.number });
@@ -57,11 +39,11 @@ function draw() {
   const usable = isUsable(now.shown) ? now.shown : null;
   byId("page").classList.toggle("loading", false);
   drawConversation(state, now, actions);
-  drawPlan(now, actions);
   const asIs = JSON.stringify([state.session, state.looking, now.busy, state.cell, document.documentElement.lang, document.documentElement.dataset.theme]);
   if (asIs === drawn && shownChannel === state.channel) return;
   drawn = asIs;
   shownChannel = state.channel;
+  drawPlan(now, actions);
   drawCells(state.console.cells, state.cell, now.canAct, actions);
   drawChannel(state.channel);
   drawAllocation(usable, now.effect, shownName(now));
