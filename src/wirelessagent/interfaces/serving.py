@@ -114,6 +114,7 @@ def _listening(host: str, port: int) -> socket.socket:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listening.bind((host, port))
+        listening.listen(128)  # so that whoever is told the address can call at once
     except OSError as error:
         listening.close()
         raise InputError(

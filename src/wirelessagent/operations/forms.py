@@ -121,11 +121,14 @@ def _holds_path(annotation: Any) -> bool:
 
 
 def _choice(mark: PluginName) -> Any:
-    """The names of the plug-ins of a kind that load and need no path."""
+    """The names of the plug-ins of a kind that load and need no path; base stations may not even take one."""
     names = [
         found.name
         for found in plugins(mark.kind)
-        if found.cls is not None and not any(option.required and option.type is Path for option in found.options)
+        if found.cls is not None
+        and not any(
+            option.type is Path and (option.required or mark.kind == "base_station") for option in found.options
+        )
     ]
     return cast("Any", Literal)[tuple(names)]
 

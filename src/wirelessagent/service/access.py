@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+import math
 import secrets
 import time
 from dataclasses import dataclass
@@ -106,7 +107,7 @@ class Access:
         item = self._ledger.find(kind, _hash(secret))
         if item is None or not hmac.compare_digest(item.id, _hash(secret)):
             raise NotSignedInError(otherwise)
-        if item.data.get("until", time.time()) < time.time():
+        if item.data.get("until", math.inf) < time.time():
             raise NotSignedInError(otherwise)
         return Caller(item.data["name"], cast("Role", item.data["role"]))
 

@@ -1,0 +1,288 @@
+"""What somebody hostile would try, each refused, and the server well afterwards."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import json
+import pickle
+import socket
+import time
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx2
+import numpy as np
+import pytest
+from servers import Server, Signed, started
+
+pytestmark = pytest.mark.machine_code
+
+OCTETS = {"Content-Type": "application/octet-stream"}
+
+
+@pytest.fixture(autouse=True)
+def _well_afterwards(server: Server) -> Iterator[None]:
+    yield
+    assert server.get("healthz") == {"status": "ok"}
+    assert server.process.poll() is None
+
+
+def _problem(answer: httpx2.Response, status: int) -> str:
+    """The detail of a problem of this status."""
+    assert answer.status_code == status, answer.text[:500]
+    assert answer.headers["content-type"] == "application/problem+json"
+    problem = answer.json()
+    assert set(problem) == {"type", "title", "status", "detail"}
+    assert "Traceback" not in answer.text
+    return problem["detail"]
+
+
+class TestWhoMayWhat:
+    def test_without_a_token(self, guarded: Signed) -> None:
+        with guarded.nobody.client as client:
+            for path in ("v1/console", "v1/cells", "v1/history", "metrics", "openapi.json", "v1/words/en"):
+                _problem(client.get(path), 401)
+            assert client.get("healthz").status_code == 200
+
+    def test_with_a_wrong_token(self, guarded: Signed) -> None:
+        for token in ("wa_wrong", guarded.operator.token[:-1], f"{guarded.operator.token}x", "ü"):
+            headers = {"Authorization": f"Bearer {token}".encode()}
+            with guarded.nobody.client as client:
+                _problem(client.get("v1/cells", headers=headers), 401)
+
+    def test_a_viewer_changes_nothing(self, guarded: Signed) -> None:
+        cell = guarded.viewer.get("v1/cells")[0]
+        session, plan = cell["session"], guarded.viewer.plan(cell["session"])
+        for path, body in (
+            (f"v1/sessions/{session}/confirm", {"plan": plan}), (f"v1/sessions/{session}/turns", {"text": "fair"}),
+            (f"v1/sessions/{session}/undo", None), ("v1/cells", {"name": "x"}), ("v1/operations/simulate", {}),
+        ):  # fmt: skip
+            _problem(guarded.viewer.post(path, body), 403)
+        with guarded.viewer.client as client:
+            _problem(client.delete(f"v1/cells/{cell['id']}"), 403)
+        assert guarded.viewer.plan(session) == plan
+
+    def test_tokens_are_kept_as_hashes(self, guarded: Signed) -> None:
+        kept = b"".join(path.read_bytes() for path in guarded.operator.store.parent.iterdir() if path.is_file())
+        assert guarded.operator.token.encode() not in kept
+        assert guarded.operator.token not in guarded.operator.store.with_suffix(".log").read_text()
+
+    def test_a_session_that_was_there_before_is_not_taken_over(self, guarded: Signed) -> None:
+        with guarded.nobody.client as client:
+            client.cookies.set("wirelessagent", "fixed-by-somebody")
+            _problem(client.get("v1/cells"), 401)
+            signed = client.post("sign-in", json={"token": guarded.viewer.token})
+            assert signed.status_code == 204
+            cookie = signed.headers["set-cookie"]
+            assert "fixed-by-somebody" not in cookie
+            assert all(mark in cookie for mark in ("HttpOnly", "SameSite=strict"))
+        with guarded.nobody.client as client:
+            value = cookie.partition("=")[2].partition(";")[0]
+            headers = {"Cookie": f"wirelessagent={value}"}
+            assert client.get("v1/cells", headers=headers).status_code == 200
+            assert client.post("sign-out", headers=headers).status_code == 204
+            _problem(client.get("v1/cells", headers=headers), 401)
+
+    def test_somebody_elses_job(self, guarded: Signed) -> None:
+        body, prefer = {"source": "rayleigh"}, {"Prefer": "respond-async"}
+        job = guarded.operator.post("v1/operations/simulate", body, headers=prefer).json()
+        with guarded.viewer.client as client:
+            _problem(client.get(f"v1/jobs/{job['id']}"), 404)
+
+    def test_an_open_address_needs_a_token(self, tmp_path: Path) -> None:
+        with pytest.raises(AssertionError, match="a token is needed"), started(tmp_path / "s.db", "--host", "0.0.0.0"):
+            pass
+
+
+class TestPlans:
+    def test_replayed_and_stale(self, server: Server) -> None:
+        session = server.cell()["session"]
+        server.say(session, "highest total rate")
+        first = server.plan(session)
+        server.say(session, "at most 10 W")
+        second = server.plan(session)
+        assert first != second
+        _problem(server.post(f"v1/sessions/{session}/confirm", {"plan": first}), 409)
+        assert server.post(f"v1/sessions/{session}/confirm", {"plan": second}).status_code == 200
+        _problem(server.post(f"v1/sessions/{session}/confirm", {"plan": second}), 409)
+
+    def test_of_a_conversation_that_is_over(self, server: Server) -> None:
+        cell = server.cell()
+        server.say(cell["session"], "highest total rate")
+        plan = server.plan(cell["session"])
+        assert server.post("v1/sessions", {"cell": cell["id"]}).status_code == 201
+        _problem(server.post(f"v1/sessions/{cell['session']}/confirm", {"plan": plan}), 409)
+        _problem(server.post(f"v1/sessions/{cell['session']}/turns", {"text": "fair"}), 409)
+
+    @pytest.mark.parametrize("line", ["yes", "apply it", "是，应用", "ja, anwenden", "confirm the plan now", "undo"])
+    def test_by_words(self, server: Server, line: str) -> None:
+        session = server.cell()["session"]
+        server.say(session, "highest total rate")
+        assert server.say(session, line)["stage"] not in ("applied", "undone") or line == "undo"
+        assert server.get(f"v1/sessions/{session}")["in_effect"] is None
+
+
+class TestBodies:
+    def test_oversized(self, server: Server) -> None:
+        _problem(server.post("v1/operations/simulate", content=b" " * 300_000, headers=OCTETS), 413)
+        chunks = (b" " * 65536 for _ in range(8))
+        _problem(server.post("v1/operations/simulate", content=chunks, headers=OCTETS), 413)
+
+    @pytest.mark.parametrize(
+        "body",
+        [
+            b'{"text": NaN}', b'{"text": Infinity}', b'{"text": "a", "text": "b"}', b"[" * 100_000, b"\xff\xfe", b"{",
+            b'{"text": ' + b'{"a":' * 20_000 + b"1" + b"}" * 20_000 + b"}", b"", b'{"text": 5}', b'{"more": 1}',
+            b'{"text": "\\ud800"}', b"1" * 10_000,
+        ],
+    )  # fmt: skip
+    def test_that_are_no_request(self, server: Server, body: bytes) -> None:
+        session = server.get("v1/cells")[0]["session"]
+        headers = {"Content-Type": "application/json"}
+        _problem(server.post(f"v1/sessions/{session}/turns", content=body, headers=headers), 422)
+
+    def test_of_other_types(self, server: Server) -> None:
+        for media_type in ("text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x"):
+            answer = server.post("v1/operations/simulate", content=b"{}", headers={"Content-Type": media_type})
+            _problem(answer, 422)
+
+    def test_compressed(self, server: Server) -> None:
+        headers = {**OCTETS, "Content-Encoding": "gzip"}
+        _problem(server.post("v1/observations?name=a.csv", content=gzip.compress(b"0" * 10**7), headers=headers), 422)
+
+
+class TestFiles:
+    def _refused(self, server: Server, name: str, content: bytes) -> str:
+        return _problem(server.post("v1/observations", content=content, headers=OCTETS, params={"name": name}), 422)
+
+    def test_a_pickle(self, server: Server) -> None:
+        self._refused(server, "gains.pkl", pickle.dumps({"gain": [[1.0]]}))
+        stream = io.BytesIO()
+        np.save(stream, np.array([[{"a": 1}]], dtype=object), allow_pickle=True)
+        self._refused(server, "gains.npy", stream.getvalue())
+
+    def test_a_bomb(self, server: Server) -> None:
+        stream = io.BytesIO()
+        with (
+            zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as bomb,
+            bomb.open("gain.npy", "w", force_zip64=True) as entry,
+        ):
+            header = io.BytesIO()
+            np.lib.format.write_array_header_1_0(
+                header, {"descr": "<f8", "fortran_order": False, "shape": (10_000, 40_000)}
+            )
+            entry.write(header.getvalue())
+            for _ in range(800):
+                entry.write(bytes(4_000_000))
+        assert len(stream.getvalue()) < 32 << 20
+        self._refused(server, "gains.npz", stream.getvalue())
+
+    def test_damaged(self, server: Server) -> None:
+        for name in ("a.h5", "a.mat", "a.nc", "a.npz", "a.npy", "a.json"):
+            self._refused(server, name, b"\x89HDF\r\n\x1a\n" + bytes(range(256)) * 20)
+
+    @pytest.mark.parametrize(
+        "name", ["../../etc/passwd", "..\\x.csv/..", "/etc/a.csv", "a\x00.csv", "a.csv/", ".csv\n"]
+    )
+    def test_hostile_names(self, server: Server, name: str) -> None:
+        answer = server.post("v1/observations", content=b"1,2\n3,4\n", headers=OCTETS, params={"name": name})
+        folder = server.store.parent / "observations"
+        assert answer.status_code in (201, 422)
+        assert all(path.parent == folder and path.stem.isalnum() for path in folder.glob("**/*"))
+
+    def test_paths_are_not_reached(self, server: Server) -> None:
+        for options in (
+            {"csi": "/etc/passwd"}, {"csi": "../store.sqlite3"}, {"base_station": "file"}, {"store": "/tmp/x"},
+            {"source": "file", "source_options": {"path": "/etc/passwd"}},
+        ):  # fmt: skip
+            answer = server.post("v1/cells", {"name": "x", "options": options})
+            assert answer.status_code in (404, 422), answer.text
+        for form in ({"out": "/tmp/stolen.npz"}, {"path": "/etc/passwd"}, {"source_options": {"path": "/etc/passwd"}}):
+            _problem(server.post("v1/operations/simulate", form), 422)
+        for path in ("console/../../../pyproject.toml", "console/%2e%2e/%2e%2e/serving.py", "console//etc/passwd"):
+            with server.client as client:
+                assert client.get(path).status_code == 404
+
+
+class TestBrowsers:
+    def test_another_host(self, server: Server) -> None:
+        for host in ("evil.example", "127.0.0.1.evil.example", "", "localhost@evil.example"):
+            with server.client as client:
+                _problem(client.get("v1/cells", headers={"Host": host}), 421)
+
+    def test_another_sites_page(self, server: Server) -> None:
+        for headers in ({"Origin": "https://evil.example"}, {"Origin": "null"}, {"Sec-Fetch-Site": "cross-site"}):
+            _problem(server.post("v1/operations/simulate", {}, headers=headers), 403)
+
+    def test_what_was_said_is_never_a_page(self, server: Server) -> None:
+        session = server.cell()["session"]
+        line = '<script>alert(1)</script> \x1b[2J‮ "highest total rate"'
+        server.say(session, line)
+        with server.client as client:
+            answer = client.get(f"v1/sessions/{session}")
+        assert answer.headers["content-type"] == "application/json"
+        assert answer.headers["x-content-type-options"] == "nosniff"
+        assert "script-src" not in answer.headers["content-security-policy"]
+        assert "default-src 'self'" in answer.headers["content-security-policy"]
+        assert answer.headers["x-frame-options"] == "DENY"
+
+    def test_forged_forwarding(self, server: Server) -> None:
+        with server.client as client:
+            answer = client.get("v1/cells", headers={"X-Forwarded-For": "1.2.3.4", "X-Forwarded-Host": "evil.example"})
+        assert answer.status_code == 200
+        assert "evil" not in answer.text
+
+
+class TestTimeAndNumbers:
+    def test_a_request_that_comes_drop_by_drop(self, server: Server) -> None:
+        host, port = server.url.removeprefix("http://").rstrip("/").split(":")
+        with socket.create_connection((host, int(port)), timeout=40) as line:
+            began = time.monotonic()
+            line.sendall(b"GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\n")
+            while time.monotonic() - began < 30 and _still_open(line):
+                time.sleep(0.5)
+        assert time.monotonic() - began < 25
+
+    def test_work_without_end(self, tmp_path: Path) -> None:
+        with started(tmp_path / "store.sqlite3", "--work-limit-s", "3") as server:
+            form = {"draws": 100_000}
+            assert "3 s" in _problem(server.post("v1/operations/evaluate%20repair", form), 504)
+            assert server.post("v1/operations/plugins", {}).status_code == 200
+
+    def test_too_often(self, tmp_path: Path) -> None:
+        with started(tmp_path / "store.sqlite3", "--requests-per-s", "1") as server, server.client as client:
+            found = [client.get("v1/cells") for _ in range(200)]
+        assert found[0].status_code == 200
+        _problem(found[-1], 429)
+        assert found[-1].headers["retry-after"]
+
+    def test_too_large_a_problem(self, server: Server) -> None:
+        form = {"source_options": {"num_users": 50_000, "num_subcarriers": 50_000}}
+        _problem(server.post("v1/operations/simulate", form), 422)
+
+    def test_a_socket_is_not_opened(self, server: Server) -> None:
+        headers = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
+                   "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ=="}  # fmt: skip
+        with server.client as client:
+            assert client.get("v1/cells", headers=headers).status_code in (200, 400, 403)
+
+    def test_long_lines(self, server: Server) -> None:
+        session = server.cell()["session"]
+        _problem(server.post(f"v1/sessions/{session}/turns", {"text": "x" * 5000}), 422)
+        body = json.dumps({"text": "   "}).encode()
+        answer = server.post(f"v1/sessions/{session}/turns", content=body, headers={"Content-Type": "application/json"})
+        _problem(answer, 422)
+
+
+def _still_open(line: socket.socket) -> bool:
+    """Whether one more drop is taken."""
+    line.settimeout(0.01)
+    try:
+        line.sendall(b"X-A: b\r\n")
+        return line.recv(1) != b""
+    except TimeoutError:
+        return True
+    except ConnectionError:
+        return False

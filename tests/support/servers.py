@@ -1,0 +1,117 @@
+"""Servers for tests: started as an operator starts them, and ended."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import httpx2
+
+_URL = re.compile(r"http://[^\s]+/")
+
+
+@dataclass
+class Server:
+    """A running server."""
+
+    url: str
+    store: Path
+    process: subprocess.Popen[str]
+    token: str = ""
+
+    @property
+    def client(self) -> httpx2.Client:
+        """Somebody who calls it."""
+        headers = {"Authorization": f"Bearer {self.token}"} if self.token else {}
+        return httpx2.Client(base_url=self.url, headers=headers, timeout=120, trust_env=False)
+
+    def get(self, path: str, **more: Any) -> Any:
+        """What is there."""
+        with self.client as client:
+            return client.get(path, **more).raise_for_status().json()
+
+    def post(self, path: str, body: Any = None, **more: Any) -> httpx2.Response:
+        """The answer to a request that changes something."""
+        with self.client as client:
+            return client.post(path, **({} if body is None else {"json": body}), **more)
+
+    def cell(self) -> dict[str, Any]:
+        """A new simulated cell."""
+        made = self.post("v1/cells", {"name": "a cell", "options": {"seed": 1}})
+        assert made.status_code == 201, made.text
+        return made.json()
+
+    def say(self, session: str, text: str, **more: Any) -> dict[str, Any]:
+        """The turn of a line."""
+        said = self.post(f"v1/sessions/{session}/turns", {"text": text}, **more)
+        assert said.status_code == 200, said.text
+        return said.json()
+
+    def plan(self, session: str) -> str:
+        """The plan that waits."""
+        return self.get(f"v1/sessions/{session}")["plan"]["id"]
+
+    def kill(self) -> None:
+        """End it without a word, with its workers."""
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
+
+
+@contextlib.contextmanager
+def started(store: Path, *options: str, token: str = "") -> Iterator[Server]:
+    """A server on a store, until the end of the context."""
+    environment = {**os.environ, "WIRELESSAGENT_COMPILE": "never", "PYTHONUNBUFFERED": "1"}
+    log = store.with_suffix(".log").open("a")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "wirelessagent", "serve", "--port", "0", "--store", str(store),
+         "--requests-per-s", "1000", *options],
+        stdout=subprocess.PIPE, stderr=log, text=True, env=environment, start_new_session=True,
+    )  # fmt: skip
+    assert process.stdout is not None
+    try:
+        found = next(filter(None, map(_URL.search, process.stdout)), None)
+        assert found is not None, store.with_suffix(".log").read_text()
+        yield Server(found[0], store, process, token)
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        process.stdout.close()
+        log.close()
+
+
+def token_for(store: Path, name: str, role: str) -> str:
+    """A token, made as an administrator makes it."""
+    command = [sys.executable, "-m", "wirelessagent", "token", name, "--role", role, "--store", str(store), "--json"]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    return json.loads(said)["token"]
+
+
+@dataclass
+class Signed:
+    """A server with an operator and a viewer."""
+
+    operator: Server
+    viewer: Server
+    nobody: Server
+
+    @classmethod
+    @contextlib.contextmanager
+    def started(cls, store: Path) -> Iterator[Signed]:
+        """Such a server, until the end of the context."""
+        tokens = {name: token_for(store, name, name) for name in ("operator", "viewer")}
+        with started(store) as server:
+            yield cls(
+                Server(server.url, store, server.process, tokens["operator"]),
+                Server(server.url, store, server.process, tokens["viewer"]),
+                Server(server.url, store, server.process),
+            )
