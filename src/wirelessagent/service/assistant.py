@@ -73,19 +73,13 @@ class Assistant:
         raise NotFoundError(f"there is no turn {number} in this conversation")
 
     async def last_decided(self, cell: str | None) -> Json:
-        """The turn of a cell whose allocation is in effect, else the last that decided something.
-
-        Raises:
-            NotFoundError: nothing was decided yet.
-        """
+        """The turn of a cell whose allocation is in effect, else the last that decided something, if any."""
         held = await self.conversation(cell)
         decided = [turn for turn in held["turns"] if turn["decision"] is not None]
         for turn in decided:
             if turn["number"] == held["in_effect"]:
                 return {"cell": held["cell"], "in_effect": True, "turn": turn}
-        if not decided:
-            raise NotFoundError("nothing was decided for this cell yet: say what it should do first")
-        return {"cell": held["cell"], "in_effect": False, "turn": decided[-1]}
+        return {"cell": held["cell"], "in_effect": False, "turn": decided[-1] if decided else None}
 
     async def history(self, last: int, session: str | None, tell: Tell) -> Json:
         """What was said, decided and done, the latest turns."""

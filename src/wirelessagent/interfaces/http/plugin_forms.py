@@ -59,7 +59,9 @@ class AskForm(PluginForm):
 
 
 class ExplainForm(CellForm):
-    question: str = Field("why?", min_length=1, max_length=4000, description="the question, in the user's own words")
+    question: str = Field(
+        "why this allocation?", min_length=1, max_length=4000, description="the question, in the user's own words"
+    )
 
 
 class ProposeForm(CellForm):

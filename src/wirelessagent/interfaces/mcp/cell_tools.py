@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from wirelessagent.interfaces.http.forms import CellAnswer, ObservationAnswer, PlanAnswer, TurnAnswer
 from wirelessagent.interfaces.mcp.calls import Call
-from wirelessagent.interfaces.mcp.tool import Json, Result, ServerTool, annotated, answer
+from wirelessagent.interfaces.mcp.tool import Json, Result, ServerTool, annotated, answer, failure
 from wirelessagent.interfaces.schemas import Schema, answered, asked
 from wirelessagent.service.assistant import told
 from wirelessagent.service.paragraphs import plain_text
@@ -230,6 +230,8 @@ async def _undo(call: Call, form: CellForm) -> Result:
 async def _show(call: Call, form: ShowForm) -> Result:
     found = await call.assistant.last_decided(form.cell)
     turn = found["turn"]
+    if turn is None:
+        return failure("Nothing was decided for this cell yet: say what it should do first.")
     state = "In effect" if found["in_effect"] else "Decided, but not in effect"
     text = plain_text([f"{state}: {turn['lines']['decided']}", *turn["tables"]])
     pictures: list[ImageContent] = []
