@@ -33,7 +33,8 @@ def places(text: str) -> dict[str, str]:
 
 @functools.cache
 def code() -> str:
-    return "\n".join(path.read_text(encoding="utf-8") for path in PACKAGE.rglob("*.py"))
+    kinds = ("*.py", "*.js", "*.html")
+    return "\n".join(path.read_text(encoding="utf-8") for kind in kinds for path in PACKAGE.rglob(kind))
 
 
 @functools.cache

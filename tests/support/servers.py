@@ -73,7 +73,7 @@ def started(store: Path, *options: str, token: str = "") -> Iterator[Server]:
     log = store.with_suffix(".log").open("a")
     process = subprocess.Popen(
         [sys.executable, "-m", "wirelessagent", "serve", "--port", "0", "--store", str(store),
-         "--requests-per-s", "1000", *options],
+         *(() if "--requests-per-s" in options else ("--requests-per-s", "1000")), *options],
         stdout=subprocess.PIPE, stderr=log, text=True, env=environment, start_new_session=True,
     )  # fmt: skip
     assert process.stdout is not None

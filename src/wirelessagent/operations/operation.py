@@ -14,14 +14,14 @@ from pydantic import BaseModel, ConfigDict, field_validator
 
 from wirelessagent import __version__
 from wirelessagent.agent.events import Event, Progress, silent
-from wirelessagent.model.errors import InputError, WirelessAgentError
+from wirelessagent.model.errors import InputError, NothingRecordedError, WirelessAgentError
 from wirelessagent.model.legible import legible, written_out
 from wirelessagent.operations.catalogue import OPERATIONS
 from wirelessagent.operations.record import Record
 
 __all__ = [
-    "AnyOperation", "Conversation", "Event", "InputError", "Operation", "Progress", "Request", "WirelessAgentError",
-    "installed_version", "legible", "silent", "written_out",
+    "AnyOperation", "Conversation", "Event", "InputError", "NothingRecordedError", "Operation", "Progress", "Request",
+    "WirelessAgentError", "installed_version", "legible", "silent", "written_out",
 ]  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, TypeVar
 
+from wirelessagent.operations.catalogue import OPERATIONS
 from wirelessagent.service.access import Access, Caller
 from wirelessagent.service.demonstration import recorded_demonstration
 from wirelessagent.service.jobs import Job, Jobs, Tell
@@ -312,6 +313,8 @@ class Service:
 
     async def operate(self, name: str, form: Mapping[str, Any], tell: Tell) -> Json:
         """Run an operation; ``observation`` in its form is the id of the channel to work on."""
+        if name not in OPERATIONS:
+            raise NotFoundError(f"there is no operation {name!r}: known are {', '.join(OPERATIONS)}")
         given = dict(form)
         channel = await self._channel_file(given.pop("observation", None))
         return await self.workers.do("operation", tell, name=name, form=given, channel=channel)

@@ -30,7 +30,13 @@ from wirelessagent.operations.forms import (
     telling_what_is_wrong,
 )
 from wirelessagent.operations.hosted import Hosted, facts_of, seen_in
-from wirelessagent.operations.operation import Event, InputError, Progress, WirelessAgentError
+from wirelessagent.operations.operation import (
+    Event,
+    InputError,
+    NothingRecordedError,
+    Progress,
+    WirelessAgentError,
+)
 from wirelessagent.operations.record import Block, Files, Record, Table, as_json
 
 _DEFAULT_MEMORY_BYTES = 6 << 30
@@ -141,6 +147,8 @@ def _plain(block: Block) -> Any:
 
 
 def _told(error: BaseException) -> dict[str, Any]:
+    if isinstance(error, NothingRecordedError):
+        return {"status": 404, "title": "There is no such thing", "detail": str(error)}
     if isinstance(error, InputError):
         return {"status": 422, "title": "This cannot be used", "detail": str(error)}
     if isinstance(error, WirelessAgentError):

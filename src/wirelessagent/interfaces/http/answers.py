@@ -79,7 +79,8 @@ def problem_of(error: Exception) -> ProblemError:
         case HTTPException(__cause__=ProblemError() as problem):  # from reading the body
             return problem
         case HTTPException():
-            return ProblemError(str(error.detail), status=error.status_code, title=str(error.detail))
+            headers = dict(error.headers or {})
+            return ProblemError(str(error.detail), status=error.status_code, title=str(error.detail), **headers)
         case InputError():
             return UnusableError(str(error))
         case WirelessAgentError():

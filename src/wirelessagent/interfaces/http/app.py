@@ -12,13 +12,13 @@ from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse, RedirectResponse
 from starlette.exceptions import HTTPException
-from starlette.routing import Route
+from starlette.routing import Match, Route
 from starlette.staticfiles import StaticFiles
 
 from wirelessagent.interfaces.http import forms
 from wirelessagent.interfaces.http.answers import StrictRoute, problem_of, service_of
 from wirelessagent.interfaces.http.plugin import add_plugin
-from wirelessagent.interfaces.http.routes import router
+from wirelessagent.interfaces.http.routes import PROBLEMS, router
 from wirelessagent.interfaces.http.shield import COOKIE, Doors, Shield, cookie_of
 from wirelessagent.interfaces.mcp.door import Door
 from wirelessagent.operations.operation import installed_version
@@ -65,16 +65,23 @@ def make_app(service: Service, doors: Doors, *, demonstration: bool = False) -> 
 
 
 async def _answer(request: Request, error: Exception) -> Response:
-    """Any error as a problem."""
-    del request
+    """Any error as a problem; where it is the method's, with all those that there are."""
     problem = problem_of(error)
+    if problem.status == 405:
+        problem.headers["Allow"] = ", ".join(sorted(_methods(request)))
     return JSONResponse(
         problem.body, status_code=problem.status, headers=problem.headers, media_type="application/problem+json"
     )
 
 
+def _methods(request: Request) -> set[str]:
+    """The methods that some route has for a path."""
+    there = [route for route in request.app.router.routes if route.matches(request.scope)[0] is not Match.NONE]
+    return {method for route in there for method in getattr(route, "methods", None) or ()}
+
+
 def _add_way_in(app: FastAPI) -> None:
-    @app.post("/sign-in", status_code=204, tags=["console"])
+    @app.post("/sign-in", status_code=204, tags=["console"], responses=PROBLEMS)
     async def sign_in(request: Request, form: forms.SignIn) -> Response:  # pyright: ignore[reportUnusedFunction]
         """Open a browser session with a token."""
         _, cookie = await asyncio.to_thread(service_of(request).access.sign_in, form.token)
@@ -85,7 +92,7 @@ def _add_way_in(app: FastAPI) -> None:
         )  # fmt: skip
         return response
 
-    @app.post("/sign-out", status_code=204, tags=["console"])
+    @app.post("/sign-out", status_code=204, tags=["console"], responses=PROBLEMS)
     async def sign_out(request: Request) -> Response:  # pyright: ignore[reportUnusedFunction]
         """End the browser session."""
         await asyncio.to_thread(service_of(request).access.sign_out, cookie_of(request.headers))
@@ -120,8 +127,9 @@ def _add_console(app: FastAPI) -> None:
     async def root() -> Response:  # pyright: ignore[reportUnusedFunction]
         return RedirectResponse(f"{app.root_path}/console/", status_code=307)
 
-    @app.get("/sign-in", include_in_schema=False)
+    @app.get("/sign-in", tags=["console"], status_code=307, response_class=RedirectResponse, responses=PROBLEMS)
     async def sign_in_page() -> Response:  # pyright: ignore[reportUnusedFunction]
+        """Where people sign in."""
         return RedirectResponse(f"{app.root_path}/console/sign-in.html", status_code=307)
 
     @app.get("/favicon.ico", include_in_schema=False)

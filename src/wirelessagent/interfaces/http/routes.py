@@ -24,7 +24,7 @@ from wirelessagent.service.problems import UnusableError
 from wirelessagent.service.service import Press
 from wirelessagent.service.words import LANGUAGES, words
 
-_PROBLEMS: dict[int | str, dict[str, Any]] = {
+PROBLEMS: dict[int | str, dict[str, Any]] = {
     status: {"model": forms.Problem, "description": said, "content": {"application/problem+json": {}}}
     for status, said in {
         400: "This cannot be done", 401: "Sign in first", 403: "Not allowed", 404: "There is no such thing",
@@ -32,8 +32,9 @@ _PROBLEMS: dict[int | str, dict[str, Any]] = {
         422: "This cannot be used", 429: "Too many requests", 500: "This failed", 504: "This took too long",
     }.items()
 }  # fmt: skip
+"""What any request may be answered by instead."""
 
-router = APIRouter(prefix="/v1", route_class=StrictRoute, responses=_PROBLEMS)
+router = APIRouter(prefix="/v1", route_class=StrictRoute, responses=PROBLEMS)
 
 Id = Annotated[str, Path(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_-]+$")]
 
@@ -84,12 +85,19 @@ async def drop_cell(request: Request, id: Id) -> None:
     await service_of(request).drop_cell(id)
 
 
+NAMES = r"(?i)\.(csv|txt|json|npz|npy|mat|h5|hdf5|nc)$"
+"""How the names of files with gains end."""
+
+
 @router.post("/observations", status_code=201, responses=_as(forms.ObservationAnswer, 201), tags=["observations"],
              openapi_extra={"requestBody": {"required": True, "content": {"application/octet-stream": {
                  "schema": {"type": "string", "format": "binary"}}}}})  # fmt: skip
 async def observe(
     request: Request,
-    name: Annotated[str, Query(min_length=1, max_length=200, description="the file's name, whose end says its format")],
+    name: Annotated[
+        str,
+        Query(min_length=1, max_length=200, description="the file's name, whose end says its format", pattern=NAMES),
+    ],
     unit: Annotated[str | None, Query(max_length=40, description="unit of the gains, such as db")] = None,
     axes: Annotated[str | None, Query(max_length=40, description="what rows and columns are")] = None,
 ) -> Response:

@@ -1,0 +1,43 @@
+/** The cell that is looked at: picked from the list, with its facts; a new one simulated; one removed. */
+
+import { post } from "./api.js";
+import { byId, element, facts } from "./dom.js";
+import { watts } from "./units.js";
+import { say } from "./words.js";
+
+/** A cell in one line. */
+export const cellLine = (cell) => say("console.cell_line", { users: cell.user_names.length, subcarriers: cell.num_subcarriers });
+
+/** Draw the picker. */
+export function drawCells(cells, cell, canAct, actions) {
+  byId("cell-name").textContent = cell.name;
+  byId("cell-size").textContent = cellLine(cell);
+  byId("cell-list").replaceChildren(...cells.map((one) => element("li", {},
+    element("button", { type: "button", "aria-current": one.id === cell.id ? "true" : null, click: () => actions.pick(one.id) },
+      element("b", {}, one.name), element("span", {}, cellLine(one))))));
+  byId("cell-facts").replaceChildren(facts([...Object.entries(cell.facts),
+    [say("console.base_station"), cell.base_station ?? "–"], [say("console.budget"), watts(cell.max_power_w)]]));
+  byId("cell-new-talk").hidden = !canAct;
+  byId("cell-remove").hidden = !canAct || cell.demonstration || cells.length < 2;
+  byId("cell-make").hidden = !canAct;
+}
+
+/** The form for a simulated cell. */
+export function setUpNewCell(made) {
+  byId("cell-form").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const number = (id) => Number(byId(id).value);
+    byId("cell-problem").hidden = true;
+    const options = {
+      seed: number("new-seed"), cell_max_power_w: number("new-power"),
+      source_options: { num_users: number("new-users"), num_subcarriers: number("new-subcarriers") },
+      loss: number("new-lost") > 0 ? [`random:${number("new-lost") / 100}`] : [],
+    };
+    try {
+      made(await post("v1/cells", { name: byId("new-name").value, options }));
+    } catch (problem) {
+      byId("cell-problem").hidden = false;
+      byId("cell-problem").textContent = problem.message || say("console.disconnected");
+    }
+  });
+}

@@ -1,0 +1,70 @@
+/** Elements made by script: one function for HTML and one for SVG, so that no text is ever parsed as markup. */
+
+const SVG = "http://www.w3.org/2000/svg";
+
+function fill(node, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (typeof value === "function") node.addEventListener(name, value);
+    else node.setAttribute(name, value === true ? "" : value);
+  }
+  node.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== ""));
+  return node;
+}
+
+/**
+ * An HTML element. Attributes that hold a function are listeners; null and false leave an attribute out.
+ * @param {string} name
+ * @param {Object<string, unknown>} [attributes]
+ * @param {...(Node|string|null|Array<Node|string|null>)} children
+ */
+export function element(name, attributes = {}, ...children) {
+  return fill(document.createElement(name), attributes, children);
+}
+
+/** An SVG element, as {@link element}. */
+export function shape(name, attributes = {}, ...children) {
+  return fill(document.createElementNS(SVG, name), attributes, children);
+}
+
+/** The element of the page with this id. */
+export const byId = (id) => document.getElementById(id);
+
+/** A heading and value list from pairs. */
+export function facts(pairs) {
+  return element("dl", { class: "facts" }, pairs.map(([label, value]) => [
+    element("dt", {}, label), element("dd", {}, value),
+  ]).flat());
+}
+
+/** A table with its caption, as answers hold them. */
+export function table({ title, columns, rows }) {
+  const line = (cells, cell) => element("tr", {}, cells.map((text, place) =>
+    element(cell === "td" && place === 0 ? "th" : cell, cell === "td" && place ? {} : { scope: cell === "th" ? "col" : "row" }, String(text))));
+  return element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": title },
+    element("table", {},
+      element("caption", {}, title),
+      element("thead", {}, line(columns, "th")),
+      element("tbody", {}, rows.map((row) => line(row, "td")))));
+}
+
+/**
+ * Draw something as wide as its place, now and whenever the width changes.
+ * @param {HTMLElement} root
+ * @param {(width: number) => void} draw
+ */
+export function onWidth(root, draw) {
+  let last = 0;
+  const measured = () => {
+    const width = Math.floor(root.clientWidth);
+    if (width > 0 && width !== last) {
+      last = width;
+      draw(width);
+    }
+  };
+  new ResizeObserver(measured).observe(root);
+  return () => {
+    last = 0;
+    measured();
+  };
+}

@@ -1,0 +1,34 @@
+/** What leaves the console: files of one allocation, the standards' documents, a printed report. */
+
+import { address, post } from "./api.js";
+import { byId, element } from "./dom.js";
+import { say } from "./words.js";
+
+const FILES = ["csv", "json", "npz", "png", "svg"];
+const DOCUMENTS = [["ts28312", "TS 28.312"], ["tmf921", "TMF921"]];
+
+function save(name, text) {
+  const link = element("a", { href: URL.createObjectURL(new Blob([text], { type: "application/json" })), download: name });
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+async function standard(number, format, failed) {
+  try {
+    const { record } = await post("v1/operations/export", { number, format });
+    save(`${format}-${number}.json`, JSON.stringify(record, null, 2));
+  } catch (problem) {
+    failed(problem);
+  }
+}
+
+/** Draw the menu for the turn that is looked at; files are of turns that are in the history. */
+export function drawExport(turn, failed) {
+  const stored = turn?.stored ?? null;
+  const files = stored === null ? [] : FILES.map((format) => element("li", {},
+    element("a", { href: address(`v1/allocations/${stored}?format=${format}`), download: `allocation-${stored}.${format}` }, format.toUpperCase())));
+  const documents = stored === null ? [] : DOCUMENTS.map(([format, name]) => element("li", {},
+    element("button", { type: "button", click: () => standard(stored, format, failed) }, name)));
+  byId("export-list").replaceChildren(...files, ...documents,
+    element("li", {}, element("button", { type: "button", click: () => window.print() }, say("console.print"))));
+}

@@ -1,0 +1,275 @@
+/** The console: one state, drawn whole when it changes, refreshed quietly from the server. */
+
+import { drawAllocation } from "./allocation.js";
+import { Disconnected, Problem, follow, get, post, remove } from "./api.js";
+import { drawCells, setUpNewCell } from "./cells.js";
+import { drawCertificate, drawPrices } from "./certificate.js";
+import { drawChannel } from "./channel.js";
+import { openComparison } from "./compare.js";
+import { drawConversation, giveBack, setUpConversation } from "./conversation.js";
+import { byId } from "./dom.js";
+import { drawExport } from "./exporting.js";
+import { drawPlan } from "./plan.js";
+import { drawRates } from "./rates.js";
+import { setUpLanguages, setUpTheme, signOut, wantedLanguage } from "./settings.js";
+import { drawTimeline } from "./timeline.js";
+import { inShort, isUsable, saidFor, turnOf } from "./turns.js";
+import { nameUnits, setUpUpload } from "./upload.js";
+import { say, speak } from "./words.js";
+
+const CELL = "wirelessagent.cell";
+const EVERY_MS = 4000;
+const LONGEST_MS = 15000;
+
+const state = {
+  console: null, cell: null, session: null, channel: null,
+  looking: null, job: null, problem: null, connected: true,
+};
+let drawn = "";
+let wait = EVERY_MS;
+let timer = 0;
+let shownChannel;
+
+/** What follows from the state: which turns count, what is looked at, and what may be done. */
+function scene() {
+  const { session, looking } = state;
+  const effect = turnOf(session, session.in_effect);
+  const planTurn = session.plan ? turnOf(session, session.plan.turn) : null;
+  const looked = looking === null ? null : turnOf(session, looking);
+  const last = session.turns.findLast((turn) => isUsable(turn)) ?? null;
+  const failed = session.turns.at(-1)?.stage === "nothing" && session.turns.at(-1).decision ? session.turns.at(-1) : null;
+  const shown = looked ?? planTurn ?? failed ?? effect ?? last;
+  return {
+    plan: session.plan, planTurn, effect, shown, looked,
+    canAct: state.console.role === "operator", busy: Boolean(state.job), people: state.console.signed_in,
+  };
+}
+
+function shownName({ shown, planTurn }) {
+  return shown === planTurn ? say("console.plan") : say("turn.column", { number: shown?.number });
+}
+
+function draw() {
+  if (!state.session) return;
+  const now = scene();
+  const usable = isUsable(now.shown) ? now.shown : null;
+  byId("page").classList.toggle("loading", false);
+  drawConversation(state, now, actions);
+  drawPlan(now, actions);
+  const asIs = JSON.stringify([state.session, state.looking, now.busy, state.cell, document.documentElement.lang, document.documentElement.dataset.theme]);
+  if (asIs === drawn && shownChannel === state.channel) return;
+  drawn = asIs;
+  shownChannel = state.channel;
+  drawCells(state.console.cells, state.cell, now.canAct, actions);
+  drawChannel(state.channel);
+  drawAllocation(usable, now.effect, shownName(now));
+  drawRates(usable);
+  drawCertificate(now.shown);
+  drawPrices(now.shown);
+  drawTimeline(state.session, now, actions);
+  drawExport(now.shown, fail);
+  byId("in-effect").textContent = now.effect ? say("console.in_effect_is", { what: inShort(now.effect) }) : say("console.nothing_in_effect");
+  byId("in-effect").classList.toggle("on", Boolean(now.effect));
+  byId("looking").hidden = !now.looked;
+  if (now.looked) byId("looking-text").textContent = say("console.looking", { number: now.looked.number, text: saidFor(state.session, now.looked) });
+  byId("return").hidden = !now.canAct || now.looked === now.effect;
+}
+
+function fail(problem) {
+  if (problem instanceof Disconnected) return connected(false);
+  if (problem instanceof Problem && problem.status === 401) {
+    location.href = "sign-in.html";
+    return;
+  }
+  state.problem = problem;
+  draw();
+}
+
+function connected(is) {
+  if (state.connected !== is) announce(is ? say("console.connected_again") : say("console.disconnected"));
+  state.connected = is;
+  byId("disconnected").hidden = is;
+}
+
+/** Tell those who listen to the page something that shows elsewhere. */
+function announce(text) {
+  byId("announced").textContent = text;
+}
+
+/** Fetch the session, and the channel where turns came, and draw what changed. */
+async function refresh() {
+  const { session: before } = state;
+  const session = await get(`v1/sessions/${encodeURIComponent(state.cell.session)}`);
+  if (session.cell !== state.cell.id) return;
+  const came = session.id !== before?.id || session.turns.length !== before.turns.length;
+  if (came) state.channel = await get(`v1/sessions/${encodeURIComponent(session.id)}/channel`);
+  if (before && came && session.id === before.id && session.in_effect !== before.in_effect) {
+    const applied = turnOf(session, session.in_effect);
+    if (applied) announce(say("console.applied_by", { who: applied.by ?? "–", what: inShort(applied) }));
+  }
+  state.session = session;
+  draw();
+  if (session.busy && !state.job) work(session.busy, "");
+}
+
+async function tick() {
+  clearTimeout(timer);
+  if (!document.hidden && state.cell) {
+    try {
+      await refresh();
+      connected(true);
+      wait = EVERY_MS;
+    } catch (problem) {
+      if (!(problem instanceof Disconnected)) fail(problem);
+      else {
+        wait = state.connected ? 1000 : Math.min(LONGEST_MS, wait * 2);
+        connected(false);
+      }
+    }
+  }
+  timer = setTimeout(tick, wait);
+}
+
+/** Follow a job to its end, stages as they come. */
+async function work(id, text) {
+  state.job = { id, text, stages: [] };
+  draw();
+  try {
+    await follow(id, (stage) => {
+      const { stages } = state.job;
+      if (stages.at(-1)?.stage === stage.stage && stage.total > 1) stages.pop();
+      stages.push(stage);
+      draw();
+    });
+  } catch (problem) {
+    fail(problem);
+    giveBack(text);
+  }
+  state.job = null;
+  await tick();
+  draw();
+}
+
+/** Begin something that a job answers; whether it was taken. */
+async function begin(path, fields, text) {
+  if (state.job) return false;
+  state.problem = null;
+  try {
+    const job = await post(`v1/sessions/${encodeURIComponent(state.session.id)}/${path}`, fields, true);
+    connected(true);
+    state.looking = null;
+    work(job.id, text);
+    return true;
+  } catch (problem) {
+    fail(problem);
+    tick();
+    return false;
+  }
+}
+
+const actions = {
+  send: (text) => begin("turns", { text }, text),
+  apply: () => begin("confirm", { plan: state.session.plan.id }, ""),
+  discard: () => begin("discard", { plan: state.session.plan.id }, ""),
+  cancel: () => remove(`v1/jobs/${encodeURIComponent(state.job.id)}`).catch(fail),
+  dismiss() {
+    state.problem = null;
+    draw();
+  },
+  look(number) {
+    const now = scene();
+    const isNow = number === null || turnOf(state.session, number) === (now.planTurn ?? now.effect);
+    state.looking = isNow ? null : number;
+    draw();
+    byId("pictures").scrollIntoView({ block: "nearest" });
+  },
+  compare: (turns) => openComparison(state.session, turns),
+  pick: choose,
+};
+
+/** Look at another cell. */
+async function choose(id) {
+  const { cells } = state.console;
+  state.cell = cells.find((cell) => cell.id === id) ?? cells[0];
+  Object.assign(state, { session: null, channel: null, looking: null, job: null, problem: null });
+  localStorage.setItem(CELL, state.cell.id);
+  byId("cells").open = false;
+  byId("page").classList.add("loading");
+  await tick();
+}
+
+async function reload(id) {
+  state.console = await get("v1/console");
+  await choose(id);
+}
+
+function setUpDialogs() {
+  byId("settings-open").addEventListener("click", () => byId("settings").showModal());
+  byId("cell-make").addEventListener("click", () => byId("settings").showModal());
+  for (const button of document.querySelectorAll("[data-close]")) {
+    button.addEventListener("click", () => button.closest("dialog").close());
+  }
+  document.addEventListener("click", (event) => {
+    for (const menu of document.querySelectorAll("details.menu[open]")) if (!menu.contains(event.target)) menu.open = false;
+  });
+  document.addEventListener("keydown", (event) => {
+    const menu = event.key === "Escape" && document.querySelector("details.menu[open]");
+    if (!menu) return;
+    menu.open = false;
+    menu.querySelector("summary").focus();
+  });
+}
+
+function setUp() {
+  setUpDialogs();
+  setUpConversation(actions);
+  setUpTheme(draw);
+  setUpUpload({ made: (cell) => reload(cell.id).catch(fail), allowed: () => state.console.role === "operator" });
+  setUpNewCell((cell) => {
+    byId("settings").close();
+    reload(cell.id).catch(fail);
+  });
+  byId("now").addEventListener("click", () => actions.look(null));
+  byId("return").addEventListener("click", () => actions.send(say("console.say_back", { number: state.looking })));
+  byId("sign-out").addEventListener("click", () => signOut().catch(fail));
+  byId("retry").addEventListener("click", tick);
+  byId("cell-new-talk").addEventListener("click", () =>
+    post("v1/sessions", { cell: state.cell.id }).then(() => reload(state.cell.id)).catch(fail));
+  byId("cell-remove").addEventListener("click", () => byId("remove").showModal());
+  byId("remove-yes").addEventListener("click", () => {
+    byId("remove").close();
+    remove(`v1/cells/${encodeURIComponent(state.cell.id)}`).then(() => reload(null)).catch(fail);
+  });
+  document.addEventListener("visibilitychange", () => document.hidden || tick());
+  window.addEventListener("online", tick);
+}
+
+async function start() {
+  byId("broken").hidden = true;
+  try {
+    state.console = await get("v1/console");
+    const { languages, signed_in: signedIn } = state.console;
+    const wanted = wantedLanguage(languages);
+    await speak(wanted);
+    nameUnits();
+    setUpLanguages(languages, wanted, async (tag) => {
+      await speak(tag);
+      nameUnits();
+      draw();
+    });
+    byId("sign-out").hidden = !signedIn;
+    byId("version").textContent = state.console.version;
+    setUp();
+    await choose(localStorage.getItem(CELL));
+  } catch (problem) {
+    if (problem instanceof Problem && problem.status === 401) {
+      location.href = "sign-in.html";
+      return;
+    }
+    byId("broken").hidden = false;
+    byId("broken-text").textContent = problem.message;
+    setTimeout(start, EVERY_MS);
+  }
+}
+
+start();

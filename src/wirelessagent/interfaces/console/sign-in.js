@@ -1,0 +1,25 @@
+/** The sign-in page: a token for a cookie. */
+
+import { Disconnected, post } from "./api.js";
+import { byId } from "./dom.js";
+import { wantedLanguage } from "./settings.js";
+import { say, speak } from "./words.js";
+
+const LANGUAGES = ["en", "zh", "es", "fr", "de"];
+
+await speak(wantedLanguage(LANGUAGES));
+document.title = `${say("console.sign_in")} · WirelessAgent`;
+
+byId("sign-in").addEventListener("submit", async (event) => {
+  event.preventDefault();
+  const refused = byId("refused");
+  refused.hidden = true;
+  try {
+    await post("sign-in", { token: byId("token").value.trim() });
+    location.href = "./";
+  } catch (problem) {
+    refused.textContent = problem instanceof Disconnected ? say("console.disconnected") : problem.message;
+    refused.hidden = false;
+    byId("token").select();
+  }
+});

@@ -1,0 +1,61 @@
+/** The decisions in time: each can be opened, two can be compared. */
+
+import { byId, element } from "./dom.js";
+import { inShort, planOf } from "./turns.js";
+import { clock } from "./units.js";
+import { say, stageName } from "./words.js";
+
+const marked = new Set();
+
+/** The turns that decided something; a plan that was applied as it was is told once. */
+function decisionsOf(session) {
+  const told = new Set(session.turns.map((turn) => planOf(session, turn)));
+  return session.turns.filter((turn) => turn.decision && !told.has(turn));
+}
+
+function stateOf(turn, { effect, planTurn }) {
+  if (turn === effect) return ["effect", say("console.in_effect")];
+  if (turn === planTurn) return ["waits", say("console.waits")];
+  return [turn.stage, stageName(turn.stage)];
+}
+
+function entry(turn, scene, actions, redraw) {
+  const [kind, text] = stateOf(turn, scene);
+  const name = say("turn.column", { number: turn.number });
+  return element("li", { class: `entry ${kind}` },
+    element("button", { type: "button", class: "open", "aria-current": scene.shown === turn ? "true" : null, click: () => actions.look(turn.number) },
+      element("span", { class: "when" }, `${turn.number} · ${clock(turn.at_utc)}`, scene.people && turn.by ? ` · ${turn.by}` : ""),
+      element("b", {}, inShort(turn)), element("span", { class: `badge ${kind}` }, text)),
+    element("label", { class: "pick" }, element("input", {
+      type: "checkbox", "aria-label": say("console.pick", { turn: name }), checked: marked.has(turn.number),
+      change: (event) => {
+        if (event.target.checked) marked.add(turn.number);
+        else marked.delete(turn.number);
+        redraw();
+      },
+    }), say("console.compare_one")));
+}
+
+/** Draw the card. */
+export function drawTimeline(session, scene, actions) {
+  const turns = decisionsOf(session);
+  const whatIfs = turns.filter((turn) => turn.stage === "answered");
+  const redraw = () => drawButtons(session, whatIfs, scene, actions);
+  for (const number of marked) if (!turns.some((turn) => turn.number === number)) marked.delete(number);
+  const list = byId("timeline");
+  const atEnd = list.scrollLeft + list.clientWidth >= list.scrollWidth - 8;
+  list.replaceChildren(...turns.map((turn) => entry(turn, scene, actions, redraw)));
+  byId("timeline-empty").hidden = turns.length > 0;
+  list.hidden = turns.length === 0;
+  if (atEnd) list.scrollLeft = list.scrollWidth;
+  redraw();
+}
+
+function drawButtons(session, whatIfs, { effect }, actions) {
+  const chosen = decisionsOf(session).filter((turn) => marked.has(turn.number));
+  const button = (text, click, disabled = false) => element("button", { type: "button", class: "small", disabled, click }, text);
+  byId("timeline-buttons").replaceChildren(...[
+    chosen.length ? button(say("console.compare", { count: chosen.length }), () => actions.compare(chosen), chosen.length < 2) : null,
+    whatIfs.length ? button(say("console.what_ifs", { count: whatIfs.length }), () => actions.compare([...(effect ? [effect] : []), ...whatIfs.slice(-3)])) : null,
+  ].filter(Boolean));
+}

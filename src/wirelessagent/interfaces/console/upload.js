@@ -1,0 +1,95 @@
+/** A measured channel by drag and drop: what was understood is shown, with its holes, before it becomes a cell. */
+
+import { post, upload } from "./api.js";
+import { gainMatrix } from "./channel.js";
+import { byId, element, facts } from "./dom.js";
+import { matrixView } from "./matrix.js";
+import { percent } from "./units.js";
+import { say } from "./words.js";
+
+const UNITS = { "": "console.unit_guess", linear: "console.unit_linear", db: "console.unit_db" };
+let understood = null;
+let latest = 0;
+
+async function read(file, unit) {
+  const mine = ++latest;
+  understood = null;
+  byId("upload-make").disabled = true;
+  byId("upload-problem").hidden = true;
+  byId("upload-preview").replaceChildren(element("div", { class: "skeleton tall" }));
+  try {
+    const query = new URLSearchParams({ name: file.name, ...(unit ? { unit } : {}) });
+    const found = await upload(`v1/observations?${query}`, file);
+    if (mine === latest) preview(found);
+  } catch (problem) {
+    if (mine !== latest) return;
+    byId("upload-preview").replaceChildren();
+    refuse(problem);
+  }
+}
+
+function preview(found) {
+  understood = found;
+  const total = found.num_users * found.num_subcarriers;
+  const place = element("div");
+  byId("upload-preview").replaceChildren(
+    facts(Object.entries(found.facts)),
+    element("p", { class: found.missing ? "note warn" : "note" }, say("console.upload_missing", { missing: found.missing, total, share: percent(found.missing / total) })),
+    place);
+  matrixView(place).show(gainMatrix(found.gain, found.user_names));
+  byId("upload-make").disabled = false;
+}
+
+function refuse(problem) {
+  byId("upload-problem").hidden = false;
+  byId("upload-problem").textContent = problem.message || say("console.disconnected");
+}
+
+function open(file) {
+  byId("upload-name").value = file.name.replace(/\.[^.]*$/, "");
+  byId("upload-unit").value = "";
+  byId("upload-unit").onchange = (event) => read(file, event.target.value);
+  if (!byId("upload").open) byId("upload").showModal();
+  read(file, "");
+}
+
+/**
+ * Take files that are dropped anywhere or chosen.
+ * @param {{made: (cell: object) => void, allowed: () => boolean}} actions
+ */
+export function setUpUpload({ made, allowed }) {
+  const carries = (event) => allowed() && [...(event.dataTransfer?.types ?? [])].includes("Files");
+  const mark = (on) => document.body.classList.toggle("dropping", on);
+  document.addEventListener("dragover", (event) => {
+    if (!carries(event)) return;
+    event.preventDefault();
+    mark(true);
+  });
+  document.addEventListener("dragleave", (event) => event.relatedTarget || mark(false));
+  document.addEventListener("drop", (event) => {
+    mark(false);
+    if (!carries(event)) return;
+    event.preventDefault();
+    open(event.dataTransfer.files[0]);
+  });
+  byId("upload-file").addEventListener("change", (event) => {
+    if (event.target.files[0]) open(event.target.files[0]);
+    event.target.value = "";
+  });
+  byId("upload-form").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const budget = Number(byId("upload-power").value);
+    try {
+      const options = { csi: understood.id, ...(budget > 0 ? { cell_max_power_w: budget } : {}) };
+      made(await post("v1/cells", { name: byId("upload-name").value, options }));
+      byId("upload").close();
+    } catch (problem) {
+      refuse(problem);
+    }
+  });
+}
+
+/** Fill the choice of units in the language in use. */
+export function nameUnits() {
+  byId("upload-unit").replaceChildren(...Object.entries(UNITS).map(([unit, key]) => element("option", { value: unit }, say(key))));
+}
