@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from examining import examined
 from openapi_spec_validator import validate
 from servers import Server, started
 
@@ -26,18 +25,8 @@ def test_the_document_is_one_of_openapi_3_1(server: Server) -> None:
 
 def test_answers_are_as_documented(tmp_path: Path) -> None:
     with started(tmp_path / "store.sqlite3", "--requests-per-s", "5000") as server:
-        found = examined(server.url, "openapi.json", most=8)
+        found = examined(server.url, "openapi.json", most=8, off=OFF)
     assert found.returncode == 0, found.stdout[-3000:]
-
-
-def examined(url: str, document: str, *, most: int) -> subprocess.CompletedProcess[str]:
-    """What schemathesis says of a server by one of its documents, with so many examples an operation."""
-    program = Path(sys.executable).parent / "schemathesis"
-    return subprocess.run(
-        [program, "run", f"{url}{document}", "--max-examples", str(most), "--phases", "coverage,fuzzing",
-         "--exclude-checks", OFF, "--exclude-path-regex", "/events$", "--seed", "1", "--request-timeout", "60"],
-        capture_output=True, text=True, check=False, timeout=3600,
-    )  # fmt: skip
 
 
 def test_each_operation_of_the_catalogue_says_what_it_takes(server: Server) -> None:

@@ -7,6 +7,7 @@ import platform
 import socket
 import webbrowser
 from typing import Annotated, Literal
+from urllib.parse import urlsplit
 
 from pydantic import Field
 
@@ -36,6 +37,10 @@ class ServeRequest(StoreOptions):
         None, description="name by which the server is reached, beside its address; several times for several"
     )
     base_path: Annotated[str, Advanced()] = Field("", description="path that a proxy in front takes off, as /cell")
+    public_url: Annotated[str | None, Advanced()] = Field(
+        None, description="address by which others reach the server, for the plug-in document; where it listens if "
+        "not given", pattern=r"^https?://[^\s/?#]+[^\s?#]*$",
+    )  # fmt: skip
     trusted_proxy: Annotated[list[str] | None, Advanced()] = Field(
         None, description="address whose X-Forwarded headers are believed; several times for several"
     )
@@ -79,10 +84,16 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
     hosts = {request.host.lower(), *(_LOCAL if only_local else ()), *(request.allowed_host or ())}
     if request.host in ("0.0.0.0", "::"):
         hosts |= {platform.node().lower(), *_LOCAL}
-    doors = Doors(hosts=frozenset(hosts), only_local=only_local, base_path=request.base_path.rstrip("/"))
-    app = make_app(service, doors, demonstration=request.demonstration)
+    base_path = request.base_path.rstrip("/")
     shown = f"[{request.host}]" if ":" in request.host else request.host
-    url = f"http://{shown}:{port}{doors.base_path}/"
+    url = f"http://{shown}:{port}{base_path}/"
+    if request.public_url is not None:
+        hosts.add(urlsplit(request.public_url).hostname or "")
+    doors = Doors(
+        hosts=frozenset(hosts), only_local=only_local, base_path=base_path,
+        public_url=(request.public_url or url).rstrip("/"),
+    )  # fmt: skip
+    app = make_app(service, doors, demonstration=request.demonstration)
     progress(Event(stage="serve", message=f"the console is at {url} (Ctrl-C ends it)"))
     if request.open:
         webbrowser.open(url)

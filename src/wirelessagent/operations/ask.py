@@ -134,6 +134,7 @@ ASK = Operation(
     request=AskRequest,
     record=AskRecord,
     run=run,
+    recorded=True,
     examples=(
         'ask "Higher speed for video streaming"',
         'ask "At least 1 Mbit/s each, at most 10 W" --num-users 6',

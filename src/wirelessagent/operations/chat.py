@@ -91,6 +91,7 @@ CHAT = Operation(
     request=ChatRequest,
     record=ChatRecord,
     local=True,
+    recorded=True,
     run=run,
     converse=converse,
     examples=("chat", "chat --csi gains.csv", 'chat --say "maximum rate" --say "why user 3?"'),

@@ -40,6 +40,14 @@ def takes_channel(operation: AnyOperation) -> bool:
     return any(name in operation.request.model_fields for name in CHANNELS)
 
 
+def can_be_filled(operation: AnyOperation) -> bool:
+    """Whether a form holds all that the operation cannot do without, beside a channel."""
+    form = form_of(operation).model_fields
+    return all(
+        name in form or name in CHANNELS for name, info in operation.request.model_fields.items() if info.is_required()
+    )
+
+
 def filled(operation: AnyOperation, form: BaseModel, channel: Path | str | None = None) -> Request:
     """The request of a form that somebody filled in, on the channel in a file.
 

@@ -78,6 +78,7 @@ class Operation(Generic[Req, Rec]):
             it. Where a surface can, it hands the lines over as they come; ``run`` takes those of the request.
         examples: what people type after the program's name.
         local: whether it is only for whoever sits at the machine: it reads or writes files of theirs.
+        recorded: whether it leaves a turn in the audit store; without one and without files it changes nothing.
     """
 
     name: str
@@ -87,6 +88,7 @@ class Operation(Generic[Req, Rec]):
     converse: Callable[[Req, Progress], Conversation] | None = None
     examples: tuple[str, ...] = ()
     local: bool = False
+    recorded: bool = False
 
     @property
     def summary(self) -> str:

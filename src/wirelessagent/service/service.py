@@ -134,10 +134,45 @@ class Service:
         await self._kept(self.ledger.put, "observation", id, kept, seen=0)
         return {"id": id, **_shown(kept, "options", "file")}
 
+    async def derive(self, name: str, form: Mapping[str, Any], tell: Tell) -> Json:
+        """Run an operation that writes gains (simulate, repair), and keep them as an observation.
+
+        Nobody has to remove these: where there are too many, the oldest that no cell works on go.
+        """
+        given = dict(form)
+        channel = await self._channel_file(given.pop("observation", None))
+        await self._make_room()
+        id = secrets.token_hex(8)
+        path = self._folder / f"{id}.npz"
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        try:
+            done = await self.workers.do("operation", tell, name=name, form=given, channel=channel, out=str(path))
+            seen = await self.workers.do("inspect", tell, options={}, channel=str(path))
+        except BaseException:
+            path.unlink(missing_ok=True)
+            raise
+        done["record"]["out"] = None  # where the server keeps what is nobody else's business
+        done["blocks"] = [block for block in done["blocks"] if path.name not in str(block)]
+        kept: Json = {"name": f"{name}.npz", "options": {}, "file": path.name, "derived": True, **seen}
+        await self._kept(self.ledger.put, "observation", id, kept, seen=0)
+        return {"observation": {"id": id, **_shown(kept, "options", "file", "derived")}, **done}
+
+    async def _make_room(self) -> None:
+        kept = await self._kept(self.ledger.all, "observation")
+        used = {cell.data.get("observation") for cell in await self._kept(self.ledger.all, "cell")}
+        old = sorted(
+            (item for item in kept if item.data.get("derived") and item.id not in used),
+            key=lambda item: item.changed_utc,
+        )
+        for item in old[: max(len(kept) - self.limits.observations + 1, 0)]:
+            await self.drop_observation(item.id)
+        if len(kept) - len(old) >= self.limits.observations:
+            raise TooMuchError(f"{self.limits.observations} observations are kept already: remove one first")
+
     async def observation(self, id: str) -> Json:
         """What was understood of a file."""
         item = await self._item("observation", id)
-        return {"id": id, **_shown(item.data, "options", "file")}
+        return {"id": id, **_shown(item.data, "options", "file", "derived")}
 
     async def drop_observation(self, id: str) -> None:
         """Remove a file; turns keep what they saw of it."""
@@ -195,6 +230,22 @@ class Service:
             if what != "undo":
                 await self._take(session, what, plan)
             return await self._turn(session, caller, tell, "press", button=what)
+
+    async def plan(self, cell: str) -> Json | None:
+        """The plan that waits for a cell."""
+        item = await self._kept(self.ledger.find, "plan", cell)
+        return None if item is None else _shown(item.data, "session", "effect")
+
+    async def cell_of_plan(self, plan: str) -> str:
+        """The cell that a plan waits for.
+
+        Raises:
+            ConflictError: it does not wait.
+        """
+        for item in await self._kept(self.ledger.all, "plan"):
+            if item.data["id"] == plan:
+                return item.id
+        raise ConflictError("this plan does not wait any more: look at what holds now")
 
     async def _take(self, session: str, what: Press, plan: str | None) -> None:
         """Take the plan that waits, so that nobody else can.

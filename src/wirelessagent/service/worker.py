@@ -15,12 +15,20 @@ import json
 import os
 import sys
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import IO, Any
 
 from wirelessagent.operations.allocation_file import allocation_file
 from wirelessagent.operations.catalogue import OPERATIONS, load
 from wirelessagent.operations.chat import CHAT, ChatRequest
-from wirelessagent.operations.forms import filled, form_of, needs_channel, takes_channel, telling_what_is_wrong
+from wirelessagent.operations.forms import (
+    can_be_filled,
+    filled,
+    form_of,
+    needs_channel,
+    takes_channel,
+    telling_what_is_wrong,
+)
 from wirelessagent.operations.hosted import Hosted, facts_of, seen_in
 from wirelessagent.operations.operation import (
     Event,
@@ -50,7 +58,10 @@ class Worker:
             raise InputError(f"{operation.name} needs a channel: give the id of an observation in 'observation'")
         with telling_what_is_wrong(operation.name):
             form = form_of(operation)(**told["form"])
-        record = operation.run(filled(operation, form, channel), progress)
+        request = filled(operation, form, channel)
+        if "out" in told:  # gains to be kept, where the server says
+            request = request.model_copy(update={"out": Path(told["out"])})
+        record = operation.run(request, progress)
         return {
             "record": as_json(record),
             "blocks": [_plain(block) for block in record.blocks()],
@@ -58,15 +69,17 @@ class Worker:
         }
 
     def forms(self, told: Mapping[str, Any], progress: Progress) -> Any:
-        """The JSON Schema of each operation's form, and of a cell's options."""
+        """The JSON Schema of each operation's form and of its record, and of a cell's options."""
         del told, progress
-        found = [operation for operation in map(load, OPERATIONS) if not operation.local]
+        found = [one for one in map(load, OPERATIONS) if not one.local and can_be_filled(one)]
         forms = [
             {
                 "name": operation.name,
                 "summary": operation.summary,
                 "channel": "needed" if needs_channel(operation) else "possible" if takes_channel(operation) else "no",
+                "recorded": operation.recorded,
                 "schema": form_of(operation).model_json_schema(),
+                "record": operation.record.model_json_schema(mode="serialization"),
             }
             for operation in found
         ]

@@ -120,13 +120,22 @@ async def worked(
         place = request.url_for("read_job", id=job.id).path
         headers = {"Location": place, "Preference-Applied": "respond-async"}
         return JSONResponse(job.body, status_code=202, headers=headers)
+    return JSONResponse(await finished(request, job), status_code=status)
+
+
+async def finished(request: Request, job: Job) -> Any:
+    """What comes of a job, which ends when its caller hangs up.
+
+    Raises:
+        ProblemError: it failed, or was cancelled.
+    """
     gone = asyncio.create_task(_gone(request))
     done = asyncio.create_task(job.finished())
     try:
         await asyncio.wait({gone, done}, return_when=asyncio.FIRST_COMPLETED)
         if not done.done():
             job.cancel()
-        return JSONResponse(await done, status_code=status)
+        return await done
     finally:
         gone.cancel()
 

@@ -12,13 +12,15 @@ from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse, RedirectResponse
 from starlette.exceptions import HTTPException
-from starlette.routing import Match
+from starlette.routing import Match, Route
 from starlette.staticfiles import StaticFiles
 
 from wirelessagent.interfaces.http import forms
 from wirelessagent.interfaces.http.answers import StrictRoute, problem_of, service_of
+from wirelessagent.interfaces.http.plugin import add_plugin
 from wirelessagent.interfaces.http.routes import PROBLEMS, router
 from wirelessagent.interfaces.http.shield import COOKIE, Doors, Shield, cookie_of
+from wirelessagent.interfaces.mcp.door import Door
 from wirelessagent.operations.operation import installed_version
 from wirelessagent.service.access import SIGNED_IN_S
 from wirelessagent.service.service import Service
@@ -33,6 +35,7 @@ _DESCRIPTION = (
 
 def make_app(service: Service, doors: Doors, *, demonstration: bool = False) -> FastAPI:
     """The application of a service; with a demonstration cell, where there is none yet and it is wanted."""
+    mcp = Door(service)
 
     @contextlib.asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
@@ -40,6 +43,7 @@ def make_app(service: Service, doors: Doors, *, demonstration: bool = False) -> 
         if demonstration:
             await service.demonstrate()
         yield
+        await mcp.close()
         await service.close()
 
     app = FastAPI(
@@ -52,6 +56,8 @@ def make_app(service: Service, doors: Doors, *, demonstration: bool = False) -> 
     app.include_router(router)
     _add_way_in(app)
     _add_console(app)
+    add_plugin(app)
+    app.router.routes.append(Route("/mcp", endpoint=mcp))
     for kind in (RequestValidationError, HTTPException, Exception):
         app.add_exception_handler(kind, _answer)
     app.add_middleware(Shield, service=service, doors=doors)

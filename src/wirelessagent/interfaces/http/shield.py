@@ -35,12 +35,16 @@ COOKIE = "wirelessagent"
 """The name of the cookie of a browser session."""
 
 _SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
-_OPEN = frozenset({"/sign-in", "/sign-out", "/favicon.ico"})
-"""What needs no token: the way in."""
+_OPEN = frozenset({"/sign-in", "/sign-out", "/favicon.ico", "/plugin/openapi.json"})
+"""What needs no token: the way in, and what a platform reads to import the plug-in."""
 
 _ALWAYS = frozenset({"/healthz", "/readyz"})
 """What whoever watches over the server may ask as often as they like."""
 
+_MCP = "/mcp"
+"""Where reading is asked for by POST, too: there each tool says whether a viewer may call it."""
+
+_PLUGIN = "/plugin/"
 _UPLOADS = "/v1/observations"
 _CALLERS_S = 1.0
 """For how long it is taken that nobody has a token, so that not each request asks the store."""
@@ -69,11 +73,13 @@ class Doors:
         hosts: the names that requests may be for.
         only_local: whether only this machine reaches it, so that no token is needed while there is none.
         base_path: what a proxy in front takes off the path.
+        public_url: where others reach it, for the document that they import.
     """
 
     hosts: frozenset[str]
     only_local: bool
     base_path: str = ""
+    public_url: str = ""
 
 
 class Shield:
@@ -103,6 +109,8 @@ class Shield:
         try:
             caller = await self._checked(scope)
             scope.setdefault("state", {})["caller"] = caller
+            if scope["method"] not in _SAFE:
+                self._check_content(Headers(scope=scope), scope["path"])
             await self._app(scope, self._limited(scope, receive), sent)
         except ProblemError as problem:
             await answer_problem(problem, scope, receive, sent)
@@ -132,9 +140,8 @@ class Shield:
     async def _checked(self, scope: Scope) -> Caller | None:
         headers, path, method = Headers(scope=scope), scope["path"], scope["method"]
         self._check_host(headers)
-        if method not in _SAFE:
+        if method not in _SAFE or path == _MCP:
             self._check_origin(headers)
-            self._check_content(headers, path)
         if path in _ALWAYS:
             return None
         peer = (scope.get("client") or ("unknown", 0))[0]
@@ -146,7 +153,7 @@ class Shield:
                 return None
             raise
         self._budgets.spend(f"caller {caller.name}" if caller is not LOCAL else f"address {peer}")
-        if not caller.may_change and method not in _SAFE and path not in _OPEN:
+        if not caller.may_change and method not in _SAFE and path not in _OPEN and path != _MCP:
             raise ForbiddenError(f"{caller.name!r} is a viewer and changes nothing: ask an operator")
         return caller
 
@@ -239,6 +246,11 @@ def cookie_of(headers: Headers) -> str:
     return "" if found is None else found.value
 
 
+def in_plugin(problem: ProblemError) -> Body | None:
+    """A problem as the plug-in tells it; None where HTTP has to tell it."""
+    return None if problem.status in (401, 403, 405, 429) else {"ok": False, "error": problem.detail}
+
+
 def _host_of(host: str) -> str:
     """The name in a Host header, without its port."""
     if host.startswith("["):
@@ -247,10 +259,12 @@ def _host_of(host: str) -> str:
 
 
 async def answer_problem(problem: ProblemError, scope: Scope, receive: Receive, send: Send) -> None:
-    """Send a problem."""
-    del scope, receive
-    body = json.dumps(problem.body, ensure_ascii=False).encode()
-    headers = {"content-type": "application/problem+json", "content-length": str(len(body)), **problem.headers}
+    """Send a problem; a platform that was let in reads it inside of an answer."""
+    del receive
+    told = in_plugin(problem) if scope["path"].startswith(_PLUGIN) and scope.get("state", {}).get("caller") else None
+    body = json.dumps(told or problem.body, ensure_ascii=False).encode()
+    media_type = "application/json" if told else "application/problem+json"
+    headers = {"content-type": media_type, "content-length": str(len(body)), **problem.headers}
     pairs = [(name.lower().encode(), value.encode()) for name, value in headers.items()]
-    await send({"type": "http.response.start", "status": problem.status, "headers": pairs})
+    await send({"type": "http.response.start", "status": 200 if told else problem.status, "headers": pairs})
     await send({"type": "http.response.body", "body": body})
