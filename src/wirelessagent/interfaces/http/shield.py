@@ -35,7 +35,7 @@ COOKIE = "wirelessagent"
 """The name of the cookie of a browser session."""
 
 _SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
-_OPEN = frozenset({"/healthz", "/readyz", "/sign-in", "/sign-out", "/favicon.ico"})
+_OPEN = frozenset({"/", "/healthz", "/readyz", "/sign-in", "/sign-out", "/favicon.ico"})
 """What needs no token: whether the server is well, and the way in."""
 
 _UPLOADS = "/v1/observations"
