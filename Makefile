@@ -4,7 +4,7 @@ UV_VERSION := 0.13.8
 PYTHON ?= python3
 # uv from the path if there is one, else a copy of our own.
 UV := $(shell command -v uv 2>/dev/null || echo .tools/uv/bin/uv)
-RUN := $(UV) run --frozen --extra plot --extra evaluate --extra llm --extra serve
+RUN := $(UV) run --frozen --extra plot --extra evaluate --extra llm --extra serve --extra postgres
 
 export UV_COMPILE_BYTECODE ?= 1
 
@@ -27,14 +27,14 @@ browser:
 		echo "no Chromium here: the console is not looked at"
 
 test: $(UV) browser  ## all that CI needs: lint and types beside compiling, all tests, the third-party example
-	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve
+	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve --extra postgres
 	$(MAKE) --no-print-directory -j2 lint code
 	$(RUN) pytest -n auto --dist worksteal
 	$(UV) pip install --quiet --no-deps --target build/third_party ./examples/third_party_objective
 	WIRELESSAGENT_COMPILE=never PYTHONPATH=build/third_party $(RUN) pytest examples/third_party_objective/tests
 
 check: $(UV)  ## lint, types, and the tests that need no machine code
-	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve
+	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve --extra postgres
 	$(MAKE) --no-print-directory -j2 lint quick
 
 quick:
@@ -52,7 +52,7 @@ bars: $(UV) code  ## the full counts behind the figures in the documentation; ho
 	$(RUN) python benchmarks/bars_service.py
 
 lint: $(UV)
-	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve
+	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve --extra postgres
 	$(RUN) ruff format --check .
 	$(RUN) ruff check .
 	$(RUN) lint-imports

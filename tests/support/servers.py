@@ -67,12 +67,12 @@ class Server:
 
 
 @contextlib.contextmanager
-def started(store: Path, *options: str, token: str = "") -> Iterator[Server]:
-    """A server on a store, until the end of the context."""
+def started(store: Path, *options: str, token: str = "", at: str = "") -> Iterator[Server]:
+    """A server on a store (in that file, or ``at`` a URL), until the end of the context."""
     environment = {**os.environ, "WIRELESSAGENT_COMPILE": "never", "PYTHONUNBUFFERED": "1"}
     log = store.with_suffix(".log").open("a")
     process = subprocess.Popen(
-        [sys.executable, "-m", "wirelessagent", "serve", "--port", "0", "--store", str(store),
+        [sys.executable, "-m", "wirelessagent", "serve", "--port", "0", "--store", at or str(store),
          *(() if "--requests-per-s" in options else ("--requests-per-s", "1000")), *options],
         stdout=subprocess.PIPE, stderr=log, text=True, env=environment, start_new_session=True,
     )  # fmt: skip
