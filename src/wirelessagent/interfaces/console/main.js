@@ -11,6 +11,7 @@ import { byId } from "./dom.js";
 import { drawExport } from "./exporting.js";
 import { drawPlan } from "./plan.js";
 import { drawRates } from "./rates.js";
+import { setUpTools } from "./tools.js";
 import { setUpLanguages, setUpTheme, signOut, wantedLanguage } from "./settings.js";
 import { scene, state } from "./state.js";
 import { drawTimeline } from "./timeline.js";
@@ -232,6 +233,7 @@ function setUp() {
   setUpDialogs();
   setUpConversation(actions);
   setUpTheme(draw);
+  setUpTools(() => state.console.cells);
   setUpUpload({ made: (cell) => reload(cell.id).catch(fail), allowed: () => state.console.role === "operator" });
   setUpNewCell((cell) => {
     byId("settings").close();
