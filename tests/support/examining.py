@@ -8,7 +8,14 @@ from pathlib import Path
 
 
 def examined(
-    url: str, document: str, *, most: int, off: str, token: str = "", phases: str = "coverage,fuzzing", mode: str = "all"
+    url: str,
+    document: str,
+    *,
+    most: int,
+    off: str,
+    token: str = "",
+    phases: str = "coverage,fuzzing",
+    mode: str = "all",
 ) -> subprocess.CompletedProcess[str]:
     """What it says of a server by one of its documents, with so many examples an operation, some checks being off."""
     program = Path(sys.executable).parent / "schemathesis"
