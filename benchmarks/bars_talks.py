@@ -58,12 +58,18 @@ def judged(talk: Mapping[str, Any], tell: Any) -> list[str]:
     """``right``, ``wrong`` or ``missed`` for each line up to the first failure."""
     session = ChatRequest(no_store=True).session(lambda event: None)
     found: list[str] = []
+    kept_w: dict[str, float] = {}  # what was radiated where a share was asked for, which later lines only keep
     for line in talk["lines"]:
         decided = session.state.run
         radiated_w = 0.0 if decided is None else decided.decision.total_power_w
         before = session.request
         turn = session.say(line["text"])
-        if holds(session, line["request"], radiated_w):
+        shares = {
+            figure for figure in (line["request"] or {}).get("constraints", {}).values() if isinstance(figure, str)
+        }
+        kept_w = {figure: watts for figure, watts in kept_w.items() if figure in shares}
+        if any(holds(session, line["request"], watts) for watts in (radiated_w, *kept_w.values())):
+            kept_w |= dict.fromkeys(shares - kept_w.keys(), radiated_w)
             found.append("right")
             continue
         found.append("missed" if session.request == before else "wrong")

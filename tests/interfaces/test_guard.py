@@ -311,3 +311,32 @@ def test_a_bare_limit_amends_the_request_that_holds(said: str, kind: str, value:
     held = Context(user_names=("a", "b", "c", "d"), objective="max_rate", language="en")
     intent = recognise(said, held)
     assert (intent.kind, intent.objective, dict(intent.constraints)) == ("allocate", "max_rate", {kind: value})
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["the landlord is after minimum power", "the pump station should run at minimum power",
+     "operations has its heart set on energy efficiency", "the kids would rather have max throughput",
+     "der Vermieter ist auf minimale Leistung aus", "die Nachtschicht hat die Zelle auf maximalen Durchsatz gestellt",
+     "el casero anda buscando la mínima potencia", "la station de pompage doit tourner à puissance minimale",
+     "财务想要更低的功率", "泵站要以最小功率运行", "maximum throughput is the last thing we need"],
+)  # fmt: skip
+def test_an_aim_that_is_told_of_somebody_else_is_asked_about(said: str) -> None:
+    assert recognise(said, Context(user_names=USERS)).kind == "clarify"
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["If it isn't too much hassle, would you go for the maximum total rate?",
+     "I'd be grateful if the total rate were maximised under 15 W",
+     "Quisiera, si no es molestia, la potencia más baja con medio mega por usuario.",
+     "J'aimerais, si ça ne dérange pas, la puissance la plus basse avec 500 kbit/s par utilisateur.",
+     "Wenn's keine Umstände macht, die kleinste Leistung bei einem halben Megabit pro Nutzer.",
+     "No one above 4 Mbit/s please, the backhaul microwave link chokes, otherwise full speed.",
+     "El jefe está aquí mirando, enséñale lo máximo que da la celda en total.",
+     "电费太贵了，老板天天念叨，请按能效最高来跑。",
+     "Laisse tomber l'utilisateur 3 qui n'a pas payé et pousse le débit total avec 12 W maximum.",
+     "The cell should run at minimum power, 200 kbit/s each", "My internet is too slow"],
+)  # fmt: skip
+def test_courtesy_and_a_story_beside_a_wish_ask_nothing(said: str) -> None:
+    assert recognise(said, Context(user_names=USERS)).kind == "allocate"

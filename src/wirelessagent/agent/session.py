@@ -64,8 +64,10 @@ from wirelessagent.language.conversation.fragments import named_alone
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
+from wirelessagent.language.mentions import mentions
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
+from wirelessagent.language.text import normalise
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.telling.catalogue import message
@@ -236,6 +238,8 @@ class Session:
             share_how=str(before.get("share_how", "of")),
             language=self._language,
             acts=self._last_acts(),
+            spoken_of=self._spoken_of(),
+            earlier=tuple(turn.acts for turn in self._turns),
         )
 
     def _last_acts(self) -> tuple[Act, ...]:
@@ -244,6 +248,15 @@ class Session:
             acts = tuple(act for act in turn.acts if _changes_or_supposes(act))
             if acts and (turn is self._turns[-1] or not any(isinstance(act, Suppose) for act in acts)):
                 return acts
+        return ()
+
+    def _spoken_of(self) -> tuple[str, ...]:
+        """The users whom the last line that named any named, unless something was changed since."""
+        for turn in reversed(self._turns):
+            found = mentions(normalise(turn.text), self._site.user_names)
+            users = tuple(dict.fromkeys(user for each in found for user in each.users))
+            if users or any(_changes_or_supposes(act) for act in turn.acts):
+                return users
         return ()
 
     def _reply(self, talk: Talk, context: Context) -> Reply:

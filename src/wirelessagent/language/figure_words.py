@@ -85,7 +85,8 @@ _COUNT = (
     r"deux|trois|quatre|cinq|huit|dix|zwei|drei|vier|fünf|sechs|acht|zehn)"
 )
 COUNTED_USERS = deferred(
-    rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:users|ues|subscribers|devices|sensors|terminals|subcarriers|channels|usuarios|"
+    rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:of them|of the users|"
+    r"users|ues|subscribers|devices|sensors|terminals|subcarriers|channels|usuarios|"
     r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
     r"设备|传感器|子载波)"
 )

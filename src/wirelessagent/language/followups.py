@@ -75,6 +75,15 @@ def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tu
         if match is not None and not any(start < match.end() and match.start() < end for start, end in spans):
             names.append(name)
             spans.append(match.span())
+    for name, english, _ in _LIMITS * bool(spans):  # "forget the weights, and the power limit too"
+        behind = re.compile(
+            rf"(?i)(?:\s*,|\s+(?:and|or|nor))+\s+(?:(?:the|any|all|my|our|that)\s+)?(?:{english})(?![A-Za-z])"
+        )
+        found = (behind.match(plain, end) for _, end in spans)
+        match = next((each for each in found if each is not None), None)
+        if match is not None and name not in names:
+            names.append(name)
+            spans.append(match.span())
     match = _ALL.search(plain) or re.search("功率(?:不设限|不限制|不限|没有上限|随便用)|不限功率", plain)
     if match is not None and not names:
         held = tuple(context.constraints) if context is not None else ()

@@ -98,15 +98,34 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
         if "quotation" in moods:
             marks = (match.span() for match in _QUOTED.finditer(plain))
             hits += [Doubt(mood="quotation", reach="inside", start=start, end=end) for start, end in marks]
-        if hits:
+        told = (
+            "others" in moods
+            and intent.kind == "allocate"
+            and any(places(table_of(language)["subject"]["finite"], plain))
+        )
+        if hits or told:
             names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
             sentence = sentence or Sentence(plain, own_words(), names=names, max_power_w=limit)
             known = Reach(sentence, dropped_in(plain, context)[1], intent, language)
             reached = (hit for hit in hits if not known.accounts_for(hit) and known.touches(hit))
             first = min(reached, key=lambda hit: hit.start, default=None)
+            first = first or (known.foreign_subject() if told else None)
             if first is not None:
                 return first
     return None
+
+
+def tells_no_mere_fact(text: str) -> bool:
+    """Whether a clause that is no order has a word of a mood in it, but of what was or what is denied.
+
+    >>> tells_no_mere_fact("user 7 has paid"), tells_no_mere_fact("once user 7 has paid")
+    (False, True)
+    """
+    plain = normalise(text)
+    moods = [mood for mood in MOODS if mood not in ("negation", "past", "elsewhere")]
+    found = (places(words, plain) for language in languages_of(text) for mood in moods
+             for words in table_of(language)[mood].values())  # fmt: skip
+    return any(any(spans) for spans in found)
 
 
 def stranger(plain: str, context: Context | None) -> Span | None:

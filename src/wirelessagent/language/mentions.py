@@ -58,7 +58,9 @@ _AND = (
     r"et|ou|ainsi\s+que|und|oder|noch|sowie)\s+(?:(?:the|el|al|del|le|au|du|die|den|der)\s+)?)"
 )
 _TO = r"(?:\s*(?:-|–|~)\s*|\s+(?:up\s+to|to|through|al?|hasta\s+el|hasta|à|au|jusqu'(?:à|au)|bis(?:\s+zu)?)\s+)"
-_OF_ITS_OWN = r"(?!\s+(?:for|to|para|pour|für)\s)"  # "6 for user 2, 3 for user 3": no list of users
+_OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …" is
+    r"(?!\s+(?:for|to(?!\s+(?:have|get|receive|be|reach|see|go|run|enjoy|count|share|stay))|para|pour|für)\s)"
+)
 _NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"
 _DIGITS = r"[0-9]{1,4}(?![0-9.,]*[0-9%]|[A-Za-z])"
 _WORD_LIST = rf"{_WORD_NUMBER}\b(?:(?:{_AND}|{_TO}){_WORD_NUMBER}\b)*"
@@ -127,6 +129,16 @@ _PRONOUN = Phrases(
     r"él|ella|ellos|ambos|los dos|"
     r"lui|elle|eux|les deux|ihm|ihr|ihn|ihnen|den|die beiden|beide[nr]?)\b|[他她它]们?(?!人)"
 )
+_EVERY_SECOND = Phrases(  # "odd-numbered users", "Nutzer mit gerader Nummer"; which ones they are, the cell's size says
+    rf"\b(?:the )?(?:(?P<odd>odd)|even)(?:[- ]numbered)? (?:{_NOUN}|ones|numbers)\b|"
+    rf"\b{_NOUN} with (?:an )?(?:(?P<odd_id>odd)|even) (?:numbers?|ids?|index|indices)\b|"
+    rf"\b(?:l[oa]s )?{_NOUN} (?:de número |con número )?(?:(?P<impar>impar(?:es)?)|par(?:es)?)\b|"
+    rf"\b(?:les )?{_NOUN} (?:de numéro |à numéro )?(?:(?P<impair>impaire?s?)|paire?s?)\b|"
+    rf"\b(?:die |den )?(?P<ungerade>un)?gerad(?:zahlig)?(?:e[nr]?)? {_NOUN}\b|"
+    rf"\b(?:die |den )?{_NOUN} mit (?P<ungerader>un)?gerade[nr]? nummern?\b|"
+    r"(?:编号(?:为|是))?(?:(?P<dan>单数号?|奇数号?|单号)|双数号?|偶数号?|双号)的?(?:用户|终端)",
+    marks="odd even par pair gerad 单 奇 双 偶",
+)
 JOINT = deferred(
     r"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|\b(?:or|and|nor|plus|y|e|o|ni|et|ou|und|oder|sowie|noch|"
     r"as\s+well\s+as|así\s+como|ainsi\s+que)\b|\s)+\s*(?:(?:also|the|al|el|los|la|le|les|au|aux|die|den|der|del|du)\s+)?"
@@ -156,7 +168,7 @@ def mentions(plain: str, names: Sequence[str] = (), taken: Sequence[tuple[int, i
     [('named', ('3', '5')), ('others', ())]
     """
     found: list[Mention] = []
-    for mention in [*_own_names(plain, names), *_spoken_of(plain)]:
+    for mention in [*_own_names(plain, names), *_every_second(plain, len(names)), *_spoken_of(plain)]:
         clear = not any(mention.start < end and start < mention.end for start, end in taken)
         if clear and not any(mention.start < other.end and other.start < mention.end for other in found):
             found.append(mention)
@@ -169,6 +181,13 @@ def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
             continue  # "user 3" is read as any other number
         for match in re.finditer(rf"(?i)(?<![^\W_]){re.escape(name)}(?![^\W_])", plain):
             yield Mention(role="named", users=(name,), start=match.start(), end=match.end())
+
+
+def _every_second(plain: str, count: int) -> Iterator[Mention]:
+    """Users by an odd or an even number, where it is known how many there are."""
+    for match in _EVERY_SECOND.finditer(plain) if count > 1 else ():
+        users = tuple(str(number) for number in range(1 if match.lastgroup else 2, count + 1, 2))
+        yield Mention(role="named", users=users, start=match.start(), end=match.end())
 
 
 @functools.lru_cache(maxsize=64)

@@ -17,8 +17,10 @@ from dataclasses import dataclass
 from wirelessagent.language.command_cues import cues_in
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.linear_model import shipped_model
+from wirelessagent.language.mentions import mentions
 from wirelessagent.language.moods import Span, places, table_of
-from wirelessagent.language.sentence import Sentence
+from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.text import CLAUSE_END, is_chinese, normalise
 
 _OF_AIMS = (("up", "down", "fair", "fairly", "balance"), ("rate", "power", "efficiency", "worst"))
@@ -35,6 +37,10 @@ _ASIDE = ("because", "who", "agreed", "tell")
 """What opens a clause that keeps its words to itself."""
 _SHORT = 12
 """Letters, beside its own, of an adverbial that may stand behind what it governs; a Chinese sign counts as four."""
+_SPEAKS_FOR_IT = 0.45
+"""How sure the model must be that a clause alone is a wish for the aim: as sure as a sentence that is acted upon."""
+_LONGEST_NAME = 5
+"""Chinese signs of somebody who is no user; what is longer is a story."""
 _DASH = deferred(r"\s[-–—]+\s")
 _SENTENCE_END = deferred(r"[!?;\n。；…]|\.(?!\d)")
 _CUT = deferred(CLAUSE_END)
@@ -67,6 +73,7 @@ class Reach:
         self._table, self._intent = table_of(language), intent
         self._plain = plain = _DASH.sub(lambda cut: ",".ljust(len(cut[0])), sentence.plain)
         self._figures = sentence.reading.masked
+        self._aim, self._terms, self._judged = list[Span](), list[Span](), list[Span]()
         self._own = list(places(self._table["own"]["words"], plain))
         self._read, self._counted = [*self._figures, *sentence.goal.spans, *dropped], sentence.reading.counted
         self._left_out = [span for part in self._parts_of("leave_out") for span in part]
@@ -88,6 +95,10 @@ class Reach:
             self._adjoins("self", "before", hit) or self._adjoins("self", "after", hit, after=True)
         ):
             return True  # "I'd appreciate"
+        if hit.mood == "others" and self._is_first(hit, clause):
+            return True  # "quisiera", with nobody before it
+        if hit.mood in ("condition", "past") and self._is_polite(hit, clause):
+            return True
         if hit.mood == "time" and self._is_no_start(hit, clause):
             return True
         if hit.mood != "negation":
@@ -108,6 +119,20 @@ class Reach:
             return True  # "not later, now"
         cleft = self._adjoins("that", "words", hit, after=True)  # "c'est lundi que …"
         return self._adjoins("present", "words", hit) and not cleft
+
+    def _is_first(self, hit: Doubt, clause: Clause) -> bool:
+        """Whether a verb that may be the speaker's own is the first word of its sentence."""
+        said = self._plain[self._sentence(hit)[0] : hit.start]
+        return hit.start in {start for start, _ in self._found("self", clause, "first")} and not _worded(said)
+
+    def _is_polite(self, hit: Doubt, clause: Clause) -> bool:
+        """Whether a condition is one of courtesy: "if it's no trouble", "I'd be grateful if it did not exceed 17 W"."""
+        said = self._found("courtesy", clause)
+        ifs = [start for reach in self._table["condition"] for start, _ in self._found("condition", clause, reach)]
+        if not said or not ifs:
+            return False
+        ahead = any(start <= first for start, _ in said for first in ifs)
+        return ahead or not any(_overlap((clause.start, clause.end), place) for part in self._parts for place in part)
 
     def _adjoins(self, name: str, reach: str, hit: Doubt, *, after: bool = False) -> bool:
         """Whether a word of a class stands right before a hit, or right after it."""
@@ -131,6 +156,36 @@ class Reach:
             and all(place[0] < free or any(_overlap(place, span) for span in held) for place in part)
             for part in self._parts
         )
+
+    def foreign_subject(self) -> Doubt | None:
+        """Who the aim is told of, where that is neither the operator nor the cell: "the landlord is after max rate".
+
+        Somebody stands as the subject where, before the aim in its clause, a finite verb follows a word that no wish
+        of an operator's own begins with; a user, a figure or a word for an aim is no such word.
+        """
+        found = [self._subject_before(*place) for place in self._aim]
+        return found[0] if found and all(found) else None
+
+    def _subject_before(self, start: int, end: int) -> Doubt | None:
+        """Who stands as the subject of one place of the aim, and is nobody who may ask for it."""
+        table, clause = self._table["subject"], next(each for each in reversed(self._clauses) if each.start <= start)
+        terms = [at for at, _ in self._terms if clause.start <= at < end]
+        whole = (start, end) == (clause.start, clause.end) or end >= len(self._plain.rstrip(" .!。"))
+        head = self._plain[clause.start : min(terms, default=clause.end) if whole and start == clause.start else start]
+        finite = list(places(table["finite"], head))
+        if clause.opens in _ASIDE or not finite or self._begins("imperative", clause):
+            return None
+        subject = head[: finite[-1][0]]
+        if any(not _worded(head[:at]) for at, _ in places(table["adverbial"], head)):
+            return None
+        if any(places(table["speaker"], head)) or any(mentions(subject)):
+            return None
+        kept = list(places(table["ours"], subject))
+        rest = [sign for at, sign in enumerate(subject) if not any(a <= at < b for a, b in kept)]
+        if sum(map(str.isalpha, rest)) < 2 or sum(map(is_chinese, rest)) > _LONGEST_NAME:
+            return None
+        first = clause.start + len(head) - len(head.lstrip())
+        return Doubt(mood="others", reach="clause", start=first, end=clause.start + finite[-1][1])
 
     def _reach(self, hit: Doubt, clause: Clause) -> Span:
         """From where to where a word reaches, by its class and the form of its clause."""
@@ -165,8 +220,12 @@ class Reach:
         if self._is_since(hit, clause):
             return alone if full or not self._is_short(hit, clause) else (clause.start, later[0].end if later else end)
         if (hit.reach == "ahead" or hit.mood in ("elsewhere", "time", "past")) and not full:
-            so = min((each.start for each in later if each.opens == "so" and hit.mood == "past"), default=end)
-            return start if self._is_short(hit, clause) else clause.start, so
+            if self._is_short(hit, clause):
+                return start, self._first_of(later, end, "so") if hit.mood == "past" else end
+            if hit.mood == "elsewhere":
+                turns = self._plain[start : clause.start].strip()
+                return clause.start, self._first_of(later, end, "besides") if turns else end
+            return clause.start, self._next(later, "now", end)
         if hit.mood == "time" and hit.reach == "ahead" and not told:
             return clause.start, self._next(later, "now", end)
         return clause.start, end if told and hit.mood != "elsewhere" else clause.end
@@ -179,7 +238,8 @@ class Reach:
 
     def _goes_on(self, hit: Doubt, clause: Clause, later: Sequence[Clause]) -> bool:
         """Whether the next clause says what is told: behind "that", or a colon that nothing else is told before."""
-        signs = (":", ",", "，") if hit.mood in _STORIES else (":",)
+        ordered = hit.mood == "others" and any(each.opens == "so" for each in later[:1])  # "老板催，请…"
+        signs = (":", ",", "，") if hit.mood in _STORIES and not ordered else (":",)
         behind = [end for start, end in self._found("that", clause) if not _worded(self._plain[hit.end : start])]
         if not _worded(self._plain[max(behind, default=hit.end) : clause.end]) and (behind or clause.behind in signs):
             return True
@@ -193,8 +253,10 @@ class Reach:
             if not self._plain[start : hit.start].strip() and not self._plain[end:].strip(" .!。"):
                 return True
         one = self._clauses[0].end >= len(self._plain.rstrip(" .!?。"))
-        spans = [span for part in self._parts for span in part] if self._placed or one else []
-        return any(_overlap(span, (start, end)) for span in spans)
+        parts = self._parts if self._placed or one else []
+        return any(
+            (all if part is self._judged else any)(_overlap(span, (start, end)) for span in part) for part in parts
+        )
 
     def _is_taken_up(self, clause: Clause) -> bool:
         """Whether an order behind a story carries it out: "…, give it that", "…, so meet them halfway"."""
@@ -207,6 +269,13 @@ class Reach:
             if orders and all(any(a <= start and end <= b for a, b in said) for start, end in denied):
                 return True
         return False
+
+    def _first_of(self, clauses: Sequence[Clause], end: int, name: str) -> int:
+        """Where the first of these clauses begins that opens so, or begins with such a word."""
+        found = (
+            each.start for each in clauses if each.opens == name or (name == "besides" and self._begins(name, each))
+        )
+        return min(found, default=end)
 
     def _next(self, clauses: Sequence[Clause], name: str, end: int) -> int:
         """Where the next clause begins that turns, begins with a word of order, or has one of now in it."""
@@ -271,9 +340,20 @@ class Reach:
                     if (first or reach == "words") and not kept and not bare:
                         place = last if first else start
                         cuts[place] = (name, cuts.get(place, ("", ""))[1])
+        aside = any(name in ("who", "because") for name, _ in cuts.values())
+        for start, _ in places(self._table["imperative"]["words"], plain) if aside else ():
+            last = max(place for place in cuts if place <= start)
+            joint = self._joint_before(start) if cuts[last][0] in ("who", "because") else -1
+            if _worded(plain[last : max(joint, last)]):  # "qui n'a pas payé et pousse le débit"
+                cuts[joint] = ("", "")
         starts = sorted(cuts)
         for start, end in zip(starts, [*starts[1:], len(plain)], strict=True):
             yield Clause(start=start, end=end, opens=cuts[start][0], behind=cuts.get(end, ("", ""))[1])
+
+    def _joint_before(self, start: int) -> int:
+        """Where an "and" begins right before a place; −1 where none does."""
+        found = places(self._table["joint"]["words"], self._plain[:start])
+        return next((first for first, end in found if not self._plain[end:start].strip()), -1)
 
     def _act(self, sentence: Sentence) -> tuple[list[list[Span]], bool]:
         """The places of each part of the act, and whether they are known by words that were read."""
@@ -282,8 +362,10 @@ class Reach:
             return [cues_in(self._intent.topic or "", self._plain) or [whole]], False
         parts = [part for name in self._intent.evidence if name != "not_used" for part in self._parts_of(name)]
         placed = [part for part in parts if whole not in part]
+        self._aim = [span for part in self._parts_of("objective") if whole not in part for span in part]
         if placed and len(placed) == len(parts):
             return placed, True
+        self._terms = [(item.start, item.end) for item in sentence.found if item.term.concept != "domain"]
         terms = [((item.start, item.end), item.term) for item in sentence.found]
         named = [span for span, term in terms if term.objective == self._intent.objective]
         unfair = _FAIR if self._intent.objective not in _FAIR_AIMS else ()
@@ -291,9 +373,23 @@ class Reach:
             [span for span, term in terms if term.concept in group and term.concept not in unfair] for group in _OF_AIMS
         )
         orders = [(each.start, each.end) for each in self._clauses if self._begins("imperative", each)]
-        groups = (named, first) if placed else (named, first, second, orders)
+        self._judged = judged = self._judged_places() if not named and (first or not placed) else []
+        groups = (named, judged, first) if placed else (named, judged, first, second, orders)
         meant = next((spans for spans in groups if spans), list[Span]())
+        one = sum(_worded(self._plain[each.start : each.end]) for each in self._clauses) == 1
+        self._aim = self._aim or meant or ([whole] if one else [])
         return [part for part in (*placed, meant) if part] or [[whole]], bool(placed)
+
+    def _judged_places(self) -> list[Span]:
+        """The clauses that speak for the aim each by itself; none where no clause, or only one, has words."""
+        worded = [each for each in self._clauses if _worded(self._plain[each.start : each.end])]
+        found: list[Span] = []
+        for each in worded if len(worded) > 1 else ():
+            text, concepts, language = Sentence(self._plain[each.start : each.end], own_words()).for_model()
+            shares = shipped_model().probabilities(text, concepts, language)
+            if shares.get(self._intent.objective or "", 0.0) >= _SPEAKS_FOR_IT:
+                found.append((each.start, each.end))
+        return found
 
     def _parts_of(self, name: str) -> list[list[Span]]:
         """Where the words stand that a part of the act came from: an aim is one part, figures are one each."""

@@ -35,6 +35,8 @@ class Context:
         share_of, share_how: what the line right before changed by a share or an amount, as it was before, and whether
             it became that share "of" it, or that much "less" or "more"; empty where it did not.
         acts: those of the last line that changed or supposed something.
+        spoken_of: the users whom a line named behind the last change, or with it: whom "give them 1 Mbit/s" is about.
+        earlier: the acts of each turn so far, from the first.
         language: of the conversation so far; "" at its start.
     """
 
@@ -56,6 +58,8 @@ class Context:
     share_of: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     share_how: str = "of"
     acts: tuple[Act, ...] = ()
+    spoken_of: tuple[str, ...] = ()
+    earlier: tuple[tuple[Act, ...], ...] = ()
     language: str = ""
 
 

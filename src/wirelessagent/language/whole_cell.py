@@ -84,6 +84,8 @@ def doubt_parts(notes: Notes, allotted: Sequence[Span]) -> None:
             continue
         if pattern is figure_words.HALVED and any(a < match.end() and match.start() < b for a, b in settled):
             continue
+        if any(start <= match.start() and match.end() <= end for start, end in allotted):  # "odd-numbered users"
+            continue
         notes.doubt(key, text=notes.text[slice(*match.span())])
 
 

@@ -79,6 +79,9 @@ class Service:
             raise TooMuchError(f"there are {self.limits.cells} cells already: remove one first")
         given = dict(options)
         observation = given.pop("csi", None)
+        if observation is not None:
+            read_as = (await self._item("observation", observation)).data["options"]
+            given["source_options"] = {**read_as, **given.get("source_options", {})}
         kept: Json = {"name": name, "options": given, "observation": observation, "effect": 0, "demonstration": False}
         facts = await self.workers.do("facts", tell, options=given, channel=await self._channel_file(observation))
         kept |= facts
@@ -123,7 +126,7 @@ class Service:
         path = self._folder / f"{id}{suffix}"
         await asyncio.to_thread(_write, path, content)
         try:
-            seen = await self.workers.do("inspect", tell, options=dict(options), channel=str(path))
+            seen = await self.workers.do("inspect", tell, options={"source_options": dict(options)}, channel=str(path))
         except BaseException:
             path.unlink(missing_ok=True)
             raise

@@ -12,6 +12,7 @@ const LEFT = 40;
 const BARS = 120;
 const STRIP = 14;
 const LEAST = 2.2;
+const FEW = 12;
 let chosen = "shown";
 
 const nameOf = (decision, user) => (user < 0 ? say("console.nobody") : userName(decision.user_names[user]));
@@ -59,11 +60,14 @@ export function allocationPicture(decisions, { width, top, id, moved }) {
 /** The highest power on a subcarrier of all these decisions. */
 export const highestPower = (decisions) => Math.max(0, ...decisions.flatMap((one) => one.power_w));
 
-/** A legend of users by colour, pattern and number. */
-export function userLegend(names, id) {
-  return element("ul", { class: "users" }, names.map((name, user) => element("li", {},
+/** A legend of users by colour, pattern and number; of many users only those who are served. */
+export function userLegend(decisions, id) {
+  const names = decisions[0].user_names;
+  const served = new Set(decisions.flatMap((one) => one.owner));
+  const told = names.map((_, user) => user).filter((user) => names.length <= FEW || served.has(user));
+  return element("ul", { class: "users" }, told.map((user) => element("li", {},
     shape("svg", { width: 12, height: 12, "aria-hidden": "true" }, patterns(names.length, `${id}k`), shape("rect", { width: 12, height: 12, rx: 2, fill: fillOf(user, `${id}k`) })),
-    `${user + 1} ${/^user\s*\d+$/i.test(name) ? "" : userName(name)}`.trim())));
+    `${user + 1} ${/^user\s*\d+$/i.test(names[user]) ? "" : userName(names[user])}`.trim())));
 }
 
 /**
@@ -98,6 +102,6 @@ export function drawAllocation(shown, effect, shownName) {
     element("div", { class: "legend" },
       moved.length ? element("span", { class: "hands" }, "▲ ", say("console.hands", { moved: moved.length, total: shown.decision.owner.length })) : null,
       of === "both" ? element("span", {}, say("console.both_note", { name: shownName })) : null,
-      userLegend(shown.decision.user_names, "al")));
+      userLegend(decisions, "al")));
   onWidth(frame, (width) => frame.replaceChildren(allocationPicture(decisions, { width, top, id: "a", moved })));
 }

@@ -27,9 +27,9 @@ async function call(method, path, { body = null, type = null, later = false } = 
   try {
     answer = await fetch(address(path), { method, headers, body, credentials: "same-origin" });
   } catch {
-    throw new Disconnected();
+    throw new Disconnected("…");
   }
-  if (AWAY.has(answer.status)) throw new Disconnected();
+  if (AWAY.has(answer.status)) throw new Disconnected(`${answer.status} ${answer.statusText}`);
   const text = await answer.text();
   let found = null;
   try {

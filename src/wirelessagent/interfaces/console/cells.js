@@ -3,7 +3,7 @@
 import { post } from "./api.js";
 import { byId, element, facts } from "./dom.js";
 import { watts } from "./units.js";
-import { say } from "./words.js";
+import { say, trouble } from "./words.js";
 
 /** A cell in one line. */
 export const cellLine = (cell) => say("console.cell_line", { users: cell.user_names.length, subcarriers: cell.num_subcarriers });
@@ -37,7 +37,7 @@ export function setUpNewCell(made) {
       made(await post("v1/cells", { name: byId("new-name").value, options }));
     } catch (problem) {
       byId("cell-problem").hidden = false;
-      byId("cell-problem").textContent = problem.message || say("console.disconnected");
+      byId("cell-problem").textContent = trouble(problem);
     }
   });
 }

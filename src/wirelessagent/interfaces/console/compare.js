@@ -51,6 +51,6 @@ export function openComparison(session, turns) {
   }));
   byId("compare-body").replaceChildren(
     element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": say("console.compared") }, element("table", { class: "rows figures" }, element("thead", {}, head), element("tbody", {}, figures(turns)))),
-    pictures, ...(usable.length ? [userLegend(usable[0].decision.user_names, "c")] : []));
+    pictures, ...(usable.length ? [userLegend(usable.map((turn) => turn.decision), "c")] : []));
   dialog.showModal();
 }

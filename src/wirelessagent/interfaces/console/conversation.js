@@ -1,6 +1,6 @@
 /** The conversation: what was said, three lines for each answer with more behind a click, stages as they come, the input. */
 
-import { byId, element, table } from "./dom.js";
+import { byId, element, fillIfNew, table } from "./dom.js";
 import { suggestions } from "./suggestions.js";
 import { clock } from "./units.js";
 import { say, stageName } from "./words.js";
@@ -101,7 +101,8 @@ export function giveBack(text) {
  */
 export function drawConversation({ session, job, problem }, { effect, canAct, busy, people }, actions) {
   const [log, input] = [byId("log"), byId("line")];
-  const asIs = [session.id, document.documentElement.lang].join();
+  const { lang } = document.documentElement;
+  const asIs = [session.id, lang].join();
   if (asIs !== drawnAs) {
     [drawnAs, drawnTurns] = [asIs, 0];
     log.replaceChildren();
@@ -116,9 +117,10 @@ export function drawConversation({ session, job, problem }, { effect, canAct, bu
   if (!drawnTurns && !log.childElementCount) {
     log.append(element("div", { class: "empty" }, element("b", {}, say("console.empty_title")), element("p", {}, say("console.empty_text"))));
   }
-  byId("working").replaceChildren(...(job ? working(job, actions) : []), ...(problem ? [failure(problem, actions)] : []));
+  fillIfNew(byId("working"), [job, problem?.message, lang], () => [...(job ? working(job, actions) : []), ...(problem ? [failure(problem, actions)] : [])]);
   const asked = session.awaits === "clarification";
-  byId("chips").replaceChildren(...(canAct && !busy ? suggestions(session, effect) : []).map((text) =>
+  const offered = canAct && !busy ? suggestions(session, effect) : [];
+  fillIfNew(byId("chips"), offered, () => offered.map((text) =>
     element("button", { type: "button", class: "chip", click: () => actions.send(text) }, text)));
   byId("say").hidden = !canAct;
   byId("viewer").hidden = canAct;

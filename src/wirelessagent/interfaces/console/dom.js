@@ -30,6 +30,14 @@ export function shape(name, attributes = {}, ...children) {
 /** The element of the page with this id. */
 export const byId = (id) => document.getElementById(id);
 
+/** Fill a place anew, but only where what it shows has changed: focus and opened details stay. */
+export function fillIfNew(place, shown, make) {
+  const key = JSON.stringify(shown);
+  if (place.dataset.shown === key) return;
+  place.dataset.shown = key;
+  place.replaceChildren(...make());
+}
+
 /** A heading and value list from pairs. */
 export function facts(pairs) {
   return element("dl", { class: "facts" }, pairs.map(([label, value]) => [

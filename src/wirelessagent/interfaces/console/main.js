@@ -12,38 +12,22 @@ import { drawExport } from "./exporting.js";
 import { drawPlan } from "./plan.js";
 import { drawRates } from "./rates.js";
 import { setUpLanguages, setUpTheme, signOut, wantedLanguage } from "./settings.js";
+import { scene, state } from "./state.js";
 import { drawTimeline } from "./timeline.js";
 import { inShort, isUsable, saidFor, turnOf } from "./turns.js";
 import { nameUnits, setUpUpload } from "./upload.js";
-import { say, speak } from "./words.js";
+import { say, speak, trouble } from "./words.js";
 
 const CELL = "wirelessagent.cell";
 const EVERY_MS = 4000;
 const LONGEST_MS = 15000;
+const CALMER = 1.25;
+const JOB = "wirelessagent.job";
 
-const state = {
-  console: null, cell: null, session: null, channel: null,
-  looking: null, job: null, problem: null, connected: true,
-};
 let drawn = "";
 let wait = EVERY_MS;
 let timer = 0;
 let shownChannel;
-
-/** What follows from the state: which turns count, what is looked at, and what may be done. */
-function scene() {
-  const { session, looking } = state;
-  const effect = turnOf(session, session.in_effect);
-  const planTurn = session.plan ? turnOf(session, session.plan.turn) : null;
-  const looked = looking === null ? null : turnOf(session, looking);
-  const last = session.turns.findLast((turn) => isUsable(turn)) ?? null;
-  const failed = session.turns.at(-1)?.stage === "nothing" && session.turns.at(-1).decision ? session.turns.at(-1) : null;
-  const shown = looked ?? planTurn ?? failed ?? effect ?? last;
-  return {
-    plan: session.plan, planTurn, effect, shown, looked,
-    canAct: state.console.role === "operator", busy: Boolean(state.job), people: state.console.signed_in,
-  };
-}
 
 function shownName({ shown, planTurn }) {
   return shown === planTurn ? say("console.plan") : say("turn.column", { number: shown?.number });
@@ -55,11 +39,11 @@ function draw() {
   const usable = isUsable(now.shown) ? now.shown : null;
   byId("page").classList.toggle("loading", false);
   drawConversation(state, now, actions);
-  drawPlan(now, actions);
   const asIs = JSON.stringify([state.session, state.looking, now.busy, state.cell, document.documentElement.lang, document.documentElement.dataset.theme]);
   if (asIs === drawn && shownChannel === state.channel) return;
   drawn = asIs;
   shownChannel = state.channel;
+  drawPlan(now, actions);
   drawCells(state.console.cells, state.cell, now.canAct, actions);
   drawChannel(state.channel);
   drawAllocation(usable, now.effect, shownName(now));
@@ -68,7 +52,7 @@ function draw() {
   drawPrices(now.shown);
   drawTimeline(state.session, now, actions);
   drawExport(now.shown, fail);
-  byId("in-effect").textContent = now.effect ? say("console.in_effect_is", { what: inShort(now.effect) }) : say("console.nothing_in_effect");
+  byId("in-effect").textContent = now.effect ? say("console.in_effect_is", { what: [inShort(now.effect), now.people && now.effect.by].filter(Boolean).join(" · ") }) : say("console.nothing_in_effect");
   byId("in-effect").classList.toggle("on", Boolean(now.effect));
   byId("looking").hidden = !now.looked;
   if (now.looked) byId("looking-text").textContent = say("console.looking", { number: now.looked.number, text: saidFor(state.session, now.looked) });
@@ -99,8 +83,15 @@ function announce(text) {
 /** Fetch the session, and the channel where turns came, and draw what changed. */
 async function refresh() {
   const { session: before } = state;
-  const session = await get(`v1/sessions/${encodeURIComponent(state.cell.session)}`);
+  const cells = await get("v1/cells");
+  const cell = cells.find((one) => one.id === state.cell.id);
+  if (!cell) return reload(null);
+  const session = await get(`v1/sessions/${encodeURIComponent(cell.session)}`);
   if (session.cell !== state.cell.id) return;
+  state.console.cells = cells;
+  state.cell = cell;
+  const asBefore = JSON.stringify(session) === JSON.stringify(before);
+  wait = asBefore ? Math.min(LONGEST_MS, wait * CALMER) : EVERY_MS;
   const came = session.id !== before?.id || session.turns.length !== before.turns.length;
   if (came) state.channel = await get(`v1/sessions/${encodeURIComponent(session.id)}/channel`);
   if (before && came && session.id === before.id && session.in_effect !== before.in_effect) {
@@ -109,7 +100,6 @@ async function refresh() {
   }
   state.session = session;
   draw();
-  if (session.busy && !state.job) work(session.busy, "");
 }
 
 async function tick() {
@@ -118,7 +108,6 @@ async function tick() {
     try {
       await refresh();
       connected(true);
-      wait = EVERY_MS;
     } catch (problem) {
       if (!(problem instanceof Disconnected)) fail(problem);
       else {
@@ -133,6 +122,7 @@ async function tick() {
 /** Follow a job to its end, stages as they come. */
 async function work(id, text) {
   state.job = { id, text, stages: [] };
+  sessionStorage.setItem(JOB, JSON.stringify({ id, text, session: state.session.id }));
   draw();
   try {
     await follow(id, (stage) => {
@@ -145,7 +135,9 @@ async function work(id, text) {
     fail(problem);
     giveBack(text);
   }
+  sessionStorage.removeItem(JOB);
   state.job = null;
+  wait = EVERY_MS;
   await tick();
   draw();
 }
@@ -190,12 +182,25 @@ const actions = {
 /** Look at another cell. */
 async function choose(id) {
   const { cells } = state.console;
-  state.cell = cells.find((cell) => cell.id === id) ?? cells[0];
+  state.cell = cells.find((cell) => cell.id === id) ?? cells[0] ?? null;
+  byId("no-cell").hidden = Boolean(state.cell);
+  for (const part of ["page", "cells"]) byId(part).hidden = !state.cell;
+  if (!state.cell) return;
   Object.assign(state, { session: null, channel: null, looking: null, job: null, problem: null });
   localStorage.setItem(CELL, state.cell.id);
   byId("cells").open = false;
   byId("page").classList.add("loading");
   await tick();
+  takeUp();
+}
+
+/** Go on with a job that was under way when the page was left. */
+async function takeUp() {
+  const left = JSON.parse(sessionStorage.getItem(JOB) ?? "null");
+  if (!left || left.session !== state.session?.id) return;
+  const job = await get(`v1/jobs/${encodeURIComponent(left.id)}`).catch(() => null);
+  if (job?.state === "running") work(left.id, left.text);
+  else sessionStorage.removeItem(JOB);
 }
 
 async function reload(id) {
@@ -205,7 +210,7 @@ async function reload(id) {
 
 function setUpDialogs() {
   byId("settings-open").addEventListener("click", () => byId("settings").showModal());
-  byId("cell-make").addEventListener("click", () => byId("settings").showModal());
+  for (const id of ["cell-make", "first-cell"]) byId(id).addEventListener("click", () => byId("settings").showModal());
   for (const button of document.querySelectorAll("[data-close]")) {
     button.addEventListener("click", () => button.closest("dialog").close());
   }
@@ -251,6 +256,7 @@ async function start() {
     const { languages, signed_in: signedIn } = state.console;
     const wanted = wantedLanguage(languages);
     await speak(wanted);
+    document.body.classList.remove("bare");
     nameUnits();
     setUpLanguages(languages, wanted, async (tag) => {
       await speak(tag);
@@ -267,7 +273,7 @@ async function start() {
       return;
     }
     byId("broken").hidden = false;
-    byId("broken-text").textContent = problem.message;
+    byId("broken-text").textContent = trouble(problem);
     setTimeout(start, EVERY_MS);
   }
 }

@@ -1,15 +1,15 @@
 /** The plan that waits, as what it changes against what is in effect, with one clear button. */
 
 import { byId, element } from "./dom.js";
-import { changedHands, limitRows, sum } from "./turns.js";
+import { NONE, changedHands, limitRows, sum } from "./turns.js";
 import { clock, human, rate, watts } from "./units.js";
 import { aimName, heading, say, userName } from "./words.js";
 
 const WORTH_SHOWING = 2e-3;
-const MOST_USERS = 6;
+const MOST_USERS = 5;
 
 function row({ label, before, after }) {
-  const was = before && before !== "–" ? [element("del", {}, before), " "] : [];
+  const was = before && before !== NONE ? [element("del", {}, before), " "] : [];
   return element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, was, element("ins", {}, after)));
 }
 
@@ -35,7 +35,7 @@ export function difference(effect, plan) {
   const pair = (label, then, now) => (then === now ? [] : [{ label, before: then, after: now }]);
   const aim = { label: say("console.aim"), before: before && before.objective !== after.objective ? heading(aimName(before.objective)) : "", after: heading(aimName(after.objective)) };
   return {
-    rows: [aim, ...limits.filter((one) => !one.same),
+    rows: [aim, ...limits.filter((one) => !one.same).map((one) => (one.after === NONE ? { ...one, after: say("console.no_longer") } : one)),
       ...pair(heading(say("part.power")), before ? watts(before.total_power_w) : "", watts(after.total_power_w)),
       ...pair(heading(say("part.rate")), before ? rate(sum(before.rate_bps)) : "", rate(sum(after.rate_bps))),
       ...rates.slice(0, MOST_USERS)],

@@ -22,7 +22,7 @@ function told(name, { mean, low, high, promised }) {
 /** One picture of a turn's rates. */
 export function ratesPicture(turn, { width, top, id }) {
   const names = turn.decision.user_names;
-  const slot = Math.min(96, Math.max(10, (width - LEFT) / names.length));
+  const slot = Math.min(96, Math.max(8, (width - LEFT) / names.length));
   const right = Math.max(width, LEFT + slot * names.length);
   const { scale } = prefixed(top, "bit/s");
   const y = (value) => BASE - (value / (top || 1)) * BARS;

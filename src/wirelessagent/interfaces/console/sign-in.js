@@ -1,9 +1,9 @@
 /** The sign-in page: a token for a cookie. */
 
-import { Disconnected, post } from "./api.js";
+import { post } from "./api.js";
 import { byId } from "./dom.js";
 import { wantedLanguage } from "./settings.js";
-import { say, speak } from "./words.js";
+import { say, speak, trouble } from "./words.js";
 
 const LANGUAGES = ["en", "zh", "es", "fr", "de"];
 
@@ -18,7 +18,7 @@ byId("sign-in").addEventListener("submit", async (event) => {
     await post("sign-in", { token: byId("token").value.trim() });
     location.href = "./";
   } catch (problem) {
-    refused.textContent = problem instanceof Disconnected ? say("console.disconnected") : problem.message;
+    refused.textContent = trouble(problem);
     refused.hidden = false;
     byId("token").select();
   }

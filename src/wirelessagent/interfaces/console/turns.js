@@ -3,6 +3,9 @@
 import { aimName, heading, say, userName } from "./words.js";
 import { human, percent, rate, watts } from "./units.js";
 
+/** What stands where a limit is not asked for. */
+export const NONE = "–";
+
 /** Whether a turn holds an allocation that could be used. */
 export const isUsable = (turn) => Boolean(turn?.decision && ["optimal", "feasible"].includes(turn.decision.status));
 
@@ -39,7 +42,7 @@ function who(user, several) {
 }
 
 function limitText(kind, value) {
-  if (value === undefined || value === null) return "–";
+  if (value === undefined || value === null) return NONE;
   if (kind === "outage_probability") return percent(1 - value);
   if (kind.endsWith("_bps")) return rate(value);
   if (kind.endsWith("_w")) return watts(value);

@@ -5,7 +5,7 @@ import { gainMatrix } from "./channel.js";
 import { byId, element, facts } from "./dom.js";
 import { matrixView } from "./matrix.js";
 import { percent } from "./units.js";
-import { say } from "./words.js";
+import { say, trouble } from "./words.js";
 
 const UNITS = { "": "console.unit_guess", linear: "console.unit_linear", db: "console.unit_db" };
 let understood = null;
@@ -42,7 +42,7 @@ function preview(found) {
 
 function refuse(problem) {
   byId("upload-problem").hidden = false;
-  byId("upload-problem").textContent = problem.message || say("console.disconnected");
+  byId("upload-problem").textContent = trouble(problem);
 }
 
 function open(file) {

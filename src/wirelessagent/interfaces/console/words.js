@@ -1,6 +1,6 @@
 /** What the console says: the catalogue of one language, fetched once, and what users, aims and stages are called. */
 
-import { get } from "./api.js";
+import { Disconnected, get } from "./api.js";
 
 let texts = {};
 let spoken = "en";
@@ -34,6 +34,9 @@ export function say(key, places = {}) {
 
 /** Whether there is a text of this key. */
 export const has = (key) => key in texts;
+
+/** What went wrong, in words. */
+export const trouble = (problem) => (problem instanceof Disconnected && has("console.disconnected") ? say("console.disconnected") : problem.message);
 
 /** What a user is called here: "user 3" in the language in use, a name of its own as it is. */
 export function userName(name) {

@@ -52,9 +52,9 @@ def make_app(service: Service, doors: Doors, *, demonstration: bool = False) -> 
     )  # fmt: skip
     app.router.route_class = StrictRoute
     app.state.service, app.state.doors, app.state.idempotency_keys = service, doors, {}
+    _add_health(app)
     app.include_router(router)
     _add_way_in(app)
-    _add_health(app)
     _add_console(app)
     add_plugin(app)
     app.router.routes.append(Route("/mcp", endpoint=mcp))

@@ -8,10 +8,10 @@ from __future__ import annotations
 import asyncio
 from typing import Any
 
-from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
 
-class DeadlineProtocol(H11Protocol):
+class DeadlineProtocol(HttpToolsProtocol):
     """HTTP whose requests arrive in time."""
 
     head_s = 15.0
@@ -21,25 +21,27 @@ class DeadlineProtocol(H11Protocol):
         super().connection_made(transport)
         self._wait()
 
-    def handle_events(self) -> None:
-        before = self.cycle
-        super().handle_events()
-        if self.cycle is not before and self._deadline is not None:
-            self._deadline.cancel()
-            self._deadline = None
+    def on_headers_complete(self) -> None:
+        self._stop()
+        super().on_headers_complete()
 
     def on_response_complete(self) -> None:
         super().on_response_complete()
-        if not self.transport.is_closing() and self._deadline is None:
+        if not self.transport.is_closing():
+            self._stop()
             self._wait()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        if self._deadline is not None:
-            self._deadline.cancel()
+        self._stop()
         super().connection_lost(exc)
 
     def _wait(self) -> None:
         self._deadline = self.loop.call_later(self.head_s, self._hang_up)
+
+    def _stop(self) -> None:
+        if self._deadline is not None:
+            self._deadline.cancel()
+            self._deadline = None
 
     def _hang_up(self) -> None:
         self._deadline = None

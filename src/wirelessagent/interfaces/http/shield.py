@@ -35,14 +35,20 @@ COOKIE = "wirelessagent"
 """The name of the cookie of a browser session."""
 
 _SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
-_OPEN = frozenset({"/healthz", "/readyz", "/sign-in", "/sign-out", "/favicon.ico", "/plugin/openapi.json"})
-"""What needs no token: whether the server is well, the way in, and what a platform reads to import the plug-in."""
+_OPEN = frozenset({"/sign-in", "/sign-out", "/favicon.ico", "/plugin/openapi.json"})
+"""What needs no token: the way in, and what a platform reads to import the plug-in."""
+
+_ALWAYS = frozenset({"/healthz", "/readyz"})
+"""What whoever watches over the server may ask as often as they like."""
 
 _MCP = "/mcp"
 """Where reading is asked for by POST, too: there each tool says whether a viewer may call it."""
 
 _PLUGIN = "/plugin/"
 _UPLOADS = "/v1/observations"
+_CALLERS_S = 1.0
+"""For how long it is taken that nobody has a token, so that not each request asks the store."""
+
 _MEDIA_TYPES = frozenset({"application/json", "application/octet-stream"})
 
 _HEADERS: Mapping[str, str] = {
@@ -82,6 +88,7 @@ class Shield:
     def __init__(self, app: ASGIApp, *, service: Service, doors: Doors) -> None:
         self._app, self._service, self._doors = app, service, doors
         self._budgets = Budgets(service.limits)
+        self._callers, self._callers_until = False, 0.0
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
@@ -114,7 +121,8 @@ class Shield:
                 "request": identity, "method": scope["method"], "path": scope["path"][:200], "status": status,
                 "ms": round(1000 * (time.monotonic() - began), 1), "by": self._name(scope),
             }  # fmt: skip
-            REQUESTS.info("request", extra={"request": told})
+            if scope["path"] not in _ALWAYS:
+                REQUESTS.info("request", extra={"request": told})
 
     @staticmethod
     def _name(scope: Scope) -> str:
@@ -134,6 +142,8 @@ class Shield:
         self._check_host(headers)
         if method not in _SAFE or path == _MCP:
             self._check_origin(headers)
+        if path in _ALWAYS:
+            return None
         peer = (scope.get("client") or ("unknown", 0))[0]
         try:
             caller = await self._caller(headers)
@@ -194,9 +204,16 @@ class Shield:
         cookie = cookie_of(headers)
         if cookie:
             return await asyncio.to_thread(access.by_cookie, cookie)
-        if self._doors.only_local and not await asyncio.to_thread(lambda: access.callers):
+        if self._doors.only_local and not await self._has_callers():
             return LOCAL
         raise NotSignedInError("say who you are by a token: Authorization: Bearer …, or sign in at /sign-in")
+
+    async def _has_callers(self) -> bool:
+        """Whether anybody has a token, as of a moment ago."""
+        if time.monotonic() > self._callers_until:
+            self._callers = bool(await asyncio.to_thread(lambda: self._service.access.callers))
+            self._callers_until = time.monotonic() + _CALLERS_S
+        return self._callers
 
     def _limited(self, scope: Scope, receive: Receive) -> Receive:
         """What is received, as long as it comes in time and is not too much."""

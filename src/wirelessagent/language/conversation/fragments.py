@@ -8,6 +8,7 @@ sentences. So nothing is done that a word of the line may not have meant.
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -31,9 +32,11 @@ from wirelessagent.language.acts import (
 from wirelessagent.language.conversation.line import NAME, Line, begins, is_all
 from wirelessagent.language.conversation.relative import read_relative
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, speaks_of_one, tokens_of, words_of
+from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.intent_acts import acts_of, stated
 from wirelessagent.language.mentions import mentions
+from wirelessagent.language.moods import is_ordered
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.text import languages_of, normalise
 from wirelessagent.model.units import human
@@ -45,6 +48,7 @@ _FIGURE = re.compile(r"^[-+\d.,\s]+")
 _LONGEST = 120
 _SHORT = 40
 _MOST_STEPS = 20
+_FIRST_NUMBER = re.compile(r"\s*(\d{1,3})\s+(?=[^\W\d_]{2,}\s)")
 _BUT = re.compile(r"(?:\s(?=(?:but|and)\s)|(?=但|而))(.+)$")
 _LAST_CLAUSE = re.compile(r"[,，;；.。!！]\s*([^,，;；.。!！]+)[.。!！\s]*$")
 _FAR = 20.0
@@ -54,14 +58,34 @@ _FAR = 20.0
 def read_fragment(line: Line) -> Intent | None:
     """What a line does that leans on the last act; None for any other line."""
     context = line.context
-    open_ = context.pending or context.pending_objective or context.pending_users or context.offered or context.guess
+    whose = context.pending_users and context.pending_users != context.spoken_of  # "what of user 5?", "leave him out"
+    whose = whose or (context.pending_users and not speaks_of_one(normalise(line.text)))
+    open_ = context.pending or context.pending_objective or whose or context.offered or context.guess
     if context.objective is None or (context.awaits == "clarification" and open_) or len(line.text) > _LONGEST:
         return None
     if _takes_back(line):
         return line.command("undo", steps=1.0)
     line = _without_a_description(_without_what_stays(line))
-    found = (fragment.intent() for fragment in words_of(line, _Fragment))
+    order = _order_about_one(line)
+    found = [fragment.intent() for fragment in words_of(line, _Fragment)]
+    if order is not None:
+        found += [fragment.intent() for fragment in words_of(order, _Fragment) if fragment.spoken_of is not None]
     return next((intent for intent in found if intent is not None), None)
+
+
+def _order_about_one(line: Line) -> Line | None:
+    """What is ordered of one user behind a clause that only tells of that user: "user 7 has paid, let him back in"."""
+    clause = _LAST_CLAUSE.search(line.text)
+    if clause is None or line.is_asked:
+        return None
+    story = Line.of(line.text[: clause.start()], line.context)
+    first = _FIRST_NUMBER.match(story.text)
+    numbered = first is not None and int(first[1]) in range(1, len(line.context.user_names) + 1)
+    users = story.users or ((first[1],) if first is not None and numbered else ())
+    acts = story.figures or is_ordered(story.text) or any(True for _ in words_of(story, Words))
+    if len(users) != 1 or acts or story.is_asked or tells_no_mere_fact(story.text):
+        return None
+    return Line.of(clause[1], dataclasses.replace(line.context, spoken_of=users))
 
 
 def read_wondered(line: Line) -> Intent | None:
@@ -89,6 +113,8 @@ def referred(line: Line, intent: Intent) -> Intent:
     plain = normalise(line.text)
     roles = {each.role for each in mentions(plain, context.user_names)} - {"pronoun"}
     named = {act.whom for act in last if isinstance(act.whom, Named)}
+    if len(context.spoken_of) == 1:
+        named = {Named(context.spoken_of)}
     whom: Whom | None = Others() if roles == {"others"} else None
     held = context.constraints.get(kinds[0])
     if not roles and speaks_of_one(plain, "both") and isinstance(held, Mapping) and len(held.keys() - {EVERYBODY}) == 2:
@@ -183,8 +209,8 @@ class _Fragment(Words):
         if self.line.is_asked:
             return read_relative(self) or self._stated()
         readers = (
-            self._moved, self._undone, self._as_another, self._again, self._taken_up, self._dropped, self._served,
-            self._scaled, self._stated, self._corrected,
+            self._moved, self._undone, self._as_another, self._again, self._taken_up, self._as_it_was, self._dropped,
+            self._served, self._scaled, self._stated, self._corrected,
         )  # fmt: skip
         readers = readers[: 1 if _denies(self.tokens) else None]
         return next((found for read in readers if (found := read()) is not None), None)
@@ -215,6 +241,8 @@ class _Fragment(Words):
         if self.taken_off:
             return self._taken_off_another()
         last = self._of_named()
+        if not last and len(self.last(Scale)) == 1:
+            return self._scaled_another(self.last(Scale)[0])
         if not last:
             return self._for_all_moved()
         if len(last) != 1:
@@ -230,6 +258,19 @@ class _Fragment(Words):
         if isinstance(act, Limit):
             back = Drop(kind=act.kind, whom=gone, own=True)
         return self.acts([back, dataclasses.replace(act, whom=Named(users))])
+
+    def _scaled_another(self, act: Scale) -> Intent | None:
+        """ "no, I meant user 7" behind "user 8 needs double"."""
+        if not isinstance(act.whom, Named) or set(act.whom.users) & set(self.users) or self.figures:
+            return None
+        held = self.held.get(act.kind)
+        common = isinstance(held, Mapping) and EVERYBODY in held
+        back = (
+            Drop(kind=act.kind, whom=act.whom, own=True) if common else dataclasses.replace(act, factor=1 / act.factor)
+        )
+        if not common and not (isinstance(held, Mapping) and set(self.users) <= held.keys()):
+            return None
+        return self.acts([back, dataclasses.replace(act, whom=Named(self.users))])
 
     def _of_named(self) -> list[tuple[Limit | LeaveOut | Serve, tuple[str, ...]]]:
         """What was said last of named users, with them; the same of several is said once."""
@@ -277,6 +318,32 @@ class _Fragment(Words):
         off = Drop(kind=kind, whom=Named(tuple(gone)))
         return self.acts([*back, off], {"taken_off": {kind: gone}}) if len(gone) == len(self.users) else None
 
+    def _as_it_was(self) -> Intent | None:
+        """ "back to how it was before the power limit": to the turn before the last one that set or dropped it."""
+        before, after = self.has("before"), self.has("after")
+        said = ("as_it_was", "before", "after", "users", "lead", "correct", "make", "undo", "told", "leave", "first")
+        if not self.has("as_it_was") or before is after or self.figures or not self.only(*said, *NOUNS):
+            return None
+        kinds = self.named_kinds()
+        if self.has("first") and after and not kinds and not self.users:
+            turns = [place for place, acts in enumerate(self.line.context.earlier, start=1) if any(map(_changes, acts))]
+            return self.line.command("undo", turn=float(turns[0])) if turns else None
+        if not kinds and not self.users:
+            return None
+        turns = [place for place, acts in enumerate(self.line.context.earlier, start=1)
+                 if any(self._is_about(act, kinds) for act in acts)]  # fmt: skip
+        turn = turns[-1] - before if turns else 0
+        return self.line.command("undo", turn=float(turn)) if turn > 0 else None
+
+    def _is_about(self, act: Act, kinds: Sequence[str]) -> bool:
+        """Whether an act changes one of these limits, or something of the users of the line."""
+        if isinstance(act, Limit | Scale | Drop) and kinds and act.kind not in kinds:
+            return False
+        if kinds and not isinstance(act, Limit | Scale | Drop):
+            return False
+        whom = getattr(act, "whom", None)
+        return not self.users or (isinstance(whom, Named) and set(self.users) <= set(whom.users))
+
     def _again(self) -> Intent | None:
         """ "once more" behind an undo."""
         if self.has("again") and self.only("again", "lead") and self.last(Undo):
@@ -303,6 +370,8 @@ class _Fragment(Words):
             "others",
             "both",
             "pronoun",
+            "one",
+            "too",
             "again",
             "lead",
             "correct",
@@ -311,7 +380,8 @@ class _Fragment(Words):
             *NOUNS,
         )
         users = self._counted() if self.figures else ()
-        if (self.figures and not users) or not self.has("remove") or not self.only(*said):
+        gone = self.has("remove") or (self.has("too") and bool(self.last(Drop)) and not self.last(Limit, Scale))
+        if (self.figures and not users) or not gone or not self.only(*said):
             return None
         whom = Named(users) if users else whom
         own = [name for name, value in self.held.items() if isinstance(value, Mapping) and isinstance(whom, Named)
@@ -323,13 +393,21 @@ class _Fragment(Words):
             kinds = [act.kind for act in self.last(Limit) if act.kind in kinds][-1:]
         if len(kinds) != 1 or (isinstance(whom, Named) and kinds[0] not in own and kinds[0] != "min_rate_bps"):
             return None
-        return self.acts([Drop(kind=kinds[0], whom=whom or Everybody())])
+        held = self.held.get(kinds[0])
+        common = kinds == own and self.has("own") and isinstance(held, Mapping) and EVERYBODY in held
+        return self.acts([Drop(kind=kinds[0], whom=whom or Everybody(), own=common)])
 
     def _served(self) -> Intent | None:
         """ "take 7 off the list", "user 7 back in", and users of whom the same is said as of the last ones."""
-        users = self.users or self._counted()
+        users = self.users or self._counted() or (self.spoken_of.users if self.spoken_of else ())
         if self.has("every") and self.has("serve") and self.only("every", "serve", "again", "lead", "take", "make"):
             return self.acts([Serve(whom=Everybody())]) if {"users", "leave_out"} & self.held.keys() else None
+        if (
+            self.has("others")
+            and self.has("serve")
+            and self.only("others", "serve", "again", "lead", "too", "make", "bare")
+        ):
+            return self._others_served()
         out = self.held.get("leave_out", ())
         if self.has("both") and self.has("serve") and self.only("both", "serve", "again", "lead", "every"):
             return (
@@ -340,12 +418,14 @@ class _Fragment(Words):
         if not users or (self.figures and self.users):
             return None
         whom, lists = Named(users), [*self.last(LeaveOut), *self.last(Serve)]
-        said = ("users", "bare", "lead", "again")
+        said = ("users", "bare", "lead", "again", "pronoun", "one")
         if self.has("serve") and self.only("serve", "too", "take", "make", *said) and not self._serves(users):
             return self.acts([Serve(whom=whom)])
-        if self.has("leave") and self.only("leave", "too", "take", "make", *said) and (lists or not self.is_read):
+        leans = bool(lists) or not self.is_read or self.spoken_of is not None
+        if self.has("leave") and self.only("leave", "too", "take", "make", *said) and leans:
             return self.acts([LeaveOut(whom=whom)])
-        if not (self.has("too") or self.has("lead")) or not self.only("too", "pronoun", "it", "correct", *said):
+        nouns = ("promise", "rate") if {act.kind for act in self.last(Limit)} & {*self.named_kinds()} else ()
+        if not (self.has("too") or self.has("lead")) or not self.only("too", "it", "correct", *nouns, *said):
             return None
         if not (self.has("too") or self.has("whose") or self.users):
             return None
@@ -354,6 +434,13 @@ class _Fragment(Words):
                  if isinstance(act.whom, Named) and not (isinstance(act, Drop) and act.kind in moved)]  # fmt: skip
         again = [dataclasses.replace(act, alone=False) if isinstance(act, Serve) else act for act in again]
         return self.acts(again) if len(set(again)) == 1 else None
+
+    def _others_served(self) -> Intent | None:
+        """ "let the other five in": everybody is served again, where so many are not."""
+        served, out = (cast("tuple[str, ...]", self.held.get(name, ())) for name in ("users", "leave_out"))
+        missing = len(self.line.context.user_names) - len(served) if served else len(out)
+        counted = [figure.value for figure in self.figures]
+        return self.acts([Serve(whom=Everybody())]) if missing and counted in ([], [missing]) else None
 
     def _as_another(self) -> Intent | None:
         """ "user 8 the same as user 3": the one figure of a user, for another one too."""
@@ -391,12 +478,16 @@ class _Fragment(Words):
     def _stated(self) -> Intent | None:
         """ "make it 9", "the others 400k", "and with 8?", "take the 8"."""
         said = (
-            "users", "every", "others", "pronoun", "it", "lead", "make", "correct", "suppose", "take", "figure",
-            "ratio", "bare", "with", "by", "to", "revise", "both", "at_most", *NOUNS,
+            "users", "every", "others", "pronoun", "one", "it", "lead", "make", "correct", "suppose", "take", "figure",
+            "ratio", "bare", "with", "grant", "too", "by", "to", "revise", "both", "at_most", *NOUNS,
         )  # fmt: skip
         if not self.figures and self.has("limit") and self.has("power") and self.only("limit", "power", "make"):
             return self.line.ask("what_changes")
-        if len(self.figures) != 1 or not self.only(*said, *(("been",) if self.has("suppose") else ())):
+        if len(self.figures) != 1 or not self.only(
+            *said,
+            *(("been",) if self.has("suppose") else ()),
+            *(("more", "less") if self.has("to") or self._says_anew() else ()),
+        ):
             return None
         figure = self.figures[0]
         supposed = [act for one in self.last(Suppose) for act in one.acts if isinstance(act, Limit)]
@@ -408,24 +499,27 @@ class _Fragment(Words):
             return None
         kind = kinds[0]
         models = [act for act in before if act.kind == kind]
-        model = models[-1] if models else None
+        model = models[-1] if models else self._as_named(kind, figure)
         if self.has("others") or self.has("every") or self.users:
             model = next((act for act in models if isinstance(act.whom, Named) is bool(self.users)), model)
         several = len({act.whom for act in models}) > 1
-        several = several and not (self.users or any(self.has(name) for name in ("others", "every", "both")))
+        said_whose = self.users or self.spoken_of or any(self.has(name) for name in ("others", "every", "both"))
+        several = several and not said_whose
         if several and model is not None and self.has("correct"):
             users = [user for act in models if isinstance(act.whom, Named) for user in act.whom.users]
             return self.line.ask("whose_figure", text=figure.text, users=self.line.voice.users(users))
         of_share = bool(self.line.context.share_of) and figure.kind == "bare"
         if several or (self.has("correct") and (of_share or (model is None and self.last(Drop)))):
             return None
-        if self.has("at_most") and kind not in ("max_rate_bps", *UNITS["power"]):
+        raised = self.has("more") or self.has("make")  # "bump her up to 600 kbit/s" sets no cap
+        caps = any("at_most" in token.classes and not (raised and "to" in token.classes) for token in self.tokens)
+        if caps and kind not in ("max_rate_bps", *UNITS["power"]):
             return None
-        leaning = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun"]
-        leaning += ["make", "lead", "with", "suppose"] if figure.kind == "bare" or supposed else []
+        leaning = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
+        leaning += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposed else []
         leaning += ["revise"] if model is not None and isinstance(model.whom, Named) else []
         if len(self.named_kinds()) == 1:
-            leaning.append("make")
+            leaning += ["make", "promise"] if self.users else ["make"]
         alone = (
             model is not None
             and self.line.context.awaits == "nothing"
@@ -442,7 +536,9 @@ class _Fragment(Words):
             if len(own) != 2:
                 return None
             whom = Named(own)
-        led = any(self.has(name) for name in ("lead", "correct", "with", "make", "at_most"))
+        led = any(self.has(name) for name in ("lead", "correct", "with", "make", "at_most", "grant"))
+        pairs = itertools.pairwise(self.tokens)
+        led = led or any(token.figure and "promise" in behind.classes for token, behind in pairs)  # "1 Mbit/s promised"
         if value is None or not leans or (self.users and not led):
             return None
         if kind not in FIGURES_OF_USERS:
@@ -463,6 +559,20 @@ class _Fragment(Words):
             return self._wondered(kind, value, whom) if self.has("suppose") or supposed else None
         return self.acts([Limit(kind=kind, value=value, whom=whom, words=_words(figure, kind, model))])
 
+    def _as_named(self, kind: str, figure: Quantity) -> Limit | None:
+        """The limit that holds and that a noun names, in the place of which a figure without a unit stands."""
+        held = self.held.get(kind)
+        named = figure.kind == "bare" and kind in self.named_kinds() and isinstance(held, float)
+        return Limit(kind=kind, value=held) if named and isinstance(held, float) else None
+
+    def _says_anew(self) -> bool:
+        """Whether a figure is what something is to be, and not by how much: "a bit more for everyone, say 350"."""
+        pairs = itertools.pairwise(self.tokens)
+        return any(
+            behind.figure is not None and "make" in token.classes and not token.classes & {"more", "less"}
+            for token, behind in pairs
+        )
+
     def _as_held(self, act: Scale) -> Limit:
         """A figure that was scaled, as it holds."""
         held = self.held.get(act.kind)
@@ -475,7 +585,10 @@ class _Fragment(Words):
         fitting = UNITS.get(figure.kind, ())
         named = self.named_kinds()
         possible = [kind for kind in named if not fitting or kind in fitting] if named else list(fitting)
-        last = [act.kind for act in before if not (named or fitting) or act.kind in possible][-1:]
+        whose = FIGURES_OF_USERS if self.users and figure.kind == "bare" else [act.kind for act in before]
+        last = [act.kind for act in before if (not (named or fitting) or act.kind in possible) and act.kind in whose][
+            -1:
+        ]
         if not named and any(self.has(name) for name in NOUNS):
             return []
         if figure.kind == "bare" and not named:
@@ -500,6 +613,10 @@ class _Fragment(Words):
             return ()
         named = any(isinstance(act.whom, Named) for act in self.last(Limit, Drop, LeaveOut, Serve, Scale))
         return users if named or self.has("leave") or self.has("serve") else ()
+
+
+def _changes(act: Act) -> bool:
+    return isinstance(act, Aim | Limit | LeaveOut | Serve)
 
 
 def _figures(held: Constraint | None) -> tuple[float, ...]:

@@ -13,11 +13,12 @@ from collections.abc import Mapping
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.line import Line, begins, group, has, is_all
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
+from wirelessagent.language.moods import places, table_of
 from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.sentence import Sentence, own_words
-from wirelessagent.language.text import lowered, normalise
+from wirelessagent.language.text import languages_of, lowered, normalise
 
 _ASKED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
     "channel": ("uncertainty", {}),
@@ -273,13 +274,18 @@ def is_worked_out(intent: Intent) -> bool:
 
 def only_supposed(line: Line, intent: Intent) -> Intent:
     """A what-if of what a line supposes, weighs or asks about, where it was read as a request; else the intent."""
-    supposing = supposes(line.text)
+    supposing = supposes(line.text) and not is_courtesy(line.text)
     if intent.kind != "allocate" or not (supposing or forms.asks_without_a_mark(line.text)):
         return intent
     if not supposing and not intent.constraints and not intent.dropped and not intent.acts:
         return line.question("other")  # "what's the total rate" names no aim
     said = supposed(line, intent)
     return dataclasses.replace(said, details=said.details or {"objective": str(intent.objective)})
+
+
+def is_courtesy(text: str) -> bool:
+    """Whether a condition or a question is one of politeness: "could I trouble you for the least power?"."""
+    return any(any(places(table_of(language)["courtesy"]["words"], normalise(text))) for language in languages_of(text))
 
 
 def supposes(text: str) -> bool:

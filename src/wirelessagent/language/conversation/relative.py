@@ -20,7 +20,7 @@ from wirelessagent.language.quantities import Quantity
 _SAID = (
     "users", "every", "each", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
     "promise", "power", "limit", "again", "by", "to", "figure", "decibel", "bare", "at_most", "suppose", "worth",
-    "spend", "effect", "been", "with",
+    "spend", "effect", "been", "with", "one",
 )  # fmt: skip
 _SCALED = ("max_power_w", "min_rate_bps", "max_rate_bps")
 
@@ -66,7 +66,7 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
         if weighed is not None:
             return weighed
     name, whom = _changed_limit(words, change), words.whom() or words.last_whom()
-    if name is None or (words.has("pronoun") and not isinstance(whom, Named)):
+    if name is None or ((words.has("pronoun") or words.has("one")) and not isinstance(whom, Named)):
         return None
     if words.users and name not in FIGURES_OF_USERS:
         return None

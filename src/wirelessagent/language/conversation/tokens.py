@@ -46,7 +46,7 @@ NOUNS: Mapping[str, tuple[str, ...]] = {
 _CLASS = {"power": "figure", "rate": "figure"}
 """What a figure with a unit is called, beside nouns."""
 
-_SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…=-]+")
+_SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…=>→-]+")
 _PREFIXED = re.compile(r"[0-9]\s?[kMG]$")
 _WORD = re.compile(r"[^\W\d_]+")
 _ONES = frozenset(
@@ -193,13 +193,27 @@ def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], Quantity |
     return kept, replaced
 
 
+def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:
+    """The tokens with a bare number behind "for" as the user whose another figure or share is: "triple for 5"."""
+    changed = list(tokens)
+    for place, (ahead, token) in enumerate(itertools.pairwise(tokens), start=1):
+        others = any(each.figure or each.factor for each in tokens if each is not token)
+        counts = (
+            token.figure is not None and token.figure.kind == "bare" and token.figure.value in range(1, num_users + 1)
+        )
+        if counts and others and "whose" in ahead.classes and not any(each.users for each in tokens):
+            assert token.figure is not None
+            changed[place] = Token(frozenset({"users"}), users=(f"{token.figure.value:g}",))
+    return changed
+
+
 class Words:
     """The tokens of a line in its conversation."""
 
     def __init__(self, line: Line, tokens: Sequence[Token], language: str) -> None:
         self.line, self.language = line, language
-        self.tokens, self.replaced = _without_what_goes(tokens)
-        tokens = self.tokens
+        kept, self.replaced = _without_what_goes(tokens)
+        self.tokens = tokens = _with_whose(kept, len(line.context.user_names))
         self.figures = [token.figure for token in tokens if token.figure is not None]
         self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
         self.held = line.context.constraints
@@ -227,9 +241,17 @@ class Words:
             return Named(self.users)
         if self.has("others"):
             return Others()
+        if self.spoken_of is not None:
+            return self.spoken_of
         if self.has("pronoun") and isinstance(self.last_whom(), Named):
             return self.last_whom()
         return Everybody() if self.has("every") else None
+
+    @property
+    def spoken_of(self) -> Named | None:
+        """The one user who was spoken of before, where a pronoun stands for somebody."""
+        users = self.line.context.spoken_of
+        return Named(users) if len(users) == 1 and (self.has("pronoun") or self.has("one")) else None
 
     def last_whom(self) -> Whom:
         last = self.last(Limit, Scale, Drop)
