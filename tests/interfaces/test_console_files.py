@@ -1,4 +1,4 @@
-"""The files of the console: every text in the catalogue, nothing inline, nothing from elsewhere, no import in the air."""
+"""The files of the console: texts in the catalogue, nothing inline, nothing from elsewhere, no import in the air."""
 
 from __future__ import annotations
 
@@ -98,9 +98,7 @@ def test_what_a_module_imports_is_exported_and_used(module: Path) -> None:
 
 def test_every_module_is_reached_from_a_page() -> None:
     reached: set[str] = set()
-    waiting = [
-        str(one["src"]) for page in PAGES for tag, one in _Page(page.read_text("utf-8")).tags if tag == "script"
-    ]
+    waiting = [str(one["src"]) for page in PAGES for tag, one in _Page(page.read_text("utf-8")).tags if tag == "script"]
     while waiting:
         name = waiting.pop()
         if name not in reached:

@@ -2,7 +2,7 @@
 
 import { axis } from "./axis.js";
 import { fillOf, patterns } from "./colours.js";
-import { byId, element, onWidth, shape } from "./dom.js";
+import { byId, element, onWidth, scroller, shape } from "./dom.js";
 import { tabs } from "./tabs.js";
 import { changedHands, sum } from "./turns.js";
 import { prefixed, watts } from "./units.js";
@@ -18,8 +18,10 @@ let chosen = "shown";
 const nameOf = (decision, user) => (user < 0 ? say("console.nobody") : userName(decision.user_names[user]));
 
 function described(decision, places) {
-  const text = say("console.allocation_said", { power: watts(sum(decision.power_w)), count: decision.owner.filter((user) => user >= 0).length, total: decision.owner.length });
-  return places.length ? `${text} ${say("console.hands", { moved: places.length, total: decision.owner.length })}` : text;
+  const { owner, power_w: power } = decision;
+  const total = owner.length;
+  const text = say("console.allocation_said", { power: watts(sum(power)), count: owner.filter((user) => user >= 0).length, total });
+  return places.length ? `${text} ${say("console.hands", { moved: places.length, total })}` : text;
 }
 
 /**
@@ -42,19 +44,23 @@ export function allocationPicture(decisions, { width, top, id, moved }) {
     const share = cell / decisions.length;
     const x = LEFT + place * cell;
     const rise = Math.max(one.power_w[place] > 0 ? 1 : 0, (one.power_w[place] / (top || 1)) * BARS);
-    const title = shape("title", {}, say("console.bar", { place: place + 1, who: nameOf(one, user), power: watts(one.power_w[place]) }));
+    const told = { place: place + 1, who: nameOf(one, user), power: watts(one.power_w[place]) };
+    const title = shape("title", {}, say("console.bar", told));
     const y = base + 3 + layer * (STRIP + 3);
     parts.push(
       shape("rect", { x: x + gap / 2 + layer * share, y: base - rise, width: Math.max(0.8, share - gap), height: rise,
         rx: cell > 8 ? 2 : 0, fill: fillOf(user, id), class: layer ? "behind" : "bar" }, title),
-      shape("rect", { x, y, width: Math.max(0.8, cell - gap / 2), height: STRIP, fill: fillOf(user, id), class: layer ? "behind" : "bar" }));
-    if (cell >= 15) parts.push(shape("text", { x: x + cell / 2, y: y + 11, class: "owner", "text-anchor": "middle" }, user < 0 ? "–" : String(user + 1)));
+      shape("rect", { x, y, width: Math.max(0.8, cell - gap / 2), height: STRIP, fill: fillOf(user, id),
+        class: layer ? "behind" : "bar" }));
+    const middle = { x: x + cell / 2, y: y + 11, class: "owner", "text-anchor": "middle" };
+    if (cell >= 15) parts.push(shape("text", middle, user < 0 ? "–" : String(user + 1)));
   }));
   for (const place of moved) {
     const x = LEFT + (place + 0.5) * cell;
     parts.push(shape("path", { class: "moved", d: `M${x - 4} ${height - 2}h8l-4 -7z` }));
   }
-  return shape("svg", { width: right, height, viewBox: `0 0 ${right} ${height}`, role: "img", "aria-label": described(decision, moved) }, parts);
+  const frame = { width: right, height, viewBox: `0 0 ${right} ${height}` };
+  return shape("svg", { ...frame, role: "img", "aria-label": described(decision, moved) }, parts);
 }
 
 /** The highest power on a subcarrier of all these decisions. */
@@ -66,7 +72,8 @@ export function userLegend(decisions, id) {
   const served = new Set(decisions.flatMap((one) => one.owner));
   const told = names.map((_, user) => user).filter((user) => names.length <= FEW || served.has(user));
   return element("ul", { class: "users" }, told.map((user) => element("li", {},
-    shape("svg", { width: 12, height: 12, "aria-hidden": "true" }, patterns(names.length, `${id}k`), shape("rect", { width: 12, height: 12, rx: 2, fill: fillOf(user, `${id}k`) })),
+    shape("svg", { width: 12, height: 12, "aria-hidden": "true" }, patterns(names.length, `${id}k`),
+      shape("rect", { width: 12, height: 12, rx: 2, fill: fillOf(user, `${id}k`) })),
     `${user + 1} ${/^user\s*\d+$/i.test(names[user]) ? "" : userName(names[user])}`.trim())));
 }
 
@@ -97,10 +104,11 @@ export function drawAllocation(shown, effect, shownName) {
     });
     place.setAttribute("aria-labelledby", `allocation-picture-${of}`);
   }
-  const frame = element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": say("console.allocation") });
+  const frame = scroller(say("console.allocation"));
   place.replaceChildren(frame,
     element("div", { class: "legend" },
-      moved.length ? element("span", { class: "hands" }, "▲ ", say("console.hands", { moved: moved.length, total: shown.decision.owner.length })) : null,
+      moved.length ? element("span", { class: "hands" },
+        "▲ ", say("console.hands", { moved: moved.length, total: shown.decision.owner.length })) : null,
       of === "both" ? element("span", {}, say("console.both_note", { name: shownName })) : null,
       userLegend(decisions, "al")));
   onWidth(frame, (width) => frame.replaceChildren(allocationPicture(decisions, { width, top, id: "a", moved })));

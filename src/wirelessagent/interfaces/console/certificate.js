@@ -20,8 +20,10 @@ function sentence({ status, value, bound, gap, unit, objective, reason }) {
 function bar({ value, bound, unit }) {
   const [width, top] = [300, Math.max(value, bound) * 1.04];
   const at = (figure) => Math.max(0, (figure / top) * width);
-  const label = (figure, text, y) => shape("text", { x: Math.min(width, Math.max(90, at(figure))), y, "text-anchor": "end" }, `${text} ${human(figure, unit)}`);
-  return shape("svg", { class: "gauge", viewBox: `0 0 ${width} 58`, role: "img", "aria-label": say("console.certificate_bar", { value: human(value, unit), bound: human(bound, unit) }) },
+  const label = (figure, text, y) => shape("text",
+    { x: Math.min(width, Math.max(90, at(figure))), y, "text-anchor": "end" }, `${text} ${human(figure, unit)}`);
+  const told = say("console.certificate_bar", { value: human(value, unit), bound: human(bound, unit) });
+  return shape("svg", { class: "gauge", viewBox: `0 0 ${width} 58`, role: "img", "aria-label": told },
     shape("rect", { class: "track", y: 20, width, height: 12, rx: 6 }),
     shape("rect", { class: "filled", y: 20, width: at(value), height: 12, rx: 6 }),
     shape("line", { class: "promise", x1: at(bound), x2: at(bound), y1: 15, y2: 37 }),
@@ -34,7 +36,8 @@ export function drawCertificate(turn) {
   if (!turn?.decision) return place.replaceChildren(element("p", { class: "empty" }, say("console.no_certificate")));
   const { decision } = turn;
   const drawable = isUsable(turn) && decision.value > 0 && decision.bound > 0 && Number.isFinite(decision.bound);
-  place.replaceChildren(...[drawable ? bar(decision) : null, element("p", { class: isUsable(turn) ? "note" : "note warn" }, sentence(decision)),
+  place.replaceChildren(...[drawable ? bar(decision) : null,
+    element("p", { class: isUsable(turn) ? "note" : "note warn" }, sentence(decision)),
     decision.outage_probability ? element("p", { class: "note" }, say("console.kept_with", { sure: percent(1 - decision.outage_probability) })) : null].filter(Boolean));
 }
 

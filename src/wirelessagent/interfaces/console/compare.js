@@ -1,7 +1,7 @@
 /** Decisions side by side: their figures, their allocations on one scale, their rates on one scale. */
 
 import { allocationPicture, highestPower, userLegend } from "./allocation.js";
-import { byId, element, onWidth } from "./dom.js";
+import { byId, element, onWidth, scroller } from "./dom.js";
 import { highestRate, ratesPicture } from "./rates.js";
 import { changedHands, inShort, isUsable, limitRows, saidFor, sum } from "./turns.js";
 import { clock, human, percent, rate, watts } from "./units.js";
@@ -27,7 +27,8 @@ function figures(turns) {
   }
   return rows.map(([label, read, needsAllocation]) => {
     const cells = turns.map((turn) => (needsAllocation && !isUsable(turn) ? "–" : read(turn)));
-    return element("tr", { class: new Set(cells).size > 1 ? "differs" : null }, element("th", { scope: "row" }, heading(label)), cells.map((text) => element("td", {}, text)));
+    return element("tr", { class: new Set(cells).size > 1 ? "differs" : null },
+      element("th", { scope: "row" }, heading(label)), cells.map((text) => element("td", {}, text)));
   });
 }
 
@@ -43,14 +44,15 @@ export function openComparison(session, turns) {
   const head = element("tr", {}, element("td"), turns.map((turn) => element("th", { scope: "col" },
     `${heading(say("turn.column", { number: turn.number }))} · ${clock(turn.at_utc)}`, element("small", {}, saidFor(session, turn)))));
   const pictures = element("div", { class: "columns" }, usable.map((turn, place) => {
-    const [allocation, rates] = [element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": say("console.allocation") }), element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": say("console.rates") })];
+    const [allocation, rates] = [scroller(say("console.allocation")), scroller(say("console.rates"))];
     const moved = place ? changedHands(usable[0].decision, turn.decision) : [];
     onWidth(allocation, (width) => allocation.replaceChildren(allocationPicture([turn.decision], { width, top: power, id: `ca${place}-`, moved })));
     onWidth(rates, (width) => rates.replaceChildren(ratesPicture(turn, { width, top: most, id: `cr${place}-` })));
     return element("section", {}, element("h3", {}, `${turn.number} · ${inShort(turn)}`), allocation, rates);
   }));
   byId("compare-body").replaceChildren(
-    element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": say("console.compared") }, element("table", { class: "rows figures" }, element("thead", {}, head), element("tbody", {}, figures(turns)))),
+    scroller(say("console.compared"), element("table", { class: "rows figures" },
+      element("thead", {}, head), element("tbody", {}, figures(turns)))),
     pictures, ...(usable.length ? [userLegend(usable.map((turn) => turn.decision), "c")] : []));
   dialog.showModal();
 }

@@ -45,11 +45,16 @@ export function facts(pairs) {
   ]).flat());
 }
 
+/** A frame that scrolls sideways within itself, for the keyboard too. */
+export const scroller = (label, ...children) =>
+  element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": label }, ...children);
+
 /** A table with its caption, as answers hold them. */
 export function table({ title, columns, rows }) {
   const line = (cells, cell) => element("tr", {}, cells.map((text, place) =>
-    element(cell === "td" && place === 0 ? "th" : cell, cell === "td" && place ? {} : { scope: cell === "th" ? "col" : "row" }, String(text))));
-  return element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": title },
+    cell === "td" && place ? element("td", {}, String(text))
+      : element("th", { scope: cell === "th" ? "col" : "row" }, String(text))));
+  return scroller(title,
     element("table", {},
       element("caption", {}, title),
       element("thead", {}, line(columns, "th")),

@@ -39,7 +39,8 @@ function draw() {
   const usable = isUsable(now.shown) ? now.shown : null;
   byId("page").classList.toggle("loading", false);
   drawConversation(state, now, actions);
-  const asIs = JSON.stringify([state.session, state.looking, now.busy, state.cell, document.documentElement.lang, document.documentElement.dataset.theme]);
+  const { lang, dataset } = document.documentElement;
+  const asIs = JSON.stringify([state.session, state.looking, now.busy, state.cell, lang, dataset.theme]);
   if (asIs === drawn && shownChannel === state.channel) return;
   drawn = asIs;
   shownChannel = state.channel;
@@ -52,7 +53,9 @@ function draw() {
   drawPrices(now.shown);
   drawTimeline(state.session, now, actions);
   drawExport(now.shown, fail);
-  byId("in-effect").textContent = now.effect ? say("console.in_effect_is", { what: [inShort(now.effect), now.people && now.effect.by].filter(Boolean).join(" · ") }) : say("console.nothing_in_effect");
+  const inEffect = now.effect ? [inShort(now.effect), now.people && now.effect.by].filter(Boolean).join(" · ") : "";
+  byId("in-effect").textContent = inEffect
+    ? say("console.in_effect_is", { what: inEffect }) : say("console.nothing_in_effect");
   byId("in-effect").classList.toggle("on", Boolean(now.effect));
   byId("looking").hidden = !now.looked;
   if (now.looked) byId("looking-text").textContent = say("console.looking", { number: now.looked.number, text: saidFor(state.session, now.looked) });

@@ -33,7 +33,11 @@ export function difference(effect, plan) {
   const rates = rateRows(before, after);
   const moved = changedHands(before, after);
   const pair = (label, then, now) => (then === now ? [] : [{ label, before: then, after: now }]);
-  const aim = { label: say("console.aim"), before: before && before.objective !== after.objective ? heading(aimName(before.objective)) : "", after: heading(aimName(after.objective)) };
+  const otherAim = before && before.objective !== after.objective;
+  const aim = {
+    label: say("console.aim"), before: otherAim ? heading(aimName(before.objective)) : "",
+    after: heading(aimName(after.objective)),
+  };
   return {
     rows: [aim, ...limits.filter((one) => !one.same).map((one) => (one.after === NONE ? { ...one, after: say("console.no_longer") } : one)),
       ...pair(heading(say("part.power")), before ? watts(before.total_power_w) : "", watts(after.total_power_w)),
@@ -48,7 +52,8 @@ export function difference(effect, plan) {
 
 function movesList(moves, names) {
   const called = (user) => (user < 0 ? say("console.nobody") : userName(names[user]));
-  return element("ul", { class: "moves" }, moves.map(([place, from, to]) => element("li", {}, say("console.move", { place: place + 1, from: called(from), to: called(to) }))));
+  return element("ul", { class: "moves" }, moves.map(([place, from, to]) =>
+    element("li", {}, say("console.move", { place: place + 1, from: called(from), to: called(to) }))));
 }
 
 /**
@@ -73,7 +78,10 @@ export function drawPlan({ plan, planTurn, effect, canAct, busy, people }, actio
       rest ? element("tr", {}, element("th", { scope: "row" }, say("console.everything_else")), element("td", {}, say("console.as_before"))) : null)),
     details,
     planTurn.decision.status === "optimal" || planTurn.decision.gap === null ? null
-      : element("p", { class: "note" }, say("console.plan_gap", { value: human(planTurn.decision.value, planTurn.decision.unit), bound: human(planTurn.decision.bound, planTurn.decision.unit) })),
+      : element("p", { class: "note" }, say("console.plan_gap", {
+        value: human(planTurn.decision.value, planTurn.decision.unit),
+        bound: human(planTurn.decision.bound, planTurn.decision.unit),
+      })),
     canAct ? element("div", { class: "buttons" },
       element("button", { type: "button", class: "first", disabled: busy, click: actions.apply }, say("console.apply")),
       element("button", { type: "button", disabled: busy, click: actions.discard }, say("console.discard")))

@@ -2,7 +2,7 @@
 
 import { axis } from "./axis.js";
 import { fillOf, patterns } from "./colours.js";
-import { byId, element, onWidth, shape } from "./dom.js";
+import { byId, element, onWidth, scroller, shape } from "./dom.js";
 import { ratesOf } from "./turns.js";
 import { prefixed, rate } from "./units.js";
 import { say, userName } from "./words.js";
@@ -12,11 +12,13 @@ const BARS = 104;
 const BASE = BARS + 12;
 
 /** The highest figure that the rates of these turns reach. */
-export const highestRate = (turns) => Math.max(0, ...turns.flatMap((turn) => ratesOf(turn).flatMap(({ mean, high, promised }) => [mean, high ?? 0, promised ?? 0])));
+export const highestRate = (turns) => Math.max(0, ...turns.flatMap(ratesOf)
+  .flatMap(({ mean, high, promised }) => [mean, high ?? 0, promised ?? 0]));
 
 function told(name, { mean, low, high, promised }) {
   const band = low === null ? rate(mean) : say("console.rate_band", { mean: rate(mean), low: rate(low), high: rate(high) });
-  return say(promised === null ? "console.rate_bar" : "console.rate_bar_promised", { who: userName(name), rate: band, promised: rate(promised) });
+  const places = { who: userName(name), rate: band, promised: rate(promised) };
+  return say(promised === null ? "console.rate_bar" : "console.rate_bar_promised", places);
 }
 
 /** One picture of a turn's rates. */
@@ -31,17 +33,24 @@ export function ratesPicture(turn, { width, top, id }) {
   ratesOf(turn).forEach((one, user) => {
     const x = LEFT + user * slot + (slot - wide) / 2;
     const middle = x + wide / 2;
-    parts.push(shape("rect", { x, y: y(one.mean), width: wide, height: Math.max(one.mean > 0 ? 1 : 0, BASE - y(one.mean)), rx: 2, fill: fillOf(user, id), class: "bar" },
+    const height = Math.max(one.mean > 0 ? 1 : 0, BASE - y(one.mean));
+    parts.push(shape("rect", { x, y: y(one.mean), width: wide, height, rx: 2, fill: fillOf(user, id), class: "bar" },
       shape("title", {}, told(names[user], one))));
     if (one.low !== null && y(one.low) - y(one.high) >= 1) {
-      parts.push(shape("path", { class: "band", d: `M${middle} ${y(one.low)}V${y(one.high)}M${middle - 4} ${y(one.low)}h8M${middle - 4} ${y(one.high)}h8` }));
+      const ends = `M${middle - 4} ${y(one.low)}h8M${middle - 4} ${y(one.high)}h8`;
+      parts.push(shape("path", { class: "band", d: `M${middle} ${y(one.low)}V${y(one.high)}${ends}` }));
     }
-    if (one.promised) parts.push(shape("line", { class: "promise", x1: x - slot * 0.12, x2: x + wide + slot * 0.12, y1: y(one.promised), y2: y(one.promised) }));
+    if (one.promised) {
+      const level = { y1: y(one.promised), y2: y(one.promised) };
+      parts.push(shape("line", { class: "promise", x1: x - slot * 0.12, x2: x + wide + slot * 0.12, ...level }));
+    }
     if (slot >= 16 || user % 5 === 4 || !user) {
-      parts.push(shape("text", { x: middle, y: BASE + 16, "text-anchor": "middle" }, slot >= 52 ? userName(names[user]).slice(0, 10) : String(user + 1)));
+      const name = slot >= 52 ? userName(names[user]).slice(0, 10) : String(user + 1);
+      parts.push(shape("text", { x: middle, y: BASE + 16, "text-anchor": "middle" }, name));
     }
   });
-  return shape("svg", { width: right, height: BASE + 24, viewBox: `0 0 ${right} ${BASE + 24}`, role: "img", "aria-label": say("console.rates") }, parts);
+  const frame = { width: right, height: BASE + 24, viewBox: `0 0 ${right} ${BASE + 24}` };
+  return shape("svg", { ...frame, role: "img", "aria-label": say("console.rates") }, parts);
 }
 
 /** Draw the card of the turn that is looked at. */
@@ -53,7 +62,7 @@ export function drawRates(shown) {
   }
   const top = highestRate([shown]) * 1.08;
   byId("rates-note").textContent = say("console.rates_note", { unit: prefixed(top, "bit/s").unit });
-  const frame = element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": say("console.rates") });
+  const frame = scroller(say("console.rates"));
   const list = element("ul", { class: "unseen" }, ratesOf(shown).map((one, user) => element("li", {}, told(shown.decision.user_names[user], one))));
   place.replaceChildren(frame, list);
   onWidth(frame, (width) => frame.replaceChildren(ratesPicture(shown, { width, top, id: "r" })));

@@ -35,7 +35,7 @@ COOKIE = "wirelessagent"
 """The name of the cookie of a browser session."""
 
 _SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
-_OPEN = frozenset({"/sign-in", "/sign-out", "/favicon.ico", "/plugin/openapi.json"})
+_OPEN = frozenset({"/", "/sign-in", "/sign-out", "/favicon.ico", "/plugin/openapi.json"})
 """What needs no token: the way in, and what a platform reads to import the plug-in."""
 
 _ALWAYS = frozenset({"/healthz", "/readyz"})
