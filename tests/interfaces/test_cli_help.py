@@ -146,7 +146,7 @@ def completions(typed: str) -> list[str]:
 @pytest.mark.parametrize(
     ("typed", "found"),
     [
-        ("wirelessagent s", ["simulate", "solve"]),
+        ("wirelessagent s", ["simulate", "solve", "serve"]),
         ("wirelessagent history ", ["show", "replay", "export"]),
         ("wirelessagent ask --se", ["--seed"]),
         ("wirelessagent ask --num-us", ["--num-users"]),
