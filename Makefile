@@ -8,7 +8,7 @@ RUN := $(UV) run --frozen --extra plot --extra evaluate --extra llm --extra serv
 
 export UV_COMPILE_BYTECODE ?= 1
 
-.PHONY: demo serve test check quick bars lint code bench docs format clean
+.PHONY: demo serve browser test check quick bars lint code bench docs format clean
 
 demo: $(UV)  ## run the chain on measured and on simulated channels and leave the pictures in demo/
 	$(UV) sync --frozen --quiet --inexact --no-default-groups --extra plot
@@ -21,7 +21,12 @@ serve: $(UV)  ## open the console on a demonstration cell
 	$(UV) sync --frozen --quiet --inexact --no-default-groups --extra plot --extra serve
 	.venv/bin/wirelessagent serve --open
 
-test: $(UV)  ## all that CI needs: lint and types beside compiling, all tests, the third-party example
+# Debian's Chromium, for the tests that look at the console; they are skipped where it cannot be had.
+browser:
+	@command -v chromium >/dev/null || { [ "$$(id -u)" = 0 ] && apt-get install -qq -y chromium >/dev/null; } || \
+		echo "no Chromium here: the console is not looked at"
+
+test: $(UV) browser  ## all that CI needs: lint and types beside compiling, all tests, the third-party example
 	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve
 	$(MAKE) --no-print-directory -j2 lint code
 	$(RUN) pytest -n auto --dist worksteal
@@ -44,6 +49,7 @@ bars: $(UV) code  ## the full counts behind the figures in the documentation; ho
 	$(RUN) python benchmarks/bars_decide.py
 	$(RUN) python benchmarks/bars_promises.py
 	$(RUN) python benchmarks/bars_intents.py
+	$(RUN) python benchmarks/bars_service.py
 
 lint: $(UV)
 	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve

@@ -23,8 +23,8 @@ pytestmark = pytest.mark.machine_code
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-SLOW = {"reproduce", "evaluate"}
-"""Commands of minutes; their own tests run them with few draws."""
+SLOW = {"reproduce", "evaluate", "serve", "mcp"}
+"""Commands of minutes or without an end; their own tests run them."""
 
 
 def blocks(page: Path, language: str) -> list[tuple[int, str]]:

@@ -21,6 +21,7 @@ class Limits:
         running_jobs: at one time, of all callers.
         plan_s: how long a plan may wait before it has to be made again.
         cells, observations: kept at one time.
+        gains: of an observation, users times subcarriers.
     """
 
     body_bytes: int = 256 << 10
@@ -33,6 +34,7 @@ class Limits:
     plan_s: float = 900.0
     cells: int = 100
     observations: int = 200
+    gains: int = 1_000_000
 
 
 class Budgets:

@@ -127,6 +127,7 @@ class Service:
         await asyncio.to_thread(_write, path, content)
         try:
             seen = await self.workers.do("inspect", tell, options={"source_options": dict(options)}, channel=str(path))
+            self._check_size(seen)
         except BaseException:
             path.unlink(missing_ok=True)
             raise
@@ -156,6 +157,12 @@ class Service:
         kept: Json = {"name": f"{name}.npz", "options": {}, "file": path.name, "derived": True, **seen}
         await self._kept(self.ledger.put, "observation", id, kept, seen=0)
         return {"observation": {"id": id, **_shown(kept, "options", "file", "derived")}, **done}
+
+    def _check_size(self, seen: Mapping[str, Any]) -> None:
+        users, subcarriers = seen["num_users"], seen["num_subcarriers"]
+        if users * subcarriers > self.limits.gains:
+            most = self.limits.gains
+            raise UnusableError(f"at most {most} gains are taken; got {users} users on {subcarriers} subcarriers")
 
     async def _make_room(self) -> None:
         kept = await self._kept(self.ledger.all, "observation")

@@ -1,0 +1,154 @@
+"""The console in a real browser: what an operator does with it, on a server as it is started."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Page, sync_playwright
+from servers import Server, Signed, started
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+
+pytestmark = [
+    pytest.mark.machine_code,
+    pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium to look at the console with"),
+]
+
+WIDE, NARROW = {"width": 1440, "height": 900}, {"width": 390, "height": 844}
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+class Seen:
+    """A page, and what went wrong on it or left the machine."""
+
+    def __init__(self, browser: Browser, url: str, **look: object) -> None:
+        context = browser.new_context(**{"viewport": WIDE, "locale": "en-GB", **look})  # type: ignore[arg-type]
+        self.page: Page = context.new_page()
+        self.faults, self.outside, self.url = list[str](), list[str](), url
+        self.page.on("pageerror", lambda error: self.faults.append(str(error)))
+        self.page.on("console", lambda said: self.faults.append(said.text) if said.type == "error" else None)
+        self.page.on("request", lambda asked: self.outside.append(asked.url) if not asked.url.startswith(url) else None)
+
+    def opened(self) -> Page:
+        self.page.goto(self.url)
+        self.page.wait_for_selector("#page:not(.loading)")
+        return self.page
+
+    def say(self, line: str) -> str:
+        """Say a line, and what became of it."""
+        turns = self.page.locator("article.turn").count()
+        self.page.fill("#line", line)
+        self.page.keyboard.press("Enter")
+        self.done(turns)
+        return self.page.inner_text("article.turn:last-child")
+
+    def press(self, place: int) -> None:
+        """Apply (0) or discard (1) the plan that waits."""
+        turns = self.page.locator("article.turn").count()
+        self.page.click(f"#plan button >> nth={place}")
+        self.done(turns)
+
+    def done(self, turns: int) -> None:
+        self.page.locator("article.turn").nth(turns).wait_for(timeout=60_000)
+        self.page.wait_for_selector("#working:empty", state="attached", timeout=60_000)
+
+    def is_sound(self) -> None:
+        """Nothing went wrong, nothing left the machine, and nobody is kept out."""
+        found = Axe().run(self.page).response["violations"]
+        serious = [one["id"] for one in found if one["impact"] in ("serious", "critical")]
+        assert (self.faults, self.outside, serious) == ([], [], [])
+        assert self.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+@pytest.mark.parametrize("language", ["en-GB", "zh-CN"])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("viewport", [WIDE, NARROW], ids=["wide", "narrow"])
+def test_the_first_screen(browser: Browser, server: Server, viewport: object, scheme: str, language: str) -> None:
+    seen = Seen(browser, server.url, viewport=viewport, color_scheme=scheme, locale=language)
+    page = seen.opened()
+    page.wait_for_selector("#channel-picture svg, #channel-picture canvas")
+    assert page.locator("article.turn").count() == 3
+    assert page.locator("#plan-card").is_visible()
+    seen.is_sound()
+
+
+def test_ask_apply_compare_undo_and_reload(browser: Browser, server: Server) -> None:
+    server.cell()
+    seen = Seen(browser, server.url)
+    page = seen.opened()
+    page.click("#cells summary")
+    page.click("#cell-list >> text=a cell >> nth=-1")
+    page.wait_for_selector("#log:not(:has(article.turn))", state="attached")
+    assert "27" in seen.say("highest total rate")
+    assert page.locator("#plan-card").is_visible()
+    seen.press(0)
+    assert "27" in page.inner_text("#in-effect")
+    seen.say("at most 10 W")
+    assert "10 W" in page.inner_text("#plan")
+    seen.press(0)
+    seen.say("serve user 99 best")
+    assert page.evaluate("document.activeElement.id") == "line"  # a question back: answer at once
+    for place in (0, 1):
+        page.locator("#timeline input[type=checkbox]").nth(place).check()
+    page.click("#timeline-buttons button")
+    assert page.locator("#compare").is_visible()
+    page.click("#compare [data-close]")
+    seen.say("undo")
+    turns = page.locator("article.turn").count()
+    page.reload()
+    page.wait_for_selector("#page:not(.loading)")
+    page.locator("article.turn").nth(turns - 1).wait_for()
+    seen.is_sound()
+
+
+def test_a_measured_file(browser: Browser, server: Server, tmp_path: Path) -> None:
+    file = tmp_path / "hall.csv"
+    file.write_text("1e-9,2e-9,,4e-9\n2e-9,1e-9,3e-9,1e-9\n")
+    seen = Seen(browser, server.url)
+    page = seen.opened()
+    page.set_input_files("#upload-file", file)
+    page.wait_for_selector("#upload-make:not([disabled])")
+    page.click("#upload-make")
+    page.wait_for_selector("#cell-name:has-text('hall')")
+    assert "Mbit/s" in seen.say("highest total rate")
+    seen.is_sound()
+
+
+def test_the_server_is_lost_and_comes_back(browser: Browser, tmp_path: Path) -> None:
+    store = tmp_path / "store.sqlite3"
+    with started(store) as server:
+        seen = Seen(browser, server.url)
+        page = seen.opened()
+        page.fill("#line", "what if we had 10 W?")
+        server.kill()
+        page.keyboard.press("Enter")
+        page.wait_for_selector("#disconnected:not([hidden])", timeout=30_000)
+        port = server.url.rstrip("/").rsplit(":", 1)[1]
+    with started(store, "--port", port):
+        page.wait_for_selector("#disconnected", state="hidden", timeout=60_000)
+        assert page.input_value("#line") == "what if we had 10 W?"
+
+
+def test_signing_in(browser: Browser, guarded: Signed) -> None:
+    page = Seen(browser, guarded.nobody.url).page
+    page.goto(guarded.nobody.url)
+    page.wait_for_url("**/sign-in.html")
+    page.fill("#token", "wa_nonsense")
+    page.click("button")
+    page.wait_for_selector("#refused:not([hidden])")
+    page.fill("#token", guarded.viewer.token)
+    page.click("button")
+    page.wait_for_selector("#page:not(.loading)")
+    assert page.locator("#viewer").is_visible()
+    assert page.locator("#plan button").count() == 0
