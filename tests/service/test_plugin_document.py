@@ -129,6 +129,13 @@ def test_collector_predictor_and_solvers(server: Server) -> None:
     assert "allocation" not in unmet
 
 
+def test_what_a_platform_leaves_blank_is_left_out(server: Server) -> None:
+    seen = call(server, "sense", users=None, subcarriers="", lost_share=0, seed="7")
+    assert (seen["users"], seen["subcarriers"], seen["missing"]) == (8, 20, 0)
+    assert call(server, "repair", observation="") == {"ok": False, "error": "observation: Field required"}
+    assert len(server.get("plugin/history?last=")["turns"]) <= 10
+
+
 def test_a_plan_is_proposed_explained_and_applied_once(server: Server) -> None:
     cell = server.cell()
     proposed = call(server, "propose", cell=cell["id"], text="Save power, at least 1 Mbit/s each")

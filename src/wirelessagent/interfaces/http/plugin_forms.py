@@ -5,13 +5,23 @@ An answer leaves out what it does not have; null is sent nowhere.
 
 from __future__ import annotations
 
-from pydantic import BaseModel, ConfigDict, Field
+from collections.abc import Mapping
+from typing import Any, cast
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 
 class PluginForm(BaseModel):
-    """What a request carries."""
+    """What a request carries. Platforms send null or an empty text for what their model left out."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _without_blanks(cls, given: Any) -> Any:
+        if not isinstance(given, Mapping):
+            return given
+        return {name: value for name, value in cast("Mapping[str, Any]", given).items() if value not in (None, "")}
 
 
 class SenseForm(PluginForm):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-import logging
-from collections.abc import Callable
+import contextlib
+from collections.abc import Callable, Generator
 from typing import Any, TypeAlias
 
 from mcp.server.context import ServerRequestContext
@@ -34,8 +34,6 @@ from wirelessagent.operations.operation import installed_version
 from wirelessagent.service.access import Caller
 from wirelessagent.service.problems import ProblemError
 from wirelessagent.service.service import Service
-
-_log = logging.getLogger("wirelessagent.mcp")
 
 Context: TypeAlias = ServerRequestContext[Any, Any]
 
@@ -139,11 +137,10 @@ def make_server(service: Service, caller_of: Callable[[Context], Caller]) -> Ser
     return server
 
 
-class _told:
+@contextlib.contextmanager
+def _told() -> Generator[None]:
     """Problems outside of tools as errors of the protocol."""
-
-    def __enter__(self) -> None: ...
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        if isinstance(error, ProblemError):
-            raise MCPError(INVALID_PARAMS, error.detail) from error
+    try:
+        yield
+    except ProblemError as problem:
+        raise MCPError(INVALID_PARAMS, problem.detail) from problem
