@@ -50,6 +50,7 @@ bars: $(UV) code  ## the full counts behind the figures in the documentation; ho
 	$(RUN) python benchmarks/bars_promises.py
 	$(RUN) python benchmarks/bars_intents.py
 	$(RUN) python benchmarks/bars_service.py
+	$(RUN) python benchmarks/bars_documents.py
 
 lint: $(UV)
 	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve --extra postgres

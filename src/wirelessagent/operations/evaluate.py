@@ -28,7 +28,7 @@ from wirelessagent.model.arrays import whole
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.evaluate_tables import decision_tables, repair_tables
-from wirelessagent.operations.fields import Advanced, Known, OptionsOf, PluginOptions, Positional
+from wirelessagent.operations.fields import Advanced, Known, Local, OptionsOf, PluginOptions, Positional
 from wirelessagent.operations.operation import Event, Operation, Progress, Request
 from wirelessagent.operations.record import Block, Files, Record, Table
 from wirelessagent.operations.simulate import loss_patterns
@@ -41,7 +41,9 @@ class EvaluateRequest(Request):
 
     draws: int = Field(200, description="channel draws for each channel and loss")
     seed: int = Field(1, description="seed of every draw")
-    workers: int = Field(1, description="processes that share the draws; with several, times are less exact")
+    workers: Annotated[int, Local()] = Field(
+        1, description="processes that share the draws; with several, times are less exact"
+    )
     out: Path | None = Field(None, description="folder for the tables (CSV), the record (JSON) and the pictures (PNG)")
 
     @abstractmethod
