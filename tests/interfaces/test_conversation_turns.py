@@ -105,3 +105,16 @@ def test_figures_are_echoed_as_people_read_them(said: str, echoed: str) -> None:
     held, turns = talk(f"highest total rate, at most {said}")
     assert f"at most {echoed} of radiated power" in turns[-1].reply
     assert held["max_power_w"] == pytest.approx({"33 dBm": 10**0.3, "30 dBm": 1.0}.get(said, 2.34567), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("line", "answer", "language"),
+    [
+        ("le débit total maximal", "non", "fr"),
+        ("höchste Gesamtrate", "nein", "de"),
+        ("la mayor velocidad total", "no", "es"),
+    ],
+)
+def test_a_word_is_answered_in_the_language_of_the_talk(line: str, answer: str, language: str) -> None:
+    _, turns = talk(line, answer)
+    assert [turn.intent.language for turn in turns] == [language, language]

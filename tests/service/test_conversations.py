@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import socket
 import threading
+import time
 from pathlib import Path
 
 import httpx2
@@ -73,6 +75,21 @@ def test_the_same_request_sent_twice_is_done_once(server: Server) -> None:
     assert len(server.get(f"v1/sessions/{session}")["turns"]) == 1
     other = server.post(f"v1/sessions/{session}/turns", {"text": "undo"}, headers={"Idempotency-Key": "once"})
     assert other.status_code == 409
+
+
+def test_a_request_with_a_key_is_done_though_its_caller_went_away(server: Server) -> None:
+    session, key = server.cell()["session"], {"Idempotency-Key": "gone"}
+    host, port = server.url.removeprefix("http://").rstrip("/").split(":")
+    body = b'{"text": "highest total rate"}'
+    head = (
+        f"POST /v1/sessions/{session}/turns HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\n"
+        f"Idempotency-Key: gone\r\nContent-Length: {len(body)}\r\n\r\n"
+    )
+    with socket.create_connection((host, int(port))) as line:
+        line.sendall(head.encode() + body)
+        time.sleep(0.05)
+    assert server.say(session, "highest total rate", headers=key)["number"] == 1
+    assert len(server.get(f"v1/sessions/{session}")["turns"]) == 1
 
 
 def test_the_stages_of_a_job_can_be_followed_from_any_of_them(server: Server) -> None:

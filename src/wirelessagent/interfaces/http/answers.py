@@ -21,6 +21,7 @@ from wirelessagent.service.problems import ConflictError, ProblemError, Unusable
 from wirelessagent.service.service import Service
 
 _KEEP_ALIVE_S = 15.0
+_MOST_KEYS = 1000
 
 
 class StrictRequest(Request):
@@ -106,8 +107,9 @@ async def worked(
 ) -> Response:
     """The answer to a request that needs work: what came of it, or 202 and the job where the caller prefers that.
 
-    A caller who goes away ends the work. A request with an ``Idempotency-Key`` is done once: who sends it again gets
-    the same answer. ``shown`` names the body that the key belongs to.
+    A caller who goes away ends the work. A request with an ``Idempotency-Key`` is done once, also where its caller goes
+    away: who sends it again gets the same answer, and has it done again only where the server had failed. ``shown``
+    names the body that the key belongs to.
     """
     service, caller = service_of(request), caller_of(request)
     key = request.headers.get("idempotency-key")
@@ -115,12 +117,13 @@ async def worked(
     if job is None:
         job = service.job(caller, work)
         if key:
-            _keys(request)[_key(request, key)] = (shown, job)
+            _keep(_keys(request), _key(request, key), (shown, job))
     if "respond-async" in request.headers.get("prefer", ""):
         place = request.url_for("read_job", id=job.id).path
         headers = {"Location": place, "Preference-Applied": "respond-async"}
         return JSONResponse(job.body, status_code=202, headers=headers)
-    return JSONResponse(await finished(request, job), status_code=status)
+    came_of_it = await (job.finished() if key else finished(request, job))
+    return JSONResponse(came_of_it, status_code=status)
 
 
 async def finished(request: Request, job: Job) -> Any:
@@ -145,6 +148,13 @@ async def _gone(request: Request) -> None:
         pass
 
 
+def _keep(keys: dict[str, tuple[str, Job]], key: str, job: tuple[str, Job]) -> None:
+    """Remember the job of a key; the oldest ones are forgotten."""
+    keys[key] = job
+    while len(keys) > _MOST_KEYS:
+        del keys[next(iter(keys))]
+
+
 def _keys(request: Request) -> dict[str, tuple[str, Job]]:
     return request.app.state.idempotency_keys
 
@@ -156,7 +166,7 @@ def _key(request: Request, key: str) -> str:
 def _known(request: Request, key: str, shown: str) -> Job | None:
     """The job of an earlier request with this key."""
     found = _keys(request).get(_key(request, key))
-    if found is None:
+    if found is None or found[1].state == "cancelled" or (found[1].problem and found[1].problem.status >= 500):
         return None
     if found[0] != shown:
         raise ConflictError("this Idempotency-Key was used for another request")

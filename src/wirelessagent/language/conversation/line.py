@@ -106,7 +106,8 @@ class Line:
         named = [each for each in mentions(plain, context.user_names, taken) if each.role == "named"]
         spans += [(each.start, each.end, "@") for each in named]
         shape = " ".join(_replaced(plain, sorted(spans)).lower().split())
-        if context.language and language == "en" and not _WORD.search(shape):
+        said = _WORD.findall(shape)  # hardly anything ("10 W") or one word ("nein") has no language of its own
+        if context.language and language == "en" and (not said or shape.rstrip(".!?") in said[:1]):
             language = context.language
         users = tuple(dict.fromkeys(user for each in named for user in each.users))
         return cls(
