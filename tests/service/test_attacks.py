@@ -7,6 +7,7 @@ import io
 import json
 import pickle
 import socket
+import sqlite3
 import time
 import zipfile
 from collections.abc import Iterator
@@ -15,7 +16,7 @@ from pathlib import Path
 import httpx2
 import numpy as np
 import pytest
-from servers import Server, Signed, started
+from servers import Server, Signed, started, token_for
 
 pytestmark = pytest.mark.machine_code
 
@@ -91,6 +92,25 @@ class TestWhoMayWhat:
         with guarded.viewer.client as client:
             _problem(client.get(f"v1/jobs/{job['id']}"), 404)
 
+    def test_behind_a_proxy_nobody_is_local(self, guarded: Signed, tmp_path: Path) -> None:
+        for options in (("--trusted-proxy", "127.0.0.1"), ("--base-path", "/cell")):
+            with pytest.raises(AssertionError, match="a token is needed"), started(tmp_path / "s.db", *options):
+                pass
+        with started(tmp_path / "t.db", "--allowed-host", "cell.example.com") as server, server.client as client:
+            assert client.get("v1/cells").status_code == 200
+            _problem(client.get("v1/cells", headers={"Host": "cell.example.com"}), 401)
+
+    @pytest.mark.parametrize("base", ["/console", "/v1/words", "/cell"])
+    def test_a_base_path_opens_nothing(self, tmp_path: Path, base: str) -> None:
+        store = tmp_path / "store.sqlite3"
+        token_for(store, "operator", "operator")
+        with started(store, "--base-path", base) as server:
+            root = server.url.removesuffix("/").removesuffix(base)
+            with httpx2.Client(base_url=root, trust_env=False) as client:
+                for prefix in ("", base):
+                    assert client.get(f"{prefix}/v1/cells").status_code in (401, 404)
+                    assert client.delete(f"{prefix}/v1/cells/demonstration").status_code in (401, 404)
+
     def test_an_open_address_needs_a_token(self, tmp_path: Path) -> None:
         with pytest.raises(AssertionError, match="a token is needed"), started(tmp_path / "s.db", "--host", "0.0.0.0"):
             pass
@@ -115,6 +135,26 @@ class TestPlans:
         assert server.post("v1/sessions", {"cell": cell["id"]}).status_code == 201
         _problem(server.post(f"v1/sessions/{cell['session']}/confirm", {"plan": plan}), 409)
         _problem(server.post(f"v1/sessions/{cell['session']}/turns", {"text": "fair"}), 409)
+
+    def test_that_was_not_seen(self, server: Server) -> None:
+        """A line whose caller hangs up once it is recorded must not change what a plan that was seen stands for."""
+        session = server.cell()["session"]
+        server.say(session, "Save power, at least 200 kbit/s each")
+        seen = server.plan(session)
+        kept = sqlite3.connect(server.store)
+        host, port = server.url.removeprefix("http://").rstrip("/").split(":")
+        body = b'{"text": "highest total rate"}'
+        head = f"POST /v1/sessions/{session}/turns HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\n"
+        with socket.create_connection((host, int(port))) as line:
+            line.sendall(head.encode() + b"Content-Length: %d\r\n\r\n" % len(body) + body)
+            until = time.monotonic() + 20
+            while time.monotonic() < until:
+                if kept.execute("SELECT count(*) FROM audit_turn WHERE session = ?", (session,)).fetchone()[0] == 2:
+                    break
+        kept.close()
+        done = server.post(f"v1/sessions/{session}/confirm", {"plan": seen})
+        assert done.status_code == 409 or done.json()["decision"]["objective"] == "min_power"
+        assert server.say(session, "how sure is this?")["number"] >= 3
 
     @pytest.mark.parametrize("line", ["yes", "apply it", "是，应用", "ja, anwenden", "confirm the plan now", "undo"])
     def test_by_words(self, server: Server, line: str) -> None:
@@ -213,7 +253,12 @@ class TestBrowsers:
                 _problem(client.get("v1/cells", headers={"Host": host}), 421)
 
     def test_another_sites_page(self, server: Server) -> None:
-        for headers in ({"Origin": "https://evil.example"}, {"Origin": "null"}, {"Sec-Fetch-Site": "cross-site"}):
+        for headers in (
+            {"Origin": "https://evil.example"},
+            {"Origin": "null"},
+            {"Origin": "http://["},
+            {"Sec-Fetch-Site": "cross-site"},
+        ):
             _problem(server.post("v1/operations/simulate", {}, headers=headers), 403)
 
     def test_what_was_said_is_never_a_page(self, server: Server) -> None:

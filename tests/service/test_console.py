@@ -18,6 +18,12 @@ pytestmark = [
     pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium to look at the console with"),
 ]
 
+_FIRST = """
+const cell = "wirelessagent.cell";
+if (localStorage.getItem(cell) === null) localStorage.setItem(cell, "demonstration");
+"""
+"""The cell that is looked at first, whatever other tests have made."""
+
 WIDE, NARROW = {"width": 1440, "height": 900}, {"width": 390, "height": 844}
 
 
@@ -34,6 +40,7 @@ class Seen:
 
     def __init__(self, browser: Browser, url: str, **look: object) -> None:
         context = browser.new_context(**{"viewport": WIDE, "locale": "en-GB", **look})  # type: ignore[arg-type]
+        context.add_init_script(_FIRST)
         self.page: Page = context.new_page()
         self.faults, self.outside, self.url = list[str](), list[str](), url
         self.page.on("pageerror", lambda error: self.faults.append(str(error)))

@@ -73,15 +73,15 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
         ) from error
     limits = Limits(work_s=request.work_limit_s, requests_per_s=request.requests_per_s)
     service = open_service(request.store, limits, workers=request.workers)
-    only_local = request.host in _LOCAL
+    only_local = request.host in _LOCAL and not request.trusted_proxy and not request.base_path
     if not only_local and not service.access.callers:
         raise InputError(
-            f"host: {request.host} is open to others, so a token is needed: make one with 'wirelessagent token NAME "
+            f"host: {request.host} is open to others, by itself or by a proxy, so a token is needed: make one with 'wirelessagent token NAME "
             "--role operator' first, or listen on 127.0.0.1"
         )
     listening = _listening(request.host, request.port)
     port = listening.getsockname()[1]
-    hosts = {request.host.lower(), *(_LOCAL if only_local else ()), *(request.allowed_host or ())}
+    hosts = {request.host.lower(), *(_LOCAL if request.host in _LOCAL else ()), *(request.allowed_host or ())}
     if request.host in ("0.0.0.0", "::"):
         hosts |= {platform.node().lower(), *_LOCAL}
     base_path = request.base_path.rstrip("/")

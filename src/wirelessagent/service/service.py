@@ -10,7 +10,7 @@ from __future__ import annotations
 import asyncio
 import secrets
 import weakref
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Coroutine, Mapping
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, TypeVar
@@ -31,6 +31,8 @@ Found = TypeVar("Found")
 
 _SUFFIXES = frozenset({".csv", ".txt", ".json", ".npz", ".npy", ".mat", ".h5", ".hdf5", ".nc"})
 _LONGEST_TEXT = 4000
+_TAKE_UP_S = 3.0
+"""Time for each turn of a conversation that has to be taken up."""
 
 
 class Service:
@@ -46,6 +48,7 @@ class Service:
     def __init__(self, ledger: Ledger, folder: Path, workers: Workers, limits: Limits) -> None:
         self.ledger, self.limits, self.workers, self._folder = ledger, limits, workers, folder
         self.access, self.jobs, self.metrics = Access(ledger), Jobs(), Metrics()
+        self._going = set[asyncio.Task[Any]]()
         self._locks: weakref.WeakValueDictionary[str, asyncio.Lock] = weakref.WeakValueDictionary()
 
     async def close(self) -> None:
@@ -81,6 +84,8 @@ class Service:
         observation = given.pop("csi", None)
         if observation is not None:
             read_as = (await self._item("observation", observation)).data["options"]
+            if not isinstance(given.get("source_options", {}), dict):
+                raise UnusableError(f"source_options: an object with options; got {given['source_options']!r}")
             given["source_options"] = {**read_as, **given.get("source_options", {})}
         kept: Json = {"name": name, "options": given, "observation": observation, "effect": 0, "demonstration": False}
         facts = await self.workers.do("facts", tell, options=given, channel=await self._channel_file(observation))
@@ -195,10 +200,11 @@ class Service:
 
     async def open_session(self, cell: str) -> Json:
         """A new conversation for a cell, in the place of the one that it has; a plan that waited is dropped."""
-        item = await self._item("cell", cell)
-        id = await self._new_session(cell)
-        await self._kept(self.ledger.drop, "plan", cell)
-        await self._changed("cell", item, session=id)
+        async with self._lock(cell):
+            item = await self._item("cell", cell)
+            id = await self._new_session(cell)
+            await self._kept(self.ledger.drop, "plan", cell)
+            await self._changed("cell", item, session=id)
         return await self.session(id)
 
     async def session(self, id: str) -> Json:
@@ -228,15 +234,29 @@ class Service:
             raise UnusableError("nothing was said: give what the cell should do in 'text'")
         if len(text) > _LONGEST_TEXT:
             raise UnusableError(f"a line has at most {_LONGEST_TEXT} characters; got {len(text)}")
-        async with self._lock(session):
+        async with await self._lock_of(session):
             return await self._turn(session, caller, tell, "say", text=text)
 
     async def press(self, session: str, what: Press, caller: Caller, tell: Tell, *, plan: str | None = None) -> Json:
-        """The turn of a button; applying and dropping are for the plan that the caller has seen."""
-        async with self._lock(session):
-            if what != "undo":
-                await self._take(session, what, plan)
-            return await self._turn(session, caller, tell, "press", button=what)
+        """The turn of a button; applying and dropping are for the plan that the caller has seen.
+
+        What is pressed is carried through, also where its caller goes away: nothing is applied by halves.
+        """
+
+        async def through() -> Json:
+            async with await self._lock_of(session):
+                if what != "undo":
+                    await self._take(session, what, plan)
+                return await self._turn(session, caller, tell, "press", button=what)
+
+        return await self._through(through())
+
+    async def _through(self, work: Coroutine[Any, Any, Found]) -> Found:
+        """What comes of work that goes on where whoever waits for it is cancelled."""
+        task = asyncio.create_task(work)
+        self._going.add(task)
+        task.add_done_callback(self._going.discard)
+        return await asyncio.shield(task)
 
     async def plan(self, cell: str) -> Json | None:
         """The plan that waits for a cell."""
@@ -262,6 +282,7 @@ class Service:
         """
         held = (await self._item("session", session)).data
         cell = await self._item("cell", held["cell"])
+        self._check_current(cell, session)
         item = await self._kept(self.ledger.find, "plan", cell.id)
         if item is None or item.data["session"] != session or item.data["id"] != plan:
             raise ConflictError("this plan does not wait any more: look at what holds now")
@@ -278,24 +299,38 @@ class Service:
         item = await self._item("session", session)
         held = dict(item.data)
         cell = await self._item("cell", held["cell"])
-        if cell.data["session"] != session:
-            raise ConflictError(f"the cell {cell.data['name']!r} has a newer conversation: go on in that one")
+        self._check_current(cell, session)
         done = await self.workers.do(
             do, tell, of=session, session=session, turns=held["turns"], recalled=held["recalled"], by=caller.name,
-            options=cell.data["options"], channel=await self._channel_file(cell.data["observation"]), **told,
+            options=cell.data["options"], channel=await self._channel_file(cell.data["observation"]),
+            extra_s=_TAKE_UP_S * held["turns"], **told,
         )  # fmt: skip
+        await self._through(self._settle(item, cell, done))
+        if done["stale"]:
+            raise ConflictError("the conversation had gone on: look at what holds now")
         last = done["turns"][-1]
+        self.metrics.turned(last["record"])
+        return {**last["record"], "by": last["by"], "language": last["language"]}
+
+    @staticmethod
+    def _check_current(cell: Item, session: str) -> None:
+        if cell.data["session"] != session:
+            raise ConflictError(f"the cell {cell.data['name']!r} has a newer conversation: go on in that one")
+
+    async def _settle(self, item: Item, cell: Item, done: Mapping[str, Any]) -> None:
+        """Keep what became of a conversation."""
+        session, held = item.id, {**item.data, "turns": done["number"]}
         for turn in done["turns"]:
             view = {**turn["record"], "by": turn["by"], "language": turn["language"]}
             await self._kept(self.ledger.put, "turn", _turn_id(session, view["number"]), view)
         await self._kept(self.ledger.put, "channel", session, {"channel": done["channel"]})
-        record = last["record"]
-        held |= {"turns": record["number"], "in_effect": last["in_effect"], "language": last["language"]}
-        held["awaits"] = "nothing" if last["waits"] else record["awaits"]
+        if done["turns"]:
+            last = done["turns"][-1]
+            held |= {"in_effect": last["in_effect"], "language": last["language"]}
+            held["awaits"] = "nothing" if last["waits"] else last["record"]["awaits"]
         await self._changed("session", item, **held)
-        await self._keep_plan(cell, session, last)
-        self.metrics.turned(record)
-        return {**record, "by": last["by"], "language": last["language"]}
+        if done["turns"]:
+            await self._keep_plan(cell, session, done["turns"][-1])
 
     async def _keep_plan(self, cell: Item, session: str, turn: Mapping[str, Any]) -> None:
         """Have the plan wait that a turn has made or left waiting; none where none waits."""
@@ -345,7 +380,9 @@ class Service:
         item = await self._item("observation", observation)
         return str(self._folder / item.data["file"])
 
-    async def _item(self, kind: str, id: str) -> Item:
+    async def _item(self, kind: str, id: Any) -> Item:
+        if not isinstance(id, str):
+            raise UnusableError(f"the id of {kind} is a text; got {id!r}")
         item = await self._kept(self.ledger.find, kind, id)
         if item is None:
             raise NotFoundError(f"there is no {kind} {id!r}")
@@ -362,8 +399,12 @@ class Service:
         """What the ledger says, without holding the server up."""
         return await asyncio.to_thread(do, *args, **kwargs)
 
-    def _lock(self, session: str) -> asyncio.Lock:
-        return self._locks.setdefault(session, asyncio.Lock())
+    async def _lock_of(self, session: str) -> asyncio.Lock:
+        """The lock of the cell that a conversation is about."""
+        return self._lock((await self._item("session", session)).data["cell"])
+
+    def _lock(self, cell: str) -> asyncio.Lock:
+        return self._locks.setdefault(cell, asyncio.Lock())
 
 
 def _cell(item: Item) -> Json:

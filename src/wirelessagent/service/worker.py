@@ -92,14 +92,18 @@ class Worker:
     def say(self, told: Mapping[str, Any], progress: Progress) -> Any:
         """A line of a conversation."""
         hosted = self._conversation(told, progress)
+        known = min(told["turns"], hosted.number)
         hosted.say(told["text"], progress, by=told["by"])
-        return _since(hosted, told["turns"])
+        return _since(hosted, known)
 
     def press(self, told: Mapping[str, Any], progress: Progress) -> Any:
-        """A button of a conversation."""
+        """A button of a conversation, where it is as whoever pressed has seen it; else nothing is pressed."""
         hosted = self._conversation(told, progress)
+        known = min(told["turns"], hosted.number)
+        if hosted.number != told["turns"]:
+            return {**_since(hosted, known), "stale": True}
         hosted.press(told["button"], progress, by=told["by"])
-        return _since(hosted, told["turns"])
+        return _since(hosted, known)
 
     def inspect(self, told: Mapping[str, Any], progress: Progress) -> Any:
         """What a file with gains holds."""
@@ -125,6 +129,8 @@ def _since(hosted: Hosted, number: int) -> dict[str, Any]:
     turns = [turn for turn in hosted.turns if turn.record.number > number]
     channel = hosted.channel()
     return {
+        "number": hosted.number,
+        "stale": False,
         "turns": [as_json(turn) for turn in turns],
         "channel": None if channel is None else as_json(channel),
     }

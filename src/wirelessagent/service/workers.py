@@ -30,8 +30,12 @@ class Workers:
         self._time_limit_s = time_limit_s
         self._processes = [_Process(environment) for _ in range(number)]
 
-    async def do(self, what: str, tell: Callable[[dict[str, Any]], None], *, of: str = "", **told: Any) -> Any:
+    async def do(
+        self, what: str, tell: Callable[[dict[str, Any]], None], *, of: str = "", extra_s: float = 0.0, **told: Any
+    ) -> Any:
         """Have one thing done by the worker that conversation ``of`` belongs to, or by the least busy one.
+
+        ``extra_s`` is time beyond the limit, for a conversation that may have to be taken up first.
 
         Raises:
             TimedOutError: it took too long; the worker was ended.
@@ -39,7 +43,7 @@ class Workers:
         """
         mine = self._processes[zlib.crc32(of.encode()) % len(self._processes)]
         process = mine if of else min(self._processes, key=lambda one: one.waiting)
-        return await process.do({"do": what, **told}, tell, self._time_limit_s)
+        return await process.do({"do": what, **told}, tell, self._time_limit_s + extra_s)
 
     async def close(self) -> None:
         """End all processes."""

@@ -17,7 +17,7 @@ from starlette.exceptions import HTTPException
 from wirelessagent.operations.operation import InputError, WirelessAgentError
 from wirelessagent.service.access import Caller
 from wirelessagent.service.jobs import Job, Tell
-from wirelessagent.service.problems import ConflictError, ProblemError, UnusableError
+from wirelessagent.service.problems import ConflictError, NotSignedInError, ProblemError, UnusableError
 from wirelessagent.service.service import Service
 
 _KEEP_ALIVE_S = 15.0
@@ -91,9 +91,14 @@ def problem_of(error: Exception) -> ProblemError:
 
 
 def caller_of(request: Request) -> Caller:
-    """Who asks."""
+    """Who asks.
+
+    Raises:
+        NotSignedInError: nobody who is known.
+    """
     caller = request.scope["state"]["caller"]
-    assert isinstance(caller, Caller)
+    if not isinstance(caller, Caller):
+        raise NotSignedInError("say who you are by a token: Authorization: Bearer …, or sign in at /sign-in")
     return caller
 
 
@@ -102,17 +107,15 @@ def service_of(request: Request) -> Service:
     return request.app.state.service
 
 
-async def worked(
-    request: Request, work: Callable[[Tell], Awaitable[Any]], *, status: int = 200, shown: str = ""
-) -> Response:
+async def worked(request: Request, work: Callable[[Tell], Awaitable[Any]], *, status: int = 200) -> Response:
     """The answer to a request that needs work: what came of it, or 202 and the job where the caller prefers that.
 
     A caller who goes away ends the work. A request with an ``Idempotency-Key`` is done once, also where its caller goes
-    away: who sends it again gets the same answer, and has it done again only where the server had failed. ``shown``
-    names the body that the key belongs to.
+    away: who sends it again gets the same answer, and has it done again only where the server had failed.
     """
     service, caller = service_of(request), caller_of(request)
     key = request.headers.get("idempotency-key")
+    shown = f"{request.url.query}\n{hashlib.sha256(await request.body()).hexdigest()}" if key else ""
     job = _known(request, key, shown) if key else None
     if job is None:
         job = service.job(caller, work)

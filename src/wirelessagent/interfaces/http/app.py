@@ -18,7 +18,7 @@ from starlette.staticfiles import StaticFiles
 from wirelessagent.interfaces.http import forms
 from wirelessagent.interfaces.http.answers import StrictRoute, problem_of, service_of
 from wirelessagent.interfaces.http.plugin import add_plugin
-from wirelessagent.interfaces.http.routes import PROBLEMS, router
+from wirelessagent.interfaces.http.routes import PROBLEMS, router, texts
 from wirelessagent.interfaces.http.shield import COOKIE, Doors, Shield, cookie_of
 from wirelessagent.interfaces.mcp.door import Door
 from wirelessagent.operations.operation import installed_version
@@ -54,6 +54,7 @@ def make_app(service: Service, doors: Doors, *, demonstration: bool = False) -> 
     app.state.service, app.state.doors, app.state.idempotency_keys = service, doors, {}
     _add_health(app)
     app.include_router(router)
+    app.include_router(texts)
     _add_way_in(app)
     _add_console(app)
     add_plugin(app)

@@ -6,7 +6,7 @@ import base64
 from collections.abc import Awaitable, Callable
 from typing import Annotated, Any, cast
 
-from fastapi import APIRouter, Path, Query, Request, Response
+from fastapi import APIRouter, Depends, Path, Query, Request, Response
 from fastapi.responses import JSONResponse
 
 from wirelessagent.interfaces.http import forms
@@ -34,7 +34,8 @@ PROBLEMS: dict[int | str, dict[str, Any]] = {
 }  # fmt: skip
 """What any request may be answered by instead."""
 
-router = APIRouter(prefix="/v1", route_class=StrictRoute, responses=PROBLEMS)
+router = APIRouter(prefix="/v1", route_class=StrictRoute, responses=PROBLEMS, dependencies=[Depends(caller_of)])
+texts = APIRouter(prefix="/v1", route_class=StrictRoute, responses=PROBLEMS)
 
 Id = Annotated[str, Path(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_-]+$")]
 
@@ -54,7 +55,7 @@ async def start(request: Request) -> Any:
     }  # fmt: skip
 
 
-@router.get("/words/{language}", tags=["console"])
+@texts.get("/words/{language}", tags=["console"])
 async def read_words(language: Annotated[str, Path(pattern="^[a-z]{2}$")]) -> dict[str, str]:
     """All texts in a language, by their keys."""
     return words(language)
@@ -141,19 +142,19 @@ async def read_channel(request: Request, id: Id) -> Any:
 async def say(request: Request, id: Id, form: forms.Said) -> Response:
     """Say a line. It applies nothing: a plan that it leads to waits to be confirmed."""
     service, caller = service_of(request), caller_of(request)
-    return await worked(request, lambda tell: service.say(id, form.text, caller, tell), shown=form.text)
+    return await worked(request, lambda tell: service.say(id, form.text, caller, tell))
 
 
 @router.post("/sessions/{id}/confirm", responses=_as(forms.TurnAnswer), tags=["conversations"])
 async def confirm(request: Request, id: Id, form: forms.Pressed) -> Response:
     """Apply the plan that was seen; whoever else changed something meanwhile makes it stale."""
-    return await worked(request, _pressed(request, id, "yes", form.plan), shown=form.plan)
+    return await worked(request, _pressed(request, id, "yes", form.plan))
 
 
 @router.post("/sessions/{id}/discard", responses=_as(forms.TurnAnswer), tags=["conversations"])
 async def discard(request: Request, id: Id, form: forms.Pressed) -> Response:
     """Drop the plan that was seen; what is in effect goes on."""
-    return await worked(request, _pressed(request, id, "no", form.plan), shown=form.plan)
+    return await worked(request, _pressed(request, id, "no", form.plan))
 
 
 @router.post("/sessions/{id}/undo", responses=_as(forms.TurnAnswer), tags=["conversations"])
@@ -204,7 +205,7 @@ async def operate(request: Request, name: Annotated[str, Path(min_length=1, max_
     if not isinstance(given, dict):
         raise UnusableError("the body is an object with the fields of the operation's form")
     form = cast("dict[str, Any]", given)
-    return await worked(request, lambda tell: service.operate(name, form, tell), shown=body.decode("utf-8", "replace"))
+    return await worked(request, lambda tell: service.operate(name, form, tell))
 
 
 @router.get("/history", tags=["history"])

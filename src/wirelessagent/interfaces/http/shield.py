@@ -14,7 +14,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from http.cookies import CookieError, SimpleCookie
 from typing import Any, TypeAlias
-from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -33,6 +32,9 @@ from wirelessagent.service.service import Service
 
 COOKIE = "wirelessagent"
 """The name of the cookie of a browser session."""
+
+LOCAL_NAMES = frozenset({"127.0.0.1", "localhost", "::1"})
+"""What this machine calls itself."""
 
 _SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
 _OPEN = frozenset({"/", "/sign-in", "/sign-out", "/favicon.ico", "/plugin/openapi.json"})
@@ -110,7 +112,7 @@ class Shield:
             caller = await self._checked(scope)
             scope.setdefault("state", {})["caller"] = caller
             if scope["method"] not in _SAFE:
-                self._check_content(Headers(scope=scope), scope["path"])
+                self._check_content(Headers(scope=scope), _path_of(scope))
             await self._app(scope, self._limited(scope, receive), sent)
         except ProblemError as problem:
             await answer_problem(problem, scope, receive, sent)
@@ -138,7 +140,7 @@ class Shield:
         return [(name.encode(), value.encode()) for name, value in added.items() if name.encode() not in there]
 
     async def _checked(self, scope: Scope) -> Caller | None:
-        headers, path, method = Headers(scope=scope), scope["path"], scope["method"]
+        headers, path, method = Headers(scope=scope), _path_of(scope), scope["method"]
         self._check_host(headers)
         if method not in _SAFE or path == _MCP:
             self._check_origin(headers)
@@ -174,7 +176,7 @@ class Shield:
 
     @staticmethod
     def _is_ours(origin: str, headers: Headers) -> bool:
-        return urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
+        return origin.partition("://")[2].lower() == headers.get("host", "").lower()
 
     def _check_content(self, headers: Headers, path: str) -> None:
         said = headers.get("content-length", "0")
@@ -204,7 +206,8 @@ class Shield:
         cookie = cookie_of(headers)
         if cookie:
             return await asyncio.to_thread(access.by_cookie, cookie)
-        if self._doors.only_local and not await self._has_callers():
+        here = self._doors.only_local and _host_of(headers.get("host", "")) in LOCAL_NAMES
+        if here and not await self._has_callers():
             return LOCAL
         raise NotSignedInError("say who you are by a token: Authorization: Bearer …, or sign in at /sign-in")
 
@@ -217,7 +220,7 @@ class Shield:
 
     def _limited(self, scope: Scope, receive: Receive) -> Receive:
         """What is received, as long as it comes in time and is not too much."""
-        most, until = self._most_bytes(scope["path"]), time.monotonic() + self._service.limits.receive_s
+        most, until = self._most_bytes(_path_of(scope)), time.monotonic() + self._service.limits.receive_s
         got, whole = 0, False
 
         async def limited() -> Message:
@@ -249,6 +252,12 @@ def cookie_of(headers: Headers) -> str:
 def in_plugin(problem: ProblemError) -> Body | None:
     """A problem as the plug-in tells it; None where HTTP has to tell it."""
     return None if problem.status in (401, 403, 405, 429) else {"ok": False, "error": problem.detail}
+
+
+def _path_of(scope: Scope) -> str:
+    """The path as routes know it, without what a proxy in front takes off."""
+    path, root = scope["path"], scope.get("root_path", "").rstrip("/")
+    return path.removeprefix(root) or "/" if root and f"{path}/".startswith(f"{root}/") else path
 
 
 def _host_of(host: str) -> str:
