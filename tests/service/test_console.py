@@ -91,11 +91,11 @@ def test_the_first_screen(browser: Browser, server: Server, viewport: object, sc
 
 
 def test_ask_apply_compare_undo_and_reload(browser: Browser, server: Server) -> None:
-    server.cell()
+    server.post("v1/cells", {"name": "looked at", "options": {"seed": 1}})
     seen = Seen(browser, server.url)
     page = seen.opened()
     page.click("#cells summary")
-    page.click("#cell-list >> text=a cell >> nth=-1")
+    page.click("#cell-list >> text=looked at")
     page.wait_for_selector("#log:not(:has(article.turn))", state="attached")
     assert "27" in seen.say("highest total rate")
     assert page.locator("#plan-card").is_visible()

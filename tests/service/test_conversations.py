@@ -80,7 +80,7 @@ def test_the_same_request_sent_twice_is_done_once(server: Server) -> None:
 def test_a_request_with_a_key_is_done_though_its_caller_went_away(server: Server) -> None:
     session, key = server.cell()["session"], {"Idempotency-Key": "gone"}
     host, port = server.url.removeprefix("http://").rstrip("/").split(":")
-    body = b'{"text": "highest total rate"}'
+    body = b'{"text":"highest total rate"}'
     head = (
         f"POST /v1/sessions/{session}/turns HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\n"
         f"Idempotency-Key: gone\r\nContent-Length: {len(body)}\r\n\r\n"

@@ -76,8 +76,8 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
     only_local = request.host in _LOCAL and not request.trusted_proxy and not request.base_path
     if not only_local and not service.access.callers:
         raise InputError(
-            f"host: {request.host} is open to others, by itself or by a proxy, so a token is needed: make one with 'wirelessagent token NAME "
-            "--role operator' first, or listen on 127.0.0.1"
+            f"host: {request.host} is open to others, by itself or by a proxy, so a token is needed: make one with "
+            "'wirelessagent token NAME --role operator' first, or listen on 127.0.0.1 alone"
         )
     listening = _listening(request.host, request.port)
     port = listening.getsockname()[1]
