@@ -22,8 +22,6 @@ COMMANDS = {
 }
 """What a server is run and looked after with, in a sentence each."""
 
-_LOCAL = frozenset({"127.0.0.1", "localhost", "::1"})
-
 
 class ServeRequest(StoreOptions):
     panel = "Options"
@@ -64,7 +62,7 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
         from wirelessagent.interfaces.http.app import make_app
         from wirelessagent.interfaces.http.deadline import DeadlineProtocol
         from wirelessagent.interfaces.http.logs import log_as_json
-        from wirelessagent.interfaces.http.shield import Doors
+        from wirelessagent.interfaces.http.shield import LOCAL_NAMES, Doors
         from wirelessagent.service.limits import Limits
         from wirelessagent.service.opening import open_service
     except ImportError as error:
@@ -73,7 +71,7 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
         ) from error
     limits = Limits(work_s=request.work_limit_s, requests_per_s=request.requests_per_s)
     service = open_service(request.store, limits, workers=request.workers)
-    only_local = request.host in _LOCAL and not request.trusted_proxy and not request.base_path
+    only_local = request.host in LOCAL_NAMES and not request.trusted_proxy and not request.base_path
     if not only_local and not service.access.callers:
         raise InputError(
             f"host: {request.host} is open to others, by itself or by a proxy, so a token is needed: make one with "
@@ -81,9 +79,9 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
         )
     listening = _listening(request.host, request.port)
     port = listening.getsockname()[1]
-    hosts = {request.host.lower(), *(_LOCAL if request.host in _LOCAL else ()), *(request.allowed_host or ())}
+    hosts = {request.host.lower(), *(LOCAL_NAMES if request.host in LOCAL_NAMES else ()), *(request.allowed_host or ())}
     if request.host in ("0.0.0.0", "::"):
-        hosts |= {platform.node().lower(), *_LOCAL}
+        hosts |= {platform.node().lower(), *LOCAL_NAMES}
     base_path = request.base_path.rstrip("/")
     shown = f"[{request.host}]" if ":" in request.host else request.host
     url = f"http://{shown}:{port}{base_path}/"

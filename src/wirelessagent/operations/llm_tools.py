@@ -16,15 +16,13 @@ from wirelessagent.operations.compare import COMPARE
 from wirelessagent.operations.forms import filled, form_of, needs_channel
 from wirelessagent.operations.list_plugins import PLUGINS
 from wirelessagent.operations.operation import AnyOperation, silent
-from wirelessagent.operations.record import Block, Files, Table
+from wirelessagent.operations.paragraphs import as_plain, plain_text
 from wirelessagent.operations.repair import REPAIR
 from wirelessagent.operations.simulate import SIMULATE
 from wirelessagent.operations.solve import SOLVE
 
 OFFERED: tuple[AnyOperation, ...] = (SIMULATE, REPAIR, SOLVE, COMPARE, PLUGINS)
 """What an LLM may call. Only operations that change nothing once their paths are taken away belong here."""
-
-_MOST_CHARACTERS = 20_000
 
 
 def llm_tools(channel: Path | str | None = None, operations: Sequence[AnyOperation] = OFFERED) -> tuple[LlmTool, ...]:
@@ -38,25 +36,8 @@ def tool_of(operation: AnyOperation, channel: Path | str | None = None) -> LlmTo
     """One operation as a tool."""
 
     def run(form: BaseModel) -> str:
-        return as_text(operation.run(filled(operation, form, channel), silent).blocks())
+        blocks = operation.run(filled(operation, form, channel), silent).blocks()
+        return plain_text([as_plain(block) for block in blocks])
 
     name = operation.name.replace(" ", "_").replace("-", "_")
     return LlmTool(name=name, summary=operation.summary, form=form_of(operation), run=run)
-
-
-def as_text(blocks: Sequence[Block]) -> str:
-    """Paragraphs and tables as plain text, cut where it would be too long."""
-    text = "\n\n".join(_paragraph(block) for block in blocks)
-    return text if len(text) <= _MOST_CHARACTERS else f"{text[:_MOST_CHARACTERS]}\n… (cut)"
-
-
-def _paragraph(block: Block) -> str:
-    if isinstance(block, Table):
-        return _table(block)
-    if isinstance(block, Files):
-        return " ".join([block.done, *map(str, block.paths)])
-    return block if isinstance(block, str) else "\n".join(block)
-
-
-def _table(table: Table) -> str:
-    return "\n".join([table.title, *(" | ".join(row) for row in (table.columns, *table.rows))])

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
+from wirelessagent.operations.paragraphs import plain_text
 from wirelessagent.service.access import Caller
 from wirelessagent.service.jobs import Tell
-from wirelessagent.service.paragraphs import plain_text
 from wirelessagent.service.problems import NotFoundError, UnusableError
 from wirelessagent.service.service import Press, Service
 

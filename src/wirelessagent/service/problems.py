@@ -45,7 +45,9 @@ class NotSignedInError(ProblemError):
 
     status, title = 401, "Sign in first"
 
-    def __init__(self, detail: str) -> None:
+    def __init__(
+        self, detail: str = "say who you are by a token: Authorization: Bearer …, or sign in at /sign-in"
+    ) -> None:
         super().__init__(detail, WWW_Authenticate='Bearer realm="wirelessagent"')
 
 

@@ -29,7 +29,9 @@ Json: TypeAlias = dict[str, Any]
 Press: TypeAlias = Literal["yes", "no", "undo"]
 Found = TypeVar("Found")
 
-_SUFFIXES = frozenset({".csv", ".txt", ".json", ".npz", ".npy", ".mat", ".h5", ".hdf5", ".nc"})
+SUFFIXES = frozenset({".csv", ".txt", ".json", ".npz", ".npy", ".mat", ".h5", ".hdf5", ".nc"})
+"""How the names of files with gains end."""
+
 _LONGEST_TEXT = 4000
 _TAKE_UP_S = 3.0
 """Time for each turn of a conversation that has to be taken up."""
@@ -123,8 +125,8 @@ class Service:
     async def observe(self, name: str, content: bytes, options: Mapping[str, str], tell: Tell) -> Json:
         """Keep a file with gains, and what was understood of it."""
         suffix = Path(name).suffix.lower()
-        if suffix not in _SUFFIXES:
-            raise UnusableError(f"{name!r}: a file with gains ends in one of {', '.join(sorted(_SUFFIXES))}")
+        if suffix not in SUFFIXES:
+            raise UnusableError(f"{name!r}: a file with gains ends in one of {', '.join(sorted(SUFFIXES))}")
         if len(await self._kept(self.ledger.all, "observation")) >= self.limits.observations:
             raise TooMuchError(f"{self.limits.observations} observations are kept already: remove one first")
         id = secrets.token_hex(8)

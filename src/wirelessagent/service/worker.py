@@ -37,7 +37,8 @@ from wirelessagent.operations.operation import (
     Progress,
     WirelessAgentError,
 )
-from wirelessagent.operations.record import Block, Files, Record, Table, as_json
+from wirelessagent.operations.paragraphs import as_plain
+from wirelessagent.operations.record import Record, as_json
 
 _DEFAULT_MEMORY_BYTES = 6 << 30
 
@@ -64,7 +65,7 @@ class Worker:
         record = operation.run(request, progress)
         return {
             "record": as_json(record),
-            "blocks": [_plain(block) for block in record.blocks()],
+            "blocks": [as_plain(block) for block in record.blocks()],
             "conclusion": record.conclusion,
         }
 
@@ -142,14 +143,6 @@ def _cell(told: Mapping[str, Any]) -> ChatRequest:
     request = filled(CHAT, form, told.get("channel"))
     assert isinstance(request, ChatRequest)
     return request
-
-
-def _plain(block: Block) -> Any:
-    if isinstance(block, Table):
-        return {"title": block.title, "columns": list(block.columns), "rows": [list(row) for row in block.rows]}
-    if isinstance(block, Files):
-        return " ".join([block.done, *map(str, block.paths)])
-    return block if isinstance(block, str) else list(block)
 
 
 def _told(error: BaseException) -> dict[str, Any]:

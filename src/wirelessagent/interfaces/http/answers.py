@@ -98,7 +98,7 @@ def caller_of(request: Request) -> Caller:
     """
     caller = request.scope["state"]["caller"]
     if not isinstance(caller, Caller):
-        raise NotSignedInError("say who you are by a token: Authorization: Bearer …, or sign in at /sign-in")
+        raise NotSignedInError
     return caller
 
 

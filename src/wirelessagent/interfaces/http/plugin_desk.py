@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from wirelessagent.interfaces.http import plugin_forms as forms
+from wirelessagent.operations.paragraphs import plain_text
 from wirelessagent.service.access import Caller
 from wirelessagent.service.assistant import Assistant, told
 from wirelessagent.service.jobs import Tell
-from wirelessagent.service.paragraphs import plain_text
 from wirelessagent.service.service import Service
 
 Json: TypeAlias = dict[str, Any]

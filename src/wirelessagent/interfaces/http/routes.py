@@ -21,7 +21,7 @@ from wirelessagent.interfaces.http.answers import (
 from wirelessagent.operations.operation import installed_version
 from wirelessagent.service.jobs import Tell
 from wirelessagent.service.problems import UnusableError
-from wirelessagent.service.service import Press
+from wirelessagent.service.service import SUFFIXES, Press
 from wirelessagent.service.words import LANGUAGES, words
 
 PROBLEMS: dict[int | str, dict[str, Any]] = {
@@ -86,8 +86,7 @@ async def drop_cell(request: Request, id: Id) -> None:
     await service_of(request).drop_cell(id)
 
 
-NAMES = r"(?i)\.(csv|txt|json|npz|npy|mat|h5|hdf5|nc)$"
-"""How the names of files with gains end."""
+NAMES = rf"(?i)\.({'|'.join(sorted(suffix[1:] for suffix in SUFFIXES))})$"
 
 
 @router.post("/observations", status_code=201, responses=_as(forms.ObservationAnswer, 201), tags=["observations"],

@@ -209,7 +209,7 @@ class Shield:
         here = self._doors.only_local and _host_of(headers.get("host", "")) in LOCAL_NAMES
         if here and not await self._has_callers():
             return LOCAL
-        raise NotSignedInError("say who you are by a token: Authorization: Bearer …, or sign in at /sign-in")
+        raise NotSignedInError
 
     async def _has_callers(self) -> bool:
         """Whether anybody has a token, as of a moment ago."""

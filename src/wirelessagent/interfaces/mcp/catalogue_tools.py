@@ -10,7 +10,7 @@ from mcp.types import Tool
 from wirelessagent.interfaces.mcp.calls import Call
 from wirelessagent.interfaces.mcp.tool import Json, Result, ServerTool, annotated, answer
 from wirelessagent.interfaces.schemas import Schema, answered, asked
-from wirelessagent.service.paragraphs import plain_text
+from wirelessagent.operations.paragraphs import plain_text
 
 _OBSERVATION: Schema = {
     "type": "string",

@@ -16,8 +16,8 @@ from wirelessagent.interfaces.http.forms import CellAnswer, ObservationAnswer, P
 from wirelessagent.interfaces.mcp.calls import Call
 from wirelessagent.interfaces.mcp.tool import Json, Result, ServerTool, annotated, answer, failure
 from wirelessagent.interfaces.schemas import Schema, answered, asked
+from wirelessagent.operations.paragraphs import plain_text
 from wirelessagent.service.assistant import told
-from wirelessagent.service.paragraphs import plain_text
 from wirelessagent.service.problems import ProblemError, UnusableError
 
 APP = "ui://wirelessagent/allocation.html"

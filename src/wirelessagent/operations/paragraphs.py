@@ -1,13 +1,24 @@
-"""Blocks as a worker hands them over (paragraphs, lines, tables) as plain text, for who reads text only."""
+"""Blocks of records as plain data that JSON can hold, and as plain text for who reads text only."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
+from wirelessagent.operations.record import Block, Files, Table
+
 Plain: TypeAlias = str | Sequence[str] | Mapping[str, Any]
 
 _MOST_CHARACTERS = 20_000
+
+
+def as_plain(block: Block) -> Plain:
+    """A block as plain data: a paragraph, lines, or a table's title, columns and rows."""
+    if isinstance(block, Table):
+        return {"title": block.title, "columns": list(block.columns), "rows": [list(row) for row in block.rows]}
+    if isinstance(block, Files):
+        return " ".join([block.done, *map(str, block.paths)])
+    return block if isinstance(block, str) else list(block)
 
 
 def plain_text(blocks: Sequence[Plain]) -> str:
