@@ -228,8 +228,9 @@ class TestFiles:
     )
     def test_hostile_names(self, server: Server, name: str) -> None:
         answer = server.post("v1/observations", content=b"1,2\n3,4\n", headers=OCTETS, params={"name": name})
-        folder = server.store.parent / "observations"
+        folder = server.store.with_suffix(".cache") / "wirelessagent" / "observations"
         assert answer.status_code in (201, 422)
+        assert folder.is_dir()
         assert all(path.parent == folder and path.stem.isalnum() for path in folder.glob("**/*"))
 
     def test_paths_are_not_reached(self, server: Server) -> None:

@@ -69,7 +69,10 @@ class Server:
 @contextlib.contextmanager
 def started(store: Path, *options: str, token: str = "", at: str = "") -> Iterator[Server]:
     """A server on a store (in that file, or ``at`` a URL), until the end of the context."""
-    environment = {**os.environ, "WIRELESSAGENT_COMPILE": "never", "PYTHONUNBUFFERED": "1"}
+    environment = {
+        **os.environ, "WIRELESSAGENT_COMPILE": "never", "PYTHONUNBUFFERED": "1",
+        "XDG_CACHE_HOME": str(store.with_suffix(".cache")),
+    }  # fmt: skip
     log = store.with_suffix(".log").open("a")
     process = subprocess.Popen(
         [sys.executable, "-m", "wirelessagent", "serve", "--port", "0", "--store", at or str(store),

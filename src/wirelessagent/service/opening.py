@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import platformdirs
 
 from wirelessagent.service.access import Access
@@ -23,14 +21,13 @@ def open_service(store: str | None, limits: Limits, *, workers: int = 1) -> Serv
     """
     place = url_of(store)
     file = file_of(place)
-    folder = platformdirs.user_data_path("wirelessagent") if file is None else Path(file).parent
     environment = {
         "WIRELESSAGENT_STORE": "yes",
         "WIRELESSAGENT_STORE_URL": place.render_as_string(hide_password=False) if file is None else str(file),
     }
     return Service(
         Ledger.open(store),
-        folder / "observations",
+        platformdirs.user_cache_path("wirelessagent") / "observations",
         Workers(workers, time_limit_s=limits.work_s, environment=environment),
         limits,
     )

@@ -19,8 +19,10 @@ from wirelessagent.operations.catalogue import OPERATIONS
 from wirelessagent.service.access import Access, Caller
 from wirelessagent.service.demonstration import recorded_demonstration
 from wirelessagent.service.jobs import Job, Jobs, Tell
+from wirelessagent.service.kept import item_of, kept, shown
 from wirelessagent.service.limits import Limits
 from wirelessagent.service.metrics import Metrics
+from wirelessagent.service.observations import Observations
 from wirelessagent.service.problems import ConflictError, NotFoundError, TooMuchError, UnusableError
 from wirelessagent.service.workers import Workers
 from wirelessagent.store.ledger import ChangedError, Item, Ledger
@@ -28,9 +30,6 @@ from wirelessagent.store.ledger import ChangedError, Item, Ledger
 Json: TypeAlias = dict[str, Any]
 Press: TypeAlias = Literal["yes", "no", "undo"]
 Found = TypeVar("Found")
-
-SUFFIXES = frozenset({".csv", ".txt", ".json", ".npz", ".npy", ".mat", ".h5", ".hdf5", ".nc"})
-"""How the names of files with gains end."""
 
 _LONGEST_TEXT = 4000
 _TAKE_UP_S = 3.0
@@ -42,13 +41,14 @@ class Service:
 
     Args:
         ledger: what is kept.
-        folder: where observations are kept.
+        folder: where workers find observations.
         workers: what works.
         limits: what is allowed.
     """
 
     def __init__(self, ledger: Ledger, folder: Path, workers: Workers, limits: Limits) -> None:
-        self.ledger, self.limits, self.workers, self._folder = ledger, limits, workers, folder
+        self.ledger, self.limits, self.workers = ledger, limits, workers
+        self.observations = Observations(ledger, folder, workers, limits)
         self.access, self.jobs, self.metrics = Access(ledger), Jobs(), Metrics()
         self._going = set[asyncio.Task[Any]]()
         self._locks: weakref.WeakValueDictionary[str, asyncio.Lock] = weakref.WeakValueDictionary()
@@ -85,12 +85,12 @@ class Service:
         given = dict(options)
         observation = given.pop("csi", None)
         if observation is not None:
-            read_as = (await self._item("observation", observation)).data["options"]
+            read_as = await self.observations.read_as(observation)
             if not isinstance(given.get("source_options", {}), dict):
                 raise UnusableError(f"source_options: an object with options; got {given['source_options']!r}")
             given["source_options"] = {**read_as, **given.get("source_options", {})}
         kept: Json = {"name": name, "options": given, "observation": observation, "effect": 0, "demonstration": False}
-        facts = await self.workers.do("facts", tell, options=given, channel=await self._channel_file(observation))
+        facts = await self.workers.do("facts", tell, options=given, channel=await self.observations.file(observation))
         kept |= facts
         id = secrets.token_hex(6)
         kept["session"] = await self._new_session(id)
@@ -120,84 +120,6 @@ class Service:
         await self._kept(self.ledger.put, "cell", "demonstration", cell)
         await self._keep_plan(await self._item("cell", "demonstration"), session, recorded["last"])
 
-    # Observations.
-
-    async def observe(self, name: str, content: bytes, options: Mapping[str, str], tell: Tell) -> Json:
-        """Keep a file with gains, and what was understood of it."""
-        suffix = Path(name).suffix.lower()
-        if suffix not in SUFFIXES:
-            raise UnusableError(f"{name!r}: a file with gains ends in one of {', '.join(sorted(SUFFIXES))}")
-        if len(await self._kept(self.ledger.all, "observation")) >= self.limits.observations:
-            raise TooMuchError(f"{self.limits.observations} observations are kept already: remove one first")
-        id = secrets.token_hex(8)
-        path = self._folder / f"{id}{suffix}"
-        await asyncio.to_thread(_write, path, content)
-        try:
-            seen = await self.workers.do("inspect", tell, options={"source_options": dict(options)}, channel=str(path))
-            self._check_size(seen)
-        except BaseException:
-            path.unlink(missing_ok=True)
-            raise
-        kept = {"name": Path(name).name[:200], "options": dict(options), "file": path.name, **seen}
-        await self._kept(self.ledger.put, "observation", id, kept, seen=0)
-        return {"id": id, **_shown(kept, "options", "file")}
-
-    async def derive(self, name: str, form: Mapping[str, Any], tell: Tell) -> Json:
-        """Run an operation that writes gains (simulate, repair), and keep them as an observation.
-
-        Nobody has to remove these: where there are too many, the oldest that no cell works on go.
-        """
-        given = dict(form)
-        channel = await self._channel_file(given.pop("observation", None))
-        await self._make_room()
-        id = secrets.token_hex(8)
-        path = self._folder / f"{id}.npz"
-        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        try:
-            done = await self.workers.do("operation", tell, name=name, form=given, channel=channel, out=str(path))
-            seen = await self.workers.do("inspect", tell, options={}, channel=str(path))
-        except BaseException:
-            path.unlink(missing_ok=True)
-            raise
-        done["record"]["out"] = None  # where the server keeps what is nobody else's business
-        done["blocks"] = [block for block in done["blocks"] if path.name not in str(block)]
-        kept: Json = {"name": f"{name}.npz", "options": {}, "file": path.name, "derived": True, **seen}
-        await self._kept(self.ledger.put, "observation", id, kept, seen=0)
-        return {"observation": {"id": id, **_shown(kept, "options", "file", "derived")}, **done}
-
-    def _check_size(self, seen: Mapping[str, Any]) -> None:
-        users, subcarriers = seen["num_users"], seen["num_subcarriers"]
-        if users * subcarriers > self.limits.gains:
-            most = self.limits.gains
-            raise UnusableError(f"at most {most} gains are taken; got {users} users on {subcarriers} subcarriers")
-
-    async def _make_room(self) -> None:
-        kept = await self._kept(self.ledger.all, "observation")
-        used = {cell.data.get("observation") for cell in await self._kept(self.ledger.all, "cell")}
-        old = sorted(
-            (item for item in kept if item.data.get("derived") and item.id not in used),
-            key=lambda item: item.changed_utc,
-        )
-        for item in old[: max(len(kept) - self.limits.observations + 1, 0)]:
-            await self.drop_observation(item.id)
-        if len(kept) - len(old) >= self.limits.observations:
-            raise TooMuchError(f"{self.limits.observations} observations are kept already: remove one first")
-
-    async def observation(self, id: str) -> Json:
-        """What was understood of a file."""
-        item = await self._item("observation", id)
-        return {"id": id, **_shown(item.data, "options", "file", "derived")}
-
-    async def drop_observation(self, id: str) -> None:
-        """Remove a file; turns keep what they saw of it."""
-        item = await self._item("observation", id)
-        users = [cell.data["name"] for cell in await self._kept(self.ledger.all, "cell")
-                 if cell.data.get("observation") == id]  # fmt: skip
-        if users:
-            raise ConflictError(f"the cell {users[0]!r} works on this observation: remove the cell first")
-        await self._kept(self.ledger.drop, "observation", id)
-        (self._folder / item.data["file"]).unlink(missing_ok=True)
-
     # Conversations.
 
     async def open_session(self, cell: str) -> Json:
@@ -221,7 +143,7 @@ class Service:
             **{name: held[name] for name in names},
             "awaits": "confirmation" if waits else held["awaits"],
             "turns": turns,
-            "plan": _shown(plan.data, "session", "effect") if waits and plan is not None else None,
+            "plan": shown(plan.data, "session", "effect") if waits and plan is not None else None,
         }
 
     async def channel(self, id: str) -> Json | None:
@@ -263,7 +185,7 @@ class Service:
     async def plan(self, cell: str) -> Json | None:
         """The plan that waits for a cell."""
         item = await self._kept(self.ledger.find, "plan", cell)
-        return None if item is None else _shown(item.data, "session", "effect")
+        return None if item is None else shown(item.data, "session", "effect")
 
     async def cell_of_plan(self, plan: str) -> str:
         """The cell that a plan waits for.
@@ -304,7 +226,7 @@ class Service:
         self._check_current(cell, session)
         done = await self.workers.do(
             do, tell, of=session, session=session, turns=held["turns"], recalled=held["recalled"], by=caller.name,
-            options=cell.data["options"], channel=await self._channel_file(cell.data["observation"]),
+            options=cell.data["options"], channel=await self.observations.file(cell.data["observation"]),
             extra_s=_TAKE_UP_S * held["turns"], **told,
         )  # fmt: skip
         await self._through(self._settle(item, cell, done))
@@ -363,7 +285,7 @@ class Service:
         if name not in OPERATIONS:
             raise NotFoundError(f"there is no operation {name!r}: known are {', '.join(OPERATIONS)}")
         given = dict(form)
-        channel = await self._channel_file(given.pop("observation", None))
+        channel = await self.observations.file(given.pop("observation", None))
         return await self.workers.do("operation", tell, name=name, form=given, channel=channel)
 
     async def forms(self) -> Json:
@@ -376,19 +298,8 @@ class Service:
 
     # What is kept.
 
-    async def _channel_file(self, observation: str | None) -> str | None:
-        if observation is None:
-            return None
-        item = await self._item("observation", observation)
-        return str(self._folder / item.data["file"])
-
     async def _item(self, kind: str, id: Any) -> Item:
-        if not isinstance(id, str):
-            raise UnusableError(f"the id of {kind} is a text; got {id!r}")
-        item = await self._kept(self.ledger.find, kind, id)
-        if item is None:
-            raise NotFoundError(f"there is no {kind} {id!r}")
-        return item
+        return await item_of(self.ledger, kind, id)
 
     async def _changed(self, kind: str, item: Item, **changes: Any) -> None:
         try:
@@ -396,10 +307,7 @@ class Service:
         except ChangedError as error:
             raise ConflictError(f"{error}: look at what holds now") from error
 
-    @staticmethod
-    async def _kept(do: Callable[..., Found], *args: Any, **kwargs: Any) -> Found:
-        """What the ledger says, without holding the server up."""
-        return await asyncio.to_thread(do, *args, **kwargs)
+    _kept = staticmethod(kept)
 
     async def _lock_of(self, session: str) -> asyncio.Lock:
         """The lock of the cell that a conversation is about."""
@@ -410,11 +318,7 @@ class Service:
 
 
 def _cell(item: Item) -> Json:
-    return {"id": item.id, **_shown(item.data, "options", "effect")}
-
-
-def _shown(data: Mapping[str, Any], *without: str) -> Json:
-    return {name: value for name, value in data.items() if name not in without}
+    return {"id": item.id, **shown(item.data, "options", "effect")}
 
 
 def _turn_id(session: str, number: int) -> str:
@@ -427,10 +331,3 @@ def _now() -> str:
 
 def _silent(event: Json) -> None:
     del event
-
-
-def _write(path: Path, content: bytes) -> None:
-    path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    with path.open("xb") as stream:
-        path.chmod(0o600)
-        stream.write(content)

@@ -1,4 +1,4 @@
-"""What a server keeps beside the turns, and may change: cells, sessions, plans, tokens. Each item has a version.
+"""What servers keep beside the turns, and may change: cells, sessions, plans, tokens, files. Each item has a version.
 
 An item changes only from the version that its writer has seen, so that of two who want the same one wins, whatever
 process or machine they are in. Turns are no items: they are never changed.
@@ -13,12 +13,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import URL, Column, Engine, Integer, MetaData, Row, Table, Text, delete, insert, inspect, select, update
-from sqlalchemy.exc import IntegrityError
+from sqlalchemy import (
+    URL,
+    Column,
+    Connection,
+    Engine,
+    Integer,
+    LargeBinary,
+    MetaData,
+    Row,
+    Table,
+    Text,
+    delete,
+    select,
+    update,
+)
+from sqlalchemy.dialects import postgresql, sqlite
 
 from wirelessagent.model.errors import StoreError
 from wirelessagent.store.place import opened, shown, told, url_of, writing
@@ -34,6 +48,13 @@ _ITEM = Table(
     Column("version", Integer, nullable=False),
     Column("changed_utc", Text, nullable=False),
     Column("data", Json, nullable=False),
+)
+
+_BLOB = Table(
+    "service_blob",
+    _METADATA,
+    Column("id", Text, primary_key=True),
+    Column("data", LargeBinary, nullable=False),
 )
 
 
@@ -75,8 +96,7 @@ class Ledger:
         url = url_of(where)
         engine = opened(url, create=True)
         with told(url), writing(engine) as connection:
-            if not inspect(connection).has_table(_ITEM.name):
-                _METADATA.create_all(connection)
+            _METADATA.create_all(connection)
         return cls(engine, url)
 
     @property
@@ -114,21 +134,24 @@ class Ledger:
         Raises:
             ChangedError: it has another version by now.
         """
-        row = {"changed_utc": datetime.now(UTC).isoformat(timespec="milliseconds"), "data": dict(data)}
+        row = {"changed_utc": _now(), "data": dict(data)}
+        same = (_ITEM.c.kind == kind, _ITEM.c.id == id)
         with told(self._url), writing(self._engine) as connection:
-            there = select(_ITEM.c.version).where(_ITEM.c.kind == kind, _ITEM.c.id == id)
-            version = connection.execute(there).scalar() or 0
-            if seen is not None and version != seen:
-                raise ChangedError(f"the {kind} {id!r} was changed meanwhile")
-            if version:
-                same = (_ITEM.c.kind == kind, _ITEM.c.id == id)
-                connection.execute(update(_ITEM).where(*same).values(version=version + 1, **row))
+            if seen:
+                chosen = update(_ITEM).where(*same, _ITEM.c.version == seen).values(version=seen + 1, **row)
+                if not connection.execute(chosen).rowcount:
+                    raise ChangedError(f"the {kind} {id!r} was changed meanwhile")
+                return seen + 1
+            made = _insert(connection, _ITEM).values(kind=kind, id=id, version=1, **row)
+            if seen is None:
+                again = {"version": _ITEM.c.version + 1, **row}
+                made = made.on_conflict_do_update(index_elements=[_ITEM.c.kind, _ITEM.c.id], set_=again)
             else:
-                try:
-                    connection.execute(insert(_ITEM).values(kind=kind, id=id, version=1, **row))
-                except IntegrityError as error:
-                    raise ChangedError(f"the {kind} {id!r} was changed meanwhile") from error
-        return version + 1
+                made = made.on_conflict_do_nothing()
+            version = connection.execute(made.returning(_ITEM.c.version)).scalar()
+            if version is None:
+                raise ChangedError(f"the {kind} {id!r} was changed meanwhile")
+            return version
 
     def drop(self, kind: str, id: str, *, seen: int | None = None) -> bool:
         """Remove an item, if it has the version ``seen``; whether it was there."""
@@ -137,6 +160,40 @@ class Ledger:
             chosen = chosen.where(_ITEM.c.version == seen)
         with told(self._url), writing(self._engine) as connection:
             return connection.execute(chosen).rowcount > 0
+
+    def sweep(self, kind: str, *, unchanged_s: float) -> None:
+        """Remove the items of a kind that nobody has written for so long."""
+        before = _ITEM.c.changed_utc < _at(datetime.now(UTC) - timedelta(seconds=unchanged_s))
+        with told(self._url), writing(self._engine) as connection:
+            connection.execute(delete(_ITEM).where(_ITEM.c.kind == kind, before))
+
+    def put_blob(self, id: str, data: bytes) -> None:
+        """Keep a file's bytes under an identifier that nothing else has."""
+        with told(self._url), writing(self._engine) as connection:
+            connection.execute(_BLOB.insert().values(id=id, data=data))
+
+    def blob(self, id: str) -> bytes | None:
+        """The bytes of a file; None where there is none."""
+        with told(self._url), self._engine.connect() as connection:
+            return connection.execute(select(_BLOB.c.data).where(_BLOB.c.id == id)).scalar()
+
+    def drop_blob(self, id: str) -> None:
+        """Remove a file's bytes."""
+        with told(self._url), writing(self._engine) as connection:
+            connection.execute(delete(_BLOB).where(_BLOB.c.id == id))
+
+
+def _now() -> str:
+    return _at(datetime.now(UTC))
+
+
+def _at(time: datetime) -> str:
+    return time.isoformat(timespec="milliseconds")
+
+
+def _insert(connection: Connection, table: Table) -> sqlite.Insert | postgresql.Insert:
+    """An insertion that says what to do where the row is there."""
+    return (postgresql if connection.dialect.name == "postgresql" else sqlite).insert(table)
 
 
 def _item(row: Row[Any]) -> Item:

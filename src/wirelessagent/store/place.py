@@ -19,14 +19,14 @@ from typing import Any
 from urllib.parse import quote
 
 import platformdirs
-from sqlalchemy import URL, Connection, Engine, create_engine, event, inspect, make_url, select
+from sqlalchemy import URL, Connection, Engine, Table, create_engine, event, inspect, make_url, select
 from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError, OperationalError, SQLAlchemyError
 from sqlalchemy.pool import NullPool
 
 from wirelessagent import __version__
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
 from wirelessagent.settings import Settings
-from wirelessagent.store.schema import METADATA, SCHEMA, SCHEMA_VERSION, TURN
+from wirelessagent.store.schema import METADATA, SCHEMA, SCHEMA_VERSION
 
 _PATIENCE_S = 10.0
 """How long a writer waits for another."""
@@ -131,11 +131,11 @@ def told(url: URL) -> Generator[None]:
 
 
 @contextlib.contextmanager
-def writing(engine: Engine) -> Generator[Connection]:
-    """A transaction that holds the right to write from its start; committed at the end, undone by an error."""
+def writing(engine: Engine, alone: Table | None = None) -> Generator[Connection]:
+    """A transaction that writes, on SQLite or where ``alone`` names a table as the only one; an error undoes it."""
     with engine.connect().execution_options(**{_BEGIN: "BEGIN IMMEDIATE"}) as connection, connection.begin():
-        if engine.dialect.name == "postgresql":
-            connection.exec_driver_sql(f"LOCK TABLE {TURN.name} IN EXCLUSIVE MODE")
+        if engine.dialect.name == "postgresql" and alone is not None:
+            connection.exec_driver_sql(f"LOCK TABLE {alone.name} IN EXCLUSIVE MODE")
         yield connection
 
 

@@ -70,7 +70,7 @@ class Store:
             StoreError: it cannot be written, or the session has a turn of this number already.
         """
         row, contents = record_of(turn)
-        with told(self._url), writing(self._engine) as connection:
+        with told(self._url), writing(self._engine, alone=TURN) as connection:
             row["number"] = self._next_number(connection)
             row["previous"] = self._last_hash(connection, row["session"])
             row["hash"] = sealed(row)

@@ -30,10 +30,12 @@ class Desk:
             "loss": [f"random:{form.lost_share}"] if form.lost_share else [],
             "seed": form.seed,
         }
-        return _observation(await self.service.derive("simulate", asked, self.tell))
+        return _observation(await self.service.observations.derive("simulate", asked, self.tell))
 
     async def repair(self, form: forms.RepairForm) -> Json:
-        return _observation(await self.service.derive("repair", form.model_dump(exclude_none=True), self.tell))
+        return _observation(
+            await self.service.observations.derive("repair", form.model_dump(exclude_none=True), self.tell)
+        )
 
     async def max_rate(self, form: forms.SolveForm) -> Json:
         return await self._solved("max_rate", form)

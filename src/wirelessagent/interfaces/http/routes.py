@@ -20,8 +20,9 @@ from wirelessagent.interfaces.http.answers import (
 )
 from wirelessagent.operations.operation import installed_version
 from wirelessagent.service.jobs import Tell
+from wirelessagent.service.observations import SUFFIXES
 from wirelessagent.service.problems import UnusableError
-from wirelessagent.service.service import SUFFIXES, Press
+from wirelessagent.service.service import Press
 from wirelessagent.service.words import LANGUAGES, words
 
 PROBLEMS: dict[int | str, dict[str, Any]] = {
@@ -104,19 +105,19 @@ async def observe(
     """Send a file with gains; the answer says what was understood of it."""
     content, service = await request.body(), service_of(request)
     options = {option: value for option, value in (("unit", unit), ("axes", axes)) if value is not None}
-    return await worked(request, lambda tell: service.observe(name, content, options, tell), status=201)
+    return await worked(request, lambda tell: service.observations.add(name, content, options, tell), status=201)
 
 
 @router.get("/observations/{id}", response_model=forms.ObservationAnswer, tags=["observations"])
 async def read_observation(request: Request, id: Id) -> Any:
     """What was understood of a file."""
-    return await service_of(request).observation(id)
+    return await service_of(request).observations.one(id)
 
 
 @router.delete("/observations/{id}", status_code=204, tags=["observations"])
 async def drop_observation(request: Request, id: Id) -> None:
     """Remove a file."""
-    await service_of(request).drop_observation(id)
+    await service_of(request).observations.drop(id)
 
 
 @router.post("/sessions", status_code=201, response_model=forms.SessionAnswer, tags=["conversations"])

@@ -157,7 +157,7 @@ def _derived(name: str, form: Json, title: str, description: str) -> ServerTool:
         schema["required"] = [*schema.get("required", ()), "observation"]
 
     async def run(call: Call, arguments: Json) -> Result:
-        done = await call.work(lambda tell: call.service.derive(operation, arguments, tell))
+        done = await call.work(lambda tell: call.service.observations.derive(operation, arguments, tell))
         seen = done["observation"]
         text = f"Kept as observation {seen['id']}.\n\n{plain_text(done['blocks'])}"
         return answer(text, {"observation": seen})
@@ -248,7 +248,7 @@ async def _show(call: Call, form: ShowForm) -> Result:
 
 
 async def _read_observation(call: Call, form: ObservationForm) -> Result:
-    found = await call.service.observation(form.observation)
+    found = await call.service.observations.one(form.observation)
     facts = "; ".join(f"{label}: {text}" for label, text in found["facts"].items())
     text = (
         f"{found['name']}: {found['num_users']} users on {found['num_subcarriers']} subcarriers, {found['missing']} "

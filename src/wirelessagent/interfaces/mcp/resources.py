@@ -109,7 +109,7 @@ class Resources:
             case ["cells", cell, "conversation"]:
                 return await self._assistant.conversation(cell)
             case ["observations", observation]:
-                return await self._service.observation(observation)
+                return await self._service.observations.one(observation)
             case ["history"]:
                 return await self._assistant.history(_LAST, None, _silent)
             case ["history", number] if number.isdecimal() and len(number) < 16:
