@@ -103,6 +103,58 @@ def test_what_one_server_was_sent_the_other_works_on(place: str, tmp_path: Path)
         assert two.post("v1/operations/repair", {"observation": seen["id"]}).status_code == 404
 
 
+def test_a_key_sent_to_two_servers_is_done_once(place: str, tmp_path: Path) -> None:
+    key = {"Idempotency-Key": "once"}
+    with started(tmp_path / "one", at=place) as one, started(tmp_path / "two", at=place) as two:
+        session = one.cell()["session"]
+
+        def say(server: Server) -> dict[str, object]:
+            return server.say(session, "highest total rate", headers=key)
+
+        with ThreadPoolExecutor(4) as pool:
+            found = list(pool.map(say, [one, two, one, two]))
+        assert all(turn == found[0] for turn in found)
+        assert len(one.get(f"v1/sessions/{session}")["turns"]) == 1
+        other = two.post(f"v1/sessions/{session}/turns", {"text": "undo"}, headers=key)
+        assert other.status_code == 409
+        one.kill()
+        assert say(two) == found[0]
+
+
+def test_a_job_is_followed_and_ended_at_another_server(place: str, tmp_path: Path) -> None:
+    later = {"Prefer": "respond-async"}
+    with started(tmp_path / "one", at=place) as one, started(tmp_path / "two", at=place) as two:
+        session = one.cell()["session"]
+        said = one.post(f"v1/sessions/{session}/turns", {"text": "fair"}, headers=later).json()
+        endless = one.post("v1/operations/evaluate%20repair", {"draws": 100_000}, headers=later).json()
+        with one.client as here, two.client as client:
+            there, told = (
+                [line for line in asked.get(f"v1/jobs/{said['id']}/events").text.split("\n") if line[:3] == "id:"]
+                for asked in (here, client)
+            )
+            assert told == there
+            assert client.get(f"v1/jobs/{said['id']}").json()["result"]["stage"] == "planned"
+            assert client.get(f"v1/jobs/{endless['id']}").json()["state"] == "running"
+            until = time.monotonic() + 30
+            while client.get(f"v1/jobs/{endless['id']}").json()["state"] == "running" and time.monotonic() < until:
+                assert client.delete(f"v1/jobs/{endless['id']}").status_code == 204
+                time.sleep(0.2)
+            assert client.get(f"v1/jobs/{endless['id']}").json()["state"] == "cancelled"
+        assert one.get(f"v1/jobs/{endless['id']}")["state"] == "cancelled"
+
+
+def test_a_limit_holds_for_all_servers_together(place: str, tmp_path: Path) -> None:
+    slowly = ("--requests-per-s", "1")
+    with started(tmp_path / "one", *slowly, at=place) as one, started(tmp_path / "two", *slowly, at=place) as two:
+        began = time.monotonic()
+        with one.client as first, two.client as second:
+            found = [client.get("v1/cells").status_code for _ in range(90) for client in (first, second)]
+        lasted_s = time.monotonic() - began
+    assert found[:100] == [200] * 100
+    assert set(found) == {200, 429}
+    assert found.count(200) <= 121 + lasted_s
+
+
 def test_killed_under_load_every_answered_turn_is_kept_and_nothing_applied_twice(place: str, tmp_path: Path) -> None:
     answered, applied, over = list[tuple[str, int]](), list[str](), threading.Event()
 

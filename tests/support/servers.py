@@ -85,9 +85,9 @@ def started(store: Path, *options: str, token: str = "", at: str = "") -> Iterat
         assert found is not None, store.with_suffix(".log").read_text()
         yield Server(found[0], store, process, token)
     finally:
-        with contextlib.suppress(ProcessLookupError):
+        if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
+            process.wait()
         process.stdout.close()
         log.close()
 

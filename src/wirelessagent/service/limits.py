@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
+import hashlib
+import math
 import time
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from wirelessagent.service.kept import kept
 from wirelessagent.service.problems import TooMuchError
+from wirelessagent.store.ledger import ChangedError, Ledger
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,27 +43,71 @@ class Limits:
     gains: int = 1_000_000
 
 
+_SHARES = 10
+"""A server takes such a part of a burst at a time."""
+
+_SWEPT_S = 60.0
+
+
 class Budgets:
-    """How much each caller has left: it fills up with time and is spent by requests."""
+    """How much each caller has left: it fills up with time and is spent by requests, at all servers of a store.
+
+    What is left stands in the store. A server takes a share of it at a time and spends that by itself, so that few
+    requests have to write.
+    """
 
     _MOST_CALLERS = 10_000
 
-    def __init__(self, limits: Limits) -> None:
-        self._limits = limits
-        self._left: OrderedDict[str, tuple[float, float]] = OrderedDict()
+    def __init__(self, limits: Limits, ledger: Ledger) -> None:
+        self._limits, self._ledger = limits, ledger
+        self._shares: OrderedDict[str, _Share] = OrderedDict()
+        self._swept = 0.0
 
-    def spend(self, caller: str) -> None:
+    async def spend(self, caller: str) -> None:
         """Take one request off what a caller has left.
 
         Raises:
             TooMuchError: nothing is left.
         """
-        rate, burst, now = self._limits.requests_per_s, self._limits.burst, time.monotonic()
-        left, then = self._left.pop(caller, (float(burst), now))
-        left = min(float(burst), left + (now - then) * rate)
-        self._left[caller] = (max(left - 1.0, 0.0), now)
-        if len(self._left) > self._MOST_CALLERS:
-            self._left.popitem(last=False)
-        if left < 1.0:
-            wait = (1.0 - left) / rate
-            raise TooMuchError(f"at most {rate:g} requests a second; try again in {wait:.1f} s", Retry_After="1")
+        share = self._shares.setdefault(caller, _Share())
+        self._shares.move_to_end(caller)
+        if len(self._shares) > self._MOST_CALLERS:
+            self._shares.popitem(last=False)
+        async with share.taking:
+            if not share.left and time.monotonic() >= share.empty_until:
+                share.left, wait_s = await kept(self._take, caller)
+                share.empty_until = time.monotonic() + wait_s
+            if not share.left:
+                rate, wait_s = self._limits.requests_per_s, share.empty_until - time.monotonic()
+                told = f"at most {rate:g} requests a second; try again in {max(wait_s, 0.0):.1f} s"
+                raise TooMuchError(told, Retry_After=str(math.ceil(max(wait_s, 1.0))))
+            share.left -= 1
+
+    def _take(self, caller: str) -> tuple[int, float]:
+        """How many requests this server may let a caller make, or for how long none."""
+        rate, burst, id = self._limits.requests_per_s, self._limits.burst, hashlib.sha256(caller.encode()).hexdigest()
+        if time.monotonic() > self._swept + _SWEPT_S:
+            self._swept = time.monotonic()
+            self._ledger.sweep("budget", unchanged_s=max(burst / rate, _SWEPT_S))  # which are full again
+        while True:
+            item, now = self._ledger.find("budget", id), time.time()
+            left = float(burst)
+            if item is not None:
+                left = min(left, item.data["left"] + max(now - item.data["at"], 0.0) * rate)
+            if left < 1.0:
+                return 0, (1.0 - left) / rate
+            taken = min(max(int(max(burst, rate)) // _SHARES, 1), int(left))
+            with contextlib.suppress(ChangedError):  # another server took some meanwhile
+                self._ledger.put(
+                    "budget", id, {"left": left - taken, "at": now}, seen=0 if item is None else item.version
+                )
+                return taken, 0.0
+
+
+@dataclass
+class _Share:
+    """What a server may spend for a caller by itself, and until when the store had nothing more."""
+
+    left: int = 0
+    empty_until: float = 0.0
+    taking: asyncio.Lock = field(default_factory=asyncio.Lock)

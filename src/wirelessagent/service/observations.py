@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
+from wirelessagent.model.atomic import write_atomically
 from wirelessagent.service.jobs import Tell
 from wirelessagent.service.kept import item_of, kept, shown
 from wirelessagent.service.limits import Limits
@@ -150,10 +151,5 @@ def _make(folder: Path) -> None:
 
 
 def _write(path: Path, content: bytes) -> None:
-    """A file that is there whole or not at all, and that nobody else reads."""
     _make(path.parent)
-    beside = path.with_name(f"{secrets.token_hex(8)}.part")
-    with beside.open("xb") as stream:
-        beside.chmod(0o600)
-        stream.write(content)
-    beside.replace(path)
+    write_atomically(path, lambda stream: stream.write(content))

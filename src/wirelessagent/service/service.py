@@ -49,7 +49,7 @@ class Service:
     def __init__(self, ledger: Ledger, folder: Path, workers: Workers, limits: Limits) -> None:
         self.ledger, self.limits, self.workers = ledger, limits, workers
         self.observations = Observations(ledger, folder, workers, limits)
-        self.access, self.jobs, self.metrics = Access(ledger), Jobs(), Metrics()
+        self.access, self.jobs, self.metrics = Access(ledger), Jobs(ledger, limits.running_jobs), Metrics()
         self._going = set[asyncio.Task[Any]]()
         self._locks: weakref.WeakValueDictionary[str, asyncio.Lock] = weakref.WeakValueDictionary()
 
@@ -64,8 +64,6 @@ class Service:
         Raises:
             TooMuchError: too much goes on already.
         """
-        if self.jobs.running >= self.limits.running_jobs:
-            raise TooMuchError(f"{self.limits.running_jobs} jobs go on already; try again in a while", Retry_After="5")
         return self.jobs.start(caller.name, work)
 
     # Cells.

@@ -17,11 +17,10 @@ from starlette.exceptions import HTTPException
 from wirelessagent.operations.operation import InputError, WirelessAgentError
 from wirelessagent.service.access import Caller
 from wirelessagent.service.jobs import Job, Tell
-from wirelessagent.service.problems import ConflictError, NotSignedInError, ProblemError, UnusableError
+from wirelessagent.service.problems import NotSignedInError, ProblemError, UnusableError
 from wirelessagent.service.service import Service
 
 _KEEP_ALIVE_S = 15.0
-_MOST_KEYS = 1000
 
 
 class StrictRequest(Request):
@@ -115,17 +114,18 @@ async def worked(request: Request, work: Callable[[Tell], Awaitable[Any]], *, st
     """
     service, caller = service_of(request), caller_of(request)
     key = request.headers.get("idempotency-key")
-    shown = f"{request.url.query}\n{hashlib.sha256(await request.body()).hexdigest()}" if key else ""
-    job = _known(request, key, shown) if key else None
-    if job is None:
+    later = "respond-async" in request.headers.get("prefer", "")
+    if key:
+        job = await service.jobs.once(caller.name, _key(request, key), await _request(request), work)
+    else:
         job = service.job(caller, work)
-        if key:
-            _keep(_keys(request), _key(request, key), (shown, job))
-    if "respond-async" in request.headers.get("prefer", ""):
+        if later:
+            await service.jobs.share(job)
+    if later:
         place = request.url_for("read_job", id=job.id).path
         headers = {"Location": place, "Preference-Applied": "respond-async"}
         return JSONResponse(job.body, status_code=202, headers=headers)
-    came_of_it = await (job.finished() if key else finished(request, job))
+    came_of_it = await (service.jobs.settled(job) if key else finished(request, job))
     return JSONResponse(came_of_it, status_code=status)
 
 
@@ -151,29 +151,13 @@ async def _gone(request: Request) -> None:
         pass
 
 
-def _keep(keys: dict[str, tuple[str, Job]], key: str, job: tuple[str, Job]) -> None:
-    """Remember the job of a key; the oldest ones are forgotten."""
-    keys[key] = job
-    while len(keys) > _MOST_KEYS:
-        del keys[next(iter(keys))]
-
-
-def _keys(request: Request) -> dict[str, tuple[str, Job]]:
-    return request.app.state.idempotency_keys
-
-
 def _key(request: Request, key: str) -> str:
     return hashlib.sha256(f"{caller_of(request).name}\n{request.url.path}\n{key}".encode()).hexdigest()
 
 
-def _known(request: Request, key: str, shown: str) -> Job | None:
-    """The job of an earlier request with this key."""
-    found = _keys(request).get(_key(request, key))
-    if found is None or found[1].state == "cancelled" or (found[1].problem and found[1].problem.status >= 500):
-        return None
-    if found[0] != shown:
-        raise ConflictError("this Idempotency-Key was used for another request")
-    return found[1]
+async def _request(request: Request) -> str:
+    """By what a request is known again."""
+    return hashlib.sha256(request.url.query.encode() + b"\n" + await request.body()).hexdigest()
 
 
 def streamed(job: Job, after: int) -> StreamingResponse:

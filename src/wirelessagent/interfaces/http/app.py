@@ -51,7 +51,7 @@ def make_app(service: Service, doors: Doors, *, demonstration: bool = False) -> 
         docs_url=None, redoc_url=None, root_path=doors.base_path,
     )  # fmt: skip
     app.router.route_class = StrictRoute
-    app.state.service, app.state.doors, app.state.idempotency_keys = service, doors, {}
+    app.state.service, app.state.doors = service, doors
     _add_health(app)
     app.include_router(router)
     app.include_router(texts)

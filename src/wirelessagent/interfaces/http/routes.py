@@ -171,13 +171,13 @@ def _pressed(request: Request, id: str, what: Press, plan: str | None) -> Callab
 @router.get("/jobs/{id}", response_model=forms.JobAnswer, tags=["jobs"])
 async def read_job(request: Request, id: Id) -> Any:
     """How far a job is, and what came of it."""
-    return JSONResponse(service_of(request).jobs.find(id, caller_of(request).name).body)
+    return JSONResponse((await service_of(request).jobs.find(id, caller_of(request).name)).body)
 
 
 @router.delete("/jobs/{id}", status_code=204, tags=["jobs"])
 async def cancel_job(request: Request, id: Id) -> None:
     """End a job."""
-    service_of(request).jobs.find(id, caller_of(request).name).cancel()
+    await service_of(request).jobs.cancel(id, caller_of(request).name)
 
 
 @router.get("/jobs/{id}/events", tags=["jobs"], response_class=Response,
@@ -185,7 +185,7 @@ async def cancel_job(request: Request, id: Id) -> None:
 async def follow_job(request: Request, id: Id) -> Response:
     """The stages of a job as server-sent events (stage, then done, failed or cancelled), from Last-Event-ID on."""
     after = request.headers.get("last-event-id", "0")
-    job = service_of(request).jobs.find(id, caller_of(request).name)
+    job = await service_of(request).jobs.find(id, caller_of(request).name)
     return streamed(job, int(after) if after.isdecimal() and len(after) < 10 else 0)
 
 

@@ -89,7 +89,7 @@ class Shield:
 
     def __init__(self, app: ASGIApp, *, service: Service, doors: Doors) -> None:
         self._app, self._service, self._doors = app, service, doors
-        self._budgets = Budgets(service.limits)
+        self._budgets = Budgets(service.limits, service.ledger)
         self._callers, self._callers_until = False, 0.0
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -150,11 +150,11 @@ class Shield:
         try:
             caller = await self._caller(headers)
         except NotSignedInError:
-            self._budgets.spend(f"address {peer}")
+            await self._budgets.spend(f"address {peer}")
             if path in _OPEN or path.startswith(("/console/", "/v1/words/")):
                 return None
             raise
-        self._budgets.spend(f"caller {caller.name}" if caller is not LOCAL else f"address {peer}")
+        await self._budgets.spend(f"caller {caller.name}" if caller is not LOCAL else f"address {peer}")
         if not caller.may_change and method not in _SAFE and path not in _OPEN and path != _MCP:
             raise ForbiddenError(f"{caller.name!r} is a viewer and changes nothing: ask an operator")
         return caller
