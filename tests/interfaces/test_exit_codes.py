@@ -33,7 +33,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "bad.jsonl").write_text('{"text": "save power"}\n{}\n', encoding="utf-8")
     meant = {"text": SAID, "language": "en", "kind": "allocate", "objective": "min_power"}
     (folder / "meant.jsonl").write_text(json.dumps({**meant, "constraints": {}}) + "\n", encoding="utf-8")
-    for name in ("store", "changed"):
+    for name in ("store", "sealed", "changed"):
         store = folder / f"{name}.sqlite3"
         assert run(["ask", SAID, *CELL, "--store", str(store)]) == 0
     with closing(sqlite3.connect(store)) as connection, connection:
@@ -92,6 +92,9 @@ CASES: list[tuple[int, str, str]] = [
     (2, "history replay", "7|--store|FOLDER/store.sqlite3"),
     (0, "history export", "FOLDER/turns.jsonl|--store|FOLDER/store.sqlite3"),
     (2, "history export", "FOLDER/no/where.jsonl|--store|FOLDER/store.sqlite3"),
+    (0, "history seal", "FOLDER/old.jsonl|--before|2999-01-01|--store|FOLDER/sealed.sqlite3"),
+    (1, "history seal", "FOLDER/older.jsonl|--session|one|--store|FOLDER/changed.sqlite3"),
+    (2, "history seal", "FOLDER/old.jsonl|--store|FOLDER/store.sqlite3"),
     (0, "export", "1|--store|FOLDER/store.sqlite3"),
     (1, "export", "1|--store|FOLDER/changed.sqlite3"),
     (2, "export", "7|--store|FOLDER/store.sqlite3"),

@@ -90,6 +90,7 @@ def ways(folder: Path) -> list[list[str]]:
         ["history show", "2"],
         ["history replay", "1"],
         ["history export", str(folder / "turns.jsonl")],
+        ["history seal", str(folder / "old.jsonl"), "--session", LINES],
         ["export", "1"],
         ["export", "1", "--format", "tmf921", "--out", str(folder / "intent.json")],
         [LINES],

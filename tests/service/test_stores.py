@@ -26,10 +26,7 @@ def place(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
     if request.param == "sqlite":
         yield str(tmp_path / "store.sqlite3")
         return
-    pytest.importorskip("psycopg")
-    if postgres.program("initdb") is None:
-        pytest.skip("there is no PostgreSQL here")
-    with postgres.running(tmp_path / "cluster") as url:
+    with postgres.running_or_skipped(tmp_path / "cluster") as url:
         yield url
 
 

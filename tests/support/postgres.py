@@ -11,6 +11,8 @@ import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
+
 _FOLDERS = [None, *map(str, sorted(Path("/usr/lib/postgresql").glob("*/bin"), reverse=True))]
 
 
@@ -40,6 +42,16 @@ def running(folder: Path) -> Iterator[str]:
         yield f"postgresql+psycopg://agent@127.0.0.1:{port}/postgres"
     finally:
         _do(user, program("pg_ctl"), "-D", str(data), "-m", "immediate", "stop")
+
+
+@contextlib.contextmanager
+def running_or_skipped(folder: Path) -> Iterator[str]:
+    """The same, or a skip where PostgreSQL or its driver is not here."""
+    pytest.importorskip("psycopg")
+    if program("initdb") is None:
+        pytest.skip("there is no PostgreSQL here")
+    with running(folder) as url:
+        yield url
 
 
 def _user() -> pwd.struct_passwd | None:

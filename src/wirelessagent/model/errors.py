@@ -56,6 +56,10 @@ class NothingRecordedError(InputError):
     """An audit store does not exist yet, or holds no such turn."""
 
 
+class SealedError(NothingRecordedError):
+    """What a turn saw of its channel is in a file elsewhere."""
+
+
 class PluginError(WirelessAgentError):
     """A plug-in cannot be loaded, or two share a name."""
 

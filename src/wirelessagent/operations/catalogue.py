@@ -22,6 +22,7 @@ OPERATIONS: Mapping[str, str] = {
     "history show": "Show all that is recorded of a turn, and check that it was not changed",
     "history replay": "Repair and decide again as a turn did, and say whether the decision is the same",
     "history export": "Write turns with the channels that they saw as JSON lines",
+    "history seal": "Write old sessions to a file and let their channels go from the store; turns stay",
     "export": "Hand a request and what came of it on as a document of 3GPP TS 28.312 or TMF921",
     "reproduce": "Reproduce the paper's figures (picture, CSV table, JSON record) and judge its claims by them",
     "evaluate repair": "Compare repairers and their competitors: error, calibration and time, channel by channel",
@@ -75,6 +76,8 @@ def load(name: str) -> AnyOperation:
             from wirelessagent.operations.history import HISTORY_REPLAY as found
         case "history export":
             from wirelessagent.operations.history import HISTORY_EXPORT as found
+        case "history seal":
+            from wirelessagent.operations.history_seal import HISTORY_SEAL as found
         case "export":
             from wirelessagent.operations.export import EXPORT as found
         case "reproduce":

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,7 +12,7 @@ from pydantic import Field
 
 from wirelessagent.model.arrays import whole
 from wirelessagent.model.atomic import writable_target, write_atomically
-from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
+from wirelessagent.model.errors import InputError, NothingRecordedError, SealedError, StoreError
 from wirelessagent.model.units import human, percent
 from wirelessagent.operations.answers import DecisionAnswer
 from wirelessagent.operations.fields import Positional
@@ -133,6 +132,7 @@ class TurnRequest(StoreOptions):
     panel = "Options"
 
     number: Annotated[int, Positional()] = Field(description="number of the turn, as history lists it")
+    sealed: Path | None = Field(None, description="file that 'history seal' wrote, where the turn is a sealed one")
 
 
 class ShowRecord(Record):
@@ -152,13 +152,17 @@ class ShowRecord(Record):
 
 def show_turn(request: TurnRequest, progress: Progress) -> ShowRecord:
     del progress
-    with opened(request) as store:
+    with opened(request, archive=request.sealed) as store:
         turn = store.turn(request.number)
         faults = store.faults(turn.session)
         told = _there(turn)
         if turn.is_whole:
-            with contextlib.suppress(StoreError):  # the channel that it saw was changed, which the faults tell
+            try:
                 told = [*_said(turn), *_decided(store, turn)]
+            except SealedError as error:
+                told = [*_said(turn), message(_language(turn), "history.sealed", error=error)]
+            except StoreError:  # the channel that it saw was changed, which the faults tell
+                pass
         return ShowRecord(turn=turn.held(), tampering=faults, paragraphs=[*told, *_kept(turn, faults)])
 
 
@@ -252,7 +256,7 @@ class ReplayRecord(Record):
 
 def replay_turn(request: TurnRequest, progress: Progress) -> ReplayRecord:
     del progress
-    with opened(request) as store:
+    with opened(request, archive=request.sealed) as store:
         replay = store.replay(request.number)
     language = _language(replay.turn)
     return ReplayRecord(
@@ -289,7 +293,7 @@ class ExportRecord(Record):
 def export_turns(request: ExportRequest, progress: Progress) -> ExportRecord:
     del progress
     writable_target(request.out)
-    written = {"turn": 0, "content": 0}
+    written = {"turn": 0, "content": 0, "seal": 0}
 
     with opened(request) as store:
         if request.session is not None and next(store.turns(request.session, last=1), None) is None:

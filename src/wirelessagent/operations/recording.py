@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
@@ -63,11 +64,11 @@ class RecordingOptions(StoreOptions):
             return None
 
 
-def opened(options: StoreOptions, *, create: bool = False) -> Store:
-    """The store that the options name; SQLAlchemy is loaded only here."""
+def opened(options: StoreOptions, *, create: bool = False, archive: Path | None = None) -> Store:
+    """The store that the options name, with an export of what was sealed; SQLAlchemy is loaded only here."""
     from wirelessagent.store.store import Store
 
-    return Store.open(options.store, create=create)
+    return Store.open(options.store, create=create, archive=archive)
 
 
 def place_of(options: StoreOptions) -> str:

@@ -66,6 +66,20 @@ class Content:
             for name, array in self.arrays.items()
         }
 
+    @classmethod
+    def imported(cls, arrays: Mapping[str, Any]) -> Content:
+        """The content of what :meth:`exported` gave.
+
+        Raises:
+            ValueError, KeyError, TypeError: it is something else.
+        """
+        return cls.of(
+            {
+                name: np.array(array["values"], dtype=np.dtype(array["dtype"])).reshape(array["shape"])
+                for name, array in arrays.items()
+            }
+        )
+
 
 def _hash(arrays: Arrays) -> str:
     digest = hashlib.sha256()

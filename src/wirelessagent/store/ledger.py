@@ -29,6 +29,7 @@ from sqlalchemy import (
     Table,
     Text,
     delete,
+    inspect,
     select,
     update,
 )
@@ -99,6 +100,15 @@ class Ledger:
             _METADATA.create_all(connection)
         return cls(engine, url)
 
+    @classmethod
+    def there(cls, where: str | Path | None = None) -> Ledger | None:
+        """The ledger in the store at a place; None where no server has used that."""
+        url = url_of(where)
+        engine = opened(url, create=False)
+        with told(url), engine.connect() as connection:
+            used = all(inspect(connection).has_table(table) for table in _METADATA.tables)
+        return cls(engine, url) if used else None
+
     @property
     def place(self) -> str:
         """Where it is, as people name it, without a password."""
@@ -160,6 +170,14 @@ class Ledger:
             chosen = chosen.where(_ITEM.c.version == seen)
         with told(self._url), writing(self._engine) as connection:
             return connection.execute(chosen).rowcount > 0
+
+    def forget_conversation(self, session: str) -> None:
+        """Remove what servers keep of a conversation beside its turns in the store."""
+        own = (_ITEM.c.kind.in_(("session", "channel")) & (_ITEM.c.id == session)) | (
+            (_ITEM.c.kind == "turn") & _ITEM.c.id.startswith(f"{session}/", autoescape=True)
+        )
+        with told(self._url), writing(self._engine) as connection:
+            connection.execute(delete(_ITEM).where(own))
 
     def sweep(self, kind: str, *, unchanged_s: float) -> None:
         """Remove the items of a kind that nobody has written for so long."""

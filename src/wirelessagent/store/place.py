@@ -26,7 +26,7 @@ from sqlalchemy.pool import NullPool
 from wirelessagent import __version__
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
 from wirelessagent.settings import Settings
-from wirelessagent.store.schema import METADATA, SCHEMA, SCHEMA_VERSION
+from wirelessagent.store.schema import METADATA, SCHEMA, SCHEMA_VERSION, STEPS
 
 _PATIENCE_S = 10.0
 """How long a writer waits for another."""
@@ -213,31 +213,41 @@ def _patiently(check: Callable[[], None]) -> None:
 
 
 def _check(engine: Engine, *, create: bool) -> None:
-    """Refuse what is not a store of this schema; make one where nothing is."""
+    """Refuse what is not a store that can be read; for whoever writes, make it one of the latest schema."""
     with engine.connect() as connection:
-        if _is_store(connection):
-            return
-    if not create:
+        version = version_of(connection)
+    if version is None and not create:
         raise NothingRecordedError(f"nothing is recorded yet in {shown(engine.url)}")
+    if create and version != SCHEMA_VERSION:
+        migrate(engine)
+
+
+def migrate(engine: Engine) -> None:
+    """Make a store where nothing is, or lead the one that is there to the latest schema."""
     if engine.dialect.name == "sqlite":
         with engine.connect().execution_options(**{_BEGIN: ""}) as connection:
             connection.exec_driver_sql("PRAGMA journal_mode=WAL")
-    with engine.connect().execution_options(**{_BEGIN: "BEGIN IMMEDIATE"}) as connection, connection.begin():
+    with writing(engine) as connection:
         if engine.dialect.name == "postgresql":
             connection.exec_driver_sql(f"SELECT pg_advisory_xact_lock(hashtext('{SCHEMA.name}'))")
-        if not _is_store(connection):  # another process may have been faster
+        there = version_of(connection)  # another process may have been faster
+        if there is None:
             METADATA.create_all(connection)
+            there = SCHEMA_VERSION - 1
+        else:
+            for version in range(there + 1, SCHEMA_VERSION + 1):
+                STEPS[version](connection)
+        if there < SCHEMA_VERSION:
             now = datetime.now(UTC).isoformat(timespec="seconds")
-            connection.execute(
-                SCHEMA.insert(), {"version": SCHEMA_VERSION, "package_version": __version__, "made_utc": now}
-            )
+            row = {"version": SCHEMA_VERSION, "package_version": __version__, "made_utc": now}
+            connection.execute(SCHEMA.insert(), row)
 
 
-def _is_store(connection: Connection) -> bool:
-    """Whether the database holds a store; False where it holds nothing that could be meant to be one.
+def version_of(connection: Connection) -> int | None:
+    """The schema of a store; None where the database holds nothing that could be meant to be one.
 
     Raises:
-        StoreError: it holds something else, or a store of another schema.
+        StoreError: it holds something else, or a store of a newer schema.
     """
     place = shown(connection.engine.url)
     tables = set(inspect(connection).get_table_names())
@@ -248,12 +258,13 @@ def _is_store(connection: Connection) -> bool:
                 f"{place} is not an audit store but a database with the tables {', '.join(sorted(foreign)[:5])}; "
                 "nothing was changed: name another store"
             )
-        return False
-    versions = list(connection.execute(select(SCHEMA.c.version)).scalars())
-    if versions != [SCHEMA_VERSION]:
-        found = ", ".join(map(str, versions)) or "none"
+        return None
+    rows = connection.execute(select(SCHEMA.c.version, SCHEMA.c.package_version).order_by(SCHEMA.c.version)).all()
+    version, package = rows[-1] if rows else ("none", "?")
+    if not isinstance(version, int) or not 1 <= version <= SCHEMA_VERSION:
         raise StoreError(
-            f"the audit store at {place} has the schema version {found}, and this version of wirelessagent knows "
-            f"{SCHEMA_VERSION}; nothing was changed: use the newer one, or name another store"
+            f"the audit store at {place} has the schema version {version}, made by wirelessagent {package}, and this "
+            f"one ({__version__}) knows those up to {SCHEMA_VERSION}; nothing was changed: use the newer one, or name "
+            "another store"
         )
-    return True
+    return version

@@ -9,20 +9,22 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Generator, Iterator
+from collections.abc import Collection, Generator, Iterable, Iterator
+from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from sqlalchemy import URL, Connection, Engine, Row, func, select
+from sqlalchemy import URL, Connection, Engine, Row, func, select, update
 from sqlalchemy.exc import IntegrityError
 
 from wirelessagent.agent.turn import Turn
-from wirelessagent.model.errors import NothingRecordedError, StoreError
+from wirelessagent.model.errors import NothingRecordedError, SealedError, StoreError
+from wirelessagent.store.archive import Archive
 from wirelessagent.store.content import Content
-from wirelessagent.store.place import opened, shown, told, url_of, writing
+from wirelessagent.store.place import migrate, opened, shown, told, url_of, version_of, writing
 from wirelessagent.store.record_of import record_of
-from wirelessagent.store.schema import CONTENT, TURN, triggers
+from wirelessagent.store.schema import CONTENT, SEAL, SEALS_SINCE, TURN, triggers
 from wirelessagent.store.stored import StoredTurn, number_of, sealed
 
 if TYPE_CHECKING:
@@ -35,12 +37,17 @@ _AT_ONCE = 100
 class Store:
     """An open audit store. It is opened with :meth:`open` and closes as a context."""
 
-    def __init__(self, engine: Engine, url: URL) -> None:
-        self._engine, self._url = engine, url
+    def __init__(self, engine: Engine, url: URL, archive: Archive | None = None) -> None:
+        self._engine, self._url, self._archive = engine, url, archive
 
     @classmethod
-    def open(cls, where: str | Path | None = None, *, create: bool = False) -> Store:
+    def open(cls, where: str | Path | None = None, *, create: bool = False, archive: Path | None = None) -> Store:
         """The store at a SQLAlchemy URL or in an SQLite file; where the settings say if not given.
+
+        Args:
+            where: the place.
+            create: whether it is written to: it is made, or led to the latest schema, where it needs that.
+            archive: an export with channels that were sealed.
 
         Raises:
             InputError: it is no such place.
@@ -48,7 +55,7 @@ class Store:
             StoreError: it cannot be opened or made, or is something else.
         """
         url = url_of(where)
-        return cls(opened(url, create=create), url)
+        return cls(opened(url, create=create), url, None if archive is None else Archive(archive))
 
     @property
     def place(self) -> str:
@@ -75,9 +82,12 @@ class Store:
             row["previous"] = self._last_hash(connection, row["session"])
             row["hash"] = sealed(row)
             for content in contents:
-                there = select(CONTENT.c.hash).where(CONTENT.c.hash == content.hash)
-                if connection.execute(there).first() is None:
+                same = CONTENT.c.hash == content.hash
+                there = connection.execute(select(func.length(CONTENT.c.data)).where(same)).scalar()
+                if there is None:
                     connection.execute(CONTENT.insert(), {"hash": content.hash, "data": content.packed()})
+                elif not there:  # it was sealed, and is seen again
+                    connection.execute(update(CONTENT).where(same).values(data=content.packed()))
             try:
                 connection.execute(TURN.insert(), row)
             except IntegrityError as error:
@@ -121,13 +131,58 @@ class Store:
         """The arrays of this hash.
 
         Raises:
+            SealedError: they are in a file elsewhere.
             StoreError: they are not there, or not what was stored.
         """
         with self._reading() as connection:
             data = connection.execute(select(CONTENT.c.data).where(CONTENT.c.hash == hash)).scalar()
         if data is None:
             raise StoreError(f"the content {hash[:12]}… is missing in {self.place}")
-        return Content.unpacked(hash, data)
+        seal = self.seal(hash) if not data else None
+        if seal is None:
+            return Content.unpacked(hash, data)
+        found = None if self._archive is None else self._archive.content(hash)
+        if found is None:
+            where = "" if self._archive is None else f" {self._archive.path} does not hold it."
+            raise SealedError(
+                f"this channel was sealed on {seal['sealed_utc'][:10]}: it is in the export whose SHA-256 is "
+                f"{seal['archive']}.{where} Name that file with --sealed"
+            )
+        return found
+
+    def seal(self, hash: str) -> dict[str, str] | None:
+        """The last seal of a content; None where it has none."""
+        with self._reading() as connection:
+            if (version_of(connection) or 0) < SEALS_SINCE:
+                return None
+            row = connection.execute(select(SEAL).where(SEAL.c.hash == hash).order_by(SEAL.c.sealed_utc.desc())).first()
+        return None if row is None else dict(row._mapping)  # pyright: ignore[reportPrivateUsage]  # as below
+
+    def holds(self, hash: str) -> bool:
+        """Whether the bytes of a content are here."""
+        with self._reading() as connection:
+            return bool(connection.execute(select(func.length(CONTENT.c.data)).where(CONTENT.c.hash == hash)).scalar())
+
+    def put_seals(self, hashes: Iterable[str], archive: str, sessions: Collection[str]) -> int:
+        """Let channels go that only these sessions speak of, and whose bytes are in the file with this SHA-256.
+
+        How many they are; a session that has begun to speak of one meanwhile keeps it.
+        """
+        gone, now = 0, datetime.now(UTC).isoformat(timespec="seconds")
+        with told(self._url), writing(self._engine, alone=TURN) as connection:
+            for hash in hashes:
+                spoken_of = (TURN.c.observation == hash) | (TURN.c.estimate == hash)
+                if connection.execute(select(TURN.c.number).where(spoken_of, TURN.c.session.not_in(sessions))).first():
+                    continue
+                connection.execute(SEAL.insert(), {"hash": hash, "archive": archive, "sealed_utc": now})
+                connection.execute(update(CONTENT).where(CONTENT.c.hash == hash).values(data=b""))
+                gone += 1
+        return gone
+
+    def latest_schema(self) -> None:
+        """Lead a store of an earlier schema to the latest."""
+        with told(self._url):
+            migrate(self._engine)
 
     def replay(self, number: int) -> Replay:
         """Do a turn's repair and decision again, and say how the outcome compares."""
@@ -164,6 +219,8 @@ class Store:
     def _content_fault(self, name: str, hash: str) -> list[str]:
         try:
             self.content(hash)
+        except SealedError:
+            return []
         except StoreError as error:
             return [f"{name}: {error}"]
         return []
@@ -173,7 +230,8 @@ class Store:
         table, column = {"sqlite": ("sqlite_master", "name")}.get(self._engine.dialect.name, ("pg_trigger", "tgname"))
         with self._reading() as connection:
             there = set(connection.exec_driver_sql(f"SELECT {column} FROM {table}").scalars())
-        return [f"the trigger {name} is missing" for name in triggers(self._engine.dialect.name) if name not in there]
+            expected = triggers(self._engine.dialect.name, version_of(connection) or 0)
+        return [f"the trigger {name} is missing" for name in expected if name not in there]
 
     @contextlib.contextmanager
     def _reading(self) -> Generator[Connection]:
