@@ -320,7 +320,7 @@ def contents(kind: str, place: Path) -> bytes:
         ("foreign", "is not an audit store but a database with the tables budget; nothing was changed"),
         (
             "newer",
-            r"has the schema version 3, made by wirelessagent \S+, and this one \(\S+\) knows those up to 2; nothing was",
+            r"has the schema version 3, made by wirelessagent \S+, and this one \(\S+\) knows those up to 2; nothing",
         ),
     ],
 )

@@ -159,6 +159,13 @@ class Service:
         async with await self._lock_of(session):
             return await self._turn(session, caller, tell, "say", text=text)
 
+    async def intend(self, cell: str, intent: Mapping[str, Any], caller: Caller, tell: Tell) -> Json:
+        """The turn of an intent of TMF921: the first of a new conversation, since an intent says all that is wanted."""
+        users = (await self._item("cell", cell)).data["user_names"]
+        text = await self.workers.do("intended", tell, intent=intent, user_names=users)
+        session = await self.open_session(cell)
+        return await self.say(session["id"], text, caller, tell)
+
     async def press(self, session: str, what: Press, caller: Caller, tell: Tell, *, plan: str | None = None) -> Json:
         """The turn of a button; applying and dropping are for the plan that the caller has seen.
 

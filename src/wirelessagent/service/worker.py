@@ -30,6 +30,7 @@ from wirelessagent.operations.forms import (
     telling_what_is_wrong,
 )
 from wirelessagent.operations.hosted import Hosted, facts_of, seen_in
+from wirelessagent.operations.intended import sentence_of
 from wirelessagent.operations.operation import (
     Event,
     InputError,
@@ -105,6 +106,11 @@ class Worker:
             return {**_since(hosted, known), "stale": True}
         hosted.press(told["button"], progress, by=told["by"])
         return _since(hosted, known)
+
+    def intended(self, told: Mapping[str, Any], progress: Progress) -> Any:
+        """The sentence that asks for what an intent of TMF921 says."""
+        del progress
+        return sentence_of(told["intent"], told["user_names"])
 
     def inspect(self, told: Mapping[str, Any], progress: Progress) -> Any:
         """What a file with gains holds."""

@@ -240,6 +240,25 @@ async def allocation(
     )
 
 
+@router.post("/intents", status_code=201, responses=_as(forms.TurnAnswer, 201), tags=["conversations"],
+             openapi_extra={"requestBody": {"required": True, "content": {"application/json": {
+                 "schema": {"type": "object"}}}}})  # fmt: skip
+async def intend(
+    request: Request,
+    cell: Annotated[str, Query(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_-]+$", description="the cell's id")],
+) -> Response:
+    """Ask for what an Intent of TMF921 says, in a new conversation about the cell; what it leads to waits, too.
+
+    What an intent can say and a cell cannot be asked is refused by its name. The answer is that of a line; the same
+    request as TMF921 has it is at `/v1/intents/{stored}`.
+    """
+    given: Any = strict_json(await request.body())
+    if not isinstance(given, dict):
+        raise UnusableError("the body is an Intent of TMF921, an object")
+    service, caller, said = service_of(request), caller_of(request), cast("dict[str, Any]", given)
+    return await worked(request, lambda tell: service.intend(cell, said, caller, tell), status=201)
+
+
 @router.get("/intents/{number}", tags=["history"])
 async def intent(request: Request, number: Annotated[int, Path(ge=1, le=2**53)]) -> Response:
     """A request in the history and what came of it, in the shape of TMF921."""
