@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import ClassVar, Self
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, SecretStr, ValidationError
 
 from wirelessagent.model.errors import InputError
 
@@ -45,7 +45,8 @@ class EnvironmentSettings(BaseModel):
     def _told(cls, field: str, message: str, value: object) -> str:
         """What is wrong with one variable."""
         said = message.removeprefix("Value error, ").removeprefix("Input ")
-        got = "" if cls.model_config.get("hide_input_in_errors") else f"; got {value!r}"
+        secret = cls.model_config.get("hide_input_in_errors") or field == "pseudonym_key"
+        got = "" if secret else f"; got {value!r}"
         return f"{cls.prefix}{field.upper()}: {said}{got}"
 
 
@@ -55,7 +56,9 @@ class Settings(EnvironmentSettings):
     Attributes:
         store: whether what is asked for is recorded.
         store_url: where: a SQLAlchemy URL or an SQLite file; a file in the user's data folder if not given.
+        pseudonym_key: what user names are turned into pseudonyms with, 16 characters or more; they stay if not given.
     """
 
     store: bool = True
     store_url: str | None = None
+    pseudonym_key: SecretStr | None = Field(None, min_length=16)

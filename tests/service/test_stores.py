@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import sqlite3
+import subprocess
 import threading
 import time
 from collections.abc import Iterator
@@ -150,6 +152,57 @@ def test_a_limit_holds_for_all_servers_together(place: str, tmp_path: Path) -> N
     assert found[:100] == [200] * 100
     assert set(found) == {200, 429}
     assert found.count(200) <= 121 + lasted_s
+
+
+def test_a_copy_of_a_store_in_use_is_a_store(tmp_path: Path) -> None:
+    """As docs/serve.md says: a backup while servers go on, and a server on it."""
+    place, copy, over = tmp_path / "store.sqlite3", tmp_path / "copy.sqlite3", threading.Event()
+    with started(place) as server:
+        cell = server.cell()
+        octets = {"Content-Type": "application/octet-stream"}
+        seen = server.post("v1/observations?name=gains.csv", content="1e-9,2e-9\n2e-9,1e-9\n", headers=octets).json()
+
+        def talk() -> None:
+            for watts in range(1, 200):
+                if over.is_set():
+                    return
+                server.say(cell["session"], f"highest rate, at most {watts} W")
+
+        talking = threading.Thread(target=talk)
+        talking.start()
+        until = time.monotonic() + 60
+        while len(server.get(f"v1/sessions/{cell['session']}")["turns"]) < 3 and time.monotonic() < until:
+            time.sleep(0.1)
+        with contextlib.closing(sqlite3.connect(place)) as source, contextlib.closing(sqlite3.connect(copy)) as target:
+            source.backup(target)
+        over.set()
+        talking.join()
+    with Store.open(copy) as store:
+        turns = len(list(store.turns(cell["session"])))
+        assert turns >= 2
+        assert store.faults() == []
+    with started(copy) as server:
+        assert server.get(f"v1/observations/{seen['id']}") == seen
+        assert server.say(cell["session"], "at most 2 W")["number"] == turns + 1
+        assert server.post("v1/operations/repair", {"observation": seen["id"]}).status_code == 200
+
+
+def test_a_dump_of_postgresql_is_a_store(tmp_path: Path) -> None:
+    with postgres.running_or_skipped(tmp_path / "cluster") as url:
+        with started(tmp_path / "one", at=url) as server:
+            session = server.cell()["session"]
+            server.say(session, "highest total rate")
+        plain = url.replace("+psycopg", "")
+        dump = [postgres.program("pg_dump"), "--format=custom", f"--file={tmp_path / 'dump'}", f"--dbname={plain}"]
+        restore = [postgres.program("pg_restore"), "--no-owner", f"--dbname={plain}_too", str(tmp_path / "dump")]
+        create = [postgres.program("psql"), plain, "-c", "CREATE DATABASE postgres_too"]
+        for command in (dump, create, restore):
+            subprocess.run([str(part) for part in command], check=True, capture_output=True)
+        with Store.open(f"{url}_too") as store:
+            assert store.faults() == []
+            assert store.replay(1).verdict in ("identical", "close")
+        with started(tmp_path / "two", at=f"{url}_too") as server:
+            assert server.say(session, "at most 2 W")["number"] == 2
 
 
 def test_killed_under_load_every_answered_turn_is_kept_and_nothing_applied_twice(place: str, tmp_path: Path) -> None:

@@ -165,6 +165,11 @@ class Session:
         self.id = uuid.uuid4().hex[:12]
 
     @property
+    def user_names(self) -> tuple[str, ...]:
+        """The users of the channel that it is about."""
+        return self._site.user_names
+
+    @property
     def turns(self) -> tuple[Turn, ...]:
         """What was said so far."""
         return tuple(self._turns)

@@ -6,6 +6,7 @@ import os
 import platform
 import socket
 import webbrowser
+from pathlib import Path
 from typing import Annotated, Literal
 from urllib.parse import urlsplit
 
@@ -42,6 +43,9 @@ class ServeRequest(StoreOptions):
     trusted_proxy: Annotated[list[str] | None, Advanced()] = Field(
         None, description="address whose X-Forwarded headers are believed; several times for several"
     )
+    pseudonym_key_file: Annotated[Path | None, Advanced()] = Field(
+        None, description="file with a key, 16 characters or more, by which users are known by pseudonyms alone"
+    )
     work_limit_s: Annotated[float, Advanced()] = Field(120.0, gt=0, description="time for one piece of work, s")
     requests_per_s: Annotated[float, Advanced()] = Field(20.0, gt=0, description="requests of one caller, 1/s")
 
@@ -70,7 +74,8 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
             f"serving needs packages that are not installed ({error.name}): pip install 'wirelessagent[serve]'"
         ) from error
     limits = Limits(work_s=request.work_limit_s, requests_per_s=request.requests_per_s)
-    service = open_service(request.store, limits, workers=request.workers)
+    key = _key_in(request.pseudonym_key_file)
+    service = open_service(request.store, limits, workers=request.workers, pseudonym_key=key)
     only_local = request.host in LOCAL_NAMES and not request.trusted_proxy and not request.base_path
     if not only_local and not service.access.callers:
         raise InputError(
@@ -103,6 +108,16 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
     log_as_json()
     uvicorn.Server(config).run(sockets=[listening])
     return ServeRecord(url=url)
+
+
+def _key_in(file: Path | None) -> str:
+    try:
+        key = "" if file is None else file.read_text(encoding="utf-8").strip()
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"pseudonym_key_file: {file} cannot be read: {error}") from error
+    if file is not None and len(key) < 16:
+        raise InputError(f"pseudonym_key_file: {file} holds {len(key)} characters: a key has 16 or more")
+    return key
 
 
 def _listening(host: str, port: int) -> socket.socket:

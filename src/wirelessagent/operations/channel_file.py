@@ -13,6 +13,7 @@ from wirelessagent import plugins
 from wirelessagent.operations.cell_options import CellOptions
 from wirelessagent.operations.fields import OptionsOf, PluginOptions, Positional
 from wirelessagent.operations.operation import Event, Progress
+from wirelessagent.operations.pseudonyms import hidden_scene
 
 if TYPE_CHECKING:
     from wirelessagent.model.scene import Scene
@@ -52,7 +53,7 @@ def file_scene(
     from wirelessagent.model.units import human
 
     source = cast("ChannelSource", plugins.create("channel_source", "file", {**options, "path": path}))
-    scene = source.observe(cell_options.cell())
+    scene = hidden_scene(source.observe(cell_options.cell()))
     cell = cell_options.cell(scene.cell, wanted_power_w=wanted_power_w)
     facts = {**scene.facts, **_given(cell_options, scene)}
     if cell_options.cell_max_power_w is None and cell.max_power_w > scene.cell.max_power_w:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal, TypeAlias
 
 from wirelessagent.acting.base_station import BaseStation
@@ -26,7 +27,9 @@ from wirelessagent.operations.chat import ChatRequest
 from wirelessagent.operations.operation import Event, Progress
 from wirelessagent.operations.record import Matrix, Record, SwitchMatrix, Vector
 from wirelessagent.operations.recording import opened
+from wirelessagent.operations.simulate import scene_arrays
 from wirelessagent.operations.turn_record import TurnRecord
+from wirelessagent.sensing.npz import write_npz
 from wirelessagent.store.rebuilt import outcome_of
 from wirelessagent.store.stored import StoredTurn
 from wirelessagent.telling.catalogue import message
@@ -228,10 +231,12 @@ class SeenAnswer(Record):
     gain: Matrix
 
 
-def seen_in(request: ChatRequest, progress: Progress) -> SeenAnswer:
-    """What is seen of the channel that a request is about, with nothing lost."""
+def seen_in(request: ChatRequest, progress: Progress, out: Path | None = None) -> SeenAnswer:
+    """What is seen of the channel that a request is about, with nothing lost; written to ``out``, if given."""
     scene = request.scene(progress)
     seen = scene.sensed
+    if out is not None:
+        write_npz(out, *scene_arrays(scene, seen))
     return SeenAnswer(
         facts=dict(scene.facts),
         user_names=list(seen.user_names),

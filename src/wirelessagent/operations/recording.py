@@ -11,6 +11,7 @@ from pydantic import Field
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.operations.fields import Advanced, Local
 from wirelessagent.operations.operation import Request
+from wirelessagent.operations.pseudonyms import hidden_text
 
 if TYPE_CHECKING:
     from wirelessagent.agent.session import Session
@@ -41,7 +42,7 @@ class RecordingOptions(StoreOptions):
         """The turn of a line, recorded; so is one that was broken off after the base station was told."""
         turns = len(session.turns)
         try:
-            turn = session.say(text, by=by)
+            turn = session.say(hidden_text(text, session.user_names), by=by)
         except BaseException:
             for broken_off in session.turns[turns:]:
                 self.remember(broken_off)

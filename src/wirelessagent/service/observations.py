@@ -35,9 +35,13 @@ class Observations:
 
     Args:
         folder: where workers find copies of them.
+        understood_only: keep what was understood of a file, and not the file, which has names that nobody is to keep.
     """
 
-    def __init__(self, ledger: Ledger, folder: Path, workers: Workers, limits: Limits) -> None:
+    def __init__(
+        self, ledger: Ledger, folder: Path, workers: Workers, limits: Limits, *, understood_only: bool = False
+    ) -> None:
+        self._understood_only = understood_only
         self._ledger, self._folder, self._workers, self._limits = ledger, folder, workers, limits
 
     async def add(self, name: str, content: bytes, options: Mapping[str, str], tell: Tell) -> Json:
@@ -47,16 +51,26 @@ class Observations:
             raise UnusableError(f"{name!r}: a file with gains ends in one of {', '.join(sorted(SUFFIXES))}")
         if len(await kept(self._ledger.all, "observation")) >= self._limits.observations:
             raise TooMuchError(f"{self._limits.observations} observations are kept already: remove one first")
-        path = self._folder / f"{secrets.token_hex(8)}{suffix}"
-        await asyncio.to_thread(_write, path, content)
-        read_as = {"options": dict(options)}
+        id, read_as = secrets.token_hex(8), dict(options)
+        path = sent = self._folder / f"{id}{suffix}"
+        if self._understood_only:
+            path = self._folder / f"{id}.npz"
+            sent = path.with_name(f"{id}-sent{suffix}")
+        await asyncio.to_thread(_write, sent, content)
         try:
-            seen = await self._workers.do("inspect", tell, options={"source_options": dict(options)}, channel=str(path))
+            seen = await self._workers.do(
+                "inspect", tell, options={"source_options": read_as}, channel=str(sent),
+                out=None if path == sent else str(path),
+            )  # fmt: skip
             self._check_size(seen)
-            return await self._keep(path, {"name": Path(name).name[:200], **read_as, **seen})
+            kept_as = read_as if path == sent else {}
+            return await self._keep(path, {"name": Path(name).name[:200], "options": kept_as, **seen})
         except BaseException:
             path.unlink(missing_ok=True)
             raise
+        finally:
+            if path != sent:
+                sent.unlink(missing_ok=True)
 
     async def derive(self, name: str, form: Mapping[str, Any], tell: Tell) -> Json:
         """Run an operation that writes gains (simulate, repair), and keep them as an observation.

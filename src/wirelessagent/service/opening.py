@@ -8,11 +8,12 @@ from wirelessagent.service.access import Access
 from wirelessagent.service.limits import Limits
 from wirelessagent.service.service import Service
 from wirelessagent.service.workers import Workers
+from wirelessagent.settings import Settings
 from wirelessagent.store.ledger import Ledger
 from wirelessagent.store.place import file_of, url_of
 
 
-def open_service(store: str | None, limits: Limits, *, workers: int = 1) -> Service:
+def open_service(store: str | None, limits: Limits, *, workers: int = 1, pseudonym_key: str = "") -> Service:
     """A service on the store at a place, as the settings say if not given.
 
     Raises:
@@ -25,11 +26,14 @@ def open_service(store: str | None, limits: Limits, *, workers: int = 1) -> Serv
         "WIRELESSAGENT_STORE": "yes",
         "WIRELESSAGENT_STORE_URL": place.render_as_string(hide_password=False) if file is None else str(file),
     }
+    if pseudonym_key:
+        environment["WIRELESSAGENT_PSEUDONYM_KEY"] = pseudonym_key
     return Service(
         Ledger.open(store),
         platformdirs.user_cache_path("wirelessagent") / "observations",
         Workers(workers, time_limit_s=limits.work_s, environment=environment),
         limits,
+        pseudonyms=bool(pseudonym_key or Settings.read().pseudonym_key),
     )
 
 

@@ -44,11 +44,14 @@ class Service:
         folder: where workers find observations.
         workers: what works.
         limits: what is allowed.
+        pseudonyms: whether users are known by pseudonyms alone.
     """
 
-    def __init__(self, ledger: Ledger, folder: Path, workers: Workers, limits: Limits) -> None:
+    def __init__(
+        self, ledger: Ledger, folder: Path, workers: Workers, limits: Limits, *, pseudonyms: bool = False
+    ) -> None:
         self.ledger, self.limits, self.workers = ledger, limits, workers
-        self.observations = Observations(ledger, folder, workers, limits)
+        self.observations = Observations(ledger, folder, workers, limits, understood_only=pseudonyms)
         self.access, self.jobs, self.metrics = Access(ledger), Jobs(ledger, limits.running_jobs), Metrics()
         self._going = set[asyncio.Task[Any]]()
         self._locks: weakref.WeakValueDictionary[str, asyncio.Lock] = weakref.WeakValueDictionary()

@@ -113,8 +113,8 @@ class Worker:
         return sentence_of(told["intent"], told["user_names"])
 
     def inspect(self, told: Mapping[str, Any], progress: Progress) -> Any:
-        """What a file with gains holds."""
-        return seen_in(_cell(told), progress)
+        """What a file with gains holds; written as it was understood, where that is wanted."""
+        return seen_in(_cell(told), progress, Path(told["out"]) if told.get("out") else None)
 
     def allocation(self, told: Mapping[str, Any], progress: Progress) -> Any:
         """The allocation of a recorded turn as a file."""
