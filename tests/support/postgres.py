@@ -41,7 +41,8 @@ def running(folder: Path) -> Iterator[str]:
     try:
         yield f"postgresql+psycopg://agent@127.0.0.1:{port}/postgres"
     finally:
-        _do(user, program("pg_ctl"), "-D", str(data), "-m", "immediate", "stop")
+        with contextlib.suppress(subprocess.CalledProcessError):  # it may have ended, or be slow to: it is nobody's
+            _do(user, program("pg_ctl"), "-D", str(data), "-m", "immediate", "stop")
 
 
 @contextlib.contextmanager
