@@ -114,13 +114,13 @@ def list_turns(request: HistoryRequest, progress: Progress) -> HistoryRecord:
         with opened(request) as store:
             turns = [HistoryLine.of(turn) for turn in store.turns(request.session, last=last)]
             if not turns:
-                _check_session(store, request.session)
+                check_session(store, request.session)
             return HistoryRecord(store=store.place, turns=turns)
     except NothingRecordedError:
         return HistoryRecord(store=place_of(request), turns=[])
 
 
-def _check_session(store: Store, session: str | None) -> None:
+def check_session(store: Store, session: str | None) -> None:
     """Refuse a session that has no turns where others have."""
     there = list(dict.fromkeys(str(turn.session) for turn in store.turns(last=_SESSIONS_LOOKED_AT)))
     if session is not None and there:
@@ -297,7 +297,7 @@ def export_turns(request: ExportRequest, progress: Progress) -> ExportRecord:
 
     with opened(request) as store:
         if request.session is not None and next(store.turns(request.session, last=1), None) is None:
-            _check_session(store, request.session)
+            check_session(store, request.session)
 
         def write(stream: BinaryIO) -> None:
             for line in exported(store, request.session):

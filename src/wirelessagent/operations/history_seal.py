@@ -11,6 +11,7 @@ from pydantic import Field
 from wirelessagent.model.atomic import writable_target
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.fields import Positional
+from wirelessagent.operations.history import check_session
 from wirelessagent.operations.operation import Operation, Progress
 from wirelessagent.operations.record import Block, Files, Record
 from wirelessagent.operations.recording import StoreOptions, opened
@@ -61,6 +62,8 @@ def seal_sessions(request: SealRequest, progress: Progress) -> SealRecord:
                 f"the session {request.session!r} is a cell's current one: begin a new one there, or remove the cell"
             )
         if request.session is not None:
+            if next(store.turns(request.session, last=1), None) is None:
+                check_session(store, request.session)
             sessions = (request.session,)
         else:
             sessions = tuple(one for one in old_sessions(store, str(request.before)) if one not in used)
