@@ -75,6 +75,17 @@ class UnusableError(ProblemError):
     status, title = 422, "This cannot be used"
 
 
+class BrokeOffError(ProblemError):
+    """The process that did the work is gone."""
+
+    status, title = 500, "The work broke off"
+
+    def __init__(
+        self, detail: str = "the work ended its process, as too large an input does; nothing else was lost"
+    ) -> None:
+        super().__init__(detail)
+
+
 class TimedOutError(ProblemError):
     """The work took longer than it may."""
 

@@ -1,40 +1,50 @@
 """What a running server owns: cells, their conversations, the plans that wait, observations, jobs and workers.
 
-A cell has one conversation at a time and at most one plan that waits. A plan is taken by compare-and-set in the store,
-so that it is applied once, whoever presses and whatever server they reach; it goes stale when anything was applied at
-its cell meanwhile, and with time.
+A cell has one conversation at a time, one turn of it at a time, and at most one plan that waits. A plan is taken by
+compare-and-set in the store, so that it is applied once, whoever presses and whatever server they reach; it goes stale
+when anything was applied at its cell meanwhile, and with time. Which turn goes on is in the store, too: where its
+server or its worker ends while a plan is applied, whoever comes next tells that as what it is.
 """
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import secrets
-import weakref
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import AsyncGenerator, Callable, Coroutine, Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from wirelessagent.operations.catalogue import OPERATIONS
+from wirelessagent.operations.hosted_answers import Press
 from wirelessagent.service.access import Access, Caller
 from wirelessagent.service.demonstration import recorded_demonstration
 from wirelessagent.service.jobs import Job, Jobs, Tell
+from wirelessagent.service.leases import Lease, Leases
 from wirelessagent.service.limits import Limits
 from wirelessagent.service.metrics import Metrics
-from wirelessagent.service.problems import ConflictError, NotFoundError, TooMuchError, UnusableError
+from wirelessagent.service.problems import (
+    BrokeOffError,
+    ConflictError,
+    NotFoundError,
+    ProblemError,
+    TimedOutError,
+    TooMuchError,
+    UnusableError,
+)
 from wirelessagent.service.workers import Workers
 from wirelessagent.store.ledger import ChangedError, Item, Ledger
 
 Json: TypeAlias = dict[str, Any]
-Press: TypeAlias = Literal["yes", "no", "undo"]
 Found = TypeVar("Found")
 
 SUFFIXES = frozenset({".csv", ".txt", ".json", ".npz", ".npy", ".mat", ".h5", ".hdf5", ".nc"})
 """How the names of files with gains end."""
 
 _LONGEST_TEXT = 4000
-_TAKE_UP_S = 3.0
-"""Time for each turn of a conversation that has to be taken up."""
+_CLOSING_S = 30.0
+"""Time for presses to come to their end when the server does."""
 
 
 class Service:
@@ -51,10 +61,12 @@ class Service:
         self.ledger, self.limits, self.workers, self._folder = ledger, limits, workers, folder
         self.access, self.jobs, self.metrics = Access(ledger), Jobs(), Metrics()
         self._going = set[asyncio.Task[Any]]()
-        self._locks: weakref.WeakValueDictionary[str, asyncio.Lock] = weakref.WeakValueDictionary()
+        self._leases = Leases(ledger, limits.work_s)
 
     async def close(self) -> None:
-        """End the workers and let go of the store."""
+        """Let presses come to their end, end the workers and let go of the store."""
+        if self._going:
+            await asyncio.wait(self._going, timeout=_CLOSING_S)
         await self.workers.close()
         self.ledger.close()
 
@@ -100,8 +112,9 @@ class Service:
     async def drop_cell(self, id: str) -> None:
         """Remove a cell; its turns stay in the history."""
         await self._item("cell", id)
-        await self._kept(self.ledger.drop, "plan", id)
-        await self._kept(self.ledger.drop, "cell", id)
+        for kind in ("plan", "cell"):
+            await self._kept(self.ledger.drop, kind, id)
+        await self._leases.forget(id)
 
     async def demonstrate(self) -> None:
         """Have a demonstration cell with a conversation as it was recorded, where there is no cell yet."""
@@ -118,7 +131,7 @@ class Service:
         await self._kept(self.ledger.put, "session", session, held)
         cell = {**recorded["cell"], "session": session, "effect": 0, "demonstration": True}
         await self._kept(self.ledger.put, "cell", "demonstration", cell)
-        await self._keep_plan(await self._item("cell", "demonstration"), session, recorded["last"])
+        await self._keep_plan(await self._item("cell", "demonstration"), session, [recorded["last"]])
 
     # Observations.
 
@@ -202,7 +215,7 @@ class Service:
 
     async def open_session(self, cell: str) -> Json:
         """A new conversation for a cell, in the place of the one that it has; a plan that waited is dropped."""
-        async with self._lock(cell):
+        async with self._alone(cell):
             item = await self._item("cell", cell)
             id = await self._new_session(cell)
             await self._kept(self.ledger.drop, "plan", cell)
@@ -215,10 +228,11 @@ class Service:
         turns = [dict(item.data) for item in await self._kept(self.ledger.all, "turn", start=f"{id}/")]
         plan = await self._kept(self.ledger.find, "plan", held["cell"])
         waits = plan is not None and plan.data["session"] == id
-        names = ("cell", "created_utc", "language", "in_effect")
+        told = await self._leases.telling(held["cell"])
         return {
             "id": id,
-            **{name: held[name] for name in names},
+            **{name: held[name] for name in ("cell", "created_utc", "language")},
+            "in_effect": held["in_effect"] if told is None or told["session"] != id else None,
             "awaits": "confirmation" if waits else held["awaits"],
             "turns": turns,
             "plan": _shown(plan.data, "session", "effect") if waits and plan is not None else None,
@@ -236,22 +250,47 @@ class Service:
             raise UnusableError("nothing was said: give what the cell should do in 'text'")
         if len(text) > _LONGEST_TEXT:
             raise UnusableError(f"a line has at most {_LONGEST_TEXT} characters; got {len(text)}")
-        async with await self._lock_of(session):
-            return await self._turn(session, caller, tell, "say", text=text)
+        async with self._alone(await self._cell_of(session)):
+            return await self._turn(session, caller.name, tell, "say", text=text)
 
     async def press(self, session: str, what: Press, caller: Caller, tell: Tell, *, plan: str | None = None) -> Json:
         """The turn of a button; applying and dropping are for the plan that the caller has seen.
 
-        What is pressed is carried through, also where its caller goes away: nothing is applied by halves.
+        What is pressed is carried through, also where its caller goes away: nothing is applied by halves. Where it
+        breaks off all the same, its turn tells that.
         """
 
         async def through() -> Json:
-            async with await self._lock_of(session):
+            cell = await self._cell_of(session)
+            async with self._alone(cell) as lease:
                 if what != "undo":
                     await self._take(session, what, plan)
-                return await self._turn(session, caller, tell, "press", button=what)
+                if what != "yes":
+                    return await self._turn(session, caller.name, tell, "press", button=what)
+                turns = (await self._item("session", session)).data["turns"]
+                await lease.keep({"session": session, "turns": turns, "by": caller.name})
+                try:
+                    done = await self._turn(session, caller.name, tell, "press", button=what)
+                except (BrokeOffError, TimedOutError):
+                    done = await self._turn(session, caller.name, tell, "broke_off", button=what)
+                except ProblemError:  # from a worker that goes on: the base station was told nothing
+                    await lease.keep(None)
+                    raise
+                await lease.keep(None)
+                return done
 
         return await self._through(through())
+
+    @contextlib.asynccontextmanager
+    async def _alone(self, cell: str) -> AsyncGenerator[Lease]:
+        """A cell of which nobody else has a turn; one that broke off while the base station was told is told first."""
+        async with self._leases.of(cell) as lease:
+            if lease.telling is not None:
+                told = lease.telling
+                if (await self._item("session", told["session"])).data["turns"] == told["turns"]:
+                    await self._turn(told["session"], told["by"], _silent, "broke_off", button="yes")
+                await lease.keep(None)
+            yield lease
 
     async def _through(self, work: Coroutine[Any, Any, Found]) -> Found:
         """What comes of work that goes on where whoever waits for it is cancelled."""
@@ -297,15 +336,14 @@ class Service:
         if what == "yes":
             await self._changed("cell", cell, effect=cell.data["effect"] + 1)
 
-    async def _turn(self, session: str, caller: Caller, tell: Tell, do: str, **told: Any) -> Json:
+    async def _turn(self, session: str, by: str, tell: Tell, do: str, **told: Any) -> Json:
         item = await self._item("session", session)
         held = dict(item.data)
         cell = await self._item("cell", held["cell"])
         self._check_current(cell, session)
         done = await self.workers.do(
-            do, tell, of=session, session=session, turns=held["turns"], recalled=held["recalled"], by=caller.name,
-            options=cell.data["options"], channel=await self._channel_file(cell.data["observation"]),
-            extra_s=_TAKE_UP_S * held["turns"], **told,
+            do, tell, of=session, session=session, turns=held["turns"], recalled=held["recalled"], by=by,
+            options=cell.data["options"], channel=await self._channel_file(cell.data["observation"]), **told,
         )  # fmt: skip
         await self._through(self._settle(item, cell, done))
         if done["stale"]:
@@ -332,15 +370,17 @@ class Service:
             held["awaits"] = "nothing" if last["waits"] else last["record"]["awaits"]
         await self._changed("session", item, **held)
         if done["turns"]:
-            await self._keep_plan(cell, session, done["turns"][-1])
+            await self._keep_plan(cell, session, done["turns"])
 
-    async def _keep_plan(self, cell: Item, session: str, turn: Mapping[str, Any]) -> None:
-        """Have the plan wait that a turn has made or left waiting; none where none waits."""
+    async def _keep_plan(self, cell: Item, session: str, turns: Sequence[Mapping[str, Any]]) -> None:
+        """Have the plan wait that the last of some turns has made or left waiting; none where none waits."""
+        turn = turns[-1]
         if not turn["waits"]:
             await self._kept(self.ledger.drop, "plan", cell.id)
             return
         there = await self._kept(self.ledger.find, "plan", cell.id)
-        if turn["record"]["stage"] != "planned" and there is not None and there.data["session"] == session:
+        planned = any(one["record"]["stage"] == "planned" for one in turns)
+        if not planned and there is not None and there.data["session"] == session:
             return
         effect = (await self._item("cell", cell.id)).data["effect"]
         until = datetime.now(UTC) + timedelta(seconds=self.limits.plan_s)
@@ -401,12 +441,9 @@ class Service:
         """What the ledger says, without holding the server up."""
         return await asyncio.to_thread(do, *args, **kwargs)
 
-    async def _lock_of(self, session: str) -> asyncio.Lock:
-        """The lock of the cell that a conversation is about."""
-        return self._lock((await self._item("session", session)).data["cell"])
-
-    def _lock(self, cell: str) -> asyncio.Lock:
-        return self._locks.setdefault(cell, asyncio.Lock())
+    async def _cell_of(self, session: str) -> str:
+        """The cell that a conversation is about."""
+        return (await self._item("session", session)).data["cell"]
 
 
 def _cell(item: Item) -> Json:

@@ -9,10 +9,13 @@ import json
 import os
 import sys
 import zlib
-from collections.abc import Callable, Mapping
+from collections.abc import AsyncGenerator, Callable, Mapping
 from typing import Any
 
-from wirelessagent.service.problems import ProblemError, TimedOutError
+from wirelessagent.service.problems import BrokeOffError, ProblemError, TimedOutError
+
+TAKEN_UP = "recall"
+"""The stage of a turn that was said again, for a conversation that is taken up."""
 
 _LONGEST_ANSWER_BYTES = 256 << 20
 
@@ -30,12 +33,11 @@ class Workers:
         self._time_limit_s = time_limit_s
         self._processes = [_Process(environment) for _ in range(number)]
 
-    async def do(
-        self, what: str, tell: Callable[[dict[str, Any]], None], *, of: str = "", extra_s: float = 0.0, **told: Any
-    ) -> Any:
+    async def do(self, what: str, tell: Callable[[dict[str, Any]], None], *, of: str = "", **told: Any) -> Any:
         """Have one thing done by the worker that conversation ``of`` belongs to, or by the least busy one.
 
-        ``extra_s`` is time beyond the limit, for a conversation that may have to be taken up first.
+        Where the conversation has to be taken up first, each of its turns has the time that one thing has. A worker
+        that turns out to be gone before it has begun is replaced once, so that who did nothing wrong notices nothing.
 
         Raises:
             TimedOutError: it took too long; the worker was ended.
@@ -43,7 +45,7 @@ class Workers:
         """
         mine = self._processes[zlib.crc32(of.encode()) % len(self._processes)]
         process = mine if of else min(self._processes, key=lambda one: one.waiting)
-        return await process.do({"do": what, **told}, tell, self._time_limit_s + extra_s)
+        return await process.do({"do": what, **told}, tell, self._time_limit_s)
 
     async def close(self) -> None:
         """End all processes."""
@@ -64,8 +66,14 @@ class _Process:
         try:
             async with self._turn:
                 try:
-                    async with asyncio.timeout(time_limit_s):
-                        return await self._done(told, tell)
+                    async with asyncio.timeout(time_limit_s) as limit:
+
+                        def heard(event: dict[str, Any]) -> None:
+                            if event["stage"] == TAKEN_UP:
+                                limit.reschedule(asyncio.get_running_loop().time() + time_limit_s)
+                            tell(event)
+
+                        return await self._done(told, heard)
                 except TimeoutError as error:
                     await self.end()
                     raise TimedOutError(
@@ -87,29 +95,34 @@ class _Process:
             await process.wait()
 
     async def _done(self, told: Mapping[str, Any], tell: Callable[[dict[str, Any]], None]) -> Any:
-        process, number = await self._running(), next(self._numbers)
+        for _ in range(2):
+            begun = False
+            async with contextlib.aclosing(self._answers(told)) as answers:
+                async for answer in answers:
+                    if "begun" in answer:
+                        begun = True
+                    elif "event" in answer:
+                        tell(answer["event"])
+                    elif "failed" in answer:
+                        problem = answer["failed"]
+                        raise ProblemError(problem["detail"], status=problem["status"], title=problem["title"])
+                    else:
+                        return answer["done"]
+            await self.end()
+            if begun:
+                break
+        raise BrokeOffError
+
+    async def _answers(self, told: Mapping[str, Any]) -> AsyncGenerator[dict[str, Any]]:
+        """What the process answers, as long as it is there."""
+        process = await self._running()
         assert process.stdin is not None
         assert process.stdout is not None
-        try:
-            process.stdin.write(json.dumps({"id": number, **told}).encode() + b"\n")
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):
+            process.stdin.write(json.dumps({"id": next(self._numbers), **told}).encode() + b"\n")
             await process.stdin.drain()
             while line := await process.stdout.readline():
-                answer = json.loads(line)
-                if "event" in answer:
-                    tell(answer["event"])
-                elif "failed" in answer:
-                    problem = answer["failed"]
-                    raise ProblemError(problem["detail"], status=problem["status"], title=problem["title"])
-                else:
-                    return answer["done"]
-        except (BrokenPipeError, ConnectionResetError):
-            pass
-        await self.end()
-        raise ProblemError(
-            "the work ended its process, as too large an input does; nothing else was lost",
-            status=500,
-            title="The work broke off",
-        )
+                yield json.loads(line)
 
     async def _running(self) -> asyncio.subprocess.Process:
         if self._process is None or self._process.returncode is not None:

@@ -6,6 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from wirelessagent.operations.hosted_answers import CellFacts, SeenAnswer
+
 Id = Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_-]+$")]
 
 
@@ -56,18 +58,13 @@ class JobAnswer(BaseModel):
     error: Problem | None = None
 
 
-class CellAnswer(BaseModel):
+class CellAnswer(CellFacts):
     """A cell, with its current conversation."""
 
     model_config = ConfigDict(extra="allow")
 
     id: str
     name: str
-    facts: dict[str, str]
-    user_names: list[str]
-    num_subcarriers: int
-    base_station: str | None
-    max_power_w: float
     session: str
     demonstration: bool
 
@@ -110,29 +107,13 @@ class SessionAnswer(BaseModel):
     turns: list[TurnAnswer]
 
 
-class ChannelAnswer(BaseModel):
-    """What is known of a channel, linear power gains; null = missing."""
-
-    user_names: list[str]
-    frequencies_hz: list[float] | None
-    observed_gain: list[list[float | None]]
-    gain: list[list[float]]
-    gain_sd: list[list[float | None]]
-    repaired: list[list[bool]]
-
-
-class ObservationAnswer(BaseModel):
+class ObservationAnswer(SeenAnswer):
     """What was understood of a file with gains."""
+
+    model_config = ConfigDict(extra="ignore")
 
     id: str
     name: str
-    facts: dict[str, str]
-    user_names: list[str]
-    num_users: int
-    num_subcarriers: int
-    num_slots: int
-    missing: int
-    gain: list[list[float | None]]
 
 
 class OperationAnswer(BaseModel):

@@ -18,10 +18,11 @@ from wirelessagent.interfaces.http.answers import (
     strict_json,
     worked,
 )
+from wirelessagent.operations.hosted_answers import ChannelAnswer, Press
 from wirelessagent.operations.operation import installed_version
 from wirelessagent.service.jobs import Tell
 from wirelessagent.service.problems import UnusableError
-from wirelessagent.service.service import SUFFIXES, Press
+from wirelessagent.service.service import SUFFIXES
 from wirelessagent.service.words import LANGUAGES, words
 
 PROBLEMS: dict[int | str, dict[str, Any]] = {
@@ -131,7 +132,7 @@ async def read_session(request: Request, id: Id) -> Any:
     return JSONResponse(await service_of(request).session(id))
 
 
-@router.get("/sessions/{id}/channel", response_model=forms.ChannelAnswer | None, tags=["conversations"])
+@router.get("/sessions/{id}/channel", response_model=ChannelAnswer | None, tags=["conversations"])
 async def read_channel(request: Request, id: Id) -> Any:
     """What is known of the channel that a conversation is about; null before anything was sensed."""
     return JSONResponse(await service_of(request).channel(id))
