@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-import logging
 import secrets
 from collections import OrderedDict
 from collections.abc import AsyncGenerator, Awaitable, Callable
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
-from wirelessagent.operations.operation import WirelessAgentError
-from wirelessagent.service.problems import NotFoundError, ProblemError
-
-_log = logging.getLogger("wirelessagent.service")
+from wirelessagent.service.problems import NotFoundError, ProblemError, problem_of
 
 State: TypeAlias = Literal["running", "done", "failed", "cancelled"]
 
@@ -90,15 +86,8 @@ class Job:
         except asyncio.CancelledError:
             self.problem = ProblemError("the work was cancelled", status=409, title="Cancelled")
             self._end("cancelled", self.problem.body)
-        except ProblemError as problem:
-            self.problem = problem
-            self._end("failed", problem.body)
-        except WirelessAgentError as error:
-            self.problem = ProblemError(str(error), status=500, title="This failed")
-            self._end("failed", self.problem.body)
-        except Exception:  # noqa: BLE001  # whoever waits is told, and the log says what it was
-            _log.exception("a job failed")
-            self.problem = ProblemError("the server's log says more", status=500, title="Internal error")
+        except Exception as error:  # noqa: BLE001  # whoever waits is told
+            self.problem = problem_of(error)
             self._end("failed", self.problem.body)
         else:
             self._end("done", self.result)

@@ -8,6 +8,7 @@ import platformdirs
 
 from wirelessagent.service.access import Access
 from wirelessagent.service.limits import Limits
+from wirelessagent.service.names import PublicNames
 from wirelessagent.service.service import Service
 from wirelessagent.service.workers import Workers
 from wirelessagent.store.ledger import Ledger
@@ -24,14 +25,16 @@ def open_service(store: str | None, limits: Limits, *, workers: int = 1) -> Serv
     place = url_of(store)
     file = file_of(place)
     folder = platformdirs.user_data_path("wirelessagent") if file is None else Path(file).parent
+    ledger = Ledger.open(store)
     environment = {
         "WIRELESSAGENT_STORE": "yes",
         "WIRELESSAGENT_STORE_URL": place.render_as_string(hide_password=False) if file is None else str(file),
     }
+    names = PublicNames({ledger.place: "this server"}, [folder])
     return Service(
-        Ledger.open(store),
+        ledger,
         folder / "observations",
-        Workers(workers, time_limit_s=limits.work_s, environment=environment),
+        Workers(workers, time_limit_s=limits.work_s, environment=environment, names=names),
         limits,
     )
 

@@ -102,7 +102,7 @@ class Service:
                 raise UnusableError(f"source_options: an object with options; got {given['source_options']!r}")
             given["source_options"] = {**read_as, **given.get("source_options", {})}
         kept: Json = {"name": name, "options": given, "observation": observation, "effect": 0, "demonstration": False}
-        facts = await self.workers.do("facts", tell, options=given, channel=await self._channel_file(observation))
+        facts = await self.workers.do("facts", tell, options=given, **await self._channel(observation))
         kept |= facts
         id = secrets.token_hex(6)
         kept["session"] = await self._new_session(id)
@@ -142,16 +142,17 @@ class Service:
             raise UnusableError(f"{name!r}: a file with gains ends in one of {', '.join(sorted(SUFFIXES))}")
         if len(await self._kept(self.ledger.all, "observation")) >= self.limits.observations:
             raise TooMuchError(f"{self.limits.observations} observations are kept already: remove one first")
-        id = secrets.token_hex(8)
+        id, shown = secrets.token_hex(8), Path(name).name[:200]
         path = self._folder / f"{id}{suffix}"
         await asyncio.to_thread(_write, path, content)
         try:
-            seen = await self.workers.do("inspect", tell, options={"source_options": dict(options)}, channel=str(path))
+            about = {"channel": str(path), "called": {str(path): shown}}
+            seen = await self.workers.do("inspect", tell, options={"source_options": dict(options)}, **about)
             self._check_size(seen)
         except BaseException:
             path.unlink(missing_ok=True)
             raise
-        kept = {"name": Path(name).name[:200], "options": dict(options), "file": path.name, **seen}
+        kept = {"name": shown, "options": dict(options), "file": path.name, **seen}
         await self._kept(self.ledger.put, "observation", id, kept, seen=0)
         return {"id": id, **_shown(kept, "options", "file")}
 
@@ -161,19 +162,19 @@ class Service:
         Nobody has to remove these: where there are too many, the oldest that no cell works on go.
         """
         given = dict(form)
-        channel = await self._channel_file(given.pop("observation", None))
+        channel = await self._channel(given.pop("observation", None))
         await self._make_room()
         id = secrets.token_hex(8)
         path = self._folder / f"{id}.npz"
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         try:
-            done = await self.workers.do("operation", tell, name=name, form=given, channel=channel, out=str(path))
-            seen = await self.workers.do("inspect", tell, options={}, channel=str(path))
+            made = {str(path): f"{name}.npz"}
+            channel["called"] |= made
+            done = await self.workers.do("operation", tell, name=name, form=given, out=str(path), **channel)
+            seen = await self.workers.do("inspect", tell, options={}, channel=str(path), called=made)
         except BaseException:
             path.unlink(missing_ok=True)
             raise
-        done["record"]["out"] = None  # where the server keeps what is nobody else's business
-        done["blocks"] = [block for block in done["blocks"] if path.name not in str(block)]
         kept: Json = {"name": f"{name}.npz", "options": {}, "file": path.name, "derived": True, **seen}
         await self._kept(self.ledger.put, "observation", id, kept, seen=0)
         return {"observation": {"id": id, **_shown(kept, "options", "file", "derived")}, **done}
@@ -343,7 +344,7 @@ class Service:
         self._check_current(cell, session)
         done = await self.workers.do(
             do, tell, of=session, session=session, turns=held["turns"], recalled=held["recalled"], by=by,
-            options=cell.data["options"], channel=await self._channel_file(cell.data["observation"]), **told,
+            options=cell.data["options"], **await self._channel(cell.data["observation"]), **told,
         )  # fmt: skip
         await self._through(self._settle(item, cell, done))
         if done["stale"]:
@@ -403,8 +404,8 @@ class Service:
         if name not in OPERATIONS:
             raise NotFoundError(f"there is no operation {name!r}: known are {', '.join(OPERATIONS)}")
         given = dict(form)
-        channel = await self._channel_file(given.pop("observation", None))
-        return await self.workers.do("operation", tell, name=name, form=given, channel=channel)
+        channel = await self._channel(given.pop("observation", None))
+        return await self.workers.do("operation", tell, name=name, form=given, **channel)
 
     async def forms(self) -> Json:
         """What each operation can be asked, as JSON Schema."""
@@ -416,11 +417,13 @@ class Service:
 
     # What is kept.
 
-    async def _channel_file(self, observation: str | None) -> str | None:
+    async def _channel(self, observation: str | None) -> Json:
+        """What a worker is told of an observation: its file, and what people call that."""
         if observation is None:
-            return None
+            return {"channel": None, "called": {}}
         item = await self._item("observation", observation)
-        return str(self._folder / item.data["file"])
+        path = str(self._folder / item.data["file"])
+        return {"channel": path, "called": {path: item.data["name"]}}
 
     async def _item(self, kind: str, id: Any) -> Item:
         if not isinstance(id, str):

@@ -12,6 +12,7 @@ import zlib
 from collections.abc import AsyncGenerator, Callable, Mapping
 from typing import Any
 
+from wirelessagent.service.names import PublicNames
 from wirelessagent.service.problems import BrokeOffError, ProblemError, TimedOutError
 
 TAKEN_UP = "recall"
@@ -27,17 +28,24 @@ class Workers:
         number: of processes; none is started before it has something to do.
         time_limit_s: how long one thing may take before its process is ended.
         environment: what the processes know beside this one's environment.
+        names: what is told of what they say.
     """
 
-    def __init__(self, number: int = 1, *, time_limit_s: float, environment: Mapping[str, str]) -> None:
+    def __init__(
+        self, number: int = 1, *, time_limit_s: float, environment: Mapping[str, str], names: PublicNames
+    ) -> None:
         self._time_limit_s = time_limit_s
-        self._processes = [_Process(environment) for _ in range(number)]
+        self._processes = [_Process(environment, names) for _ in range(number)]
 
-    async def do(self, what: str, tell: Callable[[dict[str, Any]], None], *, of: str = "", **told: Any) -> Any:
+    async def do(
+        self, what: str, tell: Callable[[dict[str, Any]], None], *, of: str = "",
+        called: Mapping[str, str] | None = None, **told: Any,
+    ) -> Any:  # fmt: skip
         """Have one thing done by the worker that conversation ``of`` belongs to, or by the least busy one.
 
         Where the conversation has to be taken up first, each of its turns has the time that one thing has. A worker
         that turns out to be gone before it has begun is replaced once, so that who did nothing wrong notices nothing.
+        ``called`` says what the paths that it is told are called in what it says.
 
         Raises:
             TimedOutError: it took too long; the worker was ended.
@@ -45,7 +53,7 @@ class Workers:
         """
         mine = self._processes[zlib.crc32(of.encode()) % len(self._processes)]
         process = mine if of else min(self._processes, key=lambda one: one.waiting)
-        return await process.do({"do": what, **told}, tell, self._time_limit_s)
+        return await process.do({"do": what, **told}, tell, self._time_limit_s, called or {})
 
     async def close(self) -> None:
         """End all processes."""
@@ -54,14 +62,17 @@ class Workers:
 
 
 class _Process:
-    def __init__(self, environment: Mapping[str, str]) -> None:
-        self._environment = environment
+    def __init__(self, environment: Mapping[str, str], names: PublicNames) -> None:
+        self._environment, self._names = environment, names
         self._process: asyncio.subprocess.Process | None = None
         self._turn = asyncio.Lock()
         self._numbers = itertools.count(1)
         self.waiting = 0
 
-    async def do(self, told: Mapping[str, Any], tell: Callable[[dict[str, Any]], None], time_limit_s: float) -> Any:
+    async def do(
+        self, told: Mapping[str, Any], tell: Callable[[dict[str, Any]], None], time_limit_s: float,
+        called: Mapping[str, str],
+    ) -> Any:  # fmt: skip
         self.waiting += 1
         try:
             async with self._turn:
@@ -73,7 +84,7 @@ class _Process:
                                 limit.reschedule(asyncio.get_running_loop().time() + time_limit_s)
                             tell(event)
 
-                        return await self._done(told, heard)
+                        return await self._done(told, heard, called)
                 except TimeoutError as error:
                     await self.end()
                     raise TimedOutError(
@@ -94,10 +105,12 @@ class _Process:
                 process.kill()
             await process.wait()
 
-    async def _done(self, told: Mapping[str, Any], tell: Callable[[dict[str, Any]], None]) -> Any:
+    async def _done(
+        self, told: Mapping[str, Any], tell: Callable[[dict[str, Any]], None], called: Mapping[str, str]
+    ) -> Any:
         for _ in range(2):
             begun = False
-            async with contextlib.aclosing(self._answers(told)) as answers:
+            async with contextlib.aclosing(self._answers(told, called)) as answers:
                 async for answer in answers:
                     if "begun" in answer:
                         begun = True
@@ -113,7 +126,7 @@ class _Process:
                 break
         raise BrokeOffError
 
-    async def _answers(self, told: Mapping[str, Any]) -> AsyncGenerator[dict[str, Any]]:
+    async def _answers(self, told: Mapping[str, Any], called: Mapping[str, str]) -> AsyncGenerator[dict[str, Any]]:
         """What the process answers, as long as it is there."""
         process = await self._running()
         assert process.stdin is not None
@@ -122,7 +135,7 @@ class _Process:
             process.stdin.write(json.dumps({"id": next(self._numbers), **told}).encode() + b"\n")
             await process.stdin.drain()
             while line := await process.stdout.readline():
-                yield json.loads(line)
+                yield json.loads(self._names.told(line, called))
 
     async def _running(self) -> asyncio.subprocess.Process:
         if self._process is None or self._process.returncode is not None:
