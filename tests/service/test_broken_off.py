@@ -123,7 +123,9 @@ def _end_workers(server: Server) -> None:
 def test_a_base_station_that_refuses(talking: tuple[Server, str], radio: Radio) -> None:
     server, session = talking
     radio.will("refuse")
-    assert "the amplifier is off" in _press(server, session)["reply"]
+    reply = _press(server, session)["reply"]
+    assert "the amplifier is off" in reply
+    assert str(radio.folder) not in reply
     before = server.get(f"v1/sessions/{session}")
     assert (before["in_effect"], before["plan"]) == (None, None)
     told = radio.told

@@ -16,8 +16,9 @@ from pathlib import Path
 _LEAST_PARTS = 3
 """Parts of a folder's path, the root among them, below which it is no place of a server's but of every machine's."""
 _OURS = (tempfile.gettempdir(), Path.home(), Path.cwd(), sys.prefix, Path(__file__).parents[2], *filter(None, sys.path))
+_BEFORE = rb"(?:(?<![\w.-])|(?<=\\[nrt]))"
 _BETWEEN = rb"(?:/|\\\\)"
-_PART = rb"[^/\\\"'\s,;:)]+"
+_PART = rb"(?:[^/\\\"'\s,;:)]|\\u[0-9a-f]{4})+"
 
 
 class PublicNames:
@@ -32,7 +33,9 @@ class PublicNames:
         self._called = called
         ours = {str(Path(folder).absolute()) for folder in (*folders, *_OURS)}
         known = sorted(_written(folder) for folder in ours if len(Path(folder).parts) >= _LEAST_PARTS)
-        self._ours = re.compile(b"(?:%s)(?![\\w.-])(?:%s%s)*" % (b"|".join(map(re.escape, known)), _BETWEEN, _PART))
+        self._ours = re.compile(
+            _BEFORE + b"(?:%s)(?![\\w.-])(?:%s%s)*" % (b"|".join(map(re.escape, known)), _BETWEEN, _PART)
+        )
 
     def told(self, line: bytes, called: Mapping[str, str]) -> bytes:
         """A line of JSON with names in the place of paths; ``called`` says what some more places are called."""

@@ -95,19 +95,43 @@ class Service:
         if len(await self._kept(self.ledger.all, "cell")) >= self.limits.cells:
             raise TooMuchError(f"there are {self.limits.cells} cells already: remove one first")
         given = dict(options)
-        observation = given.pop("csi", None)
-        if observation is not None:
-            read_as = (await self._item("observation", observation)).data["options"]
-            if not isinstance(given.get("source_options", {}), dict):
-                raise UnusableError(f"source_options: an object with options; got {given['source_options']!r}")
-            given["source_options"] = {**read_as, **given.get("source_options", {})}
-        kept: Json = {"name": name, "options": given, "observation": observation, "effect": 0, "demonstration": False}
-        facts = await self.workers.do("facts", tell, options=given, **await self._channel(observation))
-        kept |= facts
+        kept: Json = {"name": name, "observation": given.pop("csi", None), "options": given}
+        kept |= {"effect": 0, "demonstration": False}
+        kept |= await self.workers.do("facts", tell, **await self._site(kept))
         id = secrets.token_hex(6)
         kept["session"] = await self._new_session(id)
         await self._kept(self.ledger.put, "cell", id, kept, seen=0)
+        try:
+            await self._site(kept)  # whoever removed the observation meanwhile had not seen that it is used
+        except NotFoundError:
+            await self.drop_cell(id)
+            raise
         return await self.cell(id)
+
+    async def move_cell(self, id: str, observation: str | None, tell: Tell) -> Json:
+        """Have a cell work on another observation, None for its own source; with a new conversation."""
+        async with self._alone(id, anew=True):
+            item = await self._item("cell", id)
+            data: Json = {**item.data, "observation": observation}
+            data |= await self.workers.do("facts", tell, **await self._site(data))
+            await self._kept(self.ledger.drop, "plan", id)
+            await self._changed("cell", item, **{**data, "session": await self._new_session(id)})
+            await self._site(data)
+        return await self.cell(id)
+
+    async def _site(self, cell: Mapping[str, Any]) -> Json:
+        """What a worker is told of a cell: its options with those by which its file is read, and the file.
+
+        Raises:
+            NotFoundError: the cell works on an observation that is not there.
+        """
+        options, observation = cell["options"], cell["observation"]
+        if observation is None:
+            return {"options": options, "channel": None}
+        own, read_as = options.get("source_options", {}), (await self._item("observation", observation)).data["options"]
+        if not isinstance(own, dict):
+            raise UnusableError(f"source_options: an object with options; got {own!r}")
+        return {"options": {**options, "source_options": {**read_as, **own}}, **await self._channel(observation)}
 
     async def drop_cell(self, id: str) -> None:
         """Remove a cell; its turns stay in the history."""
@@ -216,7 +240,7 @@ class Service:
 
     async def open_session(self, cell: str) -> Json:
         """A new conversation for a cell, in the place of the one that it has; a plan that waited is dropped."""
-        async with self._alone(cell):
+        async with self._alone(cell, anew=True):
             item = await self._item("cell", cell)
             id = await self._new_session(cell)
             await self._kept(self.ledger.drop, "plan", cell)
@@ -283,13 +307,17 @@ class Service:
         return await self._through(through())
 
     @contextlib.asynccontextmanager
-    async def _alone(self, cell: str) -> AsyncGenerator[Lease]:
-        """A cell of which nobody else has a turn; one that broke off while the base station was told is told first."""
+    async def _alone(self, cell: str, *, anew: bool = False) -> AsyncGenerator[Lease]:
+        """A cell of which nobody else has a turn; one that broke off while the base station was told is told first.
+
+        Where a conversation begins ``anew`` since the one before cannot go on, that one cannot tell it either.
+        """
         async with self._leases.of(cell) as lease:
             if lease.telling is not None:
                 told = lease.telling
-                if (await self._item("session", told["session"])).data["turns"] == told["turns"]:
-                    await self._turn(told["session"], told["by"], _silent, "broke_off", button="yes")
+                with contextlib.suppress(*((ProblemError,) if anew else ())):
+                    if (await self._item("session", told["session"])).data["turns"] == told["turns"]:
+                        await self._turn(told["session"], told["by"], _silent, "broke_off", button="yes")
                 await lease.keep(None)
             yield lease
 
@@ -342,9 +370,16 @@ class Service:
         held = dict(item.data)
         cell = await self._item("cell", held["cell"])
         self._check_current(cell, session)
+        try:
+            site = await self._site(cell.data)
+        except NotFoundError as error:
+            raise ConflictError(
+                f"{error.detail}, which the cell {cell.data['name']!r} works on: put another one in its place, or null "
+                f"for a simulated channel, at /v1/cells/{cell.id}/observation; a new conversation begins then"
+            ) from error
         done = await self.workers.do(
             do, tell, of=session, session=session, turns=held["turns"], recalled=held["recalled"], by=by,
-            options=cell.data["options"], **await self._channel(cell.data["observation"]), **told,
+            **site, **told,
         )  # fmt: skip
         await self._through(self._settle(item, cell, done))
         if done["stale"]:

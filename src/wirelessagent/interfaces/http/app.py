@@ -59,14 +59,14 @@ def make_app(service: Service, doors: Doors, *, demonstration: bool = False) -> 
     _add_console(app)
     add_plugin(app)
     app.router.routes.append(Route("/mcp", endpoint=mcp))
-    for kind in (RequestValidationError, HTTPException, Exception):
+    for kind in (RequestValidationError, HTTPException):  # any other error is the shield's
         app.add_exception_handler(kind, _answer)
     app.add_middleware(Shield, service=service, doors=doors)
     return app
 
 
 async def _answer(request: Request, error: Exception) -> Response:
-    """Any error as a problem; where it is the method's, with all those that there are."""
+    """An error of the framework's as a problem; where it is the method's, with all those that there are."""
     problem = problem_in(error)
     if problem.status == 405:
         problem.headers["Allow"] = ", ".join(sorted(_methods(request)))

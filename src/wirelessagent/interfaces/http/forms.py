@@ -36,6 +36,10 @@ class NewCell(Form):
     )
 
 
+class WorksOn(Form):
+    observation: Id | None = Field(description="id of the observation; null for the cell's own source")
+
+
 class SignIn(Form):
     token: str = Field(min_length=1, max_length=200, description="as `wirelessagent token` gave it")
 

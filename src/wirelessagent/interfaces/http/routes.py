@@ -81,6 +81,13 @@ async def read_cell(request: Request, id: Id) -> Any:
     return await service_of(request).cell(id)
 
 
+@router.put("/cells/{id}/observation", responses=_as(forms.CellAnswer), tags=["cells"])
+async def move_cell(request: Request, id: Id, form: forms.WorksOn) -> Response:
+    """Have a cell work on another observation, as where the one it had is gone. A new conversation begins with it."""
+    service = service_of(request)
+    return await worked(request, lambda tell: service.move_cell(id, form.observation, tell))
+
+
 @router.delete("/cells/{id}", status_code=204, tags=["cells"])
 async def drop_cell(request: Request, id: Id) -> None:
     """Remove a cell; what was said of it stays in the history."""

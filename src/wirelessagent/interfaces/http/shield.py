@@ -27,6 +27,7 @@ from wirelessagent.service.problems import (
     ProblemError,
     TooLargeError,
     UnusableError,
+    problem_of,
 )
 from wirelessagent.service.service import Service
 
@@ -99,13 +100,14 @@ class Shield:
                 return
             await self._app(scope, receive, send)
             return
-        began, identity, status = time.monotonic(), uuid.uuid4().hex[:16], 500
+        began, identity, status, started = time.monotonic(), uuid.uuid4().hex[:16], 500, False
         path = _path_of(scope)
+        scope["path"] = scope.get("root_path", "").rstrip("/") + path  # as a proxy was asked for that leaves it on
 
         async def sent(message: Message) -> None:
-            nonlocal status
+            nonlocal status, started
             if message["type"] == "http.response.start":
-                status = message["status"]
+                status, started = message["status"], True
                 message["headers"] = [*message.get("headers", []), *self._added(path, message, identity)]
             await send(message)
 
@@ -115,7 +117,10 @@ class Shield:
             if scope["method"] not in _SAFE:
                 self._check_content(Headers(scope=scope), path)
             await self._app(scope, self._limited(path, receive), sent)
-        except ProblemError as problem:
+        except Exception as error:
+            if started:  # what was said cannot be taken back
+                raise
+            problem = problem_of(error)
             await _answer(problem, in_plugin(problem) if path.startswith(_PLUGIN) and _known(scope) else None, sent)
         finally:
             route = getattr(scope.get("route"), "path", "") or "other"
