@@ -51,6 +51,8 @@ class Radio(BaseStation):
                 os._exit(9)
             case "wait":
                 time.sleep(600)
+            case "dawdle":
+                time.sleep(3)
         return self.read_back(decision)
 '''
 
@@ -197,6 +199,23 @@ def test_a_worker_that_died_idle_is_replaced_and_nobody_notices(talking: tuple[S
         assert server.say(session, line)["stage"] in ("answered", "planned")
 
 
+def test_what_is_being_applied_can_be_neither_cancelled_nor_removed(talking: tuple[Server, str], radio: Radio) -> None:
+    server, session = talking
+    radio.will("dawdle")
+    told, plan = radio.told, server.plan(session)
+    path, prefer = f"v1/sessions/{session}/confirm", {"Prefer": "respond-async"}
+    job = server.post(path, {"plan": plan}, headers=prefer).json()
+    while radio.told == told:
+        time.sleep(0.05)
+    assert server.get(f"v1/sessions/{session}")["in_effect"] is None
+    with server.client as client:
+        assert client.delete(f"v1/jobs/{job['id']}").status_code == 204
+        assert client.delete(f"v1/cells/{server.get(f'v1/sessions/{session}')['cell']}").status_code == 204
+        ended = client.get(f"v1/jobs/{job['id']}").json()
+    assert (ended["state"], ended["result"]["stage"]) == ("done", "applied")
+    assert server.get(f"v1/sessions/{session}")["plan"] is None
+
+
 class _Failing(BaseStation):
     """A base station that fails at every second attempt."""
 
@@ -236,6 +255,10 @@ def test_taken_up_it_is_as_it_was(place: Path, monkeypatch: pytest.MonkeyPatch) 
     told = _Failing.attempts
     monkeypatch.setattr(hosted, "decided", nothing_is_decided)
     again = Hosted(request, "one", silent)
+    for line in ("how sure is this?", "status"):
+        Hosted(request, "one", silent).say(line, silent)
+        talk.catch_up(silent)
+        again.catch_up(silent)
     assert _Failing.attempts == told
     for one, other in zip(talk.turns, again.turns, strict=True):
         assert (one.in_effect, one.waits) == (other.in_effect, other.waits)

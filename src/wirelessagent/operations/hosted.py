@@ -97,12 +97,37 @@ class Hosted:
         self._again: StoredTurn | None = None
         self._session = request.session(self._tell, confirm=True, station_of=self._station, decide=self._decide)
         self._session.id = identity
-        self._take_up(recalled)
+        for text, pressed in recalled:
+            self._attempts = None if pressed else []
+            self._keep(self._session.say(text, pressed="yes" if pressed else None), None)
+        self._attempts = []
+        self.catch_up(progress)
 
     @property
     def number(self) -> int:
         """Of the last turn; 0 before the first."""
         return len(self._session.turns)
+
+    def catch_up(self, progress: Progress) -> None:
+        """Say again what was recorded and not said here.
+
+        Raises:
+            StoreError: it is not what it was, or comes to something else by now.
+        """
+        self._progress = progress
+        stored = [turn for turn in self._stored() if turn.turn > self.number]
+        try:
+            for done, turn in enumerate(stored, 1):
+                self._again, self._attempts = turn, _attempts(turn)
+                by, pressed = str(turn.intent.get("by", "")), turn.intent.get("pressed")
+                said = self._session.say(turn.text, by=by, pressed=pressed)
+                self._check_same(said, turn)
+                self._keep(said, turn.number)
+                self._tell(
+                    Event(stage="recall", message="", done=done, total=len(stored), language=said.intent.language)
+                )
+        finally:
+            self._again, self._attempts = None, []
 
     def say(self, text: str, progress: Progress, *, by: str = "") -> None:
         """Take a line; it applies nothing."""
@@ -195,20 +220,6 @@ class Hosted:
         ran = "interpreted" if again.platform.get("kernels") == "interpreted" else "compiled"
         return decision_of(again, names).knowing(estimate, ran)
 
-    def _take_up(self, recalled: Sequence[tuple[str, bool]]) -> None:
-        """Say again what was said: lines recorded elsewhere, then those in the store."""
-        for text, pressed in recalled:
-            self._attempts = None if pressed else []
-            self._keep(self._session.say(text, pressed="yes" if pressed else None), None)
-        stored = self._stored()
-        for done, turn in enumerate(stored, 1):
-            self._again, self._attempts = turn, _attempts(turn)
-            said = self._session.say(turn.text, by=str(turn.intent.get("by", "")), pressed=turn.intent.get("pressed"))
-            self._check_same(said, turn)
-            self._keep(said, turn.number)
-            self._tell(Event(stage="recall", message="", done=done, total=len(stored), language=said.intent.language))
-        self._again, self._attempts = None, []
-
     def _check_same(self, said: Turn, stored: StoredTurn) -> None:
         """Refuse to go on where a line comes to something else by now: what is in effect could be told wrongly."""
         diff = stored.intent.get("diff")
@@ -249,7 +260,12 @@ def _told_then(stored: StoredTurn) -> dict[str, Any]:
 
 
 def facts_of(request: ChatRequest, progress: Progress) -> CellFacts:
-    """What the cell of a request is."""
+    """What the cell of a request is.
+
+    Raises:
+        InputError: no conversation about it could begin.
+    """
+    request.losses(), request.chosen_recogniser()
     scene = request.scene(progress)
     station = station_of(Tools(base_station=request.base_station), scene)
     return CellFacts(

@@ -104,10 +104,6 @@ class Leases:
         item = await asyncio.to_thread(self._ledger.find, _KIND, cell)
         return None if item is None else item.data["telling"]
 
-    async def forget(self, cell: str) -> None:
-        """A cell is no more."""
-        await asyncio.to_thread(self._ledger.drop, _KIND, cell)
-
     async def _free(self, cell: str) -> Lease:
         until = time.monotonic() + self._patience_s
         while True:

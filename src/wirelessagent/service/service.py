@@ -135,10 +135,11 @@ class Service:
 
     async def drop_cell(self, id: str) -> None:
         """Remove a cell; its turns stay in the history."""
-        await self._item("cell", id)
-        for kind in ("plan", "cell"):
-            await self._kept(self.ledger.drop, kind, id)
-        await self._leases.forget(id)
+        async with self._leases.of(id) as lease:
+            await self._item("cell", id)
+            for kind in ("plan", "cell"):
+                await self._kept(self.ledger.drop, kind, id)
+            await lease.keep(None)
 
     async def demonstrate(self) -> None:
         """Have a demonstration cell with a conversation as it was recorded, where there is no cell yet."""
@@ -273,6 +274,8 @@ class Service:
         """The turn of a line."""
         if not text.strip():
             raise UnusableError("nothing was said: give what the cell should do in 'text'")
+        if "\x00" in text:
+            raise UnusableError("a line holds no NUL character, as no store can keep one: leave it out")
         if len(text) > _LONGEST_TEXT:
             raise UnusableError(f"a line has at most {_LONGEST_TEXT} characters; got {len(text)}")
         async with self._alone(await self._cell_of(session)):
@@ -322,11 +325,16 @@ class Service:
             yield lease
 
     async def _through(self, work: Coroutine[Any, Any, Found]) -> Found:
-        """What comes of work that goes on where whoever waits for it is cancelled."""
+        """What comes of work that cannot be cancelled: who tries to is told what came of it, not that it was."""
         task = asyncio.create_task(work)
         self._going.add(task)
         task.add_done_callback(self._going.discard)
-        return await asyncio.shield(task)
+        while True:
+            try:
+                return await asyncio.shield(task)
+            except asyncio.CancelledError:
+                if task.cancelled():
+                    raise
 
     async def plan(self, cell: str) -> Json | None:
         """The plan that waits for a cell."""

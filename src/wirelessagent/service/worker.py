@@ -133,9 +133,11 @@ class Worker:
         return {"media_type": media_type, "content": base64.b64encode(content).decode("ascii")}
 
     def _conversation(self, told: Mapping[str, Any], progress: Progress) -> Hosted:
-        """The conversation that is meant; taken up again where this process does not have it."""
+        """The conversation that is meant; taken up where this process does not have it, or not as far as it is."""
         identity = told["session"]
         hosted = self._hosted.pop(identity, None)
+        if hosted is not None and told["turns"] > hosted.number:  # another server went on with it
+            hosted.catch_up(progress)
         if hosted is None or told["turns"] != hosted.number:
             recalled = [(text, pressed) for text, pressed in told.get("recalled", ())]
             hosted = Hosted(_cell(told), identity, progress, recalled=recalled)

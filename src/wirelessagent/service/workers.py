@@ -91,7 +91,9 @@ class _Process:
                         f"the work took longer than {time_limit_s:g} s and was ended; ask for less, or for a faster "
                         "method (option deadline_s)"
                     ) from error
-                except asyncio.CancelledError:
+                except ProblemError:
+                    raise
+                except BaseException:  # cancelled, or an answer that cannot be read: what it says next is of no use
                     await self.end()
                     raise
         finally:
