@@ -265,7 +265,8 @@ def facts_of(request: ChatRequest, progress: Progress) -> CellFacts:
     Raises:
         InputError: no conversation about it could begin.
     """
-    request.losses(), request.chosen_recogniser()
+    request.losses()
+    request.chosen_recogniser()
     scene = request.scene(progress)
     station = station_of(Tools(base_station=request.base_station), scene)
     return CellFacts(

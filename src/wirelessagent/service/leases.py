@@ -88,11 +88,10 @@ class Leases:
         """The lease of a cell, once nobody else has it.
 
         Raises:
-            ConflictError: somebody else keeps it, or was faster.
+            ConflictError: somebody else keeps it.
         """
         async with self._locks.setdefault(cell, asyncio.Lock()):
-            lease = await self._free(cell)
-            await lease.keep(lease.telling)
+            lease = await self._taken(cell)
             renewing = asyncio.create_task(lease.renew())
             try:
                 yield lease
@@ -103,6 +102,13 @@ class Leases:
         """What the base station of a cell is being told, or was when that broke off; None where that is nothing."""
         item = await asyncio.to_thread(self._ledger.find, _KIND, cell)
         return None if item is None else item.data["telling"]
+
+    async def _taken(self, cell: str) -> Lease:
+        while True:
+            lease = await self._free(cell)
+            with contextlib.suppress(ConflictError):  # somebody was faster, and will be done with it
+                await lease.keep(lease.telling)
+                return lease
 
     async def _free(self, cell: str) -> Lease:
         until = time.monotonic() + self._patience_s

@@ -171,8 +171,9 @@ class Service:
         path = self._folder / f"{id}{suffix}"
         await asyncio.to_thread(_write, path, content)
         try:
-            about = {"channel": str(path), "called": {str(path): shown}}
-            seen = await self.workers.do("inspect", tell, options={"source_options": dict(options)}, **about)
+            read_as = {"source_options": dict(options)}
+            called = {str(path): shown}
+            seen = await self.workers.do("inspect", tell, options=read_as, channel=str(path), called=called)
             self._check_size(seen)
         except BaseException:
             path.unlink(missing_ok=True)
