@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 import subprocess
@@ -22,6 +23,8 @@ from wirelessagent.operations import hosted
 from wirelessagent.operations.chat import ChatRequest
 from wirelessagent.operations.hosted import Hosted
 from wirelessagent.operations.operation import silent
+from wirelessagent.service.names import PublicNames
+from wirelessagent.service.workers import Workers
 
 pytestmark = pytest.mark.machine_code
 
@@ -156,7 +159,7 @@ def test_a_worker_that_dies_while_it_applies(talking: tuple[Server, str], radio:
 
 
 def test_a_base_station_that_never_answers(radio: Radio, place: Path) -> None:
-    with started(place, "--work-limit-s", "8") as server:
+    with started(place, "--work-limit-s", "15") as server:
         session = _begun(server)
         radio.will("wait")
         assert "not known" in _press(server, session)["lines"]["changed"]
@@ -273,3 +276,22 @@ def test_a_press_is_what_it_is_behind_any_line() -> None:
     assert talk.turns[-1].waits
     talk.press("yes", silent)
     assert (talk.turns[-1].record.stage, talk.turns[-1].in_effect) == ("applied", 3)
+
+
+def test_a_worker_that_is_gone_before_it_has_begun_is_replaced_once() -> None:
+    async def work() -> None:
+        environment = {"WIRELESSAGENT_COMPILE": "never"}
+        workers = Workers(time_limit_s=60, environment=environment, names=PublicNames({}, []))
+        first = await workers.do("forms", _unheard)
+        command = ["pgrep", "-P", str(os.getpid()), "-f", "service.worker"]
+        found = subprocess.run(command, capture_output=True, text=True, check=True)
+        for number in found.stdout.split():
+            os.kill(int(number), signal.SIGKILL)  # which the event loop has not heard of yet
+        assert await workers.do("forms", _unheard) == first
+        await workers.close()
+
+    asyncio.run(work())
+
+
+def _unheard(event: dict[str, Any]) -> None:
+    del event
