@@ -244,4 +244,9 @@ def test_killed_under_load_every_answered_turn_is_kept_and_nothing_applied_twice
     with started(tmp_path / "two", at=place) as server:
         for session in sessions:
             turn = server.say(session, "how sure is this?")
-            assert turn["number"] == 1 + max((number for of, number in kept if of == session), default=0)
+            before = max((number for of, number in kept if of == session), default=0)
+            since = server.get(f"v1/sessions/{session}")["turns"][before:]
+            told = [one["lines"]["changed"] for one in since[:-1]]
+            assert since[-1] == turn
+            assert all("what is in effect there is not known" in one for one in told)
+            assert len(told) <= 1

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import cast
+from typing import TypeAlias, cast
 
 import numpy as np
 
@@ -16,15 +16,26 @@ from wirelessagent.agent.posing import Posed
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run
 from wirelessagent.language.intent import Intent
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.problem import Problem
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.model.units import percent
 from wirelessagent.telling.catalogue import message
 from wirelessagent.telling.certificates import decided_line
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.report import report
+
+Decide: TypeAlias = Callable[[ChannelEstimate, Problem, Cell, Tools], Decision]
+"""What decides."""
+
+
+def decided(estimate: ChannelEstimate, problem: Problem, cell: Cell, tools: Tools) -> Decision:
+    """The decision of the method that the tools name."""
+    return chain.decide(estimate, problem, cell, tools.method, **tools.method_options)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,9 +72,11 @@ def describe(seen: ChannelObservation, language: str = "en") -> str:
     )  # fmt: skip
 
 
-def plan(intent: Intent, posed: Posed, sight: Sight, tools: Tools, *, progress: Progress = silent) -> Run:
+def plan(
+    intent: Intent, posed: Posed, sight: Sight, tools: Tools, *, decide: Decide = decided, progress: Progress = silent
+) -> Run:
     """Decide on what was posed; nothing is applied."""
-    decision = chain.decide(sight.estimate, posed.problem, posed.cell, tools.method, **tools.method_options)
+    decision = decide(sight.estimate, posed.problem, posed.cell, tools)
     progress(Event(stage="decide", message=decided_line(decision, intent.language), language=intent.language))
     made = report(decision)
     return Run(

@@ -27,7 +27,7 @@ from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.agent.posing import UnknownUserError, user_number
 from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.restating import noted_after
-from wirelessagent.agent.run import station_of
+from wirelessagent.agent.run import Decide, decided, station_of
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.state import Missing, Question, Reply, State, Talk, asked_back
 from wirelessagent.agent.tools import Tools
@@ -53,6 +53,7 @@ from wirelessagent.language.acts import (
     Export,
     Forget,
     No,
+    Press,
     Suppose,
     Undo,
     Yes,
@@ -107,6 +108,11 @@ _REPLIES: Mapping[type[Act], Callable[[Talk, Any], Reply]] = {
 }
 """What becomes of a question or a command, by its kind."""
 
+_BUTTONS: Mapping[Press, tuple[str, Act]] = {
+    "yes": ("confirm", Yes()), "no": ("reject", No()), "undo": ("undo", Undo()),
+}  # fmt: skip
+"""The topic and the act of each button."""
+
 _LONGEST_NAME = 100
 """Characters of a line that may be such an answer."""
 
@@ -136,6 +142,7 @@ class Session:
         progress: is told of each stage as it happens.
         raises: raise what goes wrong instead of telling it; questions back are told all the same.
         station_of: finds the base station for tools and a scene, where none is given.
+        decide: makes the decisions.
     """
 
     def __init__(
@@ -152,16 +159,18 @@ class Session:
         progress: Progress = silent,
         raises: bool = False,
         station_of: Callable[[Tools, Scene], BaseStation | None] = station_of,
+        decide: Decide = decided,
     ) -> None:
         self._site = Site(
             scene, losses, seed=seed, tools=tools or Tools(), base_station=base_station, confirm=confirm,
-            tolerance=tolerance, progress=progress, station_of=station_of,
+            tolerance=tolerance, progress=progress, station_of=station_of, decide=decide,
         )  # fmt: skip
         self._recogniser = recogniser or OfflineRecogniser()
         self._store, self._progress, self._raises = store, progress, raises
         self._state, self._past = State(), list[State]()
         self._turns, self._requests = list[Turn](), list[Request | None]()
         self._language = self._by = ""
+        self._pressed: Press | None = None
         self.id = uuid.uuid4().hex[:12]
 
     @property
@@ -189,11 +198,17 @@ class Session:
         """The operator's, as of the last line; English before the first."""
         return self._language or "en"
 
-    def say(self, text: str, *, by: str = "") -> Turn:
-        """Take a line from the operator (``by`` name, where that is known): understand it, do what it asks, reply."""
-        self._by = by
+    def say(self, text: str, *, by: str = "", pressed: Press | None = None) -> Turn:
+        """Take a line from the operator (``by`` name, where that is known): understand it, do what it asks, reply.
+
+        Where a button was ``pressed``, that is what is meant; nothing is read in the text and nothing doubted.
+        """
+        self._by, self._pressed = by, pressed
         context, before = self._context(), self._state
-        intent = self._taken(self._answered(text, context) or understood(text, context, self._recogniser))
+        if pressed is None:
+            intent = self._taken(self._answered(text, context) or understood(text, context, self._recogniser))
+        else:
+            intent = _meant(pressed, text, self.language)
         self._state = dataclasses.replace(self._state, supposed=None)
         self._language = intent.language
         if intent.kind == "allocate":
@@ -202,7 +217,10 @@ class Session:
                 intent.language, "stage.understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure
             )
             self._progress(Event(stage="understand", message=read, language=intent.language))
-        talk = Talk(site=self._site, state=self._state, past=self._past, turns=self._turns, intent=intent, text=text)
+        talk = Talk(
+            site=self._site, state=self._state, past=self._past, turns=self._turns, intent=intent, text=text,
+            pressed=pressed is not None,
+        )  # fmt: skip
         try:
             reply = waiting.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
             self._take(reply, intent)
@@ -326,6 +344,7 @@ class Session:
             diff=difference(before.request, after.request),
             shift=shift_between(then, now),
             by=self._by,
+            pressed=self._pressed,
         )
         if self._store is not None:
             try:
@@ -378,6 +397,15 @@ class Session:
         return _with_user(missing, self._site.user_names[number])
 
 
+def _meant(pressed: Press, text: str, language: str) -> Intent:
+    """What a button means."""
+    topic, act = _BUTTONS[pressed]
+    return Intent(
+        kind="command", objective=None, constraints={}, language=language, confidence=1.0, evidence={}, reply=text,
+        recogniser=READ_HERE, topic=topic, acts=(act,),
+    )  # fmt: skip
+
+
 def _changes_or_supposes(act: Act) -> bool:
     """Whether the line behind an act may lean on it."""
     return not isinstance(act, Ask | Apply | Yes | No) and act != Suppose()
@@ -393,7 +421,7 @@ def _handled(talk: Talk, context: Context) -> Reply:
     if intent.kind == "out_of_scope":
         return Reply(decided=intent.reply)
     act = acts[0]
-    doubt = waiting.doubted(talk, act) if isinstance(act, Apply | Yes) else None
+    doubt = waiting.doubted(talk, act) if isinstance(act, Apply | Yes) and not talk.pressed else None
     return doubt or _REPLIES[type(act)](talk, act)
 
 

@@ -14,7 +14,7 @@ from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.events import Event, Progress
 from wirelessagent.agent.posing import ABOVE_THE_LIMIT, pose
 from wirelessagent.agent.refusing import RefusedError
-from wirelessagent.agent.run import Sight, look, plan, station_of, with_outcome
+from wirelessagent.agent.run import Decide, Sight, decided, look, plan, station_of, with_outcome
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Run
 from wirelessagent.language.intent import Intent
@@ -47,8 +47,9 @@ class Site:
         tolerance: float,
         progress: Progress,
         station_of: Callable[[Tools, Scene], BaseStation | None] = station_of,
+        decide: Decide = decided,
     ) -> None:
-        self._station_of = station_of
+        self._station_of, self._decide = station_of, decide
         self.scene, self.losses, self.seed, self.tools = scene, tuple(losses), seed, tools
         self.tolerance, self.progress = tolerance, progress
         self._base_station, self._confirm = base_station, confirm
@@ -94,7 +95,8 @@ class Site:
             chain.check_solvable(posed.problem, tools.method)
         except UnsupportedProblemError as refusal:
             raise RefusedError(refusal, posed.problem, tools.method, intent.language) from refusal
-        return plan(intent, posed, sight or self.sight(intent.language), tools, progress=self.progress)
+        seen = sight or self.sight(intent.language)
+        return plan(intent, posed, seen, tools, decide=self._decide, progress=self.progress)
 
     def tools_of(self, request: Request) -> Tools:
         """The tools, with the method that the operator named."""

@@ -107,6 +107,7 @@ class Talk:
         turns: what was said so far.
         intent: what was understood of the line.
         text: the line.
+        pressed: whether it stands for a button.
     """
 
     site: Site
@@ -115,6 +116,7 @@ class Talk:
     turns: Sequence[Turn]
     intent: Intent
     text: str
+    pressed: bool = False
 
     @property
     def language(self) -> str:

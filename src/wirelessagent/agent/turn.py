@@ -11,7 +11,7 @@ import numpy as np
 
 from wirelessagent.agent.dialogue import Diff
 from wirelessagent.agent.tools import Tools
-from wirelessagent.language.acts import Act
+from wirelessagent.language.acts import Act, Press
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import acts_of
 from wirelessagent.model.decision import Decision
@@ -174,6 +174,7 @@ class Turn(Shown):
         diff: what the turn changed of what is asked for.
         shift: what it changed of the allocation that held; None where it decided nothing, or nothing held.
         by: the operator's name, where several are known.
+        pressed: the button that the text stands for; None where the line was said.
     """
 
     number: int
@@ -194,6 +195,7 @@ class Turn(Shown):
     diff: Diff = field(default_factory=Diff)
     shift: Shift | None = None
     by: str = ""
+    pressed: Press | None = None
 
     @property
     def reply(self) -> str:

@@ -11,6 +11,9 @@ import dataclasses
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias, cast
 
+Press: TypeAlias = Literal["yes", "no", "undo"]
+"""What is pressed instead of said: apply the plan that waits, drop it, or take back the last change."""
+
 TurnReference: TypeAlias = int | str
 """A turn by its number, "first" for the first with a decision, or words that should have named one."""
 

@@ -1,90 +1,85 @@
 """A conversation that goes on for a caller elsewhere: its lines come one by one, and it can be taken up again.
 
 Nothing reaches the base station by a line: what is decided waits, and :meth:`Hosted.press` applies it or drops it. A
-conversation that was lost with its process is taken up by saying its recorded lines again; what the base station did
-then is what was read back of it, so that it is told nothing twice.
+conversation that was lost with its process is taken up by saying its recorded lines again. What was decided then is
+what was recorded, and what the base station did is what was read back of it, or that it failed: nothing is decided
+otherwise, and nobody is told anything twice. A press that broke off with its process is told as that
+(:meth:`Hosted.broke_off`).
 """
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import Any, TypeAlias
 
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent.acting import same_allocation
-from wirelessagent.agent.run import station_of
+from wirelessagent.agent.run import decided, station_of
 from wirelessagent.agent.tools import Tools
 from wirelessagent.agent.turn import Turn
+from wirelessagent.chain import resolve
+from wirelessagent.language.acts import Press
+from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
+from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.problem import Problem
 from wirelessagent.model.scene import Scene
 from wirelessagent.operations.chat import ChatRequest
+from wirelessagent.operations.hosted_answers import CellFacts, ChannelAnswer, HostedTurn, SeenAnswer
 from wirelessagent.operations.operation import Event, Progress
-from wirelessagent.operations.record import Matrix, Record, SwitchMatrix, Vector
 from wirelessagent.operations.recording import opened
 from wirelessagent.operations.simulate import scene_arrays
-from wirelessagent.operations.turn_record import TurnRecord
+from wirelessagent.operations.turn_record import LinesAnswer, TurnRecord
 from wirelessagent.sensing.npz import write_npz
-from wirelessagent.store.rebuilt import outcome_of
+from wirelessagent.store.plain import plain
+from wirelessagent.store.rebuilt import decision_of, outcome_of
+from wirelessagent.store.record_of import problem_columns
 from wirelessagent.store.stored import StoredTurn
 from wirelessagent.telling.catalogue import message
 
-Press: TypeAlias = Literal["yes", "no", "undo"]
-"""What is pressed: apply the plan that waits, drop it, or take back the last change."""
+Attempts: TypeAlias = list[Outcome | BaseException]
+"""What came of each time that a base station was told something."""
 
 
-class ChannelAnswer(Record):
-    """What is known of the channel: as it was sensed (null = missing), and repaired with standard deviations."""
-
-    user_names: list[str]
-    frequencies_hz: Vector | None
-    observed_gain: Matrix
-    gain: Matrix
-    gain_sd: Matrix
-    repaired: SwitchMatrix
+class _FailedThenError(Exception):
+    """The base station failed when it was told; nothing more is known of it."""
 
 
-class HostedTurn(Record):
-    """A turn with what holds after it.
-
-    Attributes:
-        in_effect: the turn whose allocation is in effect; None where none is, or where that is not known.
-        waits: whether a plan waits to be applied.
-    """
-
-    record: TurnRecord
-    language: str
-    by: str
-    in_effect: int | None
-    waits: bool
-
-
-class CellFacts(Record):
-    """What a cell is, for people to choose among several."""
-
-    facts: dict[str, str]
-    user_names: list[str]
-    num_subcarriers: int
-    base_station: str | None
-    max_power_w: float
+class _BrokenOffError(BaseException):
+    """The process ended while the base station was told; no fault of the base station's, so that none is told of."""
 
 
 @dataclass(frozen=True)
 class _Kept(BaseStation):
-    """In a base station's place: does nothing, and tells what it is told to."""
+    """In a base station's place: does nothing, and lets happen what it is told of, attempt by attempt.
 
-    outcomes: list[Outcome] = dataclasses.field(default_factory=list[Outcome])
-    why: str = ""
+    Attributes:
+        real: the base station.
+        attempts: what came of each: what was read back, or why nothing was, as of all that follow the last.
+        why: nothing may be tried where there is none.
+    """
+
+    real: BaseStation = field(kw_only=True)
+    attempts: Attempts = field(kw_only=True)
+    why: str = field(kw_only=True)
+
+    def __post_init__(self) -> None:
+        for name in ("name", "power_resolution_w"):
+            object.__setattr__(self, name, getattr(self.real, name))
 
     def apply(self, decision: Decision) -> Outcome:
-        if not self.outcomes:
+        if not self.attempts:
             raise InputError(self.why)
-        return self.outcomes.pop(0)
+        came_of_it = self.attempts.pop(0) if len(self.attempts) > 1 else self.attempts[0]
+        if isinstance(came_of_it, BaseException):
+            raise came_of_it
+        return self.real.apply(decision) if isinstance(self.real, SimulatedBaseStation) else came_of_it
 
 
 class Hosted:
@@ -101,30 +96,53 @@ class Hosted:
     ) -> None:
         self._request, self._progress = request, progress
         self.turns = list[HostedTurn]()
-        self._pressed = False
+        self._attempts: Attempts | None = []
         self._again: StoredTurn | None = None
-        self._session = request.session(self._tell, confirm=True, station_of=self._station)
+        self._session = request.session(self._tell, confirm=True, station_of=self._station, decide=self._decide)
         self._session.id = identity
-        self._take_up(recalled)
+        for text, pressed in recalled:
+            self._attempts = None if pressed else []
+            self._keep(self._session.say(text, pressed="yes" if pressed else None), None)
+        self._attempts = []
+        self.catch_up(progress)
 
     @property
     def number(self) -> int:
         """Of the last turn; 0 before the first."""
         return len(self._session.turns)
 
+    def catch_up(self, progress: Progress) -> None:
+        """Say again what was recorded and not said here.
+
+        Raises:
+            StoreError: it is not what it was, or comes to something else by now.
+        """
+        self._progress = progress
+        stored = [turn for turn in self._stored() if turn.turn > self.number]
+        try:
+            for done, turn in enumerate(stored, 1):
+                self._again, self._attempts = turn, _attempts(turn)
+                by, pressed = str(turn.intent.get("by", "")), turn.intent.get("pressed")
+                said = self._session.say(turn.text, by=by, pressed=pressed)
+                self._check_same(said, turn)
+                self._keep(said, turn.number)
+                self._tell(
+                    Event(stage="recall", message="", done=done, total=len(stored), language=said.intent.language)
+                )
+        finally:
+            self._again, self._attempts = None, []
+
     def say(self, text: str, progress: Progress, *, by: str = "") -> None:
         """Take a line; it applies nothing."""
-        self._progress = progress
-        turn, stored = self._request.said(self._session, text, by=by)
-        self._keep(turn, stored)
+        self._take(text, progress, by)
 
     def press(self, what: Press, progress: Progress, *, by: str = "") -> None:
-        """Take a button."""
-        self._pressed = what == "yes"
-        try:
-            self.say(message(self._session.language, f"pressed.{what}"), progress, by=by)
-        finally:
-            self._pressed = False
+        """Take a button; it means what it is, whatever was said before."""
+        self._press(what, progress, by, attempts=None if what == "yes" else [])
+
+    def broke_off(self, what: Press, progress: Progress, *, by: str = "") -> None:
+        """Tell of a button that was pressed, and of which no more is known than that its process ended."""
+        self._press(what, progress, by, attempts=[_BrokenOffError()])
 
     def channel(self) -> ChannelAnswer | None:
         """What is known of the channel by the last decision; None where there is none yet."""
@@ -142,9 +160,30 @@ class Hosted:
             repaired=estimate.repaired.tolist(),
         )
 
+    def _press(self, what: Press, progress: Progress, by: str, *, attempts: Attempts | None) -> None:
+        """Have a button's turn; what comes of its attempts is what the base station makes of them, where None."""
+        self._attempts = attempts
+        try:
+            self._take(message(self._session.language, f"pressed.{what}"), progress, by, pressed=what)
+        finally:
+            self._attempts = []
+
+    def _take(self, text: str, progress: Progress, by: str, *, pressed: Press | None = None) -> None:
+        """Have a turn and record it; one that was broken off after the base station was told is a turn, too."""
+        self._progress, before = progress, self.number
+        try:
+            self._session.say(text, by=by, pressed=pressed)
+        except (Exception, _BrokenOffError):
+            if self.number == before:
+                raise
+        finally:
+            for turn in self._session.turns[before:]:
+                self._keep(turn, self._request.remember(turn))
+
     def _keep(self, turn: Turn, stored: int | None) -> None:
+        record = TurnRecord.of(turn, self._session, stored)
         kept = HostedTurn(
-            record=TurnRecord.of(turn, self._session, stored),
+            record=record if self._again is None else record.model_copy(update=_told_then(self._again)),
             language=turn.intent.language,
             by=turn.by,
             in_effect=self._in_effect(),
@@ -170,24 +209,28 @@ class Hosted:
     def _station(self, tools: Tools, scene: Scene) -> BaseStation | None:
         """The base station where a button was pressed; one in its place where lines are said, or said again."""
         station = station_of(tools, scene)
-        outcomes = [] if self._again is None else _outcomes(self._again)
-        if station is None or self._pressed or (outcomes and isinstance(station, SimulatedBaseStation)):
+        if station is None or self._attempts is None:
             return station
-        kept = _Kept(scene=scene, outcomes=outcomes, why=message(self._session.language, "pressed.only"))
-        object.__setattr__(kept, "name", station.name)
-        object.__setattr__(kept, "power_resolution_w", station.power_resolution_w)
-        return kept
+        why = message(self._session.language, "pressed.only")
+        return _Kept(scene=scene, real=station, attempts=list(self._attempts), why=why)
 
-    def _take_up(self, recalled: Sequence[tuple[str, bool]]) -> None:
-        """Say again what was said: lines recorded elsewhere, then those in the store."""
-        for text, pressed in recalled:
-            self._pressed = pressed
-            self._keep(self._session.say(text), None)
-        self._pressed = False
-        for turn in self._stored():
-            self._again = turn
-            self._keep(self._session.say(turn.text, by=str(turn.intent.get("by", ""))), turn.number)
-        self._again = None
+    def _decide(self, estimate: ChannelEstimate, problem: Problem, cell: Cell, tools: Tools) -> Decision:
+        """What was decided where a line is said again and that is what it decided; else what is decided now."""
+        again, names = self._again, estimate.user_names
+        posed = problem_columns(resolve(problem).for_users(names))
+        if again is None or not again.decided or (plain(posed), plain(cell)) != (again.problem, again.cell):
+            return decided(estimate, problem, cell, tools)
+        ran = "interpreted" if again.platform.get("kernels") == "interpreted" else "compiled"
+        return decision_of(again, names).knowing(estimate, ran)
+
+    def _check_same(self, said: Turn, stored: StoredTurn) -> None:
+        """Refuse to go on where a line comes to something else by now: what is in effect could be told wrongly."""
+        diff = stored.intent.get("diff")
+        if said.stage != stored.stage or (diff is not None and plain(said.diff) != diff):
+            raise StoreError(
+                f"turn {stored.turn} of the conversation {self._session.id}, {stored.text!r:.80}, is understood "
+                "otherwise than it was then: begin a new conversation"
+            )
 
     def _stored(self) -> list[StoredTurn]:
         try:
@@ -199,15 +242,34 @@ class Hosted:
             raise StoreError(f"the conversation {self._session.id} cannot be taken up again: {error}") from error
 
 
-def _outcomes(turn: StoredTurn) -> list[Outcome]:
-    """What was read back in a recorded turn, in order."""
-    read = (turn.applied, turn.restored)
-    found = [outcome_of(dataclasses.replace(turn, applied=one)) for one in read if one is not None]
-    return [one for one in found if one is not None]
+def _attempts(turn: StoredTurn) -> Attempts:
+    """What came of each time that the base station was told something in a recorded turn.
+
+    A plan is applied first, unless that is put back which was in effect before; then the last good one may be put back.
+    """
+    if not turn.decided:  # which touched nothing
+        return []
+    read = [turn.restored] if turn.stage == "undone" else [turn.applied, turn.restored]
+    failed = _FailedThenError(turn.reply)
+    found = [None if one is None else outcome_of(dataclasses.replace(turn, applied=one)) for one in read]
+    return [*(failed if one is None else one for one in found), failed]
+
+
+def _told_then(stored: StoredTurn) -> dict[str, Any]:
+    """What a recorded turn said, for the record of one that was said again."""
+    told = {name: getattr(stored, name) for name in ("at_utc", "version", "reply", "intent")}
+    lines = stored.intent.get("lines")
+    return told if lines is None else {**told, "lines": LinesAnswer(**lines)}
 
 
 def facts_of(request: ChatRequest, progress: Progress) -> CellFacts:
-    """What the cell of a request is."""
+    """What the cell of a request is.
+
+    Raises:
+        InputError: no conversation about it could begin.
+    """
+    request.losses()
+    request.chosen_recogniser()
     scene = request.scene(progress)
     station = station_of(Tools(base_station=request.base_station), scene)
     return CellFacts(
@@ -217,18 +279,6 @@ def facts_of(request: ChatRequest, progress: Progress) -> CellFacts:
         base_station=None if station is None else station.name,
         max_power_w=scene.cell.max_power_w,
     )
-
-
-class SeenAnswer(Record):
-    """What a file with gains holds; ``gain`` is the current slot, null = missing."""
-
-    facts: dict[str, str]
-    user_names: list[str]
-    num_users: int
-    num_subcarriers: int
-    num_slots: int
-    missing: int
-    gain: Matrix
 
 
 def seen_in(request: ChatRequest, progress: Progress, out: Path | None = None) -> SeenAnswer:

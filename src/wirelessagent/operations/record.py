@@ -74,6 +74,7 @@ def _as_list(value: Any) -> Any:
 
 Vector: TypeAlias = Annotated[list[float], BeforeValidator(_as_list)]
 Matrix: TypeAlias = Annotated[list[list[float]], BeforeValidator(_as_list)]
+GapMatrix: TypeAlias = Annotated[list[list[float | None]], BeforeValidator(_as_list)]  # NaN, which is null in JSON
 Integers: TypeAlias = Annotated[list[int], BeforeValidator(_as_list)]
 Switches: TypeAlias = Annotated[list[bool], BeforeValidator(_as_list)]
 SwitchMatrix: TypeAlias = Annotated[list[list[bool]], BeforeValidator(_as_list)]

@@ -18,7 +18,7 @@ from wirelessagent.operations.tool_options import MethodOptions, RepairerOptions
 
 if TYPE_CHECKING:
     from wirelessagent.agent.session import Session
-    from wirelessagent.model.scene import Scene
+    from wirelessagent.model.scene import Loss, Scene
 
 
 class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions):
@@ -65,9 +65,7 @@ class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions)
         from wirelessagent.agent.acting import TOLERANCE
         from wirelessagent.agent.session import Session
         from wirelessagent.agent.tools import Tools
-        from wirelessagent.sensing.loss import parse
 
-        default_loss = [] if self.csi else ["random:0.2"]
         options: dict[str, Any] = {
             "seed": self.seed,
             "recogniser": self.chosen_recogniser(),
@@ -76,5 +74,11 @@ class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions)
             "tools": Tools(**{item.name: getattr(self, item.name) for item in dataclasses.fields(Tools)}),
             "progress": progress,
         }
-        losses = [parse(text) for text in (default_loss if self.loss is None else self.loss)]
-        return Session(self.scene(progress), *losses, **{**options, **settings})
+        return Session(self.scene(progress), *self.losses(), **{**options, **settings})
+
+    def losses(self) -> list[Loss]:
+        """What gets lost."""
+        from wirelessagent.sensing.loss import parse
+
+        default_loss = [] if self.csi else ["random:0.2"]
+        return [parse(text) for text in (default_loss if self.loss is None else self.loss)]

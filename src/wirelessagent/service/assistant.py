@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
+from wirelessagent.operations.hosted_answers import Press
 from wirelessagent.operations.paragraphs import plain_text
 from wirelessagent.service.access import Caller
 from wirelessagent.service.jobs import Tell
 from wirelessagent.service.problems import NotFoundError, UnusableError
-from wirelessagent.service.service import Press, Service
+from wirelessagent.service.service import Service
 
 Json: TypeAlias = dict[str, Any]
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import logging
 import secrets
 import time
 from collections import OrderedDict
@@ -16,12 +15,9 @@ from collections.abc import AsyncGenerator, Awaitable, Callable
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
-from wirelessagent.operations.operation import WirelessAgentError
 from wirelessagent.service.kept import kept
-from wirelessagent.service.problems import ConflictError, NotFoundError, ProblemError, TooMuchError
+from wirelessagent.service.problems import ConflictError, NotFoundError, ProblemError, TooMuchError, problem_of
 from wirelessagent.store.ledger import ChangedError, Item, Ledger
-
-_log = logging.getLogger("wirelessagent.service")
 
 State: TypeAlias = Literal["running", "done", "failed", "cancelled"]
 
@@ -113,15 +109,8 @@ class Job:
         except asyncio.CancelledError:
             self.problem = ProblemError("the work was cancelled", status=409, title="Cancelled")
             self._end("cancelled", self.problem.body)
-        except ProblemError as problem:
-            self.problem = problem
-            self._end("failed", problem.body)
-        except WirelessAgentError as error:
-            self.problem = ProblemError(str(error), status=500, title="This failed")
-            self._end("failed", self.problem.body)
-        except Exception:  # noqa: BLE001  # whoever waits is told, and the log says what it was
-            _log.exception("a job failed")
-            self.problem = ProblemError("the server's log says more", status=500, title="Internal error")
+        except Exception as error:  # noqa: BLE001  # whoever waits is told
+            self.problem = problem_of(error)
             self._end("failed", self.problem.body)
         else:
             self._end("done", self.result)

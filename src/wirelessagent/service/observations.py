@@ -9,9 +9,9 @@ import asyncio
 import os
 import secrets
 import time
-from collections.abc import Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 from wirelessagent.model.atomic import write_atomically
 from wirelessagent.service.jobs import Tell
@@ -22,6 +22,7 @@ from wirelessagent.service.workers import Workers
 from wirelessagent.store.ledger import Ledger
 
 Json: TypeAlias = dict[str, Any]
+Made = TypeVar("Made")
 
 SUFFIXES = frozenset({".csv", ".txt", ".json", ".npz", ".npy", ".mat", ".h5", ".hdf5", ".nc"})
 """How the names of files with gains end."""
@@ -49,49 +50,57 @@ class Observations:
         suffix = Path(name).suffix.lower()
         if suffix not in SUFFIXES:
             raise UnusableError(f"{name!r}: a file with gains ends in one of {', '.join(sorted(SUFFIXES))}")
-        if len(await kept(self._ledger.all, "observation")) >= self._limits.observations:
-            raise TooMuchError(f"{self._limits.observations} observations are kept already: remove one first")
-        id, read_as = secrets.token_hex(8), dict(options)
-        path = sent = self._folder / f"{id}{suffix}"
-        if self._understood_only:
-            path = self._folder / f"{id}.npz"
-            sent = path.with_name(f"{id}-sent{suffix}")
-        await asyncio.to_thread(_write, sent, content)
+
+        async def write(path: Path) -> None:
+            await asyncio.to_thread(_write, path, content)
+
+        made, _ = await self._made(Path(name).name[:200], suffix, options, write, tell)
+        return made
+
+    async def derive(self, name: str, form: Mapping[str, Any], tell: Tell) -> Json:
+        """Run an operation that writes gains (simulate, repair), and keep them; nobody has to remove these."""
+        given, shown = dict(form), f"{name}.npz"
+        channel = await self.channel(given.pop("observation", None))
+
+        async def run(path: Path) -> Json:
+            called = {**channel["called"], str(path): shown}
+            return await self._workers.do(
+                "operation", tell, name=name, form=given, out=str(path), channel=channel["channel"], called=called
+            )
+
+        made, done = await self._made(shown, ".npz", {}, run, tell, derived=True)
+        return {"observation": made, **done}
+
+    async def _made(
+        self, name: str, suffix: str, options: Mapping[str, str], make: Callable[[Path], Awaitable[Made]], tell: Tell,
+        **more: Any,
+    ) -> tuple[Json, Made]:  # fmt: skip
+        """Keep the file that something makes, if it can be used, and what was understood of it.
+
+        Where there are too many, the oldest go that were derived and that no cell works on.
+        """
+        await self._make_room()
+        read_as, id = dict(options), secrets.token_hex(8)
+        sent = self._folder / f"{id}-sent{suffix}"
+        path = self._folder / (f"{id}.npz" if self._understood_only else f"{id}{suffix}")
+        await asyncio.to_thread(_make, self._folder)
         try:
+            done = await make(sent)
             seen = await self._workers.do(
-                "inspect", tell, options={"source_options": read_as}, channel=str(sent),
-                out=None if path == sent else str(path),
+                "inspect", tell, options={"source_options": read_as}, channel=str(sent), called={str(sent): name},
+                out=str(path) if self._understood_only else None,
             )  # fmt: skip
             self._check_size(seen)
-            kept_as = read_as if path == sent else {}
-            return await self._keep(path, {"name": Path(name).name[:200], "options": kept_as, **seen})
+            if self._understood_only:
+                read_as = {}
+            else:
+                sent.replace(path)
+            return await self._keep(path, {"name": name, "options": read_as, **more, **seen}), done
         except BaseException:
             path.unlink(missing_ok=True)
             raise
         finally:
-            if path != sent:
-                sent.unlink(missing_ok=True)
-
-    async def derive(self, name: str, form: Mapping[str, Any], tell: Tell) -> Json:
-        """Run an operation that writes gains (simulate, repair), and keep them as an observation.
-
-        Nobody has to remove these: where there are too many, the oldest that no cell works on go.
-        """
-        given = dict(form)
-        channel = await self.file(given.pop("observation", None))
-        await self._make_room()
-        path = self._folder / f"{secrets.token_hex(8)}.npz"
-        await asyncio.to_thread(_make, self._folder)
-        try:
-            done = await self._workers.do("operation", tell, name=name, form=given, channel=channel, out=str(path))
-            seen = await self._workers.do("inspect", tell, options={}, channel=str(path))
-            made = await self._keep(path, {"name": f"{name}.npz", "options": {}, "derived": True, **seen})
-        except BaseException:
-            path.unlink(missing_ok=True)
-            raise
-        done["record"]["out"] = None  # where the server keeps what is nobody else's business
-        done["blocks"] = [block for block in done["blocks"] if path.name not in str(block)]
-        return {"observation": made, **done}
+            sent.unlink(missing_ok=True)
 
     async def one(self, id: str) -> Json:
         """What was understood of a file."""
@@ -102,21 +111,36 @@ class Observations:
         return (await item_of(self._ledger, "observation", id)).data["options"]
 
     async def drop(self, id: str) -> None:
-        """Remove a file; turns keep what they saw of it."""
+        """Remove a file; turns keep what they saw of it.
+
+        Raises:
+            ConflictError: a cell works on it, also one that was made meanwhile.
+        """
         item = await item_of(self._ledger, "observation", id)
-        users = [cell.data["name"] for cell in await kept(self._ledger.all, "cell")
-                 if cell.data.get("observation") == id]  # fmt: skip
-        if users:
-            raise ConflictError(f"the cell {users[0]!r} works on this observation: remove the cell first")
+        await self._check_unused(id)
         await kept(self._ledger.drop, "observation", id)
+        try:
+            await self._check_unused(id)
+        except ConflictError:
+            await kept(self._ledger.put, "observation", id, item.data)
+            raise
         await kept(self._ledger.drop_blob, id)
         (self._folder / item.data["file"]).unlink(missing_ok=True)
 
-    async def file(self, id: str | None) -> str | None:
-        """Where a worker finds a file on this machine; None for none."""
+    async def _check_unused(self, id: str) -> None:
+        for cell in await kept(self._ledger.all, "cell"):
+            if cell.data.get("observation") == id:
+                raise ConflictError(
+                    f"the cell {cell.data['name']!r} works on this observation: remove the cell first, or have it work "
+                    "on another"
+                )
+
+    async def channel(self, id: str | None) -> Json:
+        """What a worker is told of a file: where it lies on this machine, and what people call it; None for none."""
         if id is None:
-            return None
-        path = self._folder / (await item_of(self._ledger, "observation", id)).data["file"]
+            return {"channel": None, "called": {}}
+        data = (await item_of(self._ledger, "observation", id)).data
+        path = self._folder / data["file"]
         try:
             os.utime(path)
         except FileNotFoundError:
@@ -124,7 +148,7 @@ class Observations:
             if content is None:
                 raise NotFoundError(f"the file of the observation {id!r} is gone: send it again") from None
             await asyncio.to_thread(_write, path, content)
-        return str(path)
+        return {"channel": str(path), "called": {str(path): data["name"]}}
 
     async def _keep(self, path: Path, data: Json) -> Json:
         """Have a file that lies here in the store."""

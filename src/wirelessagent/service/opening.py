@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import platformdirs
 
 from wirelessagent.service.access import Access
 from wirelessagent.service.limits import Limits
+from wirelessagent.service.names import PublicNames
 from wirelessagent.service.service import Service
 from wirelessagent.service.workers import Workers
 from wirelessagent.settings import Settings
@@ -22,16 +25,20 @@ def open_service(store: str | None, limits: Limits, *, workers: int = 1, pseudon
     """
     place = url_of(store)
     file = file_of(place)
+    cache = platformdirs.user_cache_path("wirelessagent")
+    ledger = Ledger.open(store)
     environment = {
         "WIRELESSAGENT_STORE": "yes",
         "WIRELESSAGENT_STORE_URL": place.render_as_string(hide_password=False) if file is None else str(file),
     }
     if pseudonym_key:
         environment["WIRELESSAGENT_PSEUDONYM_KEY"] = pseudonym_key
+    ours = [platformdirs.user_data_path("wirelessagent") if file is None else Path(file).parent, cache]
+    names = PublicNames({ledger.place: "this server"}, ours)
     return Service(
-        Ledger.open(store),
-        platformdirs.user_cache_path("wirelessagent") / "observations",
-        Workers(workers, time_limit_s=limits.work_s, environment=environment),
+        ledger,
+        cache / "observations",
+        Workers(workers, time_limit_s=limits.work_s, environment=environment, names=names),
         limits,
         pseudonyms=bool(pseudonym_key or Settings.read().pseudonym_key),
     )

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import logging
 from typing import Any
+
+from wirelessagent.operations.operation import InputError, WirelessAgentError
+
+_log = logging.getLogger("wirelessagent.service")
 
 
 class ProblemError(Exception):
@@ -75,7 +80,34 @@ class UnusableError(ProblemError):
     status, title = 422, "This cannot be used"
 
 
+class BrokeOffError(ProblemError):
+    """The process that did the work is gone."""
+
+    status, title = 500, "The work broke off"
+
+    def __init__(
+        self, detail: str = "the work ended its process, as too large an input does; nothing else was lost"
+    ) -> None:
+        super().__init__(detail)
+
+
 class TimedOutError(ProblemError):
     """The work took longer than it may."""
 
     status, title = 504, "This took too long"
+
+
+def problem_of(error: Exception) -> ProblemError:
+    """Whatever went wrong in the server itself as a problem; where it is no fault of the caller's, its log says what.
+
+    What workers say of their failures they say themselves (:mod:`wirelessagent.service.worker`).
+    """
+    if isinstance(error, ProblemError):
+        return error
+    if isinstance(error, InputError):
+        return UnusableError(str(error))
+    _log.error("a request failed", exc_info=error)
+    if isinstance(error, WirelessAgentError):
+        detail = "what this server keeps cannot be read or written just now; its log says more"
+        return ProblemError(detail, status=500, title="This failed")
+    return ProblemError("the server's log says more", status=500, title="Internal error")

@@ -1,39 +1,49 @@
 """What a running server owns: cells, their conversations, the plans that wait, observations, jobs and workers.
 
-A cell has one conversation at a time and at most one plan that waits. A plan is taken by compare-and-set in the store,
-so that it is applied once, whoever presses and whatever server they reach; it goes stale when anything was applied at
-its cell meanwhile, and with time.
+A cell has one conversation at a time, one turn of it at a time, and at most one plan that waits. A plan is taken by
+compare-and-set in the store, so that it is applied once, whoever presses and whatever server they reach; it goes stale
+when anything was applied at its cell meanwhile, and with time. Which turn goes on is in the store, too: where its
+server or its worker ends while a plan is applied, whoever comes next tells that as what it is.
 """
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import secrets
-import weakref
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import AsyncGenerator, Callable, Coroutine, Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from wirelessagent.operations.catalogue import OPERATIONS
+from wirelessagent.operations.hosted_answers import Press
 from wirelessagent.service.access import Access, Caller
 from wirelessagent.service.demonstration import recorded_demonstration
 from wirelessagent.service.jobs import Job, Jobs, Tell
 from wirelessagent.service.kept import item_of, kept, shown
+from wirelessagent.service.leases import Lease, Leases
 from wirelessagent.service.limits import Limits
 from wirelessagent.service.metrics import Metrics
 from wirelessagent.service.observations import Observations
-from wirelessagent.service.problems import ConflictError, NotFoundError, TooMuchError, UnusableError
+from wirelessagent.service.problems import (
+    BrokeOffError,
+    ConflictError,
+    NotFoundError,
+    ProblemError,
+    TimedOutError,
+    TooMuchError,
+    UnusableError,
+)
 from wirelessagent.service.workers import Workers
 from wirelessagent.store.ledger import ChangedError, Item, Ledger
 
 Json: TypeAlias = dict[str, Any]
-Press: TypeAlias = Literal["yes", "no", "undo"]
 Found = TypeVar("Found")
 
 _LONGEST_TEXT = 4000
-_TAKE_UP_S = 3.0
-"""Time for each turn of a conversation that has to be taken up."""
+_CLOSING_S = 30.0
+"""Time for presses to come to their end when the server does."""
 
 
 class Service:
@@ -54,10 +64,12 @@ class Service:
         self.observations = Observations(ledger, folder, workers, limits, understood_only=pseudonyms)
         self.access, self.jobs, self.metrics = Access(ledger), Jobs(ledger, limits.running_jobs), Metrics()
         self._going = set[asyncio.Task[Any]]()
-        self._locks: weakref.WeakValueDictionary[str, asyncio.Lock] = weakref.WeakValueDictionary()
+        self._leases = Leases(ledger, limits.work_s)
 
     async def close(self) -> None:
-        """End the workers and let go of the store."""
+        """Let presses come to their end, end the workers and let go of the store."""
+        if self._going:
+            await asyncio.wait(self._going, timeout=_CLOSING_S)
         await self.workers.close()
         self.ledger.close()
 
@@ -84,25 +96,52 @@ class Service:
         if len(await self._kept(self.ledger.all, "cell")) >= self.limits.cells:
             raise TooMuchError(f"there are {self.limits.cells} cells already: remove one first")
         given = dict(options)
-        observation = given.pop("csi", None)
-        if observation is not None:
-            read_as = await self.observations.read_as(observation)
-            if not isinstance(given.get("source_options", {}), dict):
-                raise UnusableError(f"source_options: an object with options; got {given['source_options']!r}")
-            given["source_options"] = {**read_as, **given.get("source_options", {})}
-        kept: Json = {"name": name, "options": given, "observation": observation, "effect": 0, "demonstration": False}
-        facts = await self.workers.do("facts", tell, options=given, channel=await self.observations.file(observation))
-        kept |= facts
+        kept: Json = {"name": name, "observation": given.pop("csi", None), "options": given}
+        kept |= {"effect": 0, "demonstration": False}
+        kept |= await self.workers.do("facts", tell, **await self._site(kept))
         id = secrets.token_hex(6)
         kept["session"] = await self._new_session(id)
         await self._kept(self.ledger.put, "cell", id, kept, seen=0)
+        try:
+            await self._site(kept)  # whoever removed the observation meanwhile had not seen that it is used
+        except NotFoundError:
+            await self.drop_cell(id)
+            raise
         return await self.cell(id)
+
+    async def move_cell(self, id: str, observation: str | None, tell: Tell) -> Json:
+        """Have a cell work on another observation, None for its own source; with a new conversation."""
+        async with self._alone(id, anew=True):
+            item = await self._item("cell", id)
+            data: Json = {**item.data, "observation": observation}
+            data |= await self.workers.do("facts", tell, **await self._site(data))
+            await self._kept(self.ledger.drop, "plan", id)
+            await self._changed("cell", item, **{**data, "session": await self._new_session(id)})
+            await self._site(data)
+        return await self.cell(id)
+
+    async def _site(self, cell: Mapping[str, Any]) -> Json:
+        """What a worker is told of a cell: its options with those by which its file is read, and the file.
+
+        Raises:
+            NotFoundError: the cell works on an observation that is not there.
+        """
+        options, observation = cell["options"], cell["observation"]
+        if observation is None:
+            return {"options": options, "channel": None}
+        own, read_as = options.get("source_options", {}), await self.observations.read_as(observation)
+        if not isinstance(own, dict):
+            raise UnusableError(f"source_options: an object with options; got {own!r}")
+        site = await self.observations.channel(observation)
+        return {**site, "options": {**options, "source_options": {**read_as, **own}}}
 
     async def drop_cell(self, id: str) -> None:
         """Remove a cell; its turns stay in the history."""
-        await self._item("cell", id)
-        await self._kept(self.ledger.drop, "plan", id)
-        await self._kept(self.ledger.drop, "cell", id)
+        async with self._leases.of(id) as lease:
+            await self._item("cell", id)
+            for kind in ("plan", "cell"):
+                await self._kept(self.ledger.drop, kind, id)
+            await lease.keep(None)
 
     async def demonstrate(self) -> None:
         """Have a demonstration cell with a conversation as it was recorded, where there is no cell yet."""
@@ -119,13 +158,13 @@ class Service:
         await self._kept(self.ledger.put, "session", session, held)
         cell = {**recorded["cell"], "session": session, "effect": 0, "demonstration": True}
         await self._kept(self.ledger.put, "cell", "demonstration", cell)
-        await self._keep_plan(await self._item("cell", "demonstration"), session, recorded["last"])
+        await self._keep_plan(await self._item("cell", "demonstration"), session, [recorded["last"]])
 
     # Conversations.
 
     async def open_session(self, cell: str) -> Json:
         """A new conversation for a cell, in the place of the one that it has; a plan that waited is dropped."""
-        async with self._lock(cell):
+        async with self._alone(cell, anew=True):
             item = await self._item("cell", cell)
             id = await self._new_session(cell)
             await self._kept(self.ledger.drop, "plan", cell)
@@ -138,10 +177,11 @@ class Service:
         turns = [dict(item.data) for item in await self._kept(self.ledger.all, "turn", start=f"{id}/")]
         plan = await self._kept(self.ledger.find, "plan", held["cell"])
         waits = plan is not None and plan.data["session"] == id
-        names = ("cell", "created_utc", "language", "in_effect")
+        told = await self._leases.telling(held["cell"])
         return {
             "id": id,
-            **{name: held[name] for name in names},
+            **{name: held[name] for name in ("cell", "created_utc", "language")},
+            "in_effect": held["in_effect"] if told is None or told["session"] != id else None,
             "awaits": "confirmation" if waits else held["awaits"],
             "turns": turns,
             "plan": shown(plan.data, "session", "effect") if waits and plan is not None else None,
@@ -157,10 +197,12 @@ class Service:
         """The turn of a line."""
         if not text.strip():
             raise UnusableError("nothing was said: give what the cell should do in 'text'")
+        if "\x00" in text:
+            raise UnusableError("a line holds no NUL character, as no store can keep one: leave it out")
         if len(text) > _LONGEST_TEXT:
             raise UnusableError(f"a line has at most {_LONGEST_TEXT} characters; got {len(text)}")
-        async with await self._lock_of(session):
-            return await self._turn(session, caller, tell, "say", text=text)
+        async with self._alone(await self._cell_of(session)):
+            return await self._turn(session, caller.name, tell, "say", text=text)
 
     async def intend(self, cell: str, intent: Mapping[str, Any], caller: Caller, tell: Tell) -> Json:
         """The turn of an intent of TMF921: the first of a new conversation, since an intent says all that is wanted."""
@@ -172,23 +214,57 @@ class Service:
     async def press(self, session: str, what: Press, caller: Caller, tell: Tell, *, plan: str | None = None) -> Json:
         """The turn of a button; applying and dropping are for the plan that the caller has seen.
 
-        What is pressed is carried through, also where its caller goes away: nothing is applied by halves.
+        What is pressed is carried through, also where its caller goes away: nothing is applied by halves. Where it
+        breaks off all the same, its turn tells that.
         """
 
         async def through() -> Json:
-            async with await self._lock_of(session):
+            cell = await self._cell_of(session)
+            async with self._alone(cell) as lease:
                 if what != "undo":
                     await self._take(session, what, plan)
-                return await self._turn(session, caller, tell, "press", button=what)
+                if what != "yes":
+                    return await self._turn(session, caller.name, tell, "press", button=what)
+                turns = (await self._item("session", session)).data["turns"]
+                await lease.keep({"session": session, "turns": turns, "by": caller.name})
+                try:
+                    done = await self._turn(session, caller.name, tell, "press", button=what)
+                except (BrokeOffError, TimedOutError):
+                    done = await self._turn(session, caller.name, tell, "broke_off", button=what)
+                except ProblemError:  # from a worker that goes on: the base station was told nothing
+                    await lease.keep(None)
+                    raise
+                await lease.keep(None)
+                return done
 
         return await self._through(through())
 
+    @contextlib.asynccontextmanager
+    async def _alone(self, cell: str, *, anew: bool = False) -> AsyncGenerator[Lease]:
+        """A cell of which nobody else has a turn; one that broke off while the base station was told is told first.
+
+        Where a conversation begins ``anew`` since the one before cannot go on, that one cannot tell it either.
+        """
+        async with self._leases.of(cell) as lease:
+            if lease.telling is not None:
+                told = lease.telling
+                with contextlib.suppress(*((ProblemError,) if anew else ())):
+                    if (await self._item("session", told["session"])).data["turns"] == told["turns"]:
+                        await self._turn(told["session"], told["by"], _silent, "broke_off", button="yes")
+                await lease.keep(None)
+            yield lease
+
     async def _through(self, work: Coroutine[Any, Any, Found]) -> Found:
-        """What comes of work that goes on where whoever waits for it is cancelled."""
+        """What comes of work that cannot be cancelled: who tries to is told what came of it, not that it was."""
         task = asyncio.create_task(work)
         self._going.add(task)
         task.add_done_callback(self._going.discard)
-        return await asyncio.shield(task)
+        while True:
+            try:
+                return await asyncio.shield(task)
+            except asyncio.CancelledError:
+                if task.cancelled():
+                    raise
 
     async def plan(self, cell: str) -> Json | None:
         """The plan that waits for a cell."""
@@ -227,15 +303,21 @@ class Service:
         if what == "yes":
             await self._changed("cell", cell, effect=cell.data["effect"] + 1)
 
-    async def _turn(self, session: str, caller: Caller, tell: Tell, do: str, **told: Any) -> Json:
+    async def _turn(self, session: str, by: str, tell: Tell, do: str, **told: Any) -> Json:
         item = await self._item("session", session)
         held = dict(item.data)
         cell = await self._item("cell", held["cell"])
         self._check_current(cell, session)
+        try:
+            site = await self._site(cell.data)
+        except NotFoundError as error:
+            raise ConflictError(
+                f"{error.detail}, which the cell {cell.data['name']!r} works on: put another one in its place, or null "
+                f"for a simulated channel, at /v1/cells/{cell.id}/observation; a new conversation begins then"
+            ) from error
         done = await self.workers.do(
-            do, tell, of=session, session=session, turns=held["turns"], recalled=held["recalled"], by=caller.name,
-            options=cell.data["options"], channel=await self.observations.file(cell.data["observation"]),
-            extra_s=_TAKE_UP_S * held["turns"], **told,
+            do, tell, of=session, session=session, turns=held["turns"], recalled=held["recalled"], by=by,
+            **site, **told,
         )  # fmt: skip
         await self._through(self._settle(item, cell, done))
         if done["stale"]:
@@ -262,15 +344,17 @@ class Service:
             held["awaits"] = "nothing" if last["waits"] else last["record"]["awaits"]
         await self._changed("session", item, **held)
         if done["turns"]:
-            await self._keep_plan(cell, session, done["turns"][-1])
+            await self._keep_plan(cell, session, done["turns"])
 
-    async def _keep_plan(self, cell: Item, session: str, turn: Mapping[str, Any]) -> None:
-        """Have the plan wait that a turn has made or left waiting; none where none waits."""
+    async def _keep_plan(self, cell: Item, session: str, turns: Sequence[Mapping[str, Any]]) -> None:
+        """Have the plan wait that the last of some turns has made or left waiting; none where none waits."""
+        turn = turns[-1]
         if not turn["waits"]:
             await self._kept(self.ledger.drop, "plan", cell.id)
             return
         there = await self._kept(self.ledger.find, "plan", cell.id)
-        if turn["record"]["stage"] != "planned" and there is not None and there.data["session"] == session:
+        planned = any(one["record"]["stage"] == "planned" for one in turns)
+        if not planned and there is not None and there.data["session"] == session:
             return
         effect = (await self._item("cell", cell.id)).data["effect"]
         until = datetime.now(UTC) + timedelta(seconds=self.limits.plan_s)
@@ -293,8 +377,8 @@ class Service:
         if name not in OPERATIONS:
             raise NotFoundError(f"there is no operation {name!r}: known are {', '.join(OPERATIONS)}")
         given = dict(form)
-        channel = await self.observations.file(given.pop("observation", None))
-        return await self.workers.do("operation", tell, name=name, form=given, channel=channel)
+        channel = await self.observations.channel(given.pop("observation", None))
+        return await self.workers.do("operation", tell, name=name, form=given, **channel)
 
     async def forms(self) -> Json:
         """What each operation can be asked, as JSON Schema."""
@@ -317,12 +401,9 @@ class Service:
 
     _kept = staticmethod(kept)
 
-    async def _lock_of(self, session: str) -> asyncio.Lock:
-        """The lock of the cell that a conversation is about."""
-        return self._lock((await self._item("session", session)).data["cell"])
-
-    def _lock(self, cell: str) -> asyncio.Lock:
-        return self._locks.setdefault(cell, asyncio.Lock())
+    async def _cell_of(self, session: str) -> str:
+        """The cell that a conversation is about."""
+        return (await self._item("session", session)).data["cell"]
 
 
 def _cell(item: Item) -> Json:

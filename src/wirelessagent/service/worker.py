@@ -4,6 +4,7 @@ It is told what to do by lines of JSON on its standard input and answers by line
 be ended at any moment, and what was recorded is all that its successor needs.
 
     {"id": 1, "do": "operation", "name": "solve", "form": {…}, "channel": "/…/gains.csv"}
+    {"id": 1, "begun": true}
     {"id": 1, "event": {"stage": "repair", …}}
     {"id": 1, "done": {…}}        or        {"id": 1, "failed": {"title": "…", "detail": "…", "status": 422}}
 """
@@ -14,6 +15,7 @@ import base64
 import json
 import os
 import sys
+from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import IO, Any
@@ -43,12 +45,15 @@ from wirelessagent.operations.record import Record, as_json
 
 _DEFAULT_MEMORY_BYTES = 6 << 30
 
+_MOST_HOSTED = 50
+"""Conversations in memory; the one that was left longest ago is taken up again where it goes on after all."""
+
 
 class Worker:
     """What a worker can do; each method is one thing to be told."""
 
     def __init__(self) -> None:
-        self._hosted: dict[str, Hosted] = {}
+        self._hosted: OrderedDict[str, Hosted] = OrderedDict()
 
     def operation(self, told: Mapping[str, Any], progress: Progress) -> Any:
         """Run an operation of the catalogue on a form."""
@@ -112,6 +117,17 @@ class Worker:
         del progress
         return sentence_of(told["intent"], told["user_names"])
 
+    def broke_off(self, told: Mapping[str, Any], progress: Progress) -> Any:
+        """A button whose process ended before anybody was told what came of it; it is told now, as it was recorded.
+
+        Where nothing was recorded, that it broke off is what is recorded.
+        """
+        hosted = self._conversation(told, progress)
+        known = min(told["turns"], hosted.number)
+        if hosted.number == told["turns"]:
+            hosted.broke_off(told["button"], progress, by=told["by"])
+        return _since(hosted, known)
+
     def inspect(self, told: Mapping[str, Any], progress: Progress) -> Any:
         """What a file with gains holds; written as it was understood, where that is wanted."""
         return seen_in(_cell(told), progress, Path(told["out"]) if told.get("out") else None)
@@ -123,12 +139,18 @@ class Worker:
         return {"media_type": media_type, "content": base64.b64encode(content).decode("ascii")}
 
     def _conversation(self, told: Mapping[str, Any], progress: Progress) -> Hosted:
-        """The conversation that is meant; taken up again where this process does not have it."""
+        """The conversation that is meant; taken up where this process does not have it, or not as far as it is."""
         identity = told["session"]
-        if identity not in self._hosted or told["turns"] != self._hosted[identity].number:
+        hosted = self._hosted.pop(identity, None)
+        if hosted is not None and told["turns"] > hosted.number:  # another server went on with it
+            hosted.catch_up(progress)
+        if hosted is None or told["turns"] != hosted.number:
             recalled = [(text, pressed) for text, pressed in told.get("recalled", ())]
-            self._hosted[identity] = Hosted(_cell(told), identity, progress, recalled=recalled)
-        return self._hosted[identity]
+            hosted = Hosted(_cell(told), identity, progress, recalled=recalled)
+        self._hosted[identity] = hosted
+        while len(self._hosted) > _MOST_HOSTED:
+            self._hosted.popitem(last=False)
+        return hosted
 
 
 def _since(hosted: Hosted, number: int) -> dict[str, Any]:
@@ -174,6 +196,7 @@ def serve(lines: IO[str], answers: IO[str]) -> None:
     for line in lines:
         told = json.loads(line)
         identity = told["id"]
+        answer(identity, begun=True)
 
         def progress(event: Event, identity: int = identity) -> None:
             shown = {"stage": event.stage, "label": event.label, "message": event.message}

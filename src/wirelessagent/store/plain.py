@@ -14,14 +14,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
 
-import numpy as np
-
 from wirelessagent.model.errors import InputError
 
 
 def plain(value: object) -> Any:
     """``value`` as numbers, text, lists and maps by name.
 
+    >>> import numpy as np
     >>> plain({"rate": np.array([1.0, np.inf]), "out": Path("a.csv")})
     {'rate': [1.0, 'inf'], 'out': 'a.csv'}
 
@@ -34,7 +33,7 @@ def plain(value: object) -> Any:
         return writable(str(value))
     if isinstance(value, float):
         return value if math.isfinite(value) else str(value)
-    if isinstance(value, np.ndarray | np.generic):
+    if hasattr(value, "tolist"):  # an array or a figure of NumPy's, which a server need not load for the asking
         return plain(cast("Any", value).tolist())
     if isinstance(value, Mapping):
         return {writable(str(name)): plain(each) for name, each in cast("Mapping[Any, object]", value).items()}

@@ -78,6 +78,7 @@ def understood(turn: Turn) -> dict[str, Any]:
         "lines": {name: str(line) for name, line in lines.items()},
         "messages": {name: line.messages() if isinstance(line, Said) else [] for name, line in lines.items()},
         **({"by": turn.by} if turn.by else {}),
+        **({"pressed": turn.pressed} if turn.pressed else {}),
     }
 
 
@@ -89,7 +90,7 @@ def _run_columns(run: Run) -> dict[str, Any]:
         "objective": objective if isinstance(objective, str) else objective.name,
         "facts": run.scene.facts,
         "repairer": {"name": repairer, "options": tools.repairer_options},
-        "problem": _problem(decision.problem),
+        "problem": problem_columns(decision.problem),
         "cell": decision.cell,
         "method": {"name": tools.method or decision.method, "options": tools.method_options},
         **decision_columns(decision),
@@ -120,7 +121,8 @@ def _figure(value: float | None) -> float | None:
     return None if value is None or math.isnan(value) else float(value)
 
 
-def _problem(problem: Problem) -> dict[str, Any]:
+def problem_columns(problem: Problem) -> dict[str, Any]:
+    """A problem with every figure."""
     objective = problem.objective
     stated = {name: getattr(problem, name) for name in CONSTRAINTS}
     if isinstance(objective, str):

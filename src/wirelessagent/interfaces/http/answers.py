@@ -14,10 +14,14 @@ from fastapi.responses import JSONResponse, StreamingResponse
 from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 
-from wirelessagent.operations.operation import InputError, WirelessAgentError
 from wirelessagent.service.access import Caller
 from wirelessagent.service.jobs import Job, Tell
-from wirelessagent.service.problems import NotSignedInError, ProblemError, UnusableError
+from wirelessagent.service.problems import (
+    NotSignedInError,
+    ProblemError,
+    UnusableError,
+    problem_of,
+)
 from wirelessagent.service.service import Service
 
 _KEEP_ALIVE_S = 15.0
@@ -67,11 +71,9 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-def problem_of(error: Exception) -> ProblemError:
-    """Whatever went wrong as a problem."""
+def problem_in(error: Exception) -> ProblemError:
+    """Whatever went wrong with a request as a problem."""
     match error:
-        case ProblemError():
-            return error
         case RequestValidationError():
             first = error.errors()[0]
             place = ".".join(str(part) for part in first["loc"] if part != "body") or "the body"
@@ -81,12 +83,8 @@ def problem_of(error: Exception) -> ProblemError:
         case HTTPException():
             headers = dict(error.headers or {})
             return ProblemError(str(error.detail), status=error.status_code, title=str(error.detail), **headers)
-        case InputError():
-            return UnusableError(str(error))
-        case WirelessAgentError():
-            return ProblemError(str(error), status=500, title="This failed")
         case _:
-            return ProblemError("the server's log says more", status=500, title="Internal error")
+            return problem_of(error)
 
 
 def caller_of(request: Request) -> Caller:

@@ -16,7 +16,7 @@ from starlette.routing import Match, Route
 from starlette.staticfiles import StaticFiles
 
 from wirelessagent.interfaces.http import forms
-from wirelessagent.interfaces.http.answers import StrictRoute, problem_of, service_of
+from wirelessagent.interfaces.http.answers import StrictRoute, problem_in, service_of
 from wirelessagent.interfaces.http.plugin import add_plugin
 from wirelessagent.interfaces.http.routes import PROBLEMS, router, texts
 from wirelessagent.interfaces.http.shield import COOKIE, Doors, Shield, cookie_of
@@ -59,15 +59,15 @@ def make_app(service: Service, doors: Doors, *, demonstration: bool = False) -> 
     _add_console(app)
     add_plugin(app)
     app.router.routes.append(Route("/mcp", endpoint=mcp))
-    for kind in (RequestValidationError, HTTPException, Exception):
+    for kind in (RequestValidationError, HTTPException):  # any other error is the shield's
         app.add_exception_handler(kind, _answer)
     app.add_middleware(Shield, service=service, doors=doors)
     return app
 
 
 async def _answer(request: Request, error: Exception) -> Response:
-    """Any error as a problem; where it is the method's, with all those that there are."""
-    problem = problem_of(error)
+    """An error of the framework's as a problem; where it is the method's, with all those that there are."""
+    problem = problem_in(error)
     if problem.status == 405:
         problem.headers["Allow"] = ", ".join(sorted(_methods(request)))
     return JSONResponse(

@@ -6,6 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from wirelessagent.operations.hosted_answers import CellFacts, SeenAnswer
+
 Id = Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_-]+$")]
 
 
@@ -34,6 +36,10 @@ class NewCell(Form):
     )
 
 
+class WorksOn(Form):
+    observation: Id | None = Field(description="id of the observation; null for the cell's own source")
+
+
 class SignIn(Form):
     token: str = Field(min_length=1, max_length=200, description="as `wirelessagent token` gave it")
 
@@ -56,18 +62,13 @@ class JobAnswer(BaseModel):
     error: Problem | None = None
 
 
-class CellAnswer(BaseModel):
+class CellAnswer(CellFacts):
     """A cell, with its current conversation."""
 
     model_config = ConfigDict(extra="allow")
 
     id: str
     name: str
-    facts: dict[str, str]
-    user_names: list[str]
-    num_subcarriers: int
-    base_station: str | None
-    max_power_w: float
     session: str
     demonstration: bool
 
@@ -110,29 +111,13 @@ class SessionAnswer(BaseModel):
     turns: list[TurnAnswer]
 
 
-class ChannelAnswer(BaseModel):
-    """What is known of a channel, linear power gains; null = missing."""
-
-    user_names: list[str]
-    frequencies_hz: list[float] | None
-    observed_gain: list[list[float | None]]
-    gain: list[list[float]]
-    gain_sd: list[list[float | None]]
-    repaired: list[list[bool]]
-
-
-class ObservationAnswer(BaseModel):
+class ObservationAnswer(SeenAnswer):
     """What was understood of a file with gains."""
+
+    model_config = ConfigDict(extra="ignore")
 
     id: str
     name: str
-    facts: dict[str, str]
-    user_names: list[str]
-    num_users: int
-    num_subcarriers: int
-    num_slots: int
-    missing: int
-    gain: list[list[float | None]]
 
 
 class OperationAnswer(BaseModel):

@@ -7,7 +7,6 @@ importers want exactly one absolute server, one media type, no null and no refer
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -18,7 +17,7 @@ from pydantic import BaseModel
 from starlette.routing import Route
 
 from wirelessagent.interfaces.http import plugin_forms as forms
-from wirelessagent.interfaces.http.answers import caller_of, finished, problem_of, service_of, strict_json
+from wirelessagent.interfaces.http.answers import caller_of, finished, problem_in, service_of, strict_json
 from wirelessagent.interfaces.http.plugin_desk import Desk
 from wirelessagent.interfaces.http.shield import in_plugin
 from wirelessagent.interfaces.schemas import asked, inlined
@@ -28,8 +27,6 @@ from wirelessagent.service.jobs import Tell
 from wirelessagent.service.problems import UnusableError
 
 Json: TypeAlias = dict[str, Any]
-
-_log = logging.getLogger("wirelessagent.http")
 
 
 @dataclass(frozen=True)
@@ -106,9 +103,7 @@ def _endpoint(skin: _Skin) -> Callable[[Request], Awaitable[Response]]:
         try:
             return JSONResponse(await _done(skin, request))
         except Exception as error:  # noqa: BLE001  # whatever it is, a platform's model has to be told
-            problem = problem_of(error)
-            if problem.status >= 500:
-                _log.exception("the plug-in's %s failed", skin.name)
+            problem = problem_in(error)
             body = in_plugin(problem)
             return JSONResponse(
                 body or problem.body, status_code=200 if body else problem.status, headers=problem.headers

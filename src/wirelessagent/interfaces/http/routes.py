@@ -18,11 +18,11 @@ from wirelessagent.interfaces.http.answers import (
     strict_json,
     worked,
 )
+from wirelessagent.operations.hosted_answers import ChannelAnswer, Press
 from wirelessagent.operations.operation import installed_version
 from wirelessagent.service.jobs import Tell
 from wirelessagent.service.observations import SUFFIXES
 from wirelessagent.service.problems import UnusableError
-from wirelessagent.service.service import Press
 from wirelessagent.service.words import LANGUAGES, words
 
 PROBLEMS: dict[int | str, dict[str, Any]] = {
@@ -81,6 +81,13 @@ async def read_cell(request: Request, id: Id) -> Any:
     return await service_of(request).cell(id)
 
 
+@router.put("/cells/{id}/observation", responses=_as(forms.CellAnswer), tags=["cells"])
+async def move_cell(request: Request, id: Id, form: forms.WorksOn) -> Response:
+    """Have a cell work on another observation, as where the one it had is gone. A new conversation begins with it."""
+    service = service_of(request)
+    return await worked(request, lambda tell: service.move_cell(id, form.observation, tell))
+
+
 @router.delete("/cells/{id}", status_code=204, tags=["cells"])
 async def drop_cell(request: Request, id: Id) -> None:
     """Remove a cell; what was said of it stays in the history."""
@@ -132,7 +139,7 @@ async def read_session(request: Request, id: Id) -> Any:
     return JSONResponse(await service_of(request).session(id))
 
 
-@router.get("/sessions/{id}/channel", response_model=forms.ChannelAnswer | None, tags=["conversations"])
+@router.get("/sessions/{id}/channel", response_model=ChannelAnswer | None, tags=["conversations"])
 async def read_channel(request: Request, id: Id) -> Any:
     """What is known of the channel that a conversation is about; null before anything was sensed."""
     return JSONResponse(await service_of(request).channel(id))

@@ -27,6 +27,7 @@ from wirelessagent.service.problems import (
     ProblemError,
     TooLargeError,
     UnusableError,
+    problem_of,
 )
 from wirelessagent.service.service import Service
 
@@ -99,48 +100,53 @@ class Shield:
                 return
             await self._app(scope, receive, send)
             return
-        began, identity, status = time.monotonic(), uuid.uuid4().hex[:16], 500
+        began, identity, status, started = time.monotonic(), uuid.uuid4().hex[:16], 500, False
+        path = _path_of(scope)
+        scope["path"] = scope.get("root_path", "").rstrip("/") + path  # as a proxy was asked for that leaves it on
 
         async def sent(message: Message) -> None:
-            nonlocal status
+            nonlocal status, started
             if message["type"] == "http.response.start":
-                status = message["status"]
-                message["headers"] = [*message.get("headers", []), *self._added(scope, message, identity)]
+                status, started = message["status"], True
+                message["headers"] = [*message.get("headers", []), *self._added(path, message, identity)]
             await send(message)
 
         try:
-            caller = await self._checked(scope)
+            caller = await self._checked(scope, path)
             scope.setdefault("state", {})["caller"] = caller
             if scope["method"] not in _SAFE:
-                self._check_content(Headers(scope=scope), _path_of(scope))
-            await self._app(scope, self._limited(scope, receive), sent)
-        except ProblemError as problem:
-            await answer_problem(problem, scope, receive, sent)
+                self._check_content(Headers(scope=scope), path)
+            await self._app(scope, self._limited(path, receive), sent)
+        except Exception as error:
+            if started:  # what was said cannot be taken back
+                raise
+            problem = problem_of(error)
+            await _answer(problem, in_plugin(problem) if path.startswith(_PLUGIN) and _known(scope) else None, sent)
         finally:
             route = getattr(scope.get("route"), "path", "") or "other"
             self._service.metrics.answered(route, status, time.monotonic() - began)
             told = {
-                "request": identity, "method": scope["method"], "path": scope["path"][:200], "status": status,
+                "request": identity, "method": scope["method"], "path": path[:200], "status": status,
                 "ms": round(1000 * (time.monotonic() - began), 1), "by": self._name(scope),
             }  # fmt: skip
-            if scope["path"] not in _ALWAYS:
+            if path not in _ALWAYS:
                 REQUESTS.info("request", extra={"request": told})
 
     @staticmethod
     def _name(scope: Scope) -> str:
-        caller = scope.get("state", {}).get("caller")
-        return caller.name if isinstance(caller, Caller) else "-"
+        caller = _known(scope)
+        return "-" if caller is None else caller.name
 
     @staticmethod
-    def _added(scope: Scope, message: Message, identity: str) -> list[tuple[bytes, bytes]]:
+    def _added(path: str, message: Message, identity: str) -> list[tuple[bytes, bytes]]:
         there = {name for name, _ in message.get("headers", [])}
         added = {**_HEADERS, "x-request-id": identity}
-        if not scope["path"].startswith("/console/"):
+        if not path.startswith("/console/"):
             added["cache-control"] = "no-store"
         return [(name.encode(), value.encode()) for name, value in added.items() if name.encode() not in there]
 
-    async def _checked(self, scope: Scope) -> Caller | None:
-        headers, path, method = Headers(scope=scope), _path_of(scope), scope["method"]
+    async def _checked(self, scope: Scope, path: str) -> Caller | None:
+        headers, method = Headers(scope=scope), scope["method"]
         self._check_host(headers)
         if method not in _SAFE or path == _MCP:
             self._check_origin(headers)
@@ -218,9 +224,9 @@ class Shield:
             self._callers_until = time.monotonic() + _CALLERS_S
         return self._callers
 
-    def _limited(self, scope: Scope, receive: Receive) -> Receive:
+    def _limited(self, path: str, receive: Receive) -> Receive:
         """What is received, as long as it comes in time and is not too much."""
-        most, until = self._most_bytes(_path_of(scope)), time.monotonic() + self._service.limits.receive_s
+        most, until = self._most_bytes(path), time.monotonic() + self._service.limits.receive_s
         got, whole = 0, False
 
         async def limited() -> Message:
@@ -267,10 +273,14 @@ def _host_of(host: str) -> str:
     return host.partition(":")[0].lower()
 
 
-async def answer_problem(problem: ProblemError, scope: Scope, receive: Receive, send: Send) -> None:
-    """Send a problem; a platform that was let in reads it inside of an answer."""
-    del receive
-    told = in_plugin(problem) if scope["path"].startswith(_PLUGIN) and scope.get("state", {}).get("caller") else None
+def _known(scope: Scope) -> Caller | None:
+    """Who was let in; None where nobody has to be known, or nobody was let in."""
+    caller = scope.get("state", {}).get("caller")
+    return caller if isinstance(caller, Caller) else None
+
+
+async def _answer(problem: ProblemError, told: Body | None, send: Send) -> None:
+    """Send a problem, or what is told in its place to a platform that was let in."""
     body = json.dumps(told or problem.body, ensure_ascii=False).encode()
     media_type = "application/json" if told else "application/problem+json"
     headers = {"content-type": media_type, "content-length": str(len(body)), **problem.headers}

@@ -30,9 +30,9 @@ from wirelessagent.interfaces.mcp.catalogue_tools import operation_tools
 from wirelessagent.interfaces.mcp.cell_tools import cell_tools
 from wirelessagent.interfaces.mcp.resources import Resources
 from wirelessagent.interfaces.mcp.tool import Result, ServerTool, failure
-from wirelessagent.operations.operation import installed_version
+from wirelessagent.operations.operation import WirelessAgentError, installed_version
 from wirelessagent.service.access import Caller
-from wirelessagent.service.problems import ProblemError
+from wirelessagent.service.problems import ProblemError, problem_of
 from wirelessagent.service.service import Service
 
 Context: TypeAlias = ServerRequestContext[Any, Any]
@@ -86,8 +86,8 @@ class Desk:
         call = Call(service=self._service, caller=caller, context=context, params=params)
         try:
             return await tool.run(call, params.arguments or {})
-        except ProblemError as problem:
-            return failure(problem.detail)
+        except (ProblemError, WirelessAgentError) as error:
+            return failure(problem_of(error).detail)
 
     async def list_resources(self, context: Context, params: PaginatedRequestParams | None) -> ListResourcesResult:
         del context, params
@@ -142,5 +142,5 @@ def _told() -> Generator[None]:
     """Problems outside of tools as errors of the protocol."""
     try:
         yield
-    except ProblemError as problem:
-        raise MCPError(INVALID_PARAMS, problem.detail) from problem
+    except (ProblemError, WirelessAgentError) as error:
+        raise MCPError(INVALID_PARAMS, problem_of(error).detail) from error
