@@ -26,6 +26,7 @@ from wirelessagent.operations.chat import ChatRequest
 from wirelessagent.operations.operation import Event, Progress
 from wirelessagent.operations.record import Matrix, Record, SwitchMatrix, Vector
 from wirelessagent.operations.recording import opened
+from wirelessagent.operations.trade_off import TradeOffAnswer, trade_off
 from wirelessagent.operations.turn_record import TurnRecord
 from wirelessagent.store.rebuilt import outcome_of
 from wirelessagent.store.stored import StoredTurn
@@ -138,6 +139,15 @@ class Hosted:
             gain_sd=(estimate.gain_variance**0.5).tolist(),
             repaired=estimate.repaired.tolist(),
         )
+
+    def trade_off(self, number: int, progress: Progress) -> TradeOffAnswer:
+        """The curve that the decision of a turn lies on.
+
+        Raises:
+            NothingRecordedError: there is no such turn, or it decided nothing.
+        """
+        runs = {turn.number: turn.run for turn in self._session.turns}
+        return trade_off(runs.get(number), progress)
 
     def _keep(self, turn: Turn, stored: int | None) -> None:
         kept = HostedTurn(

@@ -159,8 +159,6 @@ class Service:
         except BaseException:
             path.unlink(missing_ok=True)
             raise
-        done["record"]["out"] = None  # where the server keeps what is nobody else's business
-        done["blocks"] = [block for block in done["blocks"] if path.name not in str(block)]
         kept: Json = {"name": f"{name}.npz", "options": {}, "file": path.name, "derived": True, **seen}
         await self._kept(self.ledger.put, "observation", id, kept, seen=0)
         return {"observation": {"id": id, **_shown(kept, "options", "file", "derived")}, **done}
@@ -229,6 +227,13 @@ class Service:
         await self._item("session", id)
         item = await self._kept(self.ledger.find, "channel", id)
         return None if item is None else item.data["channel"]
+
+    async def trade_off(self, session: str, number: int, tell: Tell) -> Json:
+        """The curve that the decision of a turn lies on."""
+        async with await self._lock_of(session):
+            item = await self._item("session", session)
+            cell = await self._item("cell", item.data["cell"])
+            return await self._hosted(item, cell, tell, "trade_off", number=number)
 
     async def say(self, session: str, text: str, caller: Caller, tell: Tell) -> Json:
         """The turn of a line."""
@@ -299,20 +304,24 @@ class Service:
 
     async def _turn(self, session: str, caller: Caller, tell: Tell, do: str, **told: Any) -> Json:
         item = await self._item("session", session)
-        held = dict(item.data)
-        cell = await self._item("cell", held["cell"])
+        cell = await self._item("cell", item.data["cell"])
         self._check_current(cell, session)
-        done = await self.workers.do(
-            do, tell, of=session, session=session, turns=held["turns"], recalled=held["recalled"], by=caller.name,
-            options=cell.data["options"], channel=await self._channel_file(cell.data["observation"]),
-            extra_s=_TAKE_UP_S * held["turns"], **told,
-        )  # fmt: skip
+        done = await self._hosted(item, cell, tell, do, by=caller.name, **told)
         await self._through(self._settle(item, cell, done))
         if done["stale"]:
             raise ConflictError("the conversation had gone on: look at what holds now")
         last = done["turns"][-1]
         self.metrics.turned(last["record"])
         return {**last["record"], "by": last["by"], "language": last["language"]}
+
+    async def _hosted(self, item: Item, cell: Item, tell: Tell, do: str, **told: Any) -> Json:
+        """What the worker of a conversation does in it, which it takes up first where it has to."""
+        held = item.data
+        return await self.workers.do(
+            do, tell, of=item.id, session=item.id, turns=held["turns"], recalled=held["recalled"],
+            options=cell.data["options"], channel=await self._channel_file(cell.data["observation"]),
+            extra_s=_TAKE_UP_S * held["turns"], **told,
+        )  # fmt: skip
 
     @staticmethod
     def _check_current(cell: Item, session: str) -> None:
@@ -359,12 +368,16 @@ class Service:
     # Operations.
 
     async def operate(self, name: str, form: Mapping[str, Any], tell: Tell) -> Json:
-        """Run an operation; ``observation`` in its form is the id of the channel to work on."""
+        """Run an operation; ``observation`` in its form is the id of the channel to work on.
+
+        Where ``picture`` in its form is true, the answer holds its picture as SVG, if it has one that can be drawn.
+        """
         if name not in OPERATIONS:
             raise NotFoundError(f"there is no operation {name!r}: known are {', '.join(OPERATIONS)}")
         given = dict(form)
         channel = await self._channel_file(given.pop("observation", None))
-        return await self.workers.do("operation", tell, name=name, form=given, channel=channel)
+        drawn = bool(given.pop("picture", False))
+        return await self.workers.do("operation", tell, name=name, form=given, channel=channel, picture=drawn)
 
     async def forms(self) -> Json:
         """What each operation can be asked, as JSON Schema."""
@@ -410,7 +423,8 @@ class Service:
 
 
 def _cell(item: Item) -> Json:
-    return {"id": item.id, **_shown(item.data, "options", "effect")}
+    understands = item.data["options"].get("recogniser", "offline")
+    return {"id": item.id, "recogniser": understands, **_shown(item.data, "options", "effect")}
 
 
 def _shown(data: Mapping[str, Any], *without: str) -> Json:
