@@ -21,7 +21,7 @@ from wirelessagent.service.demonstration import recorded_demonstration
 from wirelessagent.service.jobs import Job, Jobs, Tell
 from wirelessagent.service.limits import Limits
 from wirelessagent.service.metrics import Metrics
-from wirelessagent.service.problems import ConflictError, NotFoundError, TooMuchError, UnusableError
+from wirelessagent.service.problems import ConflictError, NotFoundError, ProblemError, TooMuchError, UnusableError
 from wirelessagent.service.workers import Workers
 from wirelessagent.store.ledger import ChangedError, Item, Ledger
 
@@ -135,8 +135,10 @@ class Service:
         try:
             seen = await self.workers.do("inspect", tell, options={"source_options": dict(options)}, channel=str(path))
             self._check_size(seen)
-        except BaseException:
+        except BaseException as error:
             path.unlink(missing_ok=True)
+            if isinstance(error, ProblemError):  # speaks of the file by the name that its sender knows
+                error.detail = error.detail.replace(str(path), Path(name).name)
             raise
         kept = {"name": Path(name).name[:200], "options": dict(options), "file": path.name, **seen}
         await self._kept(self.ledger.put, "observation", id, kept, seen=0)

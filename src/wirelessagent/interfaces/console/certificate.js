@@ -57,5 +57,5 @@ export function pricesOf(turn) {
 export function drawPrices(turn) {
   const rows = turn ? pricesOf(turn) : [];
   byId("prices-card").hidden = rows.length === 0;
-  byId("prices").replaceChildren(...rows.map(([label, change]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, change))));
+  byId("prices").replaceChildren(...rows.map(([label, change]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", { class: "short" }, change))));
 }

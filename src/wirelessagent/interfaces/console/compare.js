@@ -1,7 +1,7 @@
 /** Decisions side by side: their figures, their allocations on one scale, their rates on one scale. */
 
 import { allocationPicture, highestPower, userLegend } from "./allocation.js";
-import { byId, element, onWidth, scroller } from "./dom.js";
+import { byId, chart, element, scroller } from "./dom.js";
 import { highestRate, ratesPicture } from "./rates.js";
 import { changedHands, inShort, isUsable, limitRows, saidFor, sum } from "./turns.js";
 import { clock, human, percent, rate, watts } from "./units.js";
@@ -44,11 +44,10 @@ export function openComparison(session, turns) {
   const head = element("tr", {}, element("td"), turns.map((turn) => element("th", { scope: "col" },
     `${heading(say("turn.column", { number: turn.number }))} · ${clock(turn.at_utc)}`, element("small", {}, saidFor(session, turn)))));
   const pictures = element("div", { class: "columns" }, usable.map((turn, place) => {
-    const [allocation, rates] = [scroller(say("console.allocation")), scroller(say("console.rates"))];
     const moved = place ? changedHands(usable[0].decision, turn.decision) : [];
-    onWidth(allocation, (width) => allocation.replaceChildren(allocationPicture([turn.decision], { width, top: power, id: `ca${place}-`, moved })));
-    onWidth(rates, (width) => rates.replaceChildren(ratesPicture(turn, { width, top: most, id: `cr${place}-` })));
-    return element("section", {}, element("h3", {}, `${turn.number} · ${inShort(turn)}`), allocation, rates);
+    return element("section", {}, element("h3", {}, `${turn.number} · ${inShort(turn)}`),
+      chart(say("console.allocation"), (width) => allocationPicture([turn.decision], { width, top: power, id: `ca${place}-`, moved })),
+      chart(say("console.rates"), (width) => ratesPicture(turn, { width, top: most, id: `cr${place}-` })));
   }));
   byId("compare-body").replaceChildren(
     scroller(say("console.compared"), element("table", { class: "rows figures" },

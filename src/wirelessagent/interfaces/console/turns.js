@@ -25,8 +25,11 @@ export function ratesOf(turn) {
   }));
 }
 
+/** The limits that a turn's decision was made for: of a what-if those that it supposed. */
+const limitsOf = (turn) => (turn?.supposed ?? turn?.request)?.constraints;
+
 function asked(turn, user) {
-  const limits = byUser(turn.request?.constraints?.min_rate_bps);
+  const limits = byUser(limitsOf(turn)?.min_rate_bps);
   const name = turn.decision.user_names[user];
   return limits[name] ?? limits[String(user + 1)] ?? limits.all ?? null;
 }
@@ -46,20 +49,21 @@ function limitText(kind, value) {
   if (kind === "outage_probability") return percent(1 - value);
   if (kind.endsWith("_bps")) return rate(value);
   if (kind.endsWith("_w")) return watts(value);
+  if (LIMITS[kind] === LIMITS.users) return [value].flat().map((user) => who(String(user))).join(", ");
   return Array.isArray(value) ? value.join(", ") : typeof value === "object" ? JSON.stringify(value) : String(value);
 }
 
 const LIMITS = {
   min_rate_bps: "console.limit_min_rate", max_rate_bps: "console.limit_max_rate", max_power_w: "console.limit_power",
   outage_probability: "console.limit_kept", subcarrier_max_power_w: "limit.subcarrier_max_power_w",
-  forbidden: "limit.forbidden", users: "limit.users", weights: "limit.weights",
+  forbidden: "limit.forbidden", users: "limit.users", leave_out: "limit.users", weights: "limit.weights",
   resource_block_group_size: "limit.resource_block_group_size",
 };
 
 /** What a turn asks for, with the probability that was assumed where none was named. */
 function asksOf(turn) {
   const assumed = turn?.decision?.outage_probability;
-  return { ...(assumed ? { outage_probability: assumed } : {}), ...turn?.request?.constraints };
+  return { ...(assumed ? { outage_probability: assumed } : {}), ...limitsOf(turn) };
 }
 
 /**
@@ -105,6 +109,12 @@ export function planOf(session, turn) {
 
 /** What was said for a turn's decision. */
 export const saidFor = (session, turn) => (planOf(session, turn) ?? turn).text;
+
+/** What a turn's decision is worth, with the power that it takes. */
+export function worthOf({ decision }) {
+  const value = isUsable({ decision }) ? human(decision.value, decision.unit) : say(`status.${decision.status}`);
+  return decision.unit === "W" || !isUsable({ decision }) ? value : `${value} · ${watts(decision.total_power_w)}`;
+}
 
 /** A turn in one short line: its aim and what it is worth. */
 export function inShort(turn) {

@@ -45,5 +45,6 @@ export function prefixed(largest, unit) {
 
 /** The time of day of an ISO time, in the reader's zone. */
 export function clock(isoTime) {
-  return new Date(isoTime).toLocaleTimeString(language(), { hour: "2-digit", minute: "2-digit" });
+  const own = navigator.languages.find((tag) => tag.startsWith(language()));
+  return new Date(isoTime).toLocaleTimeString(own ?? language(), { hour: "2-digit", minute: "2-digit" });
 }
