@@ -38,7 +38,7 @@ export function drawCertificate(turn) {
   const drawable = isUsable(turn) && decision.value > 0 && decision.bound > 0 && Number.isFinite(decision.bound);
   place.replaceChildren(...[drawable ? bar(decision) : null,
     element("p", { class: isUsable(turn) ? "note" : "note warn" }, sentence(decision)),
-    decision.outage_probability ? element("p", { class: "note" }, say("console.kept_with", { sure: percent(1 - decision.outage_probability) })) : null].filter(Boolean));
+    isUsable(turn) && decision.outage_probability ? element("p", { class: "note" }, say("console.kept_with", { sure: percent(1 - decision.outage_probability) })) : null].filter(Boolean));
 }
 
 /** What one watt, and 100 kbit/s more for a user, would change at the margin; only what is not nothing. */

@@ -54,7 +54,7 @@ function draw() {
   drawAllocation(usable, now.effect, shownName(now));
   drawRates(usable);
   drawCertificate(now.shown);
-  byId("trade-off-open").hidden = !isUsable(now.shown);
+  byId("trade-off-open").hidden = !now.shown?.decision;
   drawPrices(now.shown);
   drawTimeline(state.session, now, actions);
   drawExport(now.shown, fail);

@@ -89,7 +89,7 @@ export async function openTradeOff(session, turn, budget) {
     const curve = found.get(path);
     const most = turn.decision.max_power_w ?? budget;
     body.replaceChildren(element("p", {}, sentence(curve, most)),
-      chart(say("console.trade_off"), (width) => curvePicture(curve, { width, budget: most })),
+      curve.points.some(isMet) ? chart(say("console.trade_off"), (width) => curvePicture(curve, { width, budget: most })) : "",
       element("p", { class: "note" }, say("console.trade_off_note")), element("div", { class: "more as-table" }, table(figures(curve))));
   } catch (problem) {
     body.replaceChildren(element("p", { class: "problem" }, trouble(problem)));
