@@ -20,11 +20,7 @@ function figures(turns) {
     [say("label.users_served"), ({ decision }) => `${decision.rate_bps.filter((one) => one > 0).length}/${decision.rate_bps.length}`, true],
     [say("console.subcarriers_moved"), (turn) => (turn === turns[0] ? "–" : String(changedHands(turns[0].decision, turn.decision).length)), true],
   ];
-  const limits = turns.slice(1).flatMap((turn) => limitRows(turns[0], turn).map(({ label }) => label));
-  for (const label of new Set(limits)) {
-    const of = (turn) => limitRows(turns[0], turn).find((one) => one.label === label);
-    rows.push([label, (turn) => (turn === turns[0] ? of(turns.slice(1).find(of))?.before : of(turn)?.after) ?? "–"]);
-  }
+  for (const { label, texts } of limitRows(turns)) rows.push([label, (turn) => texts[turns.indexOf(turn)]]);
   return rows.map(([label, read, needsAllocation]) => {
     const cells = turns.map((turn) => (needsAllocation && !isUsable(turn) ? "–" : read(turn)));
     return element("tr", { class: new Set(cells).size > 1 ? "differs" : null },

@@ -30,7 +30,7 @@ function rateRows(before, after) {
  */
 export function difference(effect, plan) {
   const [before, after] = [effect?.decision ?? null, plan.decision];
-  const limits = limitRows(effect, plan);
+  const limits = limitRows([effect, plan]).map(({ label, texts: [then, now] }) => ({ label, before: then, after: now, same: then === now }));
   const rates = rateRows(before, after);
   const moved = changedHands(before, after);
   const pair = (label, then, now) => (then === now ? [] : [{ label, before: then, after: now }]);

@@ -67,26 +67,24 @@ function asksOf(turn) {
 }
 
 /**
- * What is asked for before and after, a row for each limit of each user.
- * @returns {Array<{label: string, before: string, after: string, same: boolean}>}
+ * What turns ask for, a row for each limit of each user with its text for each turn.
+ * @returns {Array<{label: string, texts: string[]}>}
  */
-export function limitRows(before, after) {
-  const rows = [];
-  const [old, now] = [asksOf(before), asksOf(after)];
-  for (const kind of new Set([...Object.keys(old), ...Object.keys(now)])) {
-    const [was, is] = [byUser(old[kind]), byUser(now[kind])];
-    const users = [...new Set([...Object.keys(was), ...Object.keys(is)])];
-    for (const user of users) {
-      const [one, other] = [limitText(kind, was[user] ?? was.all), limitText(kind, is[user] ?? is.all)];
+export function limitRows(turns) {
+  const asks = turns.map(asksOf);
+  const kinds = new Set(asks.flatMap((one) => Object.keys(one)));
+  return [...kinds].flatMap((kind) => {
+    const limits = asks.map((one) => byUser(one[kind]));
+    const users = [...new Set(limits.flatMap((one) => Object.keys(one)))];
+    return users.map((user) => {
       const label = kind in LIMITS ? say(LIMITS[kind]) : kind.replaceAll("_", " ");
       const whom = kind.endsWith("_rate_bps") || user !== "all" ? who(user, users.length > 1) : "";
-      rows.push({
+      return {
         label: heading(whom ? say("console.label_of", { label, who: whom }) : label),
-        before: one, after: other, same: one === other,
-      });
-    }
-  }
-  return rows;
+        texts: limits.map((one) => limitText(kind, one[user] ?? one.all)),
+      };
+    });
+  });
 }
 
 /** The subcarriers, from 0, that two decisions give to different users. */
