@@ -19,9 +19,7 @@ export function drawCells(cells, cell, canAct, actions) {
   byId("cell-facts").replaceChildren(facts([...Object.entries(cell.facts),
     [say("console.base_station"), cell.base_station ?? "–"], [say("console.budget"), watts(cell.max_power_w)],
     [say("console.recogniser"), cell.recogniser === "llm" ? "LLM" : say("console.offline")]]));
-  byId("cell-new-talk").hidden = !canAct;
   byId("cell-remove").hidden = !canAct || cell.demonstration || cells.length < 2;
-  byId("cell-make").hidden = !canAct;
 }
 
 /** The form for a simulated cell. */

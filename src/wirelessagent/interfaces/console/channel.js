@@ -62,7 +62,6 @@ export function drawChannel(channel) {
     chosen = name;
     drawChannel(channel);
   });
-  place.setAttribute("aria-labelledby", `channel-picture-${chosen}`);
   const full = gainMatrix(channel.gain, channel.user_names, channel.repaired);
   const shown = {
     sensed: () => ({ ...gainMatrix(channel.observed_gain, channel.user_names), ...coloured(full.range) }),

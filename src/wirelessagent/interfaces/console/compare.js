@@ -3,29 +3,29 @@
 import { allocationPicture, highestPower, userLegend } from "./allocation.js";
 import { byId, chart, element, scroller } from "./dom.js";
 import { highestRate, ratesPicture } from "./rates.js";
-import { changedHands, inShort, isUsable, limitRows, saidFor, sum } from "./turns.js";
+import { NONE, changedHands, inShort, isUsable, limitRows, saidFor, sum } from "./turns.js";
 import { clock, human, percent, rate, watts } from "./units.js";
 import { aimName, heading, say } from "./words.js";
 
+/** A row of the table for each figure and each limit; those in which the turns differ stand out. */
 function figures(turns) {
+  const ofDecision = (read) => turns.map(({ decision }) => read(decision));
+  const ofAllocation = (read) => turns.map((turn) => (isUsable(turn) ? read(turn.decision) : NONE));
+  const first = turns[0].decision;
   const rows = [
-    [say("console.aim"), ({ decision }) => heading(aimName(decision.objective))],
-    [say("label.status"), ({ decision }) => say(`status.${decision.status}`)],
-    [say("label.value"), ({ decision }) => human(decision.value, decision.unit), true],
-    [say("label.bound"), ({ decision }) => human(decision.bound, decision.unit)],
-    [say("label.gap"), ({ decision }) => (Number.isFinite(decision.gap) && decision.gap !== null ? percent(decision.gap) : "–"), true],
-    [say("label.sum_rate_bps"), ({ decision }) => rate(sum(decision.rate_bps)), true],
-    [say("label.lowest_rate"), ({ decision }) => rate(Math.min(...decision.rate_bps)), true],
-    [say("label.power_w"), ({ decision }) => watts(decision.total_power_w), true],
-    [say("label.users_served"), ({ decision }) => `${decision.rate_bps.filter((one) => one > 0).length}/${decision.rate_bps.length}`, true],
-    [say("console.subcarriers_moved"), (turn) => (turn === turns[0] ? "–" : String(changedHands(turns[0].decision, turn.decision).length)), true],
-  ];
-  for (const { label, texts } of limitRows(turns)) rows.push([label, (turn) => texts[turns.indexOf(turn)]]);
-  return rows.map(([label, read, needsAllocation]) => {
-    const cells = turns.map((turn) => (needsAllocation && !isUsable(turn) ? "–" : read(turn)));
-    return element("tr", { class: new Set(cells).size > 1 ? "differs" : null },
-      element("th", { scope: "row" }, heading(label)), cells.map((text) => element("td", {}, text)));
-  });
+    ["console.aim", ofDecision((one) => heading(aimName(one.objective)))],
+    ["label.status", ofDecision((one) => say(`status.${one.status}`))],
+    ["label.value", ofAllocation((one) => human(one.value, one.unit))],
+    ["label.bound", ofDecision((one) => human(one.bound, one.unit))],
+    ["label.gap", ofAllocation((one) => (one.gap === null ? NONE : percent(one.gap)))],
+    ["label.sum_rate_bps", ofAllocation((one) => rate(sum(one.rate_bps)))],
+    ["label.lowest_rate", ofAllocation((one) => rate(Math.min(...one.rate_bps)))],
+    ["label.power_w", ofAllocation((one) => watts(one.total_power_w))],
+    ["label.users_served", ofAllocation((one) => `${one.rate_bps.filter((bps) => bps > 0).length}/${one.rate_bps.length}`)],
+    ["console.subcarriers_moved", ofAllocation((one) => (one === first ? NONE : String(changedHands(first, one).length)))],
+  ].map(([key, texts]) => ({ label: heading(say(key)), texts }));
+  return [...rows, ...limitRows(turns)].map(({ label, texts }) => element("tr", { class: new Set(texts).size > 1 ? "differs" : null },
+    element("th", { scope: "row" }, label), texts.map((text) => element("td", {}, text))));
 }
 
 /**

@@ -27,6 +27,10 @@ export function shape(name, attributes = {}, ...children) {
   return fill(document.createElementNS(SVG, name), attributes, children);
 }
 
+/** A picture in SVG with what it says to those who do not see it. */
+export const drawing = (width, height, label, ...children) =>
+  shape("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label }, ...children);
+
 /** The element of the page with this id. */
 export const byId = (id) => document.getElementById(id);
 

@@ -286,6 +286,7 @@ async function start() {
       nameChoices();
       draw();
     });
+    document.body.classList.toggle("viewer", state.console.role !== "operator");
     byId("sign-out").hidden = !signedIn;
     byId("version").textContent = state.console.version;
     setUp();

@@ -2,7 +2,7 @@
 
 import { axis } from "./axis.js";
 import { fillOf, patterns } from "./colours.js";
-import { byId, chart, element, nothing, shape, table } from "./dom.js";
+import { byId, chart, drawing, element, nothing, shape, table } from "./dom.js";
 import { ratesOf, sum } from "./turns.js";
 import { prefixed, rate, watts } from "./units.js";
 import { heading, say, userName } from "./words.js";
@@ -53,8 +53,7 @@ export function ratesPicture(turn, { width, top, id }) {
       parts.push(shape("text", { x: middle, y: BASE + 16, "text-anchor": "middle" }, name));
     }
   });
-  const frame = { width: right, height: BASE + 24, viewBox: `0 0 ${right} ${BASE + 24}` };
-  return shape("svg", { ...frame, role: "img", "aria-label": say("console.rates") }, parts);
+  return drawing(right, BASE + 24, say("console.rates"), parts);
 }
 
 /** What each user gets, as a table. */

@@ -2,7 +2,7 @@
 
 import { marks } from "./axis.js";
 import { worked } from "./api.js";
-import { byId, chart, element, shape, table } from "./dom.js";
+import { byId, chart, drawing, element, shape, table } from "./dom.js";
 import { digits, human, prefixed, rate, watts } from "./units.js";
 import { aimName, heading, say, trouble } from "./words.js";
 
@@ -49,7 +49,7 @@ function curvePicture(curve, { width, budget }) {
     text ? shape("text", { x: LEFT + 8, y: y(at) - 6 }, text) : ""];
   const proven = points.filter(({ bound }) => Number.isFinite(bound) && bound !== null && bound <= top);
   const met = points.filter(isMet);
-  return shape("svg", { width, height: base + LABELS, viewBox: `0 0 ${width} ${base + LABELS}`, role: "img", "aria-label": sentence(curve, budget) },
+  return drawing(width, base + LABELS, sentence(curve, budget),
     shape("g", { class: "axis" }, level(0, "", ""), marks(top / scale).map((value) => [...level(value * scale, "", ""),
       shape("text", { x: LEFT - 6, y: y(value * scale) + 4, "text-anchor": "end" }, digits(value))]).flat()),
     shape("text", { x: LEFT, y: 12 }, `${heading(aimName(curve.objective))}, ${shownUnit}`),

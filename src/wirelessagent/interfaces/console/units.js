@@ -45,6 +45,5 @@ export function prefixed(largest, unit) {
 
 /** The time of day of an ISO time, in the reader's zone. */
 export function clock(isoTime) {
-  const own = navigator.languages.find((tag) => tag.startsWith(language()));
-  return new Date(isoTime).toLocaleTimeString(own ?? language(), { hour: "2-digit", minute: "2-digit" });
+  return new Date(isoTime).toLocaleTimeString(language(), { hour: "2-digit", minute: "2-digit", hourCycle: "h23" });
 }
