@@ -201,3 +201,4 @@ def test_signing_in(browser: Browser, guarded: Signed) -> None:
     page.wait_for_selector("#page:not(.loading)")
     assert page.locator("#viewer").is_visible()
     assert page.locator("#plan button").count() == 0
+    assert page.locator(".operates:visible").count() == 0

@@ -79,7 +79,7 @@ def test_the_curve_that_a_decision_lies_on(server: Server) -> None:
         assert [point["value"] for point in points if point["at"] == curve["here"]] == [pytest.approx(value, rel=1e-9)]
         rising = [point["value"] for point in points if point["status"] in ("optimal", "feasible")]
         assert len(rising) > 2
-        assert rising == sorted(rising)
+        assert rising == sorted(set(rising))
     assert over_budgets["points"][-1]["at"] == 20.0
     assert (over_promises["varies"], over_promises["unit"]) == ("promises", "W")
     with server.client as client:
