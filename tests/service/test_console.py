@@ -18,12 +18,6 @@ pytestmark = [
     pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium to look at the console with"),
 ]
 
-_FIRST = """
-const cell = "wirelessagent.cell";
-if (localStorage.getItem(cell) === null) localStorage.setItem(cell, "demonstration");
-"""
-"""The cell that is looked at first, whatever other tests have made."""
-
 WIDE, NARROW = {"width": 1440, "height": 900}, {"width": 390, "height": 844}
 
 
@@ -38,9 +32,10 @@ def browser() -> Iterator[Browser]:
 class Seen:
     """A page, and what went wrong on it or left the machine."""
 
-    def __init__(self, browser: Browser, url: str, **look: object) -> None:
+    def __init__(self, browser: Browser, url: str, *, cell: str = "", **look: object) -> None:
         context = browser.new_context(**{"viewport": WIDE, "locale": "en-GB", **look})  # type: ignore[arg-type]
-        context.add_init_script(_FIRST)
+        if cell:
+            context.add_init_script(f"localStorage.setItem('wirelessagent.cell', '{cell}')")
         self.page: Page = context.new_page()
         self.faults, self.outside, self.url = list[str](), list[str](), url
         self.page.on("pageerror", lambda error: self.faults.append(str(error)))
@@ -119,6 +114,53 @@ def test_ask_apply_compare_undo_and_reload(browser: Browser, server: Server) -> 
     seen.is_sound()
 
 
+def test_what_ifs_the_curve_and_the_report(browser: Browser, server: Server) -> None:
+    options = {"seed": 1, "source_options": {"num_users": 3, "num_subcarriers": 6}}
+    cell = server.post("v1/cells", {"name": "small", "options": options}).json()
+    server.say(cell["session"], "highest total rate")
+    seen = Seen(browser, server.url, cell=cell["id"])
+    page = seen.opened()
+    page.fill("#line", "yes")
+    page.keyboard.press("Enter")  # words apply nothing: they lead to the button
+    assert page.evaluate("document.activeElement.textContent") == page.inner_text("#plan button >> nth=0")
+    seen.press(0)
+    for budget in ("10", "6"):
+        seen.say(f"what if we had {budget} W?")
+        assert f"{budget} W" in page.inner_text("#looking-text")
+    page.click("#timeline-buttons button")
+    shown = page.locator("#compare tr:has(th:text-is('Power budget')) td").all_inner_texts()
+    assert shown[-2:] == ["10 W", "6 W"]  # what was supposed, not what is asked for
+    assert page.locator("#compare section").count() == 3
+    page.click("#compare [data-close]")
+    page.click("#trade-off-open")
+    page.wait_for_selector("#trade-off svg circle.here")
+    assert page.inner_text("#trade-off tr.here").startswith("6 W")
+    assert page.locator("#trade-off tbody tr").count() == 8 + 1  # 6 W is none of the eighths of 20 W that are
+    seen.is_sound()
+    page.click("#trade-off [data-close]")
+    page.pdf()
+    assert page.locator("#rates-picture table").is_visible()
+    assert page.text_content("#printed")
+
+
+def test_an_operation_with_its_tables_and_its_picture(browser: Browser, server: Server) -> None:
+    pytest.importorskip("matplotlib")
+    seen = Seen(browser, server.url)
+    page = seen.opened()
+    page.click(".top > [data-open=settings]")
+    assert page.locator("#new-recogniser").is_disabled()
+    assert page.locator(".no-llm").is_visible()
+    page.click("#settings [data-close]")
+    page.click("#tools-open")
+    page.wait_for_selector("#tools-fields label")
+    assert "power, W" in page.inner_text("#tools-fields")
+    page.click("#tools-form button")
+    page.wait_for_selector("#tools-found img", timeout=60_000)
+    assert page.evaluate("document.querySelector('#tools-found img').naturalWidth") > 100
+    assert page.locator("#tools-found table").count() > 1
+    seen.is_sound()
+
+
 def test_a_measured_file(browser: Browser, server: Server, tmp_path: Path) -> None:
     file = tmp_path / "hall.csv"
     file.write_text("1e-9,2e-9,,4e-9\n2e-9,1e-9,3e-9,1e-9\n")
@@ -153,9 +195,10 @@ def test_signing_in(browser: Browser, guarded: Signed) -> None:
     page.wait_for_url("**/sign-in.html")
     page.fill("#token", "wa_nonsense")
     page.click("button")
-    page.wait_for_selector("#refused:not([hidden])")
+    page.wait_for_selector(".problem:not([hidden])")
     page.fill("#token", guarded.viewer.token)
     page.click("button")
     page.wait_for_selector("#page:not(.loading)")
     assert page.locator("#viewer").is_visible()
     assert page.locator("#plan button").count() == 0
+    assert page.locator(".operates:visible").count() == 0

@@ -14,6 +14,8 @@ from servers import Server, started
 
 pytestmark = pytest.mark.machine_code
 
+_FILE = {"Content-Type": "application/octet-stream"}
+
 
 def test_the_first_screen_is_alive_and_nothing_was_computed_for_it(server: Server) -> None:
     cell = next(cell for cell in server.get("v1/console")["cells"] if cell["demonstration"])
@@ -53,6 +55,51 @@ def test_a_plan_that_was_dropped_cannot_be_applied(server: Server) -> None:
     assert server.post(f"v1/sessions/{session}/discard", {"plan": plan}).status_code == 200
     assert server.post(f"v1/sessions/{session}/confirm", {"plan": plan}).status_code == 409
     assert server.get(f"v1/sessions/{session}")["plan"] is None
+
+
+def test_who_has_it_already_is_told_so(server: Server) -> None:
+    session = server.cell()["session"]
+    with server.client as client:
+        first = client.get(f"v1/sessions/{session}")
+        again = {"If-None-Match": first.headers["etag"]}
+        assert client.get(f"v1/sessions/{session}", headers=again).status_code == 304
+        server.say(session, "highest total rate")
+        assert client.get(f"v1/sessions/{session}", headers=again).status_code == 200
+
+
+def test_the_curve_that_a_decision_lies_on(server: Server) -> None:
+    options = {"seed": 1, "source_options": {"num_users": 3, "num_subcarriers": 6}}
+    session = server.post("v1/cells", {"name": "small", "options": options}).json()["session"]
+    rate = server.say(session, "highest total rate, at most 10 W")["decision"]["value"]
+    least = server.say(session, "save power, at least 100 kbit/s each")["decision"]["value"]
+    over_budgets = server.get(f"v1/sessions/{session}/turns/1/trade-off")
+    over_promises = server.get(f"v1/sessions/{session}/turns/2/trade-off")
+    for curve, value in ((over_budgets, rate), (over_promises, least)):
+        points = curve["points"]
+        assert [point["value"] for point in points if point["at"] == curve["here"]] == [pytest.approx(value, rel=1e-9)]
+        rising = [point["value"] for point in points if point["status"] in ("optimal", "feasible")]
+        assert len(rising) > 2
+        assert rising == sorted(set(rising))
+    assert over_budgets["points"][-1]["at"] == 20.0
+    assert (over_promises["varies"], over_promises["unit"]) == ("promises", "W")
+    with server.client as client:
+        assert client.get(f"v1/sessions/{session}/turns/3/trade-off").status_code == 404
+
+
+def test_a_picture_is_there_where_it_is_asked_for(server: Server) -> None:
+    pytest.importorskip("matplotlib")
+    kept = server.post("v1/observations?name=hall.csv", content=b"1e-9,2e-9\n2e-9,1e-9\n", headers=_FILE).json()
+    asked = {"observation": kept["id"], "objective": "max_rate"}
+    drawn = server.post("v1/operations/solve", {**asked, "picture": True}).json()
+    assert drawn["picture"].startswith("<?xml")
+    assert drawn["record"]["plot"] is None
+    assert "picture.svg" not in str(drawn["blocks"])
+    assert server.post("v1/operations/solve", asked).json()["picture"] is None
+
+
+def test_a_file_is_spoken_of_by_the_name_that_its_sender_gave(server: Server) -> None:
+    refused = server.post("v1/observations?name=hall.csv", content=b"1,2\nthree,4\n", headers=_FILE).json()
+    assert refused["detail"].startswith("hall.csv: ")
 
 
 def test_undo_waits_for_its_own_yes(server: Server) -> None:

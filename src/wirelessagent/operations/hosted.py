@@ -35,6 +35,7 @@ from wirelessagent.operations.hosted_answers import CellFacts, ChannelAnswer, Ho
 from wirelessagent.operations.operation import Event, Progress
 from wirelessagent.operations.recording import opened
 from wirelessagent.operations.simulate import scene_arrays
+from wirelessagent.operations.trade_off import TradeOffAnswer, trade_off
 from wirelessagent.operations.turn_record import LinesAnswer, TurnRecord
 from wirelessagent.sensing.npz import write_npz
 from wirelessagent.store.plain import plain
@@ -179,6 +180,15 @@ class Hosted:
         finally:
             for turn in self._session.turns[before:]:
                 self._keep(turn, self._request.remember(turn))
+
+    def trade_off(self, number: int, progress: Progress) -> TradeOffAnswer:
+        """The curve that the decision of a turn lies on.
+
+        Raises:
+            NothingRecordedError: there is no such turn, or it decided nothing.
+        """
+        runs = {turn.number: turn.run for turn in self._session.turns}
+        return trade_off(runs.get(number), progress)
 
     def _keep(self, turn: Turn, stored: int | None) -> None:
         record = TurnRecord.of(turn, self._session, stored)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from wirelessagent import __version__
 from wirelessagent.model.atomic import writable_target
-from wirelessagent.model.errors import InputError
+from wirelessagent.model.errors import InputError, MissingDependencyError
 
 if TYPE_CHECKING:
     from wirelessagent.comparison import Compared
@@ -56,6 +56,17 @@ def check_picture(path: Path | None) -> None:
         check_suffix(path)
         writable_target(path)
         require_matplotlib()
+
+
+def can_draw() -> bool:
+    """Whether what draws pictures is installed."""
+    from wirelessagent.pictures.canvas import require_matplotlib
+
+    try:
+        require_matplotlib()
+    except MissingDependencyError:
+        return False
+    return True
 
 
 def draw_run(

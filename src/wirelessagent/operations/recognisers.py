@@ -6,10 +6,20 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
 
-from wirelessagent.operations.operation import Request
+from wirelessagent.operations.operation import InputError, Request
 
 if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Recogniser
+
+
+def llm_model() -> str | None:
+    """The LLM that the settings name; None where they name none that can be used."""
+    from wirelessagent.language.llm_settings import LlmSettings
+
+    try:
+        return LlmSettings.read().model
+    except InputError:
+        return None
 
 
 class RecogniserOption(Request):

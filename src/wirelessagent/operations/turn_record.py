@@ -58,7 +58,10 @@ class LinesAnswer(Record):
 
 
 class TurnRecord(Record):
-    """One turn: what was said and understood, what it came to, and what holds after it."""
+    """One turn: what was said and understood, what it came to, and what holds after it.
+
+    ``request`` is what is asked for, ``supposed`` what a what-if was about instead.
+    """
 
     number: int
     session: str
@@ -69,6 +72,7 @@ class TurnRecord(Record):
     reply: str
     lines: LinesAnswer
     request: RequestAnswer | None
+    supposed: RequestAnswer | None
     awaits: str
     decision: DecisionAnswer | None
     outcome: OutcomeAnswer | None
@@ -88,13 +92,14 @@ class TurnRecord(Record):
         from wirelessagent.store.plain import plain
         from wirelessagent.store.record_of import understood
 
-        run, request = turn.run, session.request
+        run, request, supposed = turn.run, session.request, session.state.supposed
         same = ("number", "session", "at_utc", "text", "stage", "reply", "recogniser", "seed", "version")
         return cls(
             **{name: getattr(turn, name) for name in same},
             lines=LinesAnswer.of(turn.lines),
             intent={**plain(turn.intent), **understood(turn)},
             request=None if request is None else RequestAnswer(**plain(request)),
+            supposed=None if supposed is None else RequestAnswer(**plain(supposed)),
             awaits=session.state.awaits,
             decision=None if run is None else DecisionAnswer.of(run.decision),
             outcome=None if run is None else OutcomeAnswer.of(run.outcome),

@@ -193,6 +193,13 @@ class Service:
         item = await self._kept(self.ledger.find, "channel", id)
         return None if item is None else item.data["channel"]
 
+    async def trade_off(self, session: str, number: int, tell: Tell) -> Json:
+        """The curve that the decision of a turn lies on."""
+        async with self._alone(await self._cell_of(session)):
+            item = await self._item("session", session)
+            cell = await self._item("cell", item.data["cell"])
+            return await self._hosted(item, cell, tell, "trade_off", number=number)
+
     async def say(self, session: str, text: str, caller: Caller, tell: Tell) -> Json:
         """The turn of a line."""
         if not text.strip():
@@ -305,9 +312,18 @@ class Service:
 
     async def _turn(self, session: str, by: str, tell: Tell, do: str, **told: Any) -> Json:
         item = await self._item("session", session)
-        held = dict(item.data)
-        cell = await self._item("cell", held["cell"])
+        cell = await self._item("cell", item.data["cell"])
         self._check_current(cell, session)
+        done = await self._hosted(item, cell, tell, do, by=by, **told)
+        await self._through(self._settle(item, cell, done))
+        if done["stale"]:
+            raise ConflictError("the conversation had gone on: look at what holds now")
+        last = done["turns"][-1]
+        self.metrics.turned(last["record"])
+        return {**last["record"], "by": last["by"], "language": last["language"]}
+
+    async def _hosted(self, item: Item, cell: Item, tell: Tell, do: str, **told: Any) -> Json:
+        """What the worker of a conversation does in it, which it takes up first where it has to."""
         try:
             site = await self._site(cell.data)
         except NotFoundError as error:
@@ -315,16 +331,10 @@ class Service:
                 f"{error.detail}, which the cell {cell.data['name']!r} works on: put another one in its place, or null "
                 f"for a simulated channel, at /v1/cells/{cell.id}/observation; a new conversation begins then"
             ) from error
-        done = await self.workers.do(
-            do, tell, of=session, session=session, turns=held["turns"], recalled=held["recalled"], by=by,
-            **site, **told,
-        )  # fmt: skip
-        await self._through(self._settle(item, cell, done))
-        if done["stale"]:
-            raise ConflictError("the conversation had gone on: look at what holds now")
-        last = done["turns"][-1]
-        self.metrics.turned(last["record"])
-        return {**last["record"], "by": last["by"], "language": last["language"]}
+        held = item.data
+        return await self.workers.do(
+            do, tell, of=item.id, session=item.id, turns=held["turns"], recalled=held["recalled"], **site, **told
+        )
 
     @staticmethod
     def _check_current(cell: Item, session: str) -> None:
@@ -373,12 +383,16 @@ class Service:
     # Operations.
 
     async def operate(self, name: str, form: Mapping[str, Any], tell: Tell) -> Json:
-        """Run an operation; ``observation`` in its form is the id of the channel to work on."""
+        """Run an operation; ``observation`` in its form is the id of the channel to work on.
+
+        Where ``picture`` in its form is true, the answer holds its picture as SVG, if it has one that can be drawn.
+        """
         if name not in OPERATIONS:
             raise NotFoundError(f"there is no operation {name!r}: known are {', '.join(OPERATIONS)}")
         given = dict(form)
         channel = await self.observations.channel(given.pop("observation", None))
-        return await self.workers.do("operation", tell, name=name, form=given, **channel)
+        drawn = bool(given.pop("picture", False))
+        return await self.workers.do("operation", tell, name=name, form=given, picture=drawn, **channel)
 
     async def forms(self) -> Json:
         """What each operation can be asked, as JSON Schema."""
@@ -407,7 +421,8 @@ class Service:
 
 
 def _cell(item: Item) -> Json:
-    return {"id": item.id, **shown(item.data, "options", "effect")}
+    understands = item.data["options"].get("recogniser", "offline")
+    return {"id": item.id, "recogniser": understands, **shown(item.data, "options", "effect")}
 
 
 def _turn_id(session: str, number: int) -> str:

@@ -15,6 +15,7 @@ import base64
 import json
 import os
 import sys
+import tempfile
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -40,6 +41,7 @@ from wirelessagent.operations.operation import (
     Progress,
     WirelessAgentError,
 )
+from wirelessagent.operations.outputs import can_draw
 from wirelessagent.operations.paragraphs import as_plain
 from wirelessagent.operations.record import Record, as_json
 
@@ -66,13 +68,19 @@ class Worker:
         with telling_what_is_wrong(operation.name):
             form = form_of(operation)(**told["form"])
         request = filled(operation, form, channel)
-        if "out" in told:  # gains to be kept, where the server says
-            request = request.model_copy(update={"out": Path(told["out"])})
-        record = operation.run(request, progress)
+        with tempfile.TemporaryDirectory() as folder:
+            picture = Path(folder) / "picture.svg"
+            files = {"out": Path(told["out"])} if "out" in told else {}  # gains to be kept, where the server says
+            if told.get("picture") and "plot" in operation.request.model_fields and can_draw():
+                files["plot"] = picture
+            record = operation.run(request.model_copy(update=files), progress)
+            drawn = picture.read_text(encoding="utf-8") if picture.exists() else None
+        record = record.model_copy(update=dict.fromkeys(files))  # where they are is nobody else's business
         return {
             "record": as_json(record),
             "blocks": [as_plain(block) for block in record.blocks()],
             "conclusion": record.conclusion,
+            "picture": drawn,
         }
 
     def forms(self, told: Mapping[str, Any], progress: Progress) -> Any:
@@ -127,6 +135,10 @@ class Worker:
         if hosted.number == told["turns"]:
             hosted.broke_off(told["button"], progress, by=told["by"])
         return _since(hosted, known)
+
+    def trade_off(self, told: Mapping[str, Any], progress: Progress) -> Any:
+        """The curve that a turn's decision lies on."""
+        return self._conversation(told, progress).trade_off(told["number"], progress)
 
     def inspect(self, told: Mapping[str, Any], progress: Progress) -> Any:
         """What a file with gains holds; written as it was understood, where that is wanted."""

@@ -2,7 +2,7 @@
 
 import { axis } from "./axis.js";
 import { fillOf, patterns } from "./colours.js";
-import { byId, element, onWidth, scroller, shape } from "./dom.js";
+import { byId, chart, drawing, element, nothing, shape } from "./dom.js";
 import { tabs } from "./tabs.js";
 import { changedHands, sum } from "./turns.js";
 import { prefixed, watts } from "./units.js";
@@ -59,8 +59,7 @@ export function allocationPicture(decisions, { width, top, id, moved }) {
     const x = LEFT + (place + 0.5) * cell;
     parts.push(shape("path", { class: "moved", d: `M${x - 4} ${height - 2}h8l-4 -7z` }));
   }
-  const frame = { width: right, height, viewBox: `0 0 ${right} ${height}` };
-  return shape("svg", { ...frame, role: "img", "aria-label": described(decision, moved) }, parts);
+  return drawing(right, height, described(decision, moved), parts);
 }
 
 /** The highest power on a subcarrier of all these decisions. */
@@ -89,27 +88,26 @@ export function drawAllocation(shown, effect, shownName) {
   byId("allocation-tabs").hidden = !two;
   if (!shown) {
     byId("allocation-note").textContent = "";
-    return place.replaceChildren(element("p", { class: "empty" }, say("console.no_allocation")));
+    return place.replaceChildren(nothing(say("console.no_allocation")));
   }
   const of = two ? chosen : "shown";
   const decisions = { shown: [shown.decision], effect: [effect?.decision], both: [shown.decision, effect?.decision] }[of];
   const moved = two ? changedHands(effect.decision, shown.decision) : [];
   const top = highestPower(two ? [shown.decision, effect.decision] : decisions);
-  byId("allocation-note").textContent = say("console.allocation_note", { unit: prefixed(top, "W").unit });
+  const note = say("console.allocation_note", { unit: prefixed(top, "W").unit });
+  byId("allocation-note").textContent = two ? note : `${shownName} · ${note}`;
   if (two) {
     const choices = [["shown", shownName], ["effect", say("console.in_effect")], ["both", say("console.both")]];
     tabs(byId("allocation-tabs"), choices, chosen, "allocation-picture", (name) => {
       chosen = name;
       drawAllocation(shown, effect, shownName);
     });
-    place.setAttribute("aria-labelledby", `allocation-picture-${of}`);
   }
-  const frame = scroller(say("console.allocation"));
-  place.replaceChildren(frame,
+  place.replaceChildren(
+    chart(say("console.allocation"), (width) => allocationPicture(decisions, { width, top, id: "a", moved })),
     element("div", { class: "legend" },
       moved.length ? element("span", { class: "hands" },
         "▲ ", say("console.hands", { moved: moved.length, total: shown.decision.owner.length })) : null,
       of === "both" ? element("span", {}, say("console.both_note", { name: shownName })) : null,
       userLegend(decisions, "al")));
-  onWidth(frame, (width) => frame.replaceChildren(allocationPicture(decisions, { width, top, id: "a", moved })));
 }

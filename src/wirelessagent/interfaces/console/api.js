@@ -19,10 +19,15 @@ const ROOT = new URL("../", import.meta.url);
 /** The absolute address of a path of the interface: the console lies one folder below it. */
 export const address = (path) => new URL(path, ROOT).href;
 
+/** What was got before by its path, with the tag by which the server knows whether it still holds. */
+const known = new Map();
+
 async function call(method, path, { body = null, type = null, later = false } = {}) {
   const headers = { Accept: "application/json" };
   if (type) headers["Content-Type"] = type;
   if (later) headers.Prefer = "respond-async";
+  const had = method === "GET" ? known.get(path) : null;
+  if (had) headers["If-None-Match"] = had.tag;
   let answer;
   try {
     answer = await fetch(address(path), { method, headers, body, credentials: "same-origin" });
@@ -30,6 +35,7 @@ async function call(method, path, { body = null, type = null, later = false } = 
     throw new Disconnected("…");
   }
   if (AWAY.has(answer.status)) throw new Disconnected(`${answer.status} ${answer.statusText}`);
+  if (answer.status === 304) return had.found;
   const text = await answer.text();
   let found = null;
   try {
@@ -38,10 +44,12 @@ async function call(method, path, { body = null, type = null, later = false } = 
     if (answer.ok) throw new Problem({ status: answer.status, detail: text.slice(0, 200) });
   }
   if (!answer.ok) throw new Problem({ status: answer.status, ...(found ?? { title: answer.statusText }) });
+  const tag = answer.headers.get("ETag");
+  if (tag) known.set(path, { tag, found });
   return found;
 }
 
-/** @param {string} path */
+/** What is there: the same object as before where it has not changed. @param {string} path */
 export const get = (path) => call("GET", path);
 /** @param {string} path */
 export const remove = (path) => call("DELETE", path);
@@ -52,6 +60,17 @@ export const post = (path, fields = {}, later = false) =>
 
 /** Send a file as it is. */
 export const upload = (path, file) => call("POST", path, { body: file, type: "application/octet-stream" });
+
+/**
+ * Have long work done and follow it to its end.
+ * @param {string} path
+ * @param {object|null} fields to be posted; null where it is only read
+ * @param {(stage: object) => void} onStage
+ */
+export async function worked(path, fields, onStage) {
+  const job = await (fields ? post(path, fields, true) : call("GET", path, { later: true }));
+  return job.state === "done" ? job.result : follow(job.id, onStage);
+}
 
 /**
  * Follow a job to its end: its events where they can be had, else by asking now and then.

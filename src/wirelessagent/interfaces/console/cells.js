@@ -2,8 +2,9 @@
 
 import { post } from "./api.js";
 import { byId, element, facts } from "./dom.js";
+import { onSend } from "./forms.js";
 import { watts } from "./units.js";
-import { say, trouble } from "./words.js";
+import { say } from "./words.js";
 
 /** A cell in one line. */
 export const cellLine = (cell) => say("console.cell_line", { users: cell.user_names.length, subcarriers: cell.num_subcarriers });
@@ -16,28 +17,20 @@ export function drawCells(cells, cell, canAct, actions) {
     element("button", { type: "button", "aria-current": one.id === cell.id ? "true" : null, click: () => actions.pick(one.id) },
       element("b", {}, one.name), element("span", {}, cellLine(one))))));
   byId("cell-facts").replaceChildren(facts([...Object.entries(cell.facts),
-    [say("console.base_station"), cell.base_station ?? "–"], [say("console.budget"), watts(cell.max_power_w)]]));
-  byId("cell-new-talk").hidden = !canAct;
+    [say("console.base_station"), cell.base_station ?? "–"], [say("console.budget"), watts(cell.max_power_w)],
+    [say("console.recogniser"), cell.recogniser === "llm" ? "LLM" : say("console.offline")]]));
   byId("cell-remove").hidden = !canAct || cell.demonstration || cells.length < 2;
-  byId("cell-make").hidden = !canAct;
 }
 
 /** The form for a simulated cell. */
 export function setUpNewCell(made) {
-  byId("cell-form").addEventListener("submit", async (event) => {
-    event.preventDefault();
-    const number = (id) => Number(byId(id).value);
-    byId("cell-problem").hidden = true;
-    const options = {
-      seed: number("new-seed"), cell_max_power_w: number("new-power"),
+  const number = (id) => Number(byId(id).value);
+  onSend(byId("cell-form"), async () => made(await post("v1/cells", {
+    name: byId("new-name").value,
+    options: {
+      seed: number("new-seed"), cell_max_power_w: number("new-power"), recogniser: byId("new-recogniser").value,
       source_options: { num_users: number("new-users"), num_subcarriers: number("new-subcarriers") },
       loss: number("new-lost") > 0 ? [`random:${number("new-lost") / 100}`] : [],
-    };
-    try {
-      made(await post("v1/cells", { name: byId("new-name").value, options }));
-    } catch (problem) {
-      byId("cell-problem").hidden = false;
-      byId("cell-problem").textContent = trouble(problem);
-    }
-  });
+    },
+  })));
 }

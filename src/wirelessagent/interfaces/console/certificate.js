@@ -38,7 +38,7 @@ export function drawCertificate(turn) {
   const drawable = isUsable(turn) && decision.value > 0 && decision.bound > 0 && Number.isFinite(decision.bound);
   place.replaceChildren(...[drawable ? bar(decision) : null,
     element("p", { class: isUsable(turn) ? "note" : "note warn" }, sentence(decision)),
-    decision.outage_probability ? element("p", { class: "note" }, say("console.kept_with", { sure: percent(1 - decision.outage_probability) })) : null].filter(Boolean));
+    isUsable(turn) && decision.outage_probability ? element("p", { class: "note" }, say("console.kept_with", { sure: percent(1 - decision.outage_probability) })) : null].filter(Boolean));
 }
 
 /** What one watt, and 100 kbit/s more for a user, would change at the margin; only what is not nothing. */
@@ -57,5 +57,5 @@ export function pricesOf(turn) {
 export function drawPrices(turn) {
   const rows = turn ? pricesOf(turn) : [];
   byId("prices-card").hidden = rows.length === 0;
-  byId("prices").replaceChildren(...rows.map(([label, change]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, change))));
+  byId("prices").replaceChildren(...rows.map(([label, change]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", { class: "short" }, change))));
 }

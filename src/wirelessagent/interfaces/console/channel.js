@@ -1,6 +1,6 @@
 /** The channel of a cell: what was sensed with its holes, what was repaired, and how sure each gain is. */
 
-import { byId, element } from "./dom.js";
+import { byId, nothing } from "./dom.js";
 import { matrixView } from "./matrix.js";
 import { tabs } from "./tabs.js";
 import { decibel, digits } from "./units.js";
@@ -55,14 +55,13 @@ export function drawChannel(channel) {
   byId("channel-note").textContent = channel ? say(chosen === "sure" ? "console.channel_note_sure" : "console.channel_note") : "";
   if (!channel) {
     view = null;
-    return place.replaceChildren(element("p", { class: "empty" }, say("console.no_channel")));
+    return place.replaceChildren(nothing(say("console.no_channel")));
   }
   const choices = [["sensed", say("console.sensed")], ["repaired", say("console.repaired")], ["sure", say("console.how_sure")]];
   tabs(byId("channel-tabs"), choices, chosen, "channel-picture", (name) => {
     chosen = name;
     drawChannel(channel);
   });
-  place.setAttribute("aria-labelledby", `channel-picture-${chosen}`);
   const full = gainMatrix(channel.gain, channel.user_names, channel.repaired);
   const shown = {
     sensed: () => ({ ...gainMatrix(channel.observed_gain, channel.user_names), ...coloured(full.range) }),

@@ -1,35 +1,31 @@
 /** Decisions side by side: their figures, their allocations on one scale, their rates on one scale. */
 
 import { allocationPicture, highestPower, userLegend } from "./allocation.js";
-import { byId, element, onWidth, scroller } from "./dom.js";
+import { byId, chart, element, scroller } from "./dom.js";
 import { highestRate, ratesPicture } from "./rates.js";
-import { changedHands, inShort, isUsable, limitRows, saidFor, sum } from "./turns.js";
+import { NONE, changedHands, inShort, isUsable, limitRows, saidFor, sum } from "./turns.js";
 import { clock, human, percent, rate, watts } from "./units.js";
 import { aimName, heading, say } from "./words.js";
 
+/** A row of the table for each figure and each limit; those in which the turns differ stand out. */
 function figures(turns) {
+  const ofDecision = (read) => turns.map(({ decision }) => read(decision));
+  const ofAllocation = (read) => turns.map((turn) => (isUsable(turn) ? read(turn.decision) : NONE));
+  const first = turns[0].decision;
   const rows = [
-    [say("console.aim"), ({ decision }) => heading(aimName(decision.objective))],
-    [say("label.status"), ({ decision }) => say(`status.${decision.status}`)],
-    [say("label.value"), ({ decision }) => human(decision.value, decision.unit), true],
-    [say("label.bound"), ({ decision }) => human(decision.bound, decision.unit)],
-    [say("label.gap"), ({ decision }) => (Number.isFinite(decision.gap) && decision.gap !== null ? percent(decision.gap) : "–"), true],
-    [say("label.sum_rate_bps"), ({ decision }) => rate(sum(decision.rate_bps)), true],
-    [say("label.lowest_rate"), ({ decision }) => rate(Math.min(...decision.rate_bps)), true],
-    [say("label.power_w"), ({ decision }) => watts(decision.total_power_w), true],
-    [say("label.users_served"), ({ decision }) => `${decision.rate_bps.filter((one) => one > 0).length}/${decision.rate_bps.length}`, true],
-    [say("console.subcarriers_moved"), (turn) => (turn === turns[0] ? "–" : String(changedHands(turns[0].decision, turn.decision).length)), true],
-  ];
-  const limits = turns.slice(1).flatMap((turn) => limitRows(turns[0], turn).map(({ label }) => label));
-  for (const label of new Set(limits)) {
-    const of = (turn) => limitRows(turns[0], turn).find((one) => one.label === label);
-    rows.push([label, (turn) => (turn === turns[0] ? of(turns.slice(1).find(of))?.before : of(turn)?.after) ?? "–"]);
-  }
-  return rows.map(([label, read, needsAllocation]) => {
-    const cells = turns.map((turn) => (needsAllocation && !isUsable(turn) ? "–" : read(turn)));
-    return element("tr", { class: new Set(cells).size > 1 ? "differs" : null },
-      element("th", { scope: "row" }, heading(label)), cells.map((text) => element("td", {}, text)));
-  });
+    ["console.aim", ofDecision((one) => heading(aimName(one.objective)))],
+    ["label.status", ofDecision((one) => say(`status.${one.status}`))],
+    ["label.value", ofAllocation((one) => human(one.value, one.unit))],
+    ["label.bound", ofDecision((one) => human(one.bound, one.unit))],
+    ["label.gap", ofAllocation((one) => (one.gap === null ? NONE : percent(one.gap)))],
+    ["label.sum_rate_bps", ofAllocation((one) => rate(sum(one.rate_bps)))],
+    ["label.lowest_rate", ofAllocation((one) => rate(Math.min(...one.rate_bps)))],
+    ["label.power_w", ofAllocation((one) => watts(one.total_power_w))],
+    ["label.users_served", ofAllocation((one) => `${one.rate_bps.filter((bps) => bps > 0).length}/${one.rate_bps.length}`)],
+    ["console.subcarriers_moved", ofAllocation((one) => (one === first ? NONE : String(changedHands(first, one).length)))],
+  ].map(([key, texts]) => ({ label: heading(say(key)), texts }));
+  return [...rows, ...limitRows(turns)].map(({ label, texts }) => element("tr", { class: new Set(texts).size > 1 ? "differs" : null },
+    element("th", { scope: "row" }, label), texts.map((text) => element("td", {}, text))));
 }
 
 /**
@@ -44,11 +40,10 @@ export function openComparison(session, turns) {
   const head = element("tr", {}, element("td"), turns.map((turn) => element("th", { scope: "col" },
     `${heading(say("turn.column", { number: turn.number }))} · ${clock(turn.at_utc)}`, element("small", {}, saidFor(session, turn)))));
   const pictures = element("div", { class: "columns" }, usable.map((turn, place) => {
-    const [allocation, rates] = [scroller(say("console.allocation")), scroller(say("console.rates"))];
     const moved = place ? changedHands(usable[0].decision, turn.decision) : [];
-    onWidth(allocation, (width) => allocation.replaceChildren(allocationPicture([turn.decision], { width, top: power, id: `ca${place}-`, moved })));
-    onWidth(rates, (width) => rates.replaceChildren(ratesPicture(turn, { width, top: most, id: `cr${place}-` })));
-    return element("section", {}, element("h3", {}, `${turn.number} · ${inShort(turn)}`), allocation, rates);
+    return element("section", {}, element("h3", {}, `${turn.number} · ${inShort(turn)}`),
+      chart(say("console.allocation"), (width) => allocationPicture([turn.decision], { width, top: power, id: `ca${place}-`, moved })),
+      chart(say("console.rates"), (width) => ratesPicture(turn, { width, top: most, id: `cr${place}-` })));
   }));
   byId("compare-body").replaceChildren(
     scroller(say("console.compared"), element("table", { class: "rows figures" },

@@ -27,6 +27,10 @@ export function shape(name, attributes = {}, ...children) {
   return fill(document.createElementNS(SVG, name), attributes, children);
 }
 
+/** A picture in SVG with what it says to those who do not see it. */
+export const drawing = (width, height, label, ...children) =>
+  shape("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label }, ...children);
+
 /** The element of the page with this id. */
 export const byId = (id) => document.getElementById(id);
 
@@ -49,16 +53,26 @@ export function facts(pairs) {
 export const scroller = (label, ...children) =>
   element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": label }, ...children);
 
-/** A table with its caption, as answers hold them. */
-export function table({ title, columns, rows }) {
-  const line = (cells, cell) => element("tr", {}, cells.map((text, place) =>
+/** A table with its caption, as answers hold them; `here` is the place of a row that stands out. */
+export function table({ title, columns, rows, here = -1 }) {
+  const line = (cells, cell, row = -1) => element("tr", { class: row >= 0 && row === here ? "here" : null }, cells.map((text, place) =>
     cell === "td" && place ? element("td", {}, String(text))
       : element("th", { scope: cell === "th" ? "col" : "row" }, String(text))));
   return scroller(title,
     element("table", {},
       element("caption", {}, title),
       element("thead", {}, line(columns, "th")),
-      element("tbody", {}, rows.map((row) => line(row, "td")))));
+      element("tbody", {}, rows.map((row, place) => line(row, "td", place)))));
+}
+
+/** In the place of what is not there yet. */
+export const nothing = (text) => element("p", { class: "empty" }, text);
+
+/** A picture as wide as its place, drawn anew with each width; it scrolls where it cannot be narrower. */
+export function chart(label, draw) {
+  const frame = scroller(label);
+  onWidth(frame, (width) => frame.replaceChildren(draw(width)));
+  return frame;
 }
 
 /**

@@ -2,7 +2,7 @@
 
 import { address, post } from "./api.js";
 import { byId, element } from "./dom.js";
-import { say } from "./words.js";
+import { language, say } from "./words.js";
 
 const FILES = ["csv", "json", "npz", "png", "svg"];
 const DOCUMENTS = [["ts28312", "TS 28.312"], ["tmf921", "TMF921"]];
@@ -31,4 +31,12 @@ export function drawExport(turn, failed) {
     element("button", { type: "button", click: () => standard(stored, format, failed) }, name)));
   byId("export-list").replaceChildren(...files, ...documents,
     element("li", {}, element("button", { type: "button", click: () => window.print() }, say("console.print"))));
+}
+
+/** A report, however it is printed: when that was, and each user's figures beside the picture. */
+export function setUpReport() {
+  window.addEventListener("beforeprint", () => {
+    byId("printed").textContent = new Date().toLocaleString(language(), { dateStyle: "long", timeStyle: "short" });
+    for (const details of document.querySelectorAll("details.as-table")) details.open = true;
+  });
 }

@@ -8,13 +8,15 @@ import { drawChannel } from "./channel.js";
 import { openComparison } from "./compare.js";
 import { drawConversation, giveBack, setUpConversation } from "./conversation.js";
 import { byId } from "./dom.js";
-import { drawExport } from "./exporting.js";
+import { drawExport, setUpReport } from "./exporting.js";
+import { nameRecognisers } from "./forms.js";
 import { drawPlan } from "./plan.js";
 import { drawRates } from "./rates.js";
 import { setUpTools } from "./tools.js";
 import { setUpLanguages, setUpTheme, signOut, wantedLanguage } from "./settings.js";
 import { scene, state } from "./state.js";
 import { drawTimeline } from "./timeline.js";
+import { openTradeOff } from "./trade-off.js";
 import { inShort, isUsable, saidFor, turnOf } from "./turns.js";
 import { nameUnits, setUpUpload } from "./upload.js";
 import { say, speak, trouble } from "./words.js";
@@ -25,32 +27,34 @@ const LONGEST_MS = 15000;
 const CALMER = 1.25;
 const JOB = "wirelessagent.job";
 
-let drawn = "";
+let drawn = [];
 let wait = EVERY_MS;
 let timer = 0;
-let shownChannel;
 
-function shownName({ shown, planTurn }) {
+function shownName({ shown, planTurn, effect }) {
+  if (shown === effect || !isUsable(shown)) return say("console.in_effect");
   return shown === planTurn ? say("console.plan") : say("turn.column", { number: shown?.number });
 }
 
 function draw() {
   if (!state.session) return;
   const now = scene();
-  const usable = isUsable(now.shown) ? now.shown : null;
+  const usable = [now.shown, now.effect].find(isUsable) ?? null;
   byId("page").classList.toggle("loading", false);
+  byId("looking").hidden = !now.looked;
+  if (now.looked) byId("looking-text").textContent = say("console.looking", { number: now.looked.number, text: saidFor(state.session, now.looked) });
   drawConversation(state, now, actions);
   const { lang, dataset } = document.documentElement;
-  const asIs = JSON.stringify([state.session, state.looking, now.busy, state.cell, lang, dataset.theme]);
-  if (asIs === drawn && shownChannel === state.channel) return;
+  const asIs = [state.session, state.channel, state.looking, now.busy, state.cell, lang, dataset.theme];
+  if (asIs.every((one, place) => one === drawn[place])) return;
   drawn = asIs;
-  shownChannel = state.channel;
   drawPlan(now, actions);
   drawCells(state.console.cells, state.cell, now.canAct, actions);
   drawChannel(state.channel);
   drawAllocation(usable, now.effect, shownName(now));
   drawRates(usable);
   drawCertificate(now.shown);
+  byId("trade-off-open").hidden = !now.shown?.decision;
   drawPrices(now.shown);
   drawTimeline(state.session, now, actions);
   drawExport(now.shown, fail);
@@ -58,8 +62,6 @@ function draw() {
   byId("in-effect").textContent = inEffect
     ? say("console.in_effect_is", { what: inEffect }) : say("console.nothing_in_effect");
   byId("in-effect").classList.toggle("on", Boolean(now.effect));
-  byId("looking").hidden = !now.looked;
-  if (now.looked) byId("looking-text").textContent = say("console.looking", { number: now.looked.number, text: saidFor(state.session, now.looked) });
   byId("return").hidden = !now.canAct || now.looked === now.effect;
 }
 
@@ -94,14 +96,15 @@ async function refresh() {
   if (session.cell !== state.cell.id) return;
   state.console.cells = cells;
   state.cell = cell;
-  const asBefore = JSON.stringify(session) === JSON.stringify(before);
-  wait = asBefore ? Math.min(LONGEST_MS, wait * CALMER) : EVERY_MS;
+  wait = session === before ? Math.min(LONGEST_MS, wait * CALMER) : EVERY_MS;
   const came = session.id !== before?.id || session.turns.length !== before.turns.length;
   if (came) state.channel = await get(`v1/sessions/${encodeURIComponent(session.id)}/channel`);
   if (before && came && session.id === before.id && session.in_effect !== before.in_effect) {
     const applied = turnOf(session, session.in_effect);
     if (applied) announce(say("console.applied_by", { who: applied.by ?? "–", what: inShort(applied) }));
   }
+  const last = session.turns.at(-1);
+  if (came && state.job && last?.stage === "answered" && isUsable(last)) state.looking = last.number; // one's what-if shows itself
   state.session = session;
   draw();
 }
@@ -140,9 +143,9 @@ async function work(id, text) {
     giveBack(text);
   }
   sessionStorage.removeItem(JOB);
-  state.job = null;
   wait = EVERY_MS;
   await tick();
+  state.job = null;
   draw();
 }
 
@@ -163,8 +166,17 @@ async function begin(path, fields, text) {
   }
 }
 
+/** Words apply nothing: a yes or no to the plan that waits leads to its button. */
+function toButton(text) {
+  if (byId("plan-card").hidden) return false;
+  const place = ["pressed.yes", "pressed.no"].findIndex((key) => say(key).toLowerCase() === text.toLowerCase());
+  const button = byId("plan").querySelectorAll(".buttons button")[place];
+  button?.focus();
+  return Boolean(button);
+}
+
 const actions = {
-  send: (text) => begin("turns", { text }, text),
+  send: (text) => toButton(text) || begin("turns", { text }, text),
   apply: () => begin("confirm", { plan: state.session.plan.id }, ""),
   discard: () => begin("discard", { plan: state.session.plan.id }, ""),
   cancel: () => remove(`v1/jobs/${encodeURIComponent(state.job.id)}`).catch(fail),
@@ -186,7 +198,7 @@ const actions = {
 /** Look at another cell. */
 async function choose(id) {
   const { cells } = state.console;
-  state.cell = cells.find((cell) => cell.id === id) ?? cells[0] ?? null;
+  state.cell = cells.find((cell) => cell.id === id) ?? cells.find((cell) => cell.demonstration) ?? cells[0] ?? null;
   byId("no-cell").hidden = Boolean(state.cell);
   for (const part of ["page", "cells"]) byId(part).hidden = !state.cell;
   if (!state.cell) return;
@@ -213,8 +225,9 @@ async function reload(id) {
 }
 
 function setUpDialogs() {
-  byId("settings-open").addEventListener("click", () => byId("settings").showModal());
-  for (const id of ["cell-make", "first-cell"]) byId(id).addEventListener("click", () => byId("settings").showModal());
+  for (const button of document.querySelectorAll("[data-open]")) {
+    button.addEventListener("click", () => byId(button.dataset.open).showModal());
+  }
   for (const button of document.querySelectorAll("[data-close]")) {
     button.addEventListener("click", () => button.closest("dialog").close());
   }
@@ -231,9 +244,10 @@ function setUpDialogs() {
 
 function setUp() {
   setUpDialogs();
+  setUpReport();
   setUpConversation(actions);
   setUpTheme(draw);
-  setUpTools(() => state.console.cells);
+  setUpTools(() => ({ cell: state.cell, channel: state.channel, cells: state.console.cells }));
   setUpUpload({ made: (cell) => reload(cell.id).catch(fail), allowed: () => state.console.role === "operator" });
   setUpNewCell((cell) => {
     byId("settings").close();
@@ -245,7 +259,7 @@ function setUp() {
   byId("retry").addEventListener("click", tick);
   byId("cell-new-talk").addEventListener("click", () =>
     post("v1/sessions", { cell: state.cell.id }).then(() => reload(state.cell.id)).catch(fail));
-  byId("cell-remove").addEventListener("click", () => byId("remove").showModal());
+  byId("trade-off-open").addEventListener("click", () => openTradeOff(state.session.id, scene().shown, state.cell.max_power_w));
   byId("remove-yes").addEventListener("click", () => {
     byId("remove").close();
     remove(`v1/cells/${encodeURIComponent(state.cell.id)}`).then(() => reload(null)).catch(fail);
@@ -262,12 +276,17 @@ async function start() {
     const wanted = wantedLanguage(languages);
     await speak(wanted);
     document.body.classList.remove("bare");
-    nameUnits();
+    const nameChoices = () => {
+      nameUnits();
+      nameRecognisers(state.console.llm);
+    };
+    nameChoices();
     setUpLanguages(languages, wanted, async (tag) => {
       await speak(tag);
-      nameUnits();
+      nameChoices();
       draw();
     });
+    document.body.classList.toggle("viewer", state.console.role !== "operator");
     byId("sign-out").hidden = !signedIn;
     byId("version").textContent = state.console.version;
     setUp();

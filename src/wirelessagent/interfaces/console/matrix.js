@@ -1,11 +1,14 @@
-/** A matrix of users by subcarriers on a canvas: holes hatched, zoomed and scrolled within its own frame, read by keys. */
+/**
+ * A matrix of users by subcarriers: one pixel of a canvas for each entry, stretched by the page, so that it is sharp at
+ * any width, on paper, and in both themes; holes are clear and show the hatching behind. Zoomed and scrolled within its
+ * own frame, read by pointer and by keys.
+ */
 
 import { cividis } from "./colours.js";
 import { element, onWidth } from "./dom.js";
 import { say } from "./words.js";
 
 const LABELS = 68;
-const AXIS = 20;
 const TALLEST = 22;
 const HEIGHT = 300;
 const ZOOMS = [1, 2, 4, 8];
@@ -20,97 +23,32 @@ const ZOOMS = [1, 2, 4, 8];
  * @property {(value: number|null, row: number, column: number) => string} read one entry in words
  */
 
-function canvasOf(width, height) {
-  const scale = Math.min(2, window.devicePixelRatio || 1);
-  const canvas = element("canvas", { width: Math.round(width * scale), height: Math.round(height * scale) });
-  canvas.style.width = `${width}px`;
-  canvas.style.height = `${height}px`;
+/** A canvas of so many pixels, each of the colour of a share between 0 and 1; null is clear. */
+function pixels(rows) {
+  const canvas = element("canvas", { width: rows[0].length, height: rows.length });
   const pen = canvas.getContext("2d");
-  pen.scale(scale, scale);
-  pen.font = `11px ${getComputedStyle(document.body).fontFamily}`;
-  pen.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--soft");
-  pen.textBaseline = "middle";
-  return [canvas, pen];
-}
-
-/** Which labels to write, so that they do not run into each other: every one, every second, every fifth … */
-function stride(size, least) {
-  return [1, 2, 5, 10, 20, 50, 100, 200].find((step) => step * size >= least) ?? 500;
-}
-
-function hatch(pen, x, y, width, height, ink) {
-  pen.save();
-  pen.beginPath();
-  pen.rect(x, y, width, height);
-  pen.clip();
-  pen.strokeStyle = ink;
-  pen.lineWidth = 1.6;
-  pen.beginPath();
-  for (let at = x - height; at < x + width; at += 5) {
-    pen.moveTo(at, y + height);
-    pen.lineTo(at + height, y);
-  }
-  pen.stroke();
-  pen.restore();
-}
-
-function drawn({ values, range: [low, high] }, cell, tall) {
-  const [canvas, pen] = canvasOf(cell * values[0].length, tall * values.length);
-  const hole = getComputedStyle(document.documentElement).getPropertyValue("--hole");
-  const gap = cell >= 8 ? 1.5 : cell >= 4 ? 0.5 : 0;
-  const rise = tall >= 8 ? 1.5 : 0;
-  values.forEach((row, user) => row.forEach((value, place) => {
-    const [x, y, width, height] = [place * cell, user * tall, cell - gap, tall - rise];
-    if (value === null) {
-      if (cell >= 6 && tall >= 6) return hatch(pen, x, y, width, height, hole);
-      pen.fillStyle = hole;
-    } else pen.fillStyle = cividis(high > low ? (value - low) / (high - low) : 1);
-    pen.fillRect(x, y, width, height);
+  rows.forEach((row, y) => row.forEach((share, x) => {
+    if (share === null) return;
+    pen.fillStyle = cividis(share);
+    pen.fillRect(x, y, 1, 1);
   }));
   return canvas;
 }
 
-function columnLabels(count, cell) {
-  const [canvas, pen] = canvasOf(cell * count, AXIS);
-  const step = stride(cell, 28);
-  pen.textAlign = "center";
-  for (let place = 0; place < count; place += 1) {
-    if (place && (place + 1) % step) continue;
-    if (!place && step > 1 && cell * (step - 1) < 24) continue;
-    const x = Math.max(pen.measureText(String(place + 1)).width / 2, (place + 0.5) * cell);
-    pen.fillText(String(place + 1), Math.min(x, cell * count - 10), AXIS / 2);
-  }
-  return canvas;
+/** Labels at their places along an axis: every one, every second, every fifth … so that they do not run into each other. */
+function labels(kind, texts, size, least) {
+  const step = [1, 2, 5, 10, 20, 50, 100, 200].find((one) => one * size >= least) ?? 500;
+  const written = texts.map((text, place) => [text, place])
+    .filter(([, place]) => (place + 1) % step === 0 || (!place && size * (step - 1) >= least));
+  const at = kind === "across" ? "left" : "top";
+  return element("div", { class: kind, "aria-hidden": "true" }, written.map(([text, place]) => {
+    const label = element("span", {}, text);
+    label.style[at] = `clamp(6px, ${(100 * (place + 0.5)) / texts.length}%, 100% - 6px)`;
+    return label;
+  }));
 }
 
-function rowLabels(names, tall) {
-  const [canvas, pen] = canvasOf(LABELS, tall * names.length);
-  const step = stride(tall, 13);
-  pen.textAlign = "right";
-  names.forEach((name, user) => {
-    if (step === 1 || !user || !((user + 1) % step)) {
-      const y = Math.max(6, (user + 0.5) * tall);
-      pen.fillText(name.length > 11 ? `${name.slice(0, 10)}…` : name, LABELS - 8, y);
-    }
-  });
-  return canvas;
-}
-
-function colourBar(text) {
-  const [canvas, pen] = canvasOf(120, 8);
-  for (let at = 0; at < 120; at += 1) {
-    pen.fillStyle = cividis(at / 119);
-    pen.fillRect(at, 0, 1.5, 8);
-  }
-  canvas.setAttribute("aria-hidden", "true");
-  return [canvas, text];
-}
-
-/**
- * A matrix view in an empty place; `show` draws another matrix and keeps zoom and place.
- * @param {HTMLElement} root
- * @returns {{show: (matrix: Matrix) => void}}
- */
+/** A matrix view in an empty place; `show` draws another matrix and keeps zoom and place. */
 export function matrixView(root) {
   let matrix = null;
   let zoom = 1;
@@ -125,21 +63,22 @@ export function matrixView(root) {
   const redraw = onWidth(root, draw);
 
   function size(width) {
-    const fit = (width - LABELS) / matrix.values[0].length;
-    const cell = Math.max(1, fit) * zoom;
-    const tall = Math.min(TALLEST, Math.max(3, HEIGHT / matrix.values.length) * zoom);
-    return [cell, tall];
+    const [rows, columns] = [matrix.values.length, matrix.values[0].length];
+    return [Math.max(1, (width - LABELS) / columns) * zoom, Math.min(TALLEST, Math.max(3, HEIGHT / rows) * zoom)];
   }
 
   function draw(width) {
     if (!matrix) return;
+    const { values, names, range: [low, high] } = matrix;
     const [cell, tall] = size(width);
-    const picture = drawn(matrix, cell, tall);
+    const picture = pixels(values.map((row) => row.map((value) => (value === null ? null : high > low ? (value - low) / (high - low) : 1))));
     picture.addEventListener("pointermove", (event) => point(Math.floor(event.offsetY / tall), Math.floor(event.offsetX / cell)));
-    const cells = element("div", { class: "cells" }, picture, mark);
-    frame.replaceChildren(element("span"), columnLabels(matrix.values[0].length, cell), rowLabels(matrix.names, tall), cells);
-    frame.firstChild.className = "corner";
-    legend.replaceChildren(...colourBar(matrix.scale));
+    const cells = element("div", { class: cell >= 6 && tall >= 6 ? "cells apart" : "cells" }, picture, mark);
+    frame.replaceChildren(element("span", { class: "corner" }), labels("across", values[0].map((_, place) => String(place + 1)), cell, 28),
+      labels("down", names.map((name) => (name.length > 11 ? `${name.slice(0, 10)}…` : name)), tall, 13), cells);
+    const sizes = { cell: `${100 / values[0].length}%`, tall: `${tall}px`, high: `${tall * values.length}px`, times: (cell * values[0].length) / (width - LABELS) };
+    for (const [name, value] of Object.entries(sizes)) frame.style.setProperty(`--${name}`, value);
+    legend.replaceChildren(pixels([Array.from({ length: 60 }, (_, place) => place / 59)]), matrix.scale);
     mark.hidden = true;
     wider.disabled = zoom === ZOOMS[0];
     closer.disabled = zoom === ZOOMS.at(-1);
@@ -156,9 +95,8 @@ export function matrixView(root) {
   function point(row, column) {
     const [rows, columns] = [matrix.values.length, matrix.values[0].length];
     at = [Math.max(0, Math.min(rows - 1, row)), Math.max(0, Math.min(columns - 1, column))];
-    const [cell, tall] = size(root.clientWidth);
     mark.hidden = false;
-    Object.assign(mark.style, { left: `${at[1] * cell}px`, top: `${at[0] * tall}px`, width: `${cell}px`, height: `${tall}px` });
+    Object.assign(mark.style, { left: `${(100 * at[1]) / columns}%`, top: `${(100 * at[0]) / rows}%`, width: `${100 / columns}%`, height: `${100 / rows}%` });
     reading.textContent = matrix.read(matrix.values[at[0]][at[1]], at[0], at[1]);
   }
 

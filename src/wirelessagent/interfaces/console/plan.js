@@ -7,10 +7,11 @@ import { aimName, heading, say, userName } from "./words.js";
 
 const WORTH_SHOWING = 2e-3;
 const MOST_USERS = 5;
+const LONG = 24;
 
 function row({ label, before, after }) {
   const was = before && before !== NONE ? [element("del", {}, before), " "] : [];
-  return element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, was, element("ins", {}, after)));
+  return element("tr", {}, element("th", { scope: "row" }, label), element("td", { class: `${before}${after}`.length > LONG ? null : "short" }, was, element("ins", {}, after)));
 }
 
 function rateRows(before, after) {
@@ -29,7 +30,7 @@ function rateRows(before, after) {
  */
 export function difference(effect, plan) {
   const [before, after] = [effect?.decision ?? null, plan.decision];
-  const limits = limitRows(effect, plan);
+  const limits = limitRows([effect, plan]).map(({ label, texts: [then, now] }) => ({ label, before: then, after: now, same: then === now }));
   const rates = rateRows(before, after);
   const moved = changedHands(before, after);
   const pair = (label, then, now) => (then === now ? [] : [{ label, before: then, after: now }]);

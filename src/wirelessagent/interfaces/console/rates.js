@@ -2,22 +2,26 @@
 
 import { axis } from "./axis.js";
 import { fillOf, patterns } from "./colours.js";
-import { byId, element, onWidth, scroller, shape } from "./dom.js";
-import { ratesOf } from "./turns.js";
-import { prefixed, rate } from "./units.js";
-import { say, userName } from "./words.js";
+import { byId, chart, drawing, element, nothing, shape, table } from "./dom.js";
+import { ratesOf, sum } from "./turns.js";
+import { prefixed, rate, watts } from "./units.js";
+import { heading, say, userName } from "./words.js";
 
 const LEFT = 40;
 const BARS = 104;
 const BASE = BARS + 12;
+let opened = false;
 
 /** The highest figure that the rates of these turns reach. */
 export const highestRate = (turns) => Math.max(0, ...turns.flatMap(ratesOf)
   .flatMap(({ mean, high, promised }) => [mean, high ?? 0, promised ?? 0]));
 
-function told(name, { mean, low, high, promised }) {
-  const band = low === null ? rate(mean) : say("console.rate_band", { mean: rate(mean), low: rate(low), high: rate(high) });
-  const places = { who: userName(name), rate: band, promised: rate(promised) };
+const shownRate = ({ mean, low, high }) =>
+  low === null ? rate(mean) : say("console.rate_band", { mean: rate(mean), low: rate(low), high: rate(high) });
+
+function told(name, one) {
+  const { promised } = one;
+  const places = { who: userName(name), rate: shownRate(one), promised: rate(promised) };
   return say(promised === null ? "console.rate_bar" : "console.rate_bar_promised", places);
 }
 
@@ -49,8 +53,18 @@ export function ratesPicture(turn, { width, top, id }) {
       parts.push(shape("text", { x: middle, y: BASE + 16, "text-anchor": "middle" }, name));
     }
   });
-  const frame = { width: right, height: BASE + 24, viewBox: `0 0 ${right} ${BASE + 24}` };
-  return shape("svg", { ...frame, role: "img", "aria-label": say("console.rates") }, parts);
+  return drawing(right, BASE + 24, say("console.rates"), parts);
+}
+
+/** What each user gets, as a table. */
+function figures(turn) {
+  const { user_names: names, owner, power_w: power } = turn.decision;
+  const columns = ["label.user", "label.subcarriers", "label.power", "label.predicted_band", "console.promised"].map((key) => heading(say(key)));
+  const rows = ratesOf(turn).map((one, user) => {
+    const mine = owner.flatMap((who, place) => (who === user ? [place] : []));
+    return [userName(names[user]), mine.length, watts(sum(mine.map((place) => power[place]))), shownRate(one), one.promised ? rate(one.promised) : "–"];
+  });
+  return { title: say("console.rates"), columns, rows };
 }
 
 /** Draw the card of the turn that is looked at. */
@@ -58,12 +72,11 @@ export function drawRates(shown) {
   const place = byId("rates-picture");
   if (!shown) {
     byId("rates-note").textContent = "";
-    return place.replaceChildren(element("p", { class: "empty" }, say("console.no_rates")));
+    return place.replaceChildren(nothing(say("console.no_rates")));
   }
   const top = highestRate([shown]) * 1.08;
   byId("rates-note").textContent = say("console.rates_note", { unit: prefixed(top, "bit/s").unit });
-  const frame = scroller(say("console.rates"));
-  const list = element("ul", { class: "unseen" }, ratesOf(shown).map((one, user) => element("li", {}, told(shown.decision.user_names[user], one))));
-  place.replaceChildren(frame, list);
-  onWidth(frame, (width) => frame.replaceChildren(ratesPicture(shown, { width, top, id: "r" })));
+  place.replaceChildren(chart(say("console.rates"), (width) => ratesPicture(shown, { width, top, id: "r" })),
+    element("details", { class: "more as-table", open: opened, toggle: (event) => { opened = event.target.open; } },
+      element("summary", {}, say("console.as_table")), table(figures(shown))));
 }

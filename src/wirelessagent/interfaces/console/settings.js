@@ -1,7 +1,8 @@
 /** Language, theme and sign-out; what is chosen stays in this browser. */
 
 import { post } from "./api.js";
-import { byId, element } from "./dom.js";
+import { byId } from "./dom.js";
+import { choices } from "./forms.js";
 
 const NAMES = { en: "English", zh: "中文", es: "Español", fr: "Français", de: "Deutsch" };
 const LANGUAGE = "wirelessagent.language";
@@ -16,7 +17,7 @@ export function wantedLanguage(languages) {
 /** Fill the choice of languages; `change` gets what is chosen. */
 export function setUpLanguages(languages, current, change) {
   const list = byId("language");
-  list.replaceChildren(...languages.map((tag) => element("option", { value: tag, lang: tag, selected: tag === current }, NAMES[tag] ?? tag)));
+  choices(list, languages.map((tag) => [tag, NAMES[tag] ?? tag]), current);
   list.onchange = () => {
     localStorage.setItem(LANGUAGE, list.value);
     change(list.value);

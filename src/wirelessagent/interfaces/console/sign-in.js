@@ -2,24 +2,15 @@
 
 import { post } from "./api.js";
 import { byId } from "./dom.js";
+import { onSend } from "./forms.js";
 import { wantedLanguage } from "./settings.js";
-import { say, speak, trouble } from "./words.js";
+import { say, speak } from "./words.js";
 
-const LANGUAGES = ["en", "zh", "es", "fr", "de"];
-
-await speak(wantedLanguage(LANGUAGES));
+await speak(wantedLanguage(["en", "zh", "es", "fr", "de"]));
 document.title = `${say("console.sign_in")} · WirelessAgent`;
 
-byId("sign-in").addEventListener("submit", async (event) => {
-  event.preventDefault();
-  const refused = byId("refused");
-  refused.hidden = true;
-  try {
-    await post("sign-in", { token: byId("token").value.trim() });
-    location.href = "./";
-  } catch (problem) {
-    refused.textContent = trouble(problem);
-    refused.hidden = false;
-    byId("token").select();
-  }
+onSend(byId("sign-in"), async () => {
+  byId("token").select();
+  await post("sign-in", { token: byId("token").value.trim() });
+  location.href = "./";
 });

@@ -1,6 +1,6 @@
 /** Tabs over one picture: arrow keys move, as the ARIA pattern has it. */
 
-import { element } from "./dom.js";
+import { byId, element } from "./dom.js";
 
 /**
  * @param {HTMLElement} root an empty element that becomes the tab list
@@ -28,4 +28,5 @@ export function tabs(root, choices, chosen, controls, choose) {
     pick(choices[(at + step[event.key] + choices.length) % choices.length][0]);
   };
   root.replaceChildren(...buttons);
+  byId(controls).setAttribute("aria-labelledby", `${controls}-${chosen}`);
 }

@@ -1,7 +1,7 @@
 /** The decisions in time: each can be opened, two can be compared. */
 
 import { byId, element } from "./dom.js";
-import { inShort, planOf } from "./turns.js";
+import { planOf, saidFor, worthOf } from "./turns.js";
 import { clock } from "./units.js";
 import { say, stageName } from "./words.js";
 
@@ -16,16 +16,17 @@ function decisionsOf(session) {
 function stateOf(turn, { effect, planTurn }) {
   if (turn === effect) return ["effect", say("console.in_effect")];
   if (turn === planTurn) return ["waits", say("console.waits")];
-  return [turn.stage, stageName(turn.stage)];
+  return turn.stage === "answered" ? ["supposed", say("console.what_if")] : [turn.stage, stageName(turn.stage)];
 }
 
-function entry(turn, scene, actions, redraw) {
+function entry(session, turn, scene, actions, redraw) {
   const [kind, text] = stateOf(turn, scene);
   const name = say("turn.column", { number: turn.number });
   return element("li", { class: `entry ${kind}` },
     element("button", { type: "button", class: "open", "aria-current": scene.shown === turn ? "true" : null, click: () => actions.look(turn.number) },
       element("span", { class: "when" }, `${turn.number} · ${clock(turn.at_utc)}`, scene.people && turn.by ? ` · ${turn.by}` : ""),
-      element("b", {}, inShort(turn)), element("span", { class: `badge ${kind}` }, text)),
+      element("span", { class: "asked-for", title: saidFor(session, turn) }, saidFor(session, turn)),
+      element("b", {}, worthOf(turn)), element("span", { class: `badge ${kind}` }, text)),
     element("label", { class: "pick" }, element("input", {
       type: "checkbox", "aria-label": say("console.pick", { turn: name }), checked: marked.has(turn.number),
       change: (event) => {
@@ -44,7 +45,7 @@ export function drawTimeline(session, scene, actions) {
   for (const number of marked) if (!turns.some((turn) => turn.number === number)) marked.delete(number);
   const list = byId("timeline");
   const atEnd = list.scrollLeft + list.clientWidth >= list.scrollWidth - 8;
-  list.replaceChildren(...turns.map((turn) => entry(turn, scene, actions, redraw)));
+  list.replaceChildren(...turns.map((turn) => entry(session, turn, scene, actions, redraw)));
   byId("timeline-empty").hidden = turns.length > 0;
   list.hidden = turns.length === 0;
   if (atEnd) list.scrollLeft = list.scrollWidth;

@@ -1,10 +1,20 @@
 /** Every operation of the server as a form of its own, with what comes of it: what is installed appears by itself. */
 
-import { follow, get, post } from "./api.js";
+import { get, remove, upload, worked } from "./api.js";
 import { byId, element, table } from "./dom.js";
-import { say, trouble } from "./words.js";
+import { choices, onSend, refuse } from "./forms.js";
+import { say } from "./words.js";
 
-const spaced = (name) => name.replaceAll("_", " ");
+const SENSED = "sensed";
+
+const UNITS = { w_per_hz: "W/Hz", bps_per_hz: "bit/s/Hz", bps: "bit/s", hz: "Hz", db: "dB", w: "W", s: "s", m: "m" };
+
+/** A field's name for people, the unit that it ends in set apart: "max_power_w" is "max power, W". */
+function spaced(name) {
+  const unit = Object.keys(UNITS).find((end) => name.endsWith(`_${end}`));
+  const text = unit ? name.slice(0, -unit.length - 1) : name;
+  return text.replaceAll("_", " ") + (unit ? `, ${UNITS[unit]}` : "");
+}
 
 /** What may stand in a field, through references and "or null". */
 function kindOf(schema, definitions) {
@@ -51,15 +61,27 @@ function inputOf(name, kind, must, help, preset) {
   return { node: element("label", { title: help }, element("span", {}, spaced(name)), input), read };
 }
 
-/** The channels that there are: those of cells on a measured file. */
-function channelOf(operation, cells) {
-  const measured = cells.filter((cell) => cell.observation);
-  const list = element("select", { required: operation.channel === "needed" },
-    [...(operation.channel === "needed" ? [] : [element("option", { value: "" }, "")]),
-      ...measured.map((cell) => element("option", { value: cell.observation }, cell.name))]);
-  const read = () => (list.value ? { observation: list.value } : {});
-  const missing = operation.channel === "needed" && !measured.length;
-  return { node: missing ? element("p", { class: "note" }, say("console.drop_here")) : element("label", {}, element("span", {}, say("console.channel")), list), read };
+/**
+ * The channels that there are: what the cell that is looked at has sensed, and the measured files of all cells.
+ * @param {{channel: string}} operation
+ * @param {{cell: object, channel: object|null, cells: object[]}} there
+ */
+function channelOf({ channel: need }, { cell, channel, cells }) {
+  const list = element("select", { required: need === "needed" });
+  choices(list, [...(need === "needed" ? [] : [["", ""]]), ...(channel ? [[SENSED, say("console.as_sensed", { name: cell.name })]] : []),
+    ...cells.filter((one) => one.observation).map((one) => [one.observation, one.name])]);
+  return {
+    node: list.options.length ? element("label", { class: "broad" }, element("span", {}, say("console.channel")), list) : element("p", { class: "note" }, say("console.drop_here")),
+    read: () => list.value,
+  };
+}
+
+/** Do something with the id of a channel; what was sensed is sent as a file for as long as that takes. */
+async function withChannel(chosen, channel, act) {
+  if (chosen !== SENSED) return act(chosen ? { observation: chosen } : {});
+  const file = JSON.stringify({ gain: channel.observed_gain, user_names: channel.user_names });
+  const { id } = await upload("v1/observations?name=sensed.json", file);
+  return act({ observation: id }).finally(() => remove(`v1/observations/${id}`));
 }
 
 const shownBlock = (block) =>
@@ -67,44 +89,42 @@ const shownBlock = (block) =>
     : Array.isArray(block) ? element("p", {}, block.flatMap((line, place) => (place ? [element("br"), line] : [line])))
       : table(block);
 
-/** Set the dialog up; `cells` gives those that there are. */
-export function setUpTools(cells) {
+const drawn = (svg, name) => element("img", { class: "drawn", src: `data:image/svg+xml,${encodeURIComponent(svg)}`, alt: name });
+
+/** Set the dialog up; `there` gives the cells, and the one that is looked at with its channel. */
+export function setUpTools(there) {
   const [list, form, found] = ["tools-list", "tools-form", "tools-found"].map(byId);
   let offered = null;
   const show = () => {
-    const operation = offered.operations.find((one) => one.name === list.value);
+    const operation = offered.find((one) => one.name === list.value);
     const fields = fieldsOf(operation.schema, operation.schema.$defs ?? {});
-    const channel = operation.channel === "no" ? null : channelOf(operation, cells());
-    const run = element("button", { class: "first" }, say("console.run"));
+    const channel = operation.channel === "no" ? null : channelOf(operation, there());
     found.replaceChildren();
-    form.replaceChildren(element("p", { class: "note" }, operation.summary),
-      element("div", { class: "fields" }, channel ? [channel.node] : [], fields.nodes), element("div", { class: "buttons" }, run));
-    form.onsubmit = async (event) => {
-      event.preventDefault();
-      run.disabled = true;
+    refuse(form, null);
+    byId("tools-summary").textContent = operation.summary;
+    byId("tools-fields").replaceChildren(...(channel ? [channel.node] : []), ...fields.nodes);
+    onSend(form, async () => {
       found.replaceChildren(element("div", { class: "skeleton" }));
+      const told = (stage) => found.replaceChildren(element("p", { class: "note" }, stage.message));
       try {
-        const job = await post(`v1/operations/${encodeURIComponent(operation.name)}`, { ...fields.read(), ...channel?.read() }, true);
-        const result = await follow(job.id, (stage) => found.replaceChildren(element("p", { class: "note" }, stage.message)));
-        found.replaceChildren(...(result?.blocks ?? []).map(shownBlock));
+        const result = await withChannel(channel?.read() ?? "", there().channel, (on) =>
+          worked(`v1/operations/${encodeURIComponent(operation.name)}`, { ...fields.read(), ...on, picture: true }, told));
+        found.replaceChildren(...(result?.blocks ?? []).map(shownBlock), ...(result?.picture ? [drawn(result.picture, operation.summary)] : []));
       } catch (problem) {
-        found.replaceChildren(element("p", { class: "problem" }, trouble(problem)));
-      } finally {
-        run.disabled = false;
+        found.replaceChildren();
+        throw problem;
       }
-    };
+    });
   };
   list.addEventListener("change", show);
   byId("tools-open").addEventListener("click", async () => {
     byId("tools").showModal();
     try {
-      offered ??= await get("v1/operations");
+      offered ??= (await get("v1/operations")).operations;
+      choices(list, offered.map(({ name }) => [name, name]), list.value || "solve");
+      show();
     } catch (problem) {
-      found.replaceChildren(element("p", { class: "problem" }, trouble(problem)));
-      return;
+      refuse(form, problem);
     }
-    const chosen = list.value || "solve";
-    list.replaceChildren(...offered.operations.map((one) => element("option", { value: one.name, selected: one.name === chosen }, one.name)));
-    show();
   });
 }

@@ -25,8 +25,11 @@ export function ratesOf(turn) {
   }));
 }
 
+/** The limits that a turn's decision was made for: of a what-if those that it supposed. */
+const limitsOf = (turn) => (turn?.supposed ?? turn?.request)?.constraints;
+
 function asked(turn, user) {
-  const limits = byUser(turn.request?.constraints?.min_rate_bps);
+  const limits = byUser(limitsOf(turn)?.min_rate_bps);
   const name = turn.decision.user_names[user];
   return limits[name] ?? limits[String(user + 1)] ?? limits.all ?? null;
 }
@@ -46,43 +49,42 @@ function limitText(kind, value) {
   if (kind === "outage_probability") return percent(1 - value);
   if (kind.endsWith("_bps")) return rate(value);
   if (kind.endsWith("_w")) return watts(value);
+  if (LIMITS[kind] === LIMITS.users) return [value].flat().map((user) => who(String(user))).join(", ");
   return Array.isArray(value) ? value.join(", ") : typeof value === "object" ? JSON.stringify(value) : String(value);
 }
 
 const LIMITS = {
   min_rate_bps: "console.limit_min_rate", max_rate_bps: "console.limit_max_rate", max_power_w: "console.limit_power",
   outage_probability: "console.limit_kept", subcarrier_max_power_w: "limit.subcarrier_max_power_w",
-  forbidden: "limit.forbidden", users: "limit.users", weights: "limit.weights",
+  forbidden: "limit.forbidden", users: "limit.users", leave_out: "limit.users", weights: "limit.weights",
   resource_block_group_size: "limit.resource_block_group_size",
 };
 
 /** What a turn asks for, with the probability that was assumed where none was named. */
 function asksOf(turn) {
   const assumed = turn?.decision?.outage_probability;
-  return { ...(assumed ? { outage_probability: assumed } : {}), ...turn?.request?.constraints };
+  return { ...(assumed ? { outage_probability: assumed } : {}), ...limitsOf(turn) };
 }
 
 /**
- * What is asked for before and after, a row for each limit of each user.
- * @returns {Array<{label: string, before: string, after: string, same: boolean}>}
+ * What turns ask for, a row for each limit of each user with its text for each turn.
+ * @returns {Array<{label: string, texts: string[]}>}
  */
-export function limitRows(before, after) {
-  const rows = [];
-  const [old, now] = [asksOf(before), asksOf(after)];
-  for (const kind of new Set([...Object.keys(old), ...Object.keys(now)])) {
-    const [was, is] = [byUser(old[kind]), byUser(now[kind])];
-    const users = [...new Set([...Object.keys(was), ...Object.keys(is)])];
-    for (const user of users) {
-      const [one, other] = [limitText(kind, was[user] ?? was.all), limitText(kind, is[user] ?? is.all)];
+export function limitRows(turns) {
+  const asks = turns.map(asksOf);
+  const kinds = new Set(asks.flatMap((one) => Object.keys(one)));
+  return [...kinds].flatMap((kind) => {
+    const limits = asks.map((one) => byUser(one[kind]));
+    const users = [...new Set(limits.flatMap((one) => Object.keys(one)))];
+    return users.map((user) => {
       const label = kind in LIMITS ? say(LIMITS[kind]) : kind.replaceAll("_", " ");
       const whom = kind.endsWith("_rate_bps") || user !== "all" ? who(user, users.length > 1) : "";
-      rows.push({
+      return {
         label: heading(whom ? say("console.label_of", { label, who: whom }) : label),
-        before: one, after: other, same: one === other,
-      });
-    }
-  }
-  return rows;
+        texts: limits.map((one) => limitText(kind, one[user] ?? one.all)),
+      };
+    });
+  });
 }
 
 /** The subcarriers, from 0, that two decisions give to different users. */
@@ -105,6 +107,12 @@ export function planOf(session, turn) {
 
 /** What was said for a turn's decision. */
 export const saidFor = (session, turn) => (planOf(session, turn) ?? turn).text;
+
+/** What a turn's decision is worth, with the power that it takes. */
+export function worthOf({ decision }) {
+  const value = isUsable({ decision }) ? human(decision.value, decision.unit) : say(`status.${decision.status}`);
+  return decision.unit === "W" || !isUsable({ decision }) ? value : `${value} · ${watts(decision.total_power_w)}`;
+}
 
 /** A turn in one short line: its aim and what it is worth. */
 export function inShort(turn) {

@@ -45,5 +45,5 @@ export function prefixed(largest, unit) {
 
 /** The time of day of an ISO time, in the reader's zone. */
 export function clock(isoTime) {
-  return new Date(isoTime).toLocaleTimeString(language(), { hour: "2-digit", minute: "2-digit" });
+  return new Date(isoTime).toLocaleTimeString(language(), { hour: "2-digit", minute: "2-digit", hourCycle: "h23" });
 }

@@ -3,9 +3,10 @@
 import { post, upload } from "./api.js";
 import { gainMatrix } from "./channel.js";
 import { byId, element, facts } from "./dom.js";
+import { choices, onSend, refuse } from "./forms.js";
 import { matrixView } from "./matrix.js";
 import { percent } from "./units.js";
-import { say, trouble } from "./words.js";
+import { say } from "./words.js";
 
 const UNITS = { "": "console.unit_guess", linear: "console.unit_linear", db: "console.unit_db" };
 let understood = null;
@@ -15,7 +16,7 @@ async function read(file, unit) {
   const mine = ++latest;
   understood = null;
   byId("upload-make").disabled = true;
-  byId("upload-problem").hidden = true;
+  refuse(byId("upload-form"), null);
   byId("upload-preview").replaceChildren(element("div", { class: "skeleton tall" }));
   try {
     const query = new URLSearchParams({ name: file.name, ...(unit ? { unit } : {}) });
@@ -24,7 +25,7 @@ async function read(file, unit) {
   } catch (problem) {
     if (mine !== latest) return;
     byId("upload-preview").replaceChildren();
-    refuse(problem);
+    refuse(byId("upload-form"), problem);
   }
 }
 
@@ -38,11 +39,6 @@ function preview(found) {
     place);
   matrixView(place).show(gainMatrix(found.gain, found.user_names));
   byId("upload-make").disabled = false;
-}
-
-function refuse(problem) {
-  byId("upload-problem").hidden = false;
-  byId("upload-problem").textContent = trouble(problem);
 }
 
 function open(file) {
@@ -76,20 +72,15 @@ export function setUpUpload({ made, allowed }) {
     if (event.target.files[0]) open(event.target.files[0]);
     event.target.value = "";
   });
-  byId("upload-form").addEventListener("submit", async (event) => {
-    event.preventDefault();
+  onSend(byId("upload-form"), async () => {
     const budget = Number(byId("upload-power").value);
-    try {
-      const options = { csi: understood.id, ...(budget > 0 ? { cell_max_power_w: budget } : {}) };
-      made(await post("v1/cells", { name: byId("upload-name").value, options }));
-      byId("upload").close();
-    } catch (problem) {
-      refuse(problem);
-    }
+    const options = { csi: understood.id, recogniser: byId("upload-recogniser").value, ...(budget > 0 ? { cell_max_power_w: budget } : {}) };
+    made(await post("v1/cells", { name: byId("upload-name").value, options }));
+    byId("upload").close();
   });
 }
 
 /** Fill the choice of units in the language in use. */
 export function nameUnits() {
-  byId("upload-unit").replaceChildren(...Object.entries(UNITS).map(([unit, key]) => element("option", { value: unit }, say(key))));
+  choices(byId("upload-unit"), Object.entries(UNITS).map(([unit, key]) => [unit, say(key)]));
 }

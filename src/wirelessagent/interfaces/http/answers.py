@@ -71,6 +71,16 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
+def current(request: Request, found: Any) -> Response:
+    """What is there now, or 304 where the caller has it already."""
+    answer = JSONResponse(found)
+    tag = f'"{hashlib.sha256(answer.body).hexdigest()[:32]}"'
+    if request.headers.get("if-none-match") == tag:
+        return Response(status_code=304, headers={"ETag": tag})
+    answer.headers["ETag"] = tag
+    return answer
+
+
 def problem_in(error: Exception) -> ProblemError:
     """Whatever went wrong with a request as a problem."""
     match error:

@@ -71,6 +71,7 @@ class CellAnswer(CellFacts):
     name: str
     session: str
     demonstration: bool
+    recogniser: str
 
 
 class PlanAnswer(BaseModel):
@@ -126,6 +127,29 @@ class OperationAnswer(BaseModel):
     record: Any
     blocks: list[Any]
     conclusion: Literal["done", "failed", "unclear", "unmet"]
+    picture: str | None = Field(description="SVG, where it was asked for and can be drawn")
+
+
+class TradeOffPoint(BaseModel):
+    """The best that was found at one place of a curve."""
+
+    at: float
+    status: str
+    value: float | None
+    bound: float | None
+    total_power_w: float | None
+    total_rate_bps: float
+    lowest_rate_bps: float
+
+
+class TradeOffAnswer(BaseModel):
+    """The curve that a decision lies on: over the power budget in W, or over all promises by a common factor."""
+
+    varies: Literal["max_power_w", "promises"]
+    here: float
+    objective: str
+    unit: str
+    points: list[TradeOffPoint]
 
 
 class Start(BaseModel):
@@ -136,4 +160,5 @@ class Start(BaseModel):
     role: Literal["viewer", "operator"]
     signed_in: bool
     languages: list[str]
+    llm: str | None = Field(description="the LLM that can understand what is said; null where none is set up")
     cells: list[CellAnswer]

@@ -13,6 +13,7 @@ from wirelessagent.interfaces.http import forms
 from wirelessagent.interfaces.http.answers import (
     StrictRoute,
     caller_of,
+    current,
     service_of,
     streamed,
     strict_json,
@@ -20,6 +21,7 @@ from wirelessagent.interfaces.http.answers import (
 )
 from wirelessagent.operations.hosted_answers import ChannelAnswer, Press
 from wirelessagent.operations.operation import installed_version
+from wirelessagent.operations.recognisers import llm_model
 from wirelessagent.service.jobs import Tell
 from wirelessagent.service.observations import SUFFIXES
 from wirelessagent.service.problems import UnusableError
@@ -52,7 +54,8 @@ async def start(request: Request) -> Any:
     caller = caller_of(request)
     return {
         "version": installed_version(), "name": caller.name, "role": caller.role,
-        "signed_in": caller.name != "local", "languages": LANGUAGES, "cells": await service_of(request).cells(),
+        "signed_in": caller.name != "local", "languages": LANGUAGES, "llm": llm_model(),
+        "cells": await service_of(request).cells(),
     }  # fmt: skip
 
 
@@ -65,7 +68,7 @@ async def read_words(language: Annotated[str, Path(pattern="^[a-z]{2}$")]) -> di
 @router.get("/cells", response_model=list[forms.CellAnswer], tags=["cells"])
 async def list_cells(request: Request) -> Any:
     """All cells."""
-    return await service_of(request).cells()
+    return current(request, await service_of(request).cells())
 
 
 @router.post("/cells", status_code=201, responses=_as(forms.CellAnswer, 201), tags=["cells"])
@@ -136,13 +139,20 @@ async def open_session(request: Request, form: forms.NewSession) -> Any:
 @router.get("/sessions/{id}", response_model=forms.SessionAnswer, tags=["conversations"])
 async def read_session(request: Request, id: Id) -> Any:
     """A conversation with its turns and the plan that waits."""
-    return JSONResponse(await service_of(request).session(id))
+    return current(request, await service_of(request).session(id))
 
 
 @router.get("/sessions/{id}/channel", response_model=ChannelAnswer | None, tags=["conversations"])
 async def read_channel(request: Request, id: Id) -> Any:
     """What is known of the channel that a conversation is about; null before anything was sensed."""
-    return JSONResponse(await service_of(request).channel(id))
+    return current(request, await service_of(request).channel(id))
+
+
+@router.get("/sessions/{id}/turns/{number}/trade-off", responses=_as(forms.TradeOffAnswer), tags=["conversations"])
+async def trade_off(request: Request, id: Id, number: Annotated[int, Path(ge=1, le=2**31)]) -> Response:
+    """What a turn's decision trades: its best value at other budgets, or the least power for other promises."""
+    service = service_of(request)
+    return await worked(request, lambda tell: service.trade_off(id, number, tell))
 
 
 @router.post("/sessions/{id}/turns", responses=_as(forms.TurnAnswer), tags=["conversations"])
@@ -206,7 +216,7 @@ async def list_operations(request: Request) -> dict[str, Any]:
              openapi_extra={"requestBody": {"required": False, "content": {"application/json": {
                  "schema": {"type": "object"}}}}})  # fmt: skip
 async def operate(request: Request, name: Annotated[str, Path(min_length=1, max_length=40)]) -> Response:
-    """Run an operation of the catalogue; ``observation`` names the channel where it works on one."""
+    """Run an operation of the catalogue: ``observation`` names the channel, ``picture`` asks for its picture."""
     body, service = await request.body(), service_of(request)
     given: Any = strict_json(body) if body.strip() else {}
     if not isinstance(given, dict):
