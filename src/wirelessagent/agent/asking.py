@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from wirelessagent.agent.posing import UnknownUserError, user_number
-from wirelessagent.agent.refusing import able
+from wirelessagent.agent.posing import UnknownUserError, able, user_number
 from wirelessagent.agent.state import Reply, Talk, nothing_yet
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language.acts import (

@@ -9,12 +9,11 @@ import dataclasses
 from collections.abc import Callable
 
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent.acting import Effect, respects, same_allocation
+from wirelessagent.agent.acting import Effect, applied_line, respects, same_allocation
 from wirelessagent.agent.dialogue import applied
 from wirelessagent.agent.events import Event
 from wirelessagent.agent.recalling import no_such_turn
 from wirelessagent.agent.restating import changes_in_words, notes, restated
-from wirelessagent.agent.run import applied_line, with_outcome
 from wirelessagent.agent.state import Reply, State, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, shift_between
 from wirelessagent.agent.waiting import plan_named
@@ -47,7 +46,7 @@ def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
         needs = joined(language, [talk.say("ask_back.unmet"), talk.say("ask_back.or_undo") if state.request else ""])
         return _changing(reply, language, talk.say("plan.not_applied"), stage="nothing", needs=needs)
     if state.on_air is not None and same_allocation(run.decision, state.on_air.decision):
-        kept = with_outcome(run, state.on_air.outcome)
+        kept = run.with_outcome(state.on_air.outcome)
         reply = dataclasses.replace(reply, run=kept, state=dataclasses.replace(new, run=kept, on_air=kept))
         return _changing(reply, language, talk.say("plan.no_change"), stage="nothing")
     return _carry_or_ask(talk, reply, run)
@@ -220,7 +219,7 @@ def _put_back(talk: Talk, reply: Reply, good: Run, station: BaseStation) -> Repl
     talk.site.progress(_applying(talk, station))
     outcome, trouble = talk.site.put_back(good, station)
     told = talk.say("undo.not_put_back", why=trouble) if trouble else _in_effect(talk.say, "undo.put_back", good)
-    back = good if outcome is None else with_outcome(good, outcome)
+    back = good if outcome is None else good.with_outcome(outcome)
     new = dataclasses.replace(
         state, run=back if state.run is good else state.run, planned=None, question=None,
         on_air=None if trouble else back, last_good=state.last_good if trouble else back,

@@ -10,8 +10,8 @@ import numpy as np
 from wirelessagent import plugins
 from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.dialogue import applied
+from wirelessagent.agent.posing import RefusedError
 from wirelessagent.agent.recalling import is_same, no_decision, turn_of
-from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.restating import notes
 from wirelessagent.agent.state import Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run

@@ -24,14 +24,11 @@ from wirelessagent.agent import asking, changing, comparing, recalling, supposin
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.dialogue import Request, difference, stated_by
 from wirelessagent.agent.events import Event, Progress, silent
-from wirelessagent.agent.posing import UnknownUserError, user_number
-from wirelessagent.agent.refusing import RefusedError
+from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
 from wirelessagent.agent.restating import noted_after
-from wirelessagent.agent.run import station_of
-from wirelessagent.agent.site import Site
+from wirelessagent.agent.site import Site, station_of
 from wirelessagent.agent.state import Missing, Question, Reply, State, Talk, asked_back
-from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Lines, Run, Turn, shift_between
+from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
 from wirelessagent.language.acts import (
     Act,
     Aim,

@@ -8,10 +8,9 @@ import numpy as np
 
 from wirelessagent.agent.comparing import side_by_side
 from wirelessagent.agent.dialogue import Request, applied
-from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, user_number
-from wirelessagent.agent.refusing import RefusedError
+from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
 from wirelessagent.agent.restating import notes, restated
-from wirelessagent.agent.run import Sight
+from wirelessagent.agent.site import Sight
 from wirelessagent.agent.state import Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
 from wirelessagent.agent.waiting import plan_named

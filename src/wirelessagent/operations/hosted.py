@@ -15,9 +15,8 @@ from typing import Literal, TypeAlias
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent.acting import same_allocation
-from wirelessagent.agent.run import station_of
-from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Turn
+from wirelessagent.agent.site import station_of
+from wirelessagent.agent.turn import Tools, Turn
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
 from wirelessagent.model.outcome import Outcome
