@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from wirelessagent.agent.posing import UnknownUserError, able, user_number
-from wirelessagent.agent.state import Reply, Talk, nothing_yet
+from wirelessagent.agent.state import Replies, Reply, Talk, nothing_yet
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language.acts import (
     Act,
@@ -122,23 +122,20 @@ def answered(asked: Asked, act: Ask) -> tuple[str, tuple[Table, ...]]:
     return (answer, ()) if isinstance(answer, str) else answer
 
 
-def help_with(talk: Talk, act: AskHelp) -> Reply:
+def help_with(talk: Talk, _: AskHelp) -> Reply:
     """What can be said."""
-    del act
     return Reply(decided=talk.say("about.help"))
 
 
-def meaning(talk: Talk, act: AskMeaning) -> Reply:
+def meaning(talk: Talk, _: AskMeaning) -> Reply:
     """What the terms in a line mean; their figures, where it asks for those of now."""
-    del act
     run = talk.state.run
     figures = figures_asked(talk.text, run.report, talk.language) if run is not None and is_of_now(talk.text) else ""
     return Reply(decided=figures or explained(talk.text, talk.language) or talk.say("about.help"))
 
 
-def methods(talk: Talk, act: AskMethods) -> Reply:
+def methods(talk: Talk, _: AskMethods) -> Reply:
     """Which method decided, and which could."""
-    del act
     if talk.state.run is None:
         return nothing_yet(talk)
     decision = talk.state.run.decision
@@ -224,8 +221,7 @@ def _corrected(asked: Asked, user: int) -> str:
     return message(asked.language, f"about.not_{rank}", user=name, who=rank_answer(asked.case, rank, "rate", language))
 
 
-def _why_not(asked: Asked, act: AskWhyNot) -> Answer:
-    del act
+def _why_not(asked: Asked, _: AskWhyNot) -> Answer:
     return feasible_answer(asked.case, asked.language)
 
 
@@ -239,13 +235,11 @@ def _step(asked: Asked, act: AskStep) -> Answer:
     )  # fmt: skip
 
 
-def _proof(asked: Asked, act: AskProof) -> Answer:
-    del act
+def _proof(asked: Asked, _: AskProof) -> Answer:
     return certificate_answer(asked.case, asked.language)
 
 
-def _certainty(asked: Asked, act: AskCertainty) -> Answer:
-    del act
+def _certainty(asked: Asked, _: AskCertainty) -> Answer:
     return uncertainty_answer(asked.case, asked.language), (
         user_table(asked.report, asked.case.estimate, asked.language),
     )
@@ -287,9 +281,8 @@ def _gain(asked: Asked, act: AskGain) -> Answer:
     return gain_answer(asked.case, user, act.subcarrier, asked.language)
 
 
-def _dearest(asked: Asked, act: AskDearest) -> Answer:
+def _dearest(asked: Asked, _: AskDearest) -> Answer:
     """Who takes the most power for a rate, which says whom to leave out if anybody."""
-    del act
     decision, case = asked.case.decision, asked.case
     used = decision.power_w > 0
     power_w = np.bincount(decision.owner[used], weights=decision.power_w[used], minlength=case.num_users)
@@ -301,18 +294,15 @@ def _dearest(asked: Asked, act: AskDearest) -> Answer:
     return message(asked.language, "about.dearest", user=decision.user_names[user], rate=rate, power=power)
 
 
-def _result(asked: Asked, act: AskResult) -> Answer:
-    del act
+def _result(asked: Asked, _: AskResult) -> Answer:
     return figures_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained())
 
 
-def _limits(asked: Asked, act: AskLimits) -> Answer:
-    del act
+def _limits(asked: Asked, _: AskLimits) -> Answer:
     return limits_answer(asked.case, asked.language)
 
 
-def _duration(asked: Asked, act: AskDuration) -> Answer:
-    del act
+def _duration(asked: Asked, _: AskDuration) -> Answer:
     return message(asked.language, "about.no_duration", method=asked.case.decision.method)
 
 
@@ -333,4 +323,9 @@ _ANSWERS: Mapping[type[Ask], Callable[[Asked, Any], Answer]] = {
     AskLimits: _limits,
     AskDuration: _duration,
 }
-ABOUT_THE_DECISION = tuple(_ANSWERS)
+REPLIES: Replies = {
+    AskHelp: help_with,
+    AskMeaning: meaning,
+    AskMethods: methods,
+    **dict.fromkeys(_ANSWERS, about_the_decision),
+}

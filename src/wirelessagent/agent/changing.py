@@ -14,7 +14,7 @@ from wirelessagent.agent.dialogue import applied
 from wirelessagent.agent.events import Event
 from wirelessagent.agent.recalling import no_such_turn
 from wirelessagent.agent.restating import changes_in_words, notes, restated
-from wirelessagent.agent.state import Reply, State, Talk, asked_back, nothing_yet
+from wirelessagent.agent.state import Replies, Reply, State, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, shift_between
 from wirelessagent.agent.waiting import plan_named
 from wirelessagent.language.acts import Act, Apply, Forget, No, TurnReference, Undo, Yes
@@ -57,9 +57,8 @@ def _changing(reply: Reply, language: str, said: str, **fields: object) -> Reply
     return dataclasses.replace(reply, changed=joined(language, [reply.changed, said]), **fields)  # pyright: ignore[reportArgumentType]
 
 
-def apply(talk: Talk, act: Apply | Yes) -> Reply:
+def apply(talk: Talk, _: Apply | Yes) -> Reply:
     """Apply what was decided and name it; the operator said so, which is the confirmation."""
-    del act
     state, language, run = talk.state, talk.language, talk.state.planned or talk.state.run
     if run is None:
         return nothing_yet(talk)
@@ -169,9 +168,8 @@ def _never_applied(state: State) -> bool:
     return state.on_air is None or state.on_air.decision is not run.decision
 
 
-def reset(talk: Talk, act: Forget) -> Reply:
+def reset(talk: Talk, _: Forget) -> Reply:
     """Forget what is asked for; what is in effect stays."""
-    del act
     new = State(on_air=talk.state.on_air, last_good=talk.state.last_good)
     return Reply(changed=talk.say("undo.reset"), stage="undone", state=new)
 
@@ -259,3 +257,12 @@ def _question(good: Run, state: State, language: str) -> Said:
 def _whole(language: str, line: str) -> Said:
     """A line as a sentence of its own."""
     return message(language, "text.sentence", line=line[:1].upper() + line[1:])
+
+
+REPLIES: Replies = {
+    Apply: apply,
+    Yes: confirm,
+    No: reject,
+    Undo: undo,
+    Forget: reset,
+}

@@ -27,38 +27,14 @@ from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
 from wirelessagent.agent.restating import noted_after
 from wirelessagent.agent.site import Site, station_of
-from wirelessagent.agent.state import Missing, Question, Reply, State, Talk, asked_back
+from wirelessagent.agent.state import Reply, State, Talk, asked_back
 from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
-from wirelessagent.language.acts import (
-    Act,
-    Aim,
-    Apply,
-    Ask,
-    AskHelp,
-    AskHistory,
-    AskMeaning,
-    AskMethods,
-    AskMost,
-    AskOtherChannel,
-    AskPower,
-    AskReasons,
-    AskStatus,
-    CompareLast,
-    CompareRequests,
-    CompareTools,
-    CompareTurns,
-    Export,
-    Forget,
-    No,
-    Suppose,
-    Undo,
-    Yes,
-    with_another,
-)
+from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Suppose, Undo, Yes, with_another
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
 from wirelessagent.language.conversation.fragments import named_alone
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.unanswered import Missing, Question
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
 from wirelessagent.language.mentions import mentions
@@ -79,30 +55,9 @@ _USER = re.compile(
 _NOTE = re.compile(r"[(（][^()（）]+[)）]$")
 """What a recogniser says of itself at the end of a reply."""
 
-_REPLIES: Mapping[type[Act], Callable[[Talk, Any], Reply]] = {
-    Apply: changing.apply,
-    Yes: changing.confirm,
-    No: changing.reject,
-    Undo: changing.undo,
-    Forget: changing.reset,
-    Suppose: supposing.what_if,
-    AskMost: supposing.what_if,
-    AskPower: supposing.needed_power,
-    AskOtherChannel: supposing.other_channel,
-    CompareLast: comparing.with_last,
-    CompareTurns: comparing.with_turns,
-    CompareTools: comparing.with_tools,
-    CompareRequests: comparing.with_requests,
-    AskReasons: recalling.reasons,
-    AskHistory: recalling.history,
-    AskStatus: recalling.status,
-    Export: recalling.export,
-    AskHelp: asking.help_with,
-    AskMeaning: asking.meaning,
-    AskMethods: asking.methods,
-    **dict.fromkeys(asking.ABOUT_THE_DECISION, asking.about_the_decision),
-}
-"""What becomes of a question or a command, by its kind."""
+_REPLIES = {
+    **changing.REPLIES, **supposing.REPLIES, **comparing.REPLIES, **recalling.REPLIES, **asking.REPLIES,
+}  # fmt: skip
 
 _LONGEST_NAME = 100
 """Characters of a line that may be such an answer."""
@@ -404,9 +359,7 @@ def _open_question(talk: Talk, context: Context) -> Reply:
     left = unanswered(talk.text, intent, context)
     if waiting.is_about_the_plan(talk, left):
         return waiting.asked_again(talk)
-    question = Question(guess=intent.guess) if intent.guess is not None else Question(
-        pending=left.pending, objective=left.objective, users=left.users, offered=left.offered
-    )  # fmt: skip
+    question = left if intent.guess is None else Question(guess=intent.guess)
     return asked_back(intent.reply, dataclasses.replace(talk.state, planned=None, question=question))
 
 

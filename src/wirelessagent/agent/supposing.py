@@ -11,7 +11,7 @@ from wirelessagent.agent.dialogue import Request, applied
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
 from wirelessagent.agent.restating import notes, restated
 from wirelessagent.agent.site import Sight
-from wirelessagent.agent.state import Reply, Talk, asked_back, nothing_yet
+from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
 from wirelessagent.agent.waiting import plan_named
 from wirelessagent.language.acts import Act, Aim, AskMost, AskOtherChannel, AskPower, Limit, Suppose
@@ -31,9 +31,8 @@ _OTHER_AIMS = ("weights", "max_rate_bps", "max_power_w")
 """What the least power knows nothing of, or is asked for instead of."""
 
 
-def other_channel(talk: Talk, act: AskOtherChannel) -> Reply:
+def other_channel(talk: Talk, _: AskOtherChannel) -> Reply:
     """The channel is as it was sensed."""
-    del act
     return asked_back(talk.say("ask_back.channel_given"))
 
 
@@ -243,3 +242,11 @@ def _of_the_aim(talk: Talk, act: AskPower, request: Request, enough_w: float, po
 def _limited(act: AskPower, power_w: float) -> Suppose:
     """The what-if of a budget beside what else is asked about."""
     return Suppose(acts=(*act.acts, Limit(kind="max_power_w", value=power_w)))
+
+
+REPLIES: Replies = {
+    Suppose: what_if,
+    AskMost: what_if,
+    AskPower: needed_power,
+    AskOtherChannel: other_channel,
+}

@@ -12,7 +12,7 @@ from wirelessagent.agent.restating import restated
 from wirelessagent.agent.state import Reply, State, Talk, asked_back, nothing_yet
 from wirelessagent.language.acts import Act, AskStatus, Export, Yes
 from wirelessagent.language.conversation.assent import assent, is_assent, speaks_of_applying
-from wirelessagent.language.conversation.unanswered import Unanswered
+from wirelessagent.language.conversation.unanswered import Question
 from wirelessagent.telling.catalogue import Said, message
 
 _YES = ("apply", "confirm")
@@ -39,7 +39,7 @@ def _follows(talk: Talk) -> bool:
     return assent(talk.text) != "mild" or last.stage in ("planned", "asked")
 
 
-def is_about_the_plan(talk: Talk, left: Unanswered) -> bool:
+def is_about_the_plan(talk: Talk, left: Question) -> bool:
     """Whether a line that was not understood is about applying the plan that waits."""
     if talk.state.planned is None:
         return False

@@ -33,12 +33,12 @@ from wirelessagent.language.conversation.questions import (
     supposed,
     wondered,
 )
-from wirelessagent.language.conversation.unanswered import Unanswered, leaves_the_question, unanswered
+from wirelessagent.language.conversation.unanswered import leaves_the_question, unanswered
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
 
-__all__ = ["NAME", "Unanswered", "unanswered", "understood"]
+__all__ = ["NAME", "unanswered", "understood"]
 
 _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from wirelessagent.language.conversation.line import Line, has
 from wirelessagent.language.excess import too_many_figures
@@ -15,35 +15,47 @@ from wirelessagent.language.text import normalise
 
 
 @dataclass(frozen=True, kw_only=True)
-class Unanswered:
-    """What was understood before a question back, and what was not.
+class Missing:
+    """A question back about a user: the intent that waits, and whom it names that is not there ("" for nobody)."""
+
+    intent: Intent
+    reference: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Question:
+    """A question back that is open, and what was understood before it.
 
     Attributes:
-        pending: the constraints.
-        objective: that was named; None where none was.
-        users: of whom nothing was understood.
+        pending: constraints.
+        objective: the aim that was named; None where none was.
+        users: users who were named, and of whom nothing was understood.
         offered: the objective or the command that a yes means; None where it is no question of yes or no.
+        guess: what a yes carries out; None where it is no question of yes or no.
+        missing: the user who is not there, where the question is about one.
     """
 
-    pending: Mapping[str, Constraint]
-    objective: str | None
-    users: tuple[str, ...]
-    offered: str | None
+    pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    objective: str | None = None
+    users: tuple[str, ...] = ()
+    offered: str | None = None
+    guess: Intent | None = None
+    missing: Missing | None = None
 
 
-def unanswered(text: str, intent: Intent, context: Context) -> Unanswered:
+def unanswered(text: str, intent: Intent, context: Context) -> Question:
     """What the answer to a question back may leave out, as the sentence that led to the question said it."""
     line = Line.of(text, context)
     if too_many_figures(normalise(text)):
-        return Unanswered(pending=intent.pending, objective=None, users=(), offered=None)
+        return Question(pending=intent.pending)
     goal = Sentence(text, own_words()).goal
     settled = {user for value in intent.pending.values() for user in _users_of(value)}
     users = tuple(user for user in line.users if user not in settled)
     objective = goal.objective if goal.verdict == "clear" else None
     offered = intent.offered
     if context.awaits != "clarification" or leaves_the_question(line):
-        return Unanswered(pending=intent.pending, objective=objective, users=users, offered=offered)
-    return Unanswered(
+        return Question(pending=intent.pending, objective=objective, users=users, offered=offered)
+    return Question(
         pending=merged(context.pending, intent.pending), objective=objective or context.pending_objective,
         users=users or context.pending_users, offered=offered,
     )  # fmt: skip
