@@ -51,7 +51,7 @@ from wirelessagent.telling.facts.marginal_prices import marginal_prices
 from wirelessagent.telling.facts.nearest import FewerUsers, MorePower, Nearest, Way, WithoutLimit, nearest
 from wirelessagent.telling.glossary import explained, figures_asked, is_of_now
 from wirelessagent.telling.prices import limits_answer, prices_answer, prices_table
-from wirelessagent.telling.remedies import feasible_answer, nearest_answer
+from wirelessagent.telling.reasons import feasible_answer, nearest_answer
 from wirelessagent.telling.report import Report
 from wirelessagent.telling.roster import gain_answer, owner_answer, rank_answer, subcarriers_answer
 from wirelessagent.telling.step_effects import more_answer
@@ -284,8 +284,7 @@ def _gain(asked: Asked, act: AskGain) -> Answer:
 def _dearest(asked: Asked, _: AskDearest) -> Answer:
     """Who takes the most power for a rate, which says whom to leave out if anybody."""
     decision, case = asked.case.decision, asked.case
-    used = decision.power_w > 0
-    power_w = np.bincount(decision.owner[used], weights=decision.power_w[used], minlength=case.num_users)
+    power_w = case.spent_w
     rated = np.flatnonzero(decision.rate_bps > 0)
     if not rated.size:
         return feasible_answer(case, asked.language)

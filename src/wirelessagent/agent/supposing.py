@@ -21,8 +21,7 @@ from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import called, joined, message
 from wirelessagent.telling.facts.nearest import more_power, nearest
 from wirelessagent.telling.parts import cannot_be_served, outcome_in_words, value_name
-from wirelessagent.telling.reasons import BEYOND_W, reason_in_words
-from wirelessagent.telling.remedies import nearest_answer
+from wirelessagent.telling.reasons import BEYOND_W, nearest_answer, reason_in_words
 
 _SAME = 1e-6
 """A share of the power that nobody sees."""

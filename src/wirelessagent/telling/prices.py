@@ -106,9 +106,7 @@ def _promise(case: Case, prices: MarginalPrices, language: str) -> list[str]:
 
 
 def _most_power(case: Case, language: str) -> list[str]:
-    decision = case.decision
-    used = decision.power_w > 0
-    spent = np.bincount(decision.owner[used], weights=decision.power_w[used], minlength=case.num_users)
+    spent = case.spent_w
     if np.count_nonzero(spent) < 2:
         return []
     user = int(spent.argmax())

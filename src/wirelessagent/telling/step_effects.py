@@ -7,8 +7,16 @@ import numpy as np
 from wirelessagent.model.units import human, percent
 from wirelessagent.telling.catalogue import called, joined, message
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.reach import Reach, for_the_total, has_reach, kept_by, reach
-from wirelessagent.telling.facts.steps import Step, power_step, rate_step
+from wirelessagent.telling.facts.steps import (
+    Reach,
+    Step,
+    for_the_total,
+    has_reach,
+    kept_by,
+    power_step,
+    rate_step,
+    reach,
+)  # fmt: skip
 from wirelessagent.telling.parts import outcome_in_words, value_name
 from wirelessagent.telling.reasons import reason_in_words
 

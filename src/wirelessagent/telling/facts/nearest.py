@@ -20,7 +20,7 @@ from typing import TypeAlias
 import numpy as np
 
 from wirelessagent.model.cell import Cell
-from wirelessagent.model.decision import Bracket, Decision
+from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
 from wirelessagent.telling.facts.case import Case
 
@@ -86,17 +86,8 @@ Way: TypeAlias = MorePower | WithoutLimit | LowerRates | FewerUsers
 
 @dataclass(frozen=True, kw_only=True)
 class Nearest:
-    """What a request that cannot be met would need, and the nearest ones that can; None where there is none.
+    """The nearest requests that can be met, each verified; None where there is none of a kind."""
 
-    Attributes:
-        budget_w: the power that it may use.
-        needed_power_w, scaling: what the rates need, and the common factor that fits, each from both sides.
-        more_power, without_limits, lower_rates, fewer_users: verified alternatives.
-    """
-
-    budget_w: float
-    needed_power_w: Bracket | None
-    scaling: Bracket | None
     more_power: MorePower | None
     without_limits: tuple[WithoutLimit, ...]
     lower_rates: LowerRates | None
@@ -113,11 +104,7 @@ class Nearest:
 
 def nearest(case: Case) -> Nearest:
     """The nearest feasible requests for a case whose decision found nothing."""
-    decision = case.decision
     return Nearest(
-        budget_w=case.problem.budget_w(case.cell),
-        needed_power_w=decision.needed_power_w,
-        scaling=decision.rate_scaling,
         more_power=more_power(case),
         without_limits=without_limits(case),
         lower_rates=lower_rates(case),
