@@ -32,8 +32,8 @@ from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
 from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Suppose, Undo, Yes, with_another
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
-from wirelessagent.language.conversation.fragments import named_alone
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.references import named_alone
 from wirelessagent.language.conversation.unanswered import Missing, Question
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of

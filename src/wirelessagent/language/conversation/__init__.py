@@ -19,7 +19,7 @@ from wirelessagent.language.conversation.commands import (
     read_method,
     with_method,
 )
-from wirelessagent.language.conversation.fragments import read_fragment, read_wondered, referred
+from wirelessagent.language.conversation.fragments import read_fragment, read_wondered
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.questions import (
     asked_instead,
@@ -33,6 +33,7 @@ from wirelessagent.language.conversation.questions import (
     supposed,
     wondered,
 )
+from wirelessagent.language.conversation.references import referred
 from wirelessagent.language.conversation.unanswered import leaves_the_question, unanswered
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
