@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import datetime
 
+from wirelessagent.agent.restating import plan_named
 from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.agent.waiting import plan_named
 from wirelessagent.language.acts import AskHistory, AskReasons, AskStatus, Export, TurnReference
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
@@ -98,7 +98,7 @@ def status(talk: Talk, _: AskStatus) -> Reply:
         return Reply(decided=talk.say("in_effect.none"))
     said: list[str] = []
     if state.request is not None:
-        said.append(talk.say("request.asked_for", request=plan_named(state, talk.language)))
+        said.append(talk.say("request.asked_for", request=plan_named(state.request, talk.language)))
     if state.run is not None:
         line = certificate_line(state.run.decision, talk.language)
         said.append(talk.say("in_effect.decided", certificate=line))

@@ -20,7 +20,7 @@ from typing import Any, Protocol, cast
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent import asking, changing, comparing, recalling, supposing, waiting
+from wirelessagent.agent import asking, changing, comparing, recalling, supposing
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.dialogue import Request, difference, stated_by
 from wirelessagent.agent.events import Event, Progress, silent
@@ -32,9 +32,9 @@ from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
 from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Suppose, Undo, Yes, with_another
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
+from wirelessagent.language.conversation.amendments import Missing, Question
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.references import named_alone
-from wirelessagent.language.conversation.unanswered import Missing, Question
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
 from wirelessagent.language.mentions import mentions
@@ -151,7 +151,7 @@ class Session:
             self._progress(Event(stage="understand", message=read, language=intent.language))
         talk = Talk(site=self._site, state=self._state, past=self._past, turns=self._turns, intent=intent, text=text)
         try:
-            reply = waiting.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
+            reply = changing.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
             self._take(reply, intent)
         except BaseException:  # an interruption too: the base station may have it, or a part of it
             if self._site.telling is not None:
@@ -340,7 +340,7 @@ def _handled(talk: Talk, context: Context) -> Reply:
     if intent.kind == "out_of_scope":
         return Reply(decided=intent.reply)
     act = acts[0]
-    doubt = waiting.doubted(talk, act) if isinstance(act, Apply | Yes) else None
+    doubt = changing.doubted(talk, act) if isinstance(act, Apply | Yes) else None
     return doubt or _REPLIES[type(act)](talk, act)
 
 
@@ -357,8 +357,8 @@ def _open_question(talk: Talk, context: Context) -> Reply:
     intent = talk.intent
     _check_users(intent, talk.site.user_names)
     left = unanswered(talk.text, intent, context)
-    if waiting.is_about_the_plan(talk, left):
-        return waiting.asked_again(talk)
+    if changing.is_about_the_plan(talk, left):
+        return changing.asked_again(talk)
     question = left if intent.guess is None else Question(guess=intent.guess)
     return asked_back(intent.reply, dataclasses.replace(talk.state, planned=None, question=question))
 

@@ -9,11 +9,10 @@ import numpy as np
 from wirelessagent.agent.comparing import side_by_side
 from wirelessagent.agent.dialogue import Request, applied
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
-from wirelessagent.agent.restating import notes, restated
+from wirelessagent.agent.restating import notes, plan_named, restated
 from wirelessagent.agent.site import Sight
 from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
-from wirelessagent.agent.waiting import plan_named
 from wirelessagent.language.acts import Act, Aim, AskMost, AskOtherChannel, AskPower, Limit, Suppose
 from wirelessagent.language.intent import Constraint
 from wirelessagent.model.decision import Decision
@@ -87,7 +86,7 @@ def _left_open(talk: Talk, reply: Reply, supposed: Request | None) -> Reply:
     state, needs = talk.state, ""
     if state.planned is not None and state.request is not None:
         key = "plan.still_waits" if supposed is None else "plan.or_what_if"
-        needs = talk.say(key, request=plan_named(state, talk.language))
+        needs = talk.say(key, request=plan_named(state.request, talk.language))
     after = dataclasses.replace(state, question=None, supposed=supposed)
     return dataclasses.replace(reply, changed=talk.say("plan.nothing_changed"), needs=needs, state=after)
 

@@ -9,8 +9,16 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import Said, called, joined, lines_of, listed, message
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.nearest import FewerUsers, LowerRates, MorePower, Nearest, Way, WithoutLimit
-from wirelessagent.telling.facts.shortage import Shortage, shortage_of
+from wirelessagent.telling.facts.nearest import (
+    FewerUsers,
+    LowerRates,
+    MorePower,
+    Nearest,
+    Shortage,
+    Way,
+    WithoutLimit,
+    shortage_of,
+)  # fmt: skip
 from wirelessagent.telling.parts import outcome_in_words, value_name
 
 BEYOND_W = 1e6

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 
-from wirelessagent.language.conversation.amendments import keeping_what_holds, read_amendment
+from wirelessagent.language.conversation.amendments import leaves_the_question, read_amendment, unanswered
 from wirelessagent.language.conversation.assent import read_assent
 from wirelessagent.language.conversation.commands import (
     beside_method,
@@ -33,8 +33,7 @@ from wirelessagent.language.conversation.questions import (
     supposed,
     wondered,
 )
-from wirelessagent.language.conversation.references import referred
-from wirelessagent.language.conversation.unanswered import leaves_the_question, unanswered
+from wirelessagent.language.conversation.references import keeping_what_holds, referred
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser

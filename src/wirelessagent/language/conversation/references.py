@@ -1,4 +1,4 @@
-"""What a request leaves for its conversation to say: for whom a figure is, of which limit, and who is meant."""
+"""What a request leaves to its conversation: for whom a figure is, of which limit, who is meant, and what holds on."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Sequence
 
 from wirelessagent.language.acts import Aim, LeaveOut, Limit, Named, Others, Scale, Suppose, Whom
-from wirelessagent.language.conversation.line import NAME, Line
+from wirelessagent.language.conversation.line import NAME, Line, has
 from wirelessagent.language.conversation.tokens import UNITS, own_users, speaks_of_one, tokens_of
 from wirelessagent.language.intent import FIGURES_OF_USERS, Intent
 from wirelessagent.language.intent_acts import acts_of
@@ -66,6 +66,21 @@ def _of_last_kind(line: Line, intent: Intent, last: Sequence[Limit]) -> Intent:
     evidence = {names.get(each, each): words for each, words in intent.evidence.items()}
     reply = line.voice.amended(constraints, intent.dropped)
     return dataclasses.replace(intent, constraints=constraints, evidence=evidence, reply=reply)
+
+
+def keeping_what_holds(line: Line, intent: Intent) -> Intent:
+    """A request as a change of the one that holds, or in its place where it starts over; other intents as they are.
+
+    Replacing it would let a power limit go, or a rate that was promised, because a line names an aim and any other
+    figure: that is for the operator to say. What was read by its conversation alone is what it is.
+    """
+    objective = line.context.objective
+    if intent.kind != "allocate" or objective is None or intent.recogniser == NAME:
+        return intent
+    if not has("starts_over", line.shape):
+        return dataclasses.replace(intent, amends=True)
+    aims = intent.objective != objective or "objective" in intent.evidence
+    return dataclasses.replace(intent, amends=False, dropped=()) if aims else intent
 
 
 def named_alone(line: Line) -> tuple[str, ...]:

@@ -292,12 +292,10 @@ class Words:
         stated: dict[str, Constraint] = {}
         for act in acts:
             if isinstance(act, Limit):
-                users = act.whom.users if isinstance(act.whom, Named) else (EVERYBODY,)
-                stated[act.kind] = dict.fromkeys(users, act.value) if isinstance(act.whom, Named) else act.value
+                named = act.whom.users if isinstance(act.whom, Named) else None
+                stated[act.kind] = act.value if named is None else dict.fromkeys(named, act.value)
             elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
                 stated["leave_out"] = act.whom.users
         dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
-        intent = self.line.allocate(
-            str(self.line.context.objective), stated, amends=True, dropped=dropped, details=details
-        )
+        intent = self.line.amend(stated, dropped=dropped, details=details)
         return dataclasses.replace(intent, acts=tuple(acts))
