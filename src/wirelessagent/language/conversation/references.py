@@ -46,7 +46,9 @@ def referred(line: Line, intent: Intent) -> Intent:
         leans = bool(of_named & {*kinds}) and not any(speaks_of_one(plain, noun) for noun in ("rate", "promise"))
         if roles or not (speaks_of_one(plain, "one") or leans):
             return intent
-        return line.ask("whose_figure", text=intent.evidence[kinds[0]], users=line.voice.users(context.user_names))
+        waits = line.voice.constraints({kinds[0]: intent.constraints[kinds[0]]})  # said by the line before a question
+        text = intent.evidence.get(kinds[0]) or waits
+        return line.ask("whose_figure", text=text, users=line.voice.users(context.user_names))
     acts = [dataclasses.replace(act, whom=whom) if isinstance(act, Limit) and act.kind in kinds else act
             for act in acts_of(intent)]  # fmt: skip
     return dataclasses.replace(intent, acts=tuple(acts))
