@@ -101,9 +101,17 @@ class Asked:
         """
         return user_number(reference, self.case.estimate.user_names, self.language)[0]
 
+    def someone(self, reference: str | None) -> int | None:
+        """The number of a user, where one is named."""
+        return None if reference is None else self.user(reference)
+
     def served(self) -> tuple[Table, ...]:
         """What the users get who are served."""
         return (served_table(self.report, self.language),)
+
+    def everybody(self) -> tuple[Table, ...]:
+        """What each user gets, and how sure that is."""
+        return (user_table(self.report, self.case.estimate, self.language),)
 
     def explained(self) -> list[str]:
         """The decision in words."""
@@ -221,28 +229,14 @@ def _corrected(asked: Asked, user: int) -> str:
     return message(asked.language, f"about.not_{rank}", user=name, who=rank_answer(asked.case, rank, "rate", language))
 
 
-def _why_not(asked: Asked, _: AskWhyNot) -> Answer:
-    return feasible_answer(asked.case, asked.language)
-
-
 def _step(asked: Asked, act: AskStep) -> Answer:
     case, language = asked.case, asked.language
     if act.users is not None:
         return newcomer_answer(case, newcomer(case), language)
-    user = None if act.user is None else asked.user(act.user)
     return more_answer(
-        case, language, power_w=act.power_w, rate_bps=act.rate_bps, rate_share=act.rate_share, each=act.each, user=user
+        case, language, power_w=act.power_w, rate_bps=act.rate_bps, rate_share=act.rate_share, each=act.each,
+        user=asked.someone(act.user),
     )  # fmt: skip
-
-
-def _proof(asked: Asked, _: AskProof) -> Answer:
-    return certificate_answer(asked.case, asked.language)
-
-
-def _certainty(asked: Asked, _: AskCertainty) -> Answer:
-    return uncertainty_answer(asked.case, asked.language), (
-        user_table(asked.report, asked.case.estimate, asked.language),
-    )
 
 
 def _prices(asked: Asked, act: AskPrices) -> Answer:
@@ -258,27 +252,9 @@ def _users(asked: Asked, act: AskUsers) -> Answer:
     case, language = asked.case, asked.language
     if act.user is not None:
         user = asked.user(act.user)
-        row = user_table(asked.report, case.estimate, language)
+        (row,) = asked.everybody()
         return share_answer(case, user, language), (dataclasses.replace(row, rows=(row.rows[user],)),)
     return asked.explained()[0], asked.served()
-
-
-def _rank(asked: Asked, act: AskRank) -> Answer:
-    return rank_answer(asked.case, act.rank, act.of, asked.language), asked.served()
-
-
-def _subcarriers(asked: Asked, act: AskSubcarriers) -> Answer:
-    user = None if act.user is None else asked.user(act.user)
-    return subcarriers_answer(asked.case, user, asked.language), asked.served() if user is None else ()
-
-
-def _owner(asked: Asked, act: AskOwner) -> Answer:
-    return owner_answer(asked.case, act.subcarrier, asked.language)
-
-
-def _gain(asked: Asked, act: AskGain) -> Answer:
-    user = None if act.user is None else asked.user(act.user)
-    return gain_answer(asked.case, user, act.subcarrier, asked.language)
 
 
 def _dearest(asked: Asked, _: AskDearest) -> Answer:
@@ -293,34 +269,25 @@ def _dearest(asked: Asked, _: AskDearest) -> Answer:
     return message(asked.language, "about.dearest", user=decision.user_names[user], rate=rate, power=power)
 
 
-def _result(asked: Asked, _: AskResult) -> Answer:
-    return figures_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained())
-
-
-def _limits(asked: Asked, _: AskLimits) -> Answer:
-    return limits_answer(asked.case, asked.language)
-
-
-def _duration(asked: Asked, _: AskDuration) -> Answer:
-    return message(asked.language, "about.no_duration", method=asked.case.decision.method)
-
-
 _ANSWERS: Mapping[type[Ask], Callable[[Asked, Any], Answer]] = {
     AskWhy: _why,
-    AskWhyNot: _why_not,
+    AskWhyNot: lambda asked, _: feasible_answer(asked.case, asked.language),
     AskStep: _step,
-    AskProof: _proof,
-    AskCertainty: _certainty,
+    AskProof: lambda asked, _: certificate_answer(asked.case, asked.language),
+    AskCertainty: lambda asked, _: (uncertainty_answer(asked.case, asked.language), asked.everybody()),
     AskPrices: _prices,
     AskUsers: _users,
-    AskRank: _rank,
-    AskSubcarriers: _subcarriers,
-    AskOwner: _owner,
-    AskGain: _gain,
+    AskRank: lambda asked, act: (rank_answer(asked.case, act.rank, act.of, asked.language), asked.served()),
+    AskSubcarriers: lambda asked, act: (
+        subcarriers_answer(asked.case, asked.someone(act.user), asked.language),
+        () if act.user is not None else asked.served(),
+    ),
+    AskOwner: lambda asked, act: owner_answer(asked.case, act.subcarrier, asked.language),
+    AskGain: lambda asked, act: gain_answer(asked.case, asked.someone(act.user), act.subcarrier, asked.language),
     AskDearest: _dearest,
-    AskResult: _result,
-    AskLimits: _limits,
-    AskDuration: _duration,
+    AskResult: lambda asked, _: figures_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained()),
+    AskLimits: lambda asked, _: limits_answer(asked.case, asked.language),
+    AskDuration: lambda asked, _: message(asked.language, "about.no_duration", method=asked.case.decision.method),
 }
 REPLIES: Replies = {
     AskHelp: help_with,

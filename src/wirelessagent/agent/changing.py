@@ -64,7 +64,12 @@ def _changing(reply: Reply, language: str, said: str, **fields: object) -> Reply
     return dataclasses.replace(reply, changed=joined(language, [reply.changed, said]), **fields)  # pyright: ignore[reportArgumentType]
 
 
-def apply(talk: Talk, _: Apply | Yes) -> Reply:
+def apply(talk: Talk, _: Apply) -> Reply:
+    """Apply what was decided, where the line says so and nothing else."""
+    return _doubted(talk) or _applied(talk)
+
+
+def _applied(talk: Talk) -> Reply:
     """Apply what was decided and name it; the operator said so, which is the confirmation."""
     state, language, run = talk.state, talk.language, talk.state.planned or talk.state.run
     if run is None:
@@ -83,11 +88,11 @@ def apply(talk: Talk, _: Apply | Yes) -> Reply:
 
 def confirm(talk: Talk, act: Yes) -> Reply:
     """A yes: apply what waits for it."""
-    if talk.state.planned is None:
-        return asked_back(talk.say("ask_back.which_way")) if act.chooses or act.choice is not None else Reply(
-            decided=talk.say("plan.nothing_to_confirm")
-        )  # fmt: skip
-    return apply(talk, act)
+    if talk.state.planned is not None:
+        return _doubted(talk) or _applied(talk)
+    if act.chooses or act.choice is not None:
+        return asked_back(talk.say("ask_back.which_way"))
+    return Reply(decided=talk.say("plan.nothing_to_confirm"))
 
 
 def reject(talk: Talk, act: No) -> Reply:
@@ -265,10 +270,8 @@ def _whole(language: str, line: str) -> Said:
     return message(language, "text.sentence", line=line[:1].upper() + line[1:])
 
 
-def doubted(talk: Talk, act: Act) -> Reply | None:
+def _doubted(talk: Talk) -> Reply | None:
     """What is said to a line that was taken for a yes or for a command to apply and is none; None where it is one."""
-    if isinstance(act, Yes) and talk.state.planned is None:
-        return None  # which applies nothing
     if assent(talk.text) == "later":
         return _left_waiting(talk)
     if not is_assent(talk.text) or (talk.state.planned is not None and not _follows(talk)):

@@ -139,7 +139,7 @@ class Session:
     def say(self, text: str, *, by: str = "") -> Turn:
         """Take a line from the operator (``by`` name, where that is known): understand it, do what it asks, reply."""
         self._by = by
-        context, before = self._context(), self._state
+        context = self._context()
         intent = self._taken(self._answered(text, context) or understood(text, context, self._recogniser))
         self._state = dataclasses.replace(self._state, supposed=None)
         self._language = intent.language
@@ -152,19 +152,19 @@ class Session:
         talk = Talk(site=self._site, state=self._state, past=self._past, turns=self._turns, intent=intent, text=text)
         try:
             reply = changing.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
-            self._take(reply, intent)
+            self._take(talk, reply)
         except BaseException:  # an interruption too: the base station may have it, or a part of it
             if self._site.telling is not None:
-                broken_off = self._broken_off(self._site.telling, intent)
-                self._take(broken_off, intent)
-                self._kept(text, intent, broken_off, before)
+                reply = self._broken_off(talk, self._site.telling)
+                self._take(talk, reply)
+                self._kept(talk, reply)
             raise
-        return self._kept(text, intent, reply, before)
+        return self._kept(talk, reply)
 
-    def _broken_off(self, run: Run, intent: Intent) -> Reply:
+    def _broken_off(self, talk: Talk, run: Run) -> Reply:
         """What holds where something ended a turn after the base station was told a run."""
         unknown = dataclasses.replace(self._state.settled, on_air=None)
-        return Reply(changed=message(intent.language, "station.broken_off"), stage="nothing", state=unknown, run=run)
+        return Reply(changed=talk.say("station.broken_off"), stage="nothing", state=unknown, run=run)
 
     def _context(self) -> Context:
         state, request, supposed = self._state, self._state.request, self._state.supposed
@@ -215,7 +215,7 @@ class Session:
         """What the intent leads to; what cannot be done becomes a reply, and changes nothing."""
         intent = talk.intent
         try:
-            return _with_tables(_handled(talk, context), intent.language)
+            return _with_tables(_handled(talk, context), talk.language)
         except UnclearRequestError as question:
             reference = question.reference if isinstance(question, UnknownUserError) else None
             missing = None if reference is None else Missing(intent=intent, reference=reference)
@@ -226,12 +226,12 @@ class Session:
             if self._raises:
                 raise
             if isinstance(error, RefusedError):
-                why, changed = str(error), message(intent.language, "plan.nothing_changed")
-                return Reply(decided=why, changed=changed, stage="nothing", error=error)
+                changed = talk.say("plan.nothing_changed")
+                return Reply(decided=str(error), changed=changed, stage="nothing", error=error)
             key = "refused.unsupported" if isinstance(error, UnsupportedProblemError) else "refused.failed"
-            return Reply(decided=message(intent.language, key, why=error), stage="nothing", error=error)
+            return Reply(decided=talk.say(key, why=error), stage="nothing", error=error)
 
-    def _take(self, reply: Reply, intent: Intent) -> None:
+    def _take(self, talk: Talk, reply: Reply) -> None:
         """Let what the reply brought hold, and remember what held before another request."""
         self._site.telling = None
         before, new = self._state, reply.state
@@ -241,23 +241,24 @@ class Session:
             del self._past[-reply.undone :]
         elif new.request != before.request:
             self._past.append(before.settled)
-            new = dataclasses.replace(new, stated=_stated(new, before, intent))
-        noted = noted_after(reply.run, noted=before.noted, requested=intent.kind == "allocate")
+            new = dataclasses.replace(new, stated=_stated(new, before, talk.intent))
+        noted = noted_after(reply.run, noted=before.noted, requested=talk.intent.kind == "allocate")
         self._state = dataclasses.replace(new, noted=noted)
         self._requests.append(new.request)
 
-    def _kept(self, text: str, intent: Intent, reply: Reply, before: State) -> Turn:
+    def _kept(self, talk: Talk, reply: Reply) -> Turn:
         """The turn, remembered and stored; a store that fails is told of and stops nothing."""
+        intent, before, after = talk.intent, talk.state, self._state
         lines = Lines(decided=reply.decided, changed=reply.changed, needs=reply.needs)
         by_another = intent.recogniser not in (self._recogniser.name, READ_HERE)
         if by_another and not (intent.reply and intent.reply in str(lines)):
             lines = lines.ending_with(_read_by(intent), intent.language)
-        after, run = self._state, reply.run if reply.stage != "answered" else None
+        run = reply.run if reply.stage != "answered" else None
         then, now = before.run and before.run.decision, run and run.decision
         turn = Turn(
             number=len(self._turns) + 1,
             session=self.id,
-            text=text,
+            text=talk.text,
             intent=intent,
             lines=lines,
             stage=reply.stage,
@@ -278,7 +279,7 @@ class Session:
             try:
                 self._store.append(turn)
             except WirelessAgentError as error:
-                told = lines.ending_with(message(intent.language, "stage.not_recorded", why=error), intent.language)
+                told = lines.ending_with(talk.say("stage.not_recorded", why=error), talk.language)
                 turn = dataclasses.replace(turn, lines=told)
         self._turns.append(turn)
         return turn
@@ -339,9 +340,7 @@ def _handled(talk: Talk, context: Context) -> Reply:
         return _open_question(talk, context)
     if intent.kind == "out_of_scope":
         return Reply(decided=intent.reply)
-    act = acts[0]
-    doubt = changing.doubted(talk, act) if isinstance(act, Apply | Yes) else None
-    return doubt or _REPLIES[type(act)](talk, act)
+    return _REPLIES[type(acts[0])](talk, acts[0])
 
 
 def _with_tables(reply: Reply, language: str) -> Reply:
