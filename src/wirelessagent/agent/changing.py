@@ -112,7 +112,10 @@ def reject(talk: Talk, act: No) -> Reply:
     before = state.settled if state.undoes or not talk.past else talk.past[-1]
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
     undone = 0 if held.request == state.request else 1
-    return Reply(decided=_asked_for(talk, held), changed=dropped, stage="nothing", state=held, undone=undone)
+    asked = talk.say("request.nothing_asked")
+    if held.request is not None:
+        asked = talk.say("request.asked_for", request=plan_named(held.request, talk.language))
+    return Reply(decided=asked, changed=dropped, stage="nothing", state=held, undone=undone)
 
 
 def undo(talk: Talk, act: Undo) -> Reply:
@@ -130,13 +133,6 @@ def undo(talk: Talk, act: Undo) -> Reply:
     if act.steps is not None and act.steps > count:
         text = joined(talk.language, [talk.say("undo.undone_fewer", count=count), text])
     return dataclasses.replace(_undone(talk, before, text), undone=count)
-
-
-def _asked_for(talk: Talk, before: State) -> str:
-    """What the request is after something was taken back."""
-    if before.request is None:
-        return talk.say("request.nothing_asked")
-    return talk.say("request.asked_for", request=plan_named(before.request, talk.language))
 
 
 def _no_way_back(talk: Talk, turn: TurnReference) -> Said:

@@ -69,11 +69,11 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         by = with_method(line, _read(rest, Line.of(rest, context), context, recogniser), name)
         if by is not None:
             return by
-    asked = wondered(text) if context.objective is not None else None
     for read in (read_fragment, *_READERS):
         intent = read(line)
         if intent is not None:
             return intent
+    asked = wondered(text) if context.objective is not None else None
     if asked is not None:
         return _possible(line, asked, recogniser)
     if leaves_the_question(line):

@@ -200,7 +200,8 @@ def unanswered(text: str, intent: Intent, context: Context) -> Question:
     if too_many_figures(normalise(text)):
         return Question(pending=intent.pending)
     goal = Sentence(text, own_words()).goal
-    settled = {user for value in intent.pending.values() for user in _users_of(value)}
+    named = (value for value in intent.pending.values() if isinstance(value, Mapping | tuple))
+    settled = {user for value in named for user in value}
     users = tuple(user for user in line.users if user not in settled)
     objective = goal.objective if goal.verdict == "clear" else None
     offered = intent.offered
@@ -216,12 +217,6 @@ def leaves_the_question(line: Line) -> bool:
     """Whether a line is no answer: it only reports, or speaks of other users than the question back was about."""
     asked = line.context.pending_users
     return is_report(line) or (bool(asked and line.users) and not set(asked) & set(line.users))
-
-
-def _users_of(value: Constraint) -> tuple[str, ...]:
-    if isinstance(value, tuple):
-        return value
-    return tuple(value) if isinstance(value, Mapping) else ()
 
 
 def is_report(line: Line) -> bool:
