@@ -72,6 +72,12 @@ def test_lines_that_talks_leave_short(lines: tuple[str, ...], held: dict[str, An
     assert talk(*lines)[0] == held
 
 
+def test_a_figure_that_an_earlier_line_said_is_asked_about_too() -> None:
+    _, turns = talk(MAX, "leave users 3 and 4 out", "give them both 600 kbit/s", "one at 250 mW")
+    assert [turn.stage for turn in turns[2:]] == ["asked", "asked"]
+    assert "600 kbit/s" in turns[-1].reply
+
+
 def test_a_question_about_another_aim_changes_none() -> None:
     _, turns = talk("max-min, at most 10 W", "would proportional fairness be faster overall?")
     assert turns[-1].diff.objective == ("max_min_rate", "max_min_rate")

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.agent.tools import Tools
+from wirelessagent.agent.turn import Tools
 from wirelessagent.deciding.core import time_limit
 from wirelessagent.deciding.objectives.proportional_fairness import ProportionalFairness
 from wirelessagent.interfaces.cli import run

@@ -17,10 +17,8 @@ from wirelessagent.telling.catalogue import called
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.nearest import nearest
-from wirelessagent.telling.facts.shortage import shortage_of
-from wirelessagent.telling.reasons import reason_in_words
-from wirelessagent.telling.remedies import nearest_answer
+from wirelessagent.telling.facts.nearest import nearest, shortage_of
+from wirelessagent.telling.reasons import nearest_answer, reason_in_words
 from wirelessagent.telling.tables import figures_of_infeasibility
 
 CELL = wa.Cell(max_power_w=20)

@@ -15,10 +15,9 @@ import wirelessagent as wa
 from wirelessagent.agent.acting import carry_out, same_allocation
 from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.posing import pose
-from wirelessagent.agent.run import look, plan, with_outcome
 from wirelessagent.agent.session import Session
-from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Run, Turn
+from wirelessagent.agent.site import look, plan
+from wirelessagent.agent.turn import Run, Tools, Turn
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.model.rates import user_rate_bps
@@ -111,7 +110,7 @@ def run_of(objective: str, method: str | None = None, **constraints: object) -> 
 
 
 def applied(run: Run) -> Run:
-    return with_outcome(run, wa.SimulatedBaseStation(SCENE).apply(run.decision))
+    return run.with_outcome(wa.SimulatedBaseStation(SCENE).apply(run.decision))
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.agent.tools import Tools
+from wirelessagent.agent.turn import Tools
 from wirelessagent.model.errors import MissingDependencyError, UnknownNameError
 from wirelessagent.model.shown import Plain, Shown
 

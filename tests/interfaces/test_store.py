@@ -20,8 +20,7 @@ import numpy as np
 import pytest
 from sqlalchemy import create_mock_engine
 
-from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Stage
+from wirelessagent.agent.turn import Stage, Tools
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError, WirelessAgentError
 from wirelessagent.settings import Settings
 from wirelessagent.store.content import Content, estimate_of, observation_of

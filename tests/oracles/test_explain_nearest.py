@@ -66,12 +66,12 @@ def found(seed: int, rates: Any = RATES, **constraints: Any) -> tuple[wa.Channel
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_more_power_is_the_least_that_carries_the_rates(seed: int) -> None:
-    estimate, _, answer = found(seed)
+    estimate, case, answer = found(seed)
     needed = least_power(estimate, RATES)
     assert answer.more_power is not None
-    assert answer.needed_power_w is not None
+    assert case.decision.needed_power_w is not None
     assert answer.more_power.power_w == pytest.approx(needed, rel=1e-5)
-    assert answer.needed_power_w.at_least <= needed * (1 + 1e-9)
+    assert case.decision.needed_power_w.at_least <= needed * (1 + 1e-9)
     assert answer.more_power.within_limit is (answer.more_power.power_w <= CELL.max_power_w)
     assert answer.more_power.decision.is_usable
     assert np.all(answer.more_power.decision.rate_bps >= np.array(RATES) * (1 - 1e-9))

@@ -12,8 +12,7 @@ from questions import answer
 import wirelessagent as wa
 from wirelessagent.model.units import human
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.reach import Reach, for_the_total, has_reach, reach
-from wirelessagent.telling.facts.steps import rate_step
+from wirelessagent.telling.facts.steps import Reach, for_the_total, has_reach, rate_step, reach
 from wirelessagent.telling.step_effects import step_answer
 
 CELL = wa.Cell(max_power_w=20)

@@ -100,10 +100,10 @@ def test_what_cannot_be_met_is_told_with_what_can(language: str) -> None:
     assert found.more_power is not None
     assert found.lower_rates is not None
     assert found.fewer_users is not None
-    assert found.needed_power_w is not None
+    assert case.decision.needed_power_w is not None
     for topic in ("why_infeasible", "prices", "certificate"):
         said = told(case, topic, language)
-        for figure in (human(found.needed_power_w.at_least, "W"), human(found.more_power.power_w, "W"),
+        for figure in (human(case.decision.needed_power_w.at_least, "W"), human(found.more_power.power_w, "W"),
                        human(found.lower_rates.factor * 3e6, "bit/s")):  # fmt: skip
             assert figure in said
         assert all(called(language, SEEN.user_names[user]) in said for user in found.fewer_users.left_out)

@@ -20,7 +20,6 @@ from typing import cast
 import numpy as np
 
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent.run import with_outcome
 from wirelessagent.agent.turn import Run
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
@@ -74,7 +73,7 @@ def carry_out(run: Run, station: BaseStation, last_good: Run | None, tolerance: 
     done = run
     if outcome is not None:
         try:
-            done = with_outcome(run, outcome)
+            done = run.with_outcome(outcome)
         except Exception:  # noqa: BLE001  # figures of any kind may be read back
             outcome, failure = None, message(language, "station.misread", station=station.name)
     amiss = [failure] if outcome is None else _differences(run.decision, outcome, station, language)
@@ -96,6 +95,21 @@ def put_back(good: Run, station: BaseStation, language: str) -> tuple[Outcome | 
     if outcome is None:
         return None, failure
     return outcome, " ".join(_differences(good.decision, outcome, station, language))
+
+
+def applied_line(run: Run) -> str:
+    """What the base station made of a run, in one sentence."""
+    language, outcome = run.intent.language, run.outcome
+    assert outcome is not None
+    if outcome.written_to is not None:
+        return message(language, "applied.written", path=outcome.written_to)
+    if outcome.achieved is None:
+        return message(language, "applied.unmeasured", station=outcome.base_station)
+    promised = outcome.promised_bps > 0
+    kept, served = int(np.count_nonzero(promised & ~outcome.missed)), int(np.count_nonzero(promised))
+    count = message(language, "applied.all" if kept == served > 1 else "applied.some", kept=kept, served=served)
+    key = f"applied.{run.decision.problem.firmness}"
+    return message(language, key, station=outcome.base_station, count=count)
 
 
 def same_allocation(one: Decision, other: Decision) -> bool:

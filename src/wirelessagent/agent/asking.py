@@ -11,9 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from wirelessagent.agent.posing import UnknownUserError, user_number
-from wirelessagent.agent.refusing import able
-from wirelessagent.agent.state import Reply, Talk, nothing_yet
+from wirelessagent.agent.posing import UnknownUserError, able, user_number
+from wirelessagent.agent.state import Replies, Reply, Talk, nothing_yet
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language.acts import (
     Act,
@@ -52,7 +51,7 @@ from wirelessagent.telling.facts.marginal_prices import marginal_prices
 from wirelessagent.telling.facts.nearest import FewerUsers, MorePower, Nearest, Way, WithoutLimit, nearest
 from wirelessagent.telling.glossary import explained, figures_asked, is_of_now
 from wirelessagent.telling.prices import limits_answer, prices_answer, prices_table
-from wirelessagent.telling.remedies import feasible_answer, nearest_answer
+from wirelessagent.telling.reasons import feasible_answer, nearest_answer
 from wirelessagent.telling.report import Report
 from wirelessagent.telling.roster import gain_answer, owner_answer, rank_answer, subcarriers_answer
 from wirelessagent.telling.step_effects import more_answer
@@ -102,9 +101,17 @@ class Asked:
         """
         return user_number(reference, self.case.estimate.user_names, self.language)[0]
 
+    def someone(self, reference: str | None) -> int | None:
+        """The number of a user, where one is named."""
+        return None if reference is None else self.user(reference)
+
     def served(self) -> tuple[Table, ...]:
         """What the users get who are served."""
         return (served_table(self.report, self.language),)
+
+    def everybody(self) -> tuple[Table, ...]:
+        """What each user gets, and how sure that is."""
+        return (user_table(self.report, self.case.estimate, self.language),)
 
     def explained(self) -> list[str]:
         """The decision in words."""
@@ -123,23 +130,20 @@ def answered(asked: Asked, act: Ask) -> tuple[str, tuple[Table, ...]]:
     return (answer, ()) if isinstance(answer, str) else answer
 
 
-def help_with(talk: Talk, act: AskHelp) -> Reply:
+def help_with(talk: Talk, _: AskHelp) -> Reply:
     """What can be said."""
-    del act
     return Reply(decided=talk.say("about.help"))
 
 
-def meaning(talk: Talk, act: AskMeaning) -> Reply:
+def meaning(talk: Talk, _: AskMeaning) -> Reply:
     """What the terms in a line mean; their figures, where it asks for those of now."""
-    del act
     run = talk.state.run
     figures = figures_asked(talk.text, run.report, talk.language) if run is not None and is_of_now(talk.text) else ""
     return Reply(decided=figures or explained(talk.text, talk.language) or talk.say("about.help"))
 
 
-def methods(talk: Talk, act: AskMethods) -> Reply:
+def methods(talk: Talk, _: AskMethods) -> Reply:
     """Which method decided, and which could."""
-    del act
     if talk.state.run is None:
         return nothing_yet(talk)
     decision = talk.state.run.decision
@@ -225,31 +229,14 @@ def _corrected(asked: Asked, user: int) -> str:
     return message(asked.language, f"about.not_{rank}", user=name, who=rank_answer(asked.case, rank, "rate", language))
 
 
-def _why_not(asked: Asked, act: AskWhyNot) -> Answer:
-    del act
-    return feasible_answer(asked.case, asked.language)
-
-
 def _step(asked: Asked, act: AskStep) -> Answer:
     case, language = asked.case, asked.language
     if act.users is not None:
         return newcomer_answer(case, newcomer(case), language)
-    user = None if act.user is None else asked.user(act.user)
     return more_answer(
-        case, language, power_w=act.power_w, rate_bps=act.rate_bps, rate_share=act.rate_share, each=act.each, user=user
+        case, language, power_w=act.power_w, rate_bps=act.rate_bps, rate_share=act.rate_share, each=act.each,
+        user=asked.someone(act.user),
     )  # fmt: skip
-
-
-def _proof(asked: Asked, act: AskProof) -> Answer:
-    del act
-    return certificate_answer(asked.case, asked.language)
-
-
-def _certainty(asked: Asked, act: AskCertainty) -> Answer:
-    del act
-    return uncertainty_answer(asked.case, asked.language), (
-        user_table(asked.report, asked.case.estimate, asked.language),
-    )
 
 
 def _prices(asked: Asked, act: AskPrices) -> Answer:
@@ -265,35 +252,15 @@ def _users(asked: Asked, act: AskUsers) -> Answer:
     case, language = asked.case, asked.language
     if act.user is not None:
         user = asked.user(act.user)
-        row = user_table(asked.report, case.estimate, language)
+        (row,) = asked.everybody()
         return share_answer(case, user, language), (dataclasses.replace(row, rows=(row.rows[user],)),)
     return asked.explained()[0], asked.served()
 
 
-def _rank(asked: Asked, act: AskRank) -> Answer:
-    return rank_answer(asked.case, act.rank, act.of, asked.language), asked.served()
-
-
-def _subcarriers(asked: Asked, act: AskSubcarriers) -> Answer:
-    user = None if act.user is None else asked.user(act.user)
-    return subcarriers_answer(asked.case, user, asked.language), asked.served() if user is None else ()
-
-
-def _owner(asked: Asked, act: AskOwner) -> Answer:
-    return owner_answer(asked.case, act.subcarrier, asked.language)
-
-
-def _gain(asked: Asked, act: AskGain) -> Answer:
-    user = None if act.user is None else asked.user(act.user)
-    return gain_answer(asked.case, user, act.subcarrier, asked.language)
-
-
-def _dearest(asked: Asked, act: AskDearest) -> Answer:
+def _dearest(asked: Asked, _: AskDearest) -> Answer:
     """Who takes the most power for a rate, which says whom to leave out if anybody."""
-    del act
     decision, case = asked.case.decision, asked.case
-    used = decision.power_w > 0
-    power_w = np.bincount(decision.owner[used], weights=decision.power_w[used], minlength=case.num_users)
+    power_w = case.spent_w
     rated = np.flatnonzero(decision.rate_bps > 0)
     if not rated.size:
         return feasible_answer(case, asked.language)
@@ -302,36 +269,29 @@ def _dearest(asked: Asked, act: AskDearest) -> Answer:
     return message(asked.language, "about.dearest", user=decision.user_names[user], rate=rate, power=power)
 
 
-def _result(asked: Asked, act: AskResult) -> Answer:
-    del act
-    return figures_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained())
-
-
-def _limits(asked: Asked, act: AskLimits) -> Answer:
-    del act
-    return limits_answer(asked.case, asked.language)
-
-
-def _duration(asked: Asked, act: AskDuration) -> Answer:
-    del act
-    return message(asked.language, "about.no_duration", method=asked.case.decision.method)
-
-
 _ANSWERS: Mapping[type[Ask], Callable[[Asked, Any], Answer]] = {
     AskWhy: _why,
-    AskWhyNot: _why_not,
+    AskWhyNot: lambda asked, _: feasible_answer(asked.case, asked.language),
     AskStep: _step,
-    AskProof: _proof,
-    AskCertainty: _certainty,
+    AskProof: lambda asked, _: certificate_answer(asked.case, asked.language),
+    AskCertainty: lambda asked, _: (uncertainty_answer(asked.case, asked.language), asked.everybody()),
     AskPrices: _prices,
     AskUsers: _users,
-    AskRank: _rank,
-    AskSubcarriers: _subcarriers,
-    AskOwner: _owner,
-    AskGain: _gain,
+    AskRank: lambda asked, act: (rank_answer(asked.case, act.rank, act.of, asked.language), asked.served()),
+    AskSubcarriers: lambda asked, act: (
+        subcarriers_answer(asked.case, asked.someone(act.user), asked.language),
+        () if act.user is not None else asked.served(),
+    ),
+    AskOwner: lambda asked, act: owner_answer(asked.case, act.subcarrier, asked.language),
+    AskGain: lambda asked, act: gain_answer(asked.case, asked.someone(act.user), act.subcarrier, asked.language),
     AskDearest: _dearest,
-    AskResult: _result,
-    AskLimits: _limits,
-    AskDuration: _duration,
+    AskResult: lambda asked, _: figures_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained()),
+    AskLimits: lambda asked, _: limits_answer(asked.case, asked.language),
+    AskDuration: lambda asked, _: message(asked.language, "about.no_duration", method=asked.case.decision.method),
 }
-ABOUT_THE_DECISION = tuple(_ANSWERS)
+REPLIES: Replies = {
+    AskHelp: help_with,
+    AskMeaning: meaning,
+    AskMethods: methods,
+    **dict.fromkeys(_ANSWERS, about_the_decision),
+}

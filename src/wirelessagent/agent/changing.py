@@ -1,6 +1,10 @@
 """Turns that change what is asked for or what is in effect: requests, apply, yes and no, undo, reset.
 
 plan → confirm → apply → read back → compare with the promise → revert; see :mod:`wirelessagent.agent.acting`.
+
+The plan that waits for a yes is named before it is applied, and only a plain yes applies it. Whatever a recogniser
+makes of a line, the line itself has to be an assent (:mod:`wirelessagent.language.conversation.assent`), and it has to
+follow a reply that names the plan.
 """
 
 from __future__ import annotations
@@ -9,20 +13,22 @@ import dataclasses
 from collections.abc import Callable
 
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent.acting import Effect, respects, same_allocation
+from wirelessagent.agent.acting import Effect, applied_line, respects, same_allocation
 from wirelessagent.agent.dialogue import applied
 from wirelessagent.agent.events import Event
 from wirelessagent.agent.recalling import no_such_turn
-from wirelessagent.agent.restating import changes_in_words, notes, restated
-from wirelessagent.agent.run import applied_line, with_outcome
-from wirelessagent.agent.state import Reply, State, Talk, asked_back, nothing_yet
+from wirelessagent.agent.restating import changes_in_words, notes, plan_named, restated
+from wirelessagent.agent.state import Replies, Reply, State, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, shift_between
-from wirelessagent.agent.waiting import plan_named
-from wirelessagent.language.acts import Act, Apply, Forget, No, TurnReference, Undo, Yes
+from wirelessagent.language.acts import Act, Apply, AskStatus, Export, Forget, No, TurnReference, Undo, Yes
+from wirelessagent.language.conversation.amendments import Question
+from wirelessagent.language.conversation.assent import assent, is_assent, speaks_of_applying
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said, joined, message
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.parts import without_anything
+
+_YES = ("apply", "confirm")
 
 
 def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
@@ -47,7 +53,7 @@ def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
         needs = joined(language, [talk.say("ask_back.unmet"), talk.say("ask_back.or_undo") if state.request else ""])
         return _changing(reply, language, talk.say("plan.not_applied"), stage="nothing", needs=needs)
     if state.on_air is not None and same_allocation(run.decision, state.on_air.decision):
-        kept = with_outcome(run, state.on_air.outcome)
+        kept = run.with_outcome(state.on_air.outcome)
         reply = dataclasses.replace(reply, run=kept, state=dataclasses.replace(new, run=kept, on_air=kept))
         return _changing(reply, language, talk.say("plan.no_change"), stage="nothing")
     return _carry_or_ask(talk, reply, run)
@@ -58,9 +64,13 @@ def _changing(reply: Reply, language: str, said: str, **fields: object) -> Reply
     return dataclasses.replace(reply, changed=joined(language, [reply.changed, said]), **fields)  # pyright: ignore[reportArgumentType]
 
 
-def apply(talk: Talk, act: Apply | Yes) -> Reply:
+def apply(talk: Talk, _: Apply) -> Reply:
+    """Apply what was decided, where the line says so and nothing else."""
+    return _doubted(talk) or _applied(talk)
+
+
+def _applied(talk: Talk) -> Reply:
     """Apply what was decided and name it; the operator said so, which is the confirmation."""
-    del act
     state, language, run = talk.state, talk.language, talk.state.planned or talk.state.run
     if run is None:
         return nothing_yet(talk)
@@ -78,11 +88,11 @@ def apply(talk: Talk, act: Apply | Yes) -> Reply:
 
 def confirm(talk: Talk, act: Yes) -> Reply:
     """A yes: apply what waits for it."""
-    if talk.state.planned is None:
-        return asked_back(talk.say("ask_back.which_way")) if act.chooses or act.choice is not None else Reply(
-            decided=talk.say("plan.nothing_to_confirm")
-        )  # fmt: skip
-    return apply(talk, act)
+    if talk.state.planned is not None:
+        return _doubted(talk) or _applied(talk)
+    if act.chooses or act.choice is not None:
+        return asked_back(talk.say("ask_back.which_way"))
+    return Reply(decided=talk.say("plan.nothing_to_confirm"))
 
 
 def reject(talk: Talk, act: No) -> Reply:
@@ -96,14 +106,16 @@ def reject(talk: Talk, act: No) -> Reply:
         if act.cancels:
             return asked_back(talk.say("plan.nothing_to_cancel"))
         return Reply(decided=talk.say("plan.nothing_to_confirm"))
+    dropped = joined(talk.language, [talk.say("plan.dropped"), talk.say("plan.not_applied")])
     if not act.cancels:
-        dropped = joined(talk.language, [talk.say("plan.dropped"), talk.say("plan.not_applied")])
         return Reply(changed=dropped, stage="nothing", state=state.settled)
     before = state.settled if state.undoes or not talk.past else talk.past[-1]
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
     undone = 0 if held.request == state.request else 1
-    changed = joined(talk.language, [talk.say("plan.dropped"), talk.say("plan.not_applied")])
-    return Reply(decided=_asked_for(talk, held), changed=changed, stage="nothing", state=held, undone=undone)
+    asked = talk.say("request.nothing_asked")
+    if held.request is not None:
+        asked = talk.say("request.asked_for", request=plan_named(held.request, talk.language))
+    return Reply(decided=asked, changed=dropped, stage="nothing", state=held, undone=undone)
 
 
 def undo(talk: Talk, act: Undo) -> Reply:
@@ -117,17 +129,10 @@ def undo(talk: Talk, act: Undo) -> Reply:
     before = past[-count]
     text = talk.say("undo.undone_all")
     if before.request is not None:
-        text = talk.say("undo.undone", request=plan_named(before, talk.language))
+        text = talk.say("undo.undone", request=plan_named(before.request, talk.language))
     if act.steps is not None and act.steps > count:
         text = joined(talk.language, [talk.say("undo.undone_fewer", count=count), text])
     return dataclasses.replace(_undone(talk, before, text), undone=count)
-
-
-def _asked_for(talk: Talk, before: State) -> str:
-    """What the request is after something was taken back."""
-    if before.request is None:
-        return talk.say("request.nothing_asked")
-    return talk.say("request.asked_for", request=plan_named(before, talk.language))
 
 
 def _no_way_back(talk: Talk, turn: TurnReference) -> Said:
@@ -170,9 +175,8 @@ def _never_applied(state: State) -> bool:
     return state.on_air is None or state.on_air.decision is not run.decision
 
 
-def reset(talk: Talk, act: Forget) -> Reply:
+def reset(talk: Talk, _: Forget) -> Reply:
     """Forget what is asked for; what is in effect stays."""
-    del act
     new = State(on_air=talk.state.on_air, last_good=talk.state.last_good)
     return Reply(changed=talk.say("undo.reset"), stage="undone", state=new)
 
@@ -220,7 +224,7 @@ def _put_back(talk: Talk, reply: Reply, good: Run, station: BaseStation) -> Repl
     talk.site.progress(_applying(talk, station))
     outcome, trouble = talk.site.put_back(good, station)
     told = talk.say("undo.not_put_back", why=trouble) if trouble else _in_effect(talk.say, "undo.put_back", good)
-    back = good if outcome is None else with_outcome(good, outcome)
+    back = good if outcome is None else good.with_outcome(outcome)
     new = dataclasses.replace(
         state, run=back if state.run is good else state.run, planned=None, question=None,
         on_air=None if trouble else back, last_good=state.last_good if trouble else back,
@@ -260,3 +264,75 @@ def _question(good: Run, state: State, language: str) -> Said:
 def _whole(language: str, line: str) -> Said:
     """A line as a sentence of its own."""
     return message(language, "text.sentence", line=line[:1].upper() + line[1:])
+
+
+def _doubted(talk: Talk) -> Reply | None:
+    """What is said to a line that was taken for a yes or for a command to apply and is none; None where it is one."""
+    if talk.pressed:
+        return None
+    if assent(talk.text) == "later":
+        return _left_waiting(talk)
+    if not is_assent(talk.text) or (talk.state.planned is not None and not _follows(talk)):
+        return asked_again(talk)
+    return None
+
+
+def _follows(talk: Talk) -> bool:
+    """Whether a line answers a reply that names the plan; a mere "ok" has to answer the question itself."""
+    last, question = talk.turns[-1] if talk.turns else None, talk.state.question
+    if last is None or any(isinstance(act, Export) for act in last.acts):
+        return False
+    if question is not None and question.offered not in _YES:
+        return False
+    return assent(talk.text) != "mild" or last.stage in ("planned", "asked")
+
+
+def is_about_the_plan(talk: Talk, left: Question) -> bool:
+    """Whether a line that was not understood is about applying the plan that waits."""
+    if talk.state.planned is None:
+        return False
+    return left.offered in _YES or (not left.pending and not left.users and speaks_of_applying(talk.text))
+
+
+def asked_again(talk: Talk) -> Reply:
+    """The question whether to apply what waits, or what was decided and never applied, by its name."""
+    state, run = talk.state, talk.state.planned or talk.state.run
+    if run is None or state.request is None:
+        return nothing_yet(talk)
+    if run is state.on_air:
+        return Reply(decided=talk.say("plan.already"), stage="nothing")
+    fresh = run.outcome is None and run.decision.is_usable and talk.site.station(run) is not None
+    if state.planned is None and not fresh:
+        return Reply(decided=talk.say("plan.nothing_to_confirm"))
+    plan = plan_named(state.request, talk.language)
+    waiting = dataclasses.replace(state, planned=run, question=None)
+    return asked_back(talk.say("ask_back.shall_i_apply", request=plan), waiting)
+
+
+def _left_waiting(talk: Talk) -> Reply:
+    """What waits goes on waiting."""
+    if talk.state.planned is None:
+        return asked_again(talk)
+    needs = talk.say("plan.left_waiting", request=plan_named(talk.state.request, talk.language))
+    return Reply(needs=needs, stage="nothing", state=dataclasses.replace(talk.state, question=None))
+
+
+def naming_the_plan(reply: Reply, talk: Talk, acts: tuple[Act, ...]) -> Reply:
+    """The answer to something else, with the plan that still waits as what it needs; a document stays as it is."""
+    before, after = talk.state, reply.state or talk.state
+    waits = after.planned is not None and after.planned is before.planned and after.question is None
+    whole = any(isinstance(act, Export | AskStatus) for act in acts)
+    if not waits or whole or reply.needs or reply.stage not in ("answered", "nothing"):
+        return reply
+    return dataclasses.replace(
+        reply, needs=talk.say("plan.still_waits", request=plan_named(after.request, talk.language))
+    )
+
+
+REPLIES: Replies = {
+    Apply: apply,
+    Yes: confirm,
+    No: reject,
+    Undo: undo,
+    Forget: reset,
+}

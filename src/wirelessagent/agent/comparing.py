@@ -10,10 +10,10 @@ import numpy as np
 from wirelessagent import plugins
 from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.dialogue import applied
+from wirelessagent.agent.posing import RefusedError
 from wirelessagent.agent.recalling import is_same, no_decision, turn_of
-from wirelessagent.agent.refusing import RefusedError
 from wirelessagent.agent.restating import notes
-from wirelessagent.agent.state import Reply, Talk, asked_back, nothing_yet
+from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
 from wirelessagent.language.acts import Act, Aim, CompareLast, CompareRequests, CompareTools, CompareTurns, Limit
 from wirelessagent.model.units import human, percent, reliability
@@ -26,9 +26,8 @@ from wirelessagent.telling.text_table import Table
 Column = tuple[str, Run]
 
 
-def with_last(talk: Talk, act: CompareLast) -> Reply:
+def with_last(talk: Talk, _: CompareLast) -> Reply:
     """The decision that holds beside the last other one."""
-    del act
     run, language = talk.state.run, talk.language
     if run is None:
         return nothing_yet(talk)
@@ -167,3 +166,11 @@ def _cells(run: Run, language: str) -> dict[str, str]:
         "users_served": str(int(np.count_nonzero(decision.rate_bps > 0))) if usable else "–",
         "promises_missed": missed,
     }
+
+
+REPLIES: Replies = {
+    CompareLast: with_last,
+    CompareTurns: with_turns,
+    CompareTools: with_tools,
+    CompareRequests: with_requests,
+}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import re
 from collections.abc import Iterable, Mapping
@@ -134,12 +135,11 @@ def _after(request: Request | None, act: Act, radiated_w: float) -> Request | No
     if isinstance(act, Forget):
         return None
     if isinstance(act, Aim):
-        held: Mapping[str, Constraint] = {} if request is None else request.constraints
-        return Request(objective=act.objective, constraints=held, method=request and request.method)
+        return dataclasses.replace(request or Request(objective=act.objective), objective=act.objective)
     if request is None:
         return None
     if isinstance(act, Prefer):
-        return Request(objective=request.objective, constraints=request.constraints, method=act.method or None)
+        return dataclasses.replace(request, method=act.method or None)
     figures = figures_of(request.constraints)
     if isinstance(act, Limit):
         _set(figures, act.kind, act.whom, act.value)
@@ -151,7 +151,7 @@ def _after(request: Request | None, act: Act, radiated_w: float) -> Request | No
         _serve(figures, act)
     elif isinstance(act, LeaveOut):
         _leave_out(figures, act.whom)
-    return Request(objective=request.objective, constraints=constraints_of(figures), method=request.method)
+    return dataclasses.replace(request, constraints=constraints_of(figures))
 
 
 def with_the_assumed(request: Request | None) -> Request | None:
@@ -160,8 +160,7 @@ def with_the_assumed(request: Request | None) -> Request | None:
         return request
     if plugins.objective(request.objective).measure != "power":
         return request
-    constraints = {**request.constraints, "min_rate_bps": ASSUMED_MIN_RATE_BPS}
-    return Request(objective=request.objective, constraints=constraints, method=request.method)
+    return dataclasses.replace(request, constraints={**request.constraints, "min_rate_bps": ASSUMED_MIN_RATE_BPS})
 
 
 def _set(figures: dict[Key, float], kind: str, whom: Whom, value: float) -> None:

@@ -1,4 +1,7 @@
-"""From a request in the operator's terms to a problem on a channel: users by name, figures as arrays, limits kept."""
+"""From a request in the operator's terms to a problem on a channel: users by name, figures as arrays, limits kept.
+
+And why a method does not solve a problem, in the operator's language, and which ones do.
+"""
 
 from __future__ import annotations
 
@@ -10,15 +13,16 @@ from typing import Any, cast
 
 import numpy as np
 
-from wirelessagent import plugins
+from wirelessagent import chain, plugins
 from wirelessagent.agent.dialogue import ASSUMED_MIN_RATE_BPS, Request
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
-from wirelessagent.model.errors import InputError, UnclearRequestError
+from wirelessagent.model.errors import InputError, UnclearRequestError, UnsupportedProblemError
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.units import human, reliability
-from wirelessagent.telling.catalogue import Said, called, message
+from wirelessagent.telling.catalogue import Said, called, joined, listed, message
+from wirelessagent.telling.parts import goal_words
 
 ASSUMED_OUTAGE_PROBABILITY = 0.05
 """Accepted where rates are promised and nobody named a probability: promised as estimated, half of them would fail."""
@@ -81,9 +85,9 @@ class _Posing:
         self._check_power()
         self._check_rates()
         self._check_outage()
+        some = bool(self._given.keys() & {*LISTS_OF_USERS})
         served = self._served()
-        users = None if served is None else tuple(self._names[user] for user in served)
-        fields: dict[str, Any] = {"users": users}
+        fields: dict[str, Any] = {"users": tuple(self._names[user] for user in served) if some else None}
         self._check_promised(served)
         for name, value in self._given.items():
             fields[name] = self._by_user(name, value) if name in FIGURES_OF_USERS else value
@@ -124,11 +128,9 @@ class _Posing:
             self._given["outage_probability"] = ASSUMED_OUTAGE_PROBABILITY
             self._note("assumed.outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))
 
-    def _served(self) -> tuple[int, ...] | None:
-        """The users to serve, as indices; None for all."""
+    def _served(self) -> tuple[int, ...]:
+        """The users to serve, as indices."""
         wanted, unwanted = self._given.pop("users", None), self._given.pop("leave_out", None)
-        if wanted is None and unwanted is None:
-            return None
         numbers = set(range(len(self._names))) if wanted is None else self._numbers(wanted)
         numbers -= set[int]() if unwanted is None else self._numbers(unwanted)
         if not numbers:
@@ -153,28 +155,26 @@ class _Posing:
                 figures[self._number(reference)] = figure
         return figures
 
-    def _check_order(self, fields: Mapping[str, Any], served: tuple[int, ...] | None) -> None:
+    def _check_order(self, fields: Mapping[str, Any], served: tuple[int, ...]) -> None:
         """Refuse rates of which the least is above the most, for a user who is served."""
-        count = len(self._names)
-        least = np.broadcast_to(fields.get("min_rate_bps", 0.0), count)
-        most = np.broadcast_to(fields.get("max_rate_bps", np.inf), count)
-        crossed = [user for user in (range(count) if served is None else served) if least[user] > most[user]]
+        least = np.broadcast_to(fields.get("min_rate_bps", 0.0), len(self._names))
+        most = np.broadcast_to(fields.get("max_rate_bps", np.inf), len(self._names))
+        crossed = [user for user in served if least[user] > most[user]]
         if crossed:
             user = crossed[0]
             low, high = (human(float(rate[user]), "bit/s") for rate in (least, most))
             raise UnclearRequestError(self._say("ask_back.rates_crossed", user=self._names[user], low=low, high=high))
 
-    def _check_promised(self, served: tuple[int, ...] | None) -> None:
+    def _check_promised(self, served: tuple[int, ...]) -> None:
         """Refuse a rate that is promised by name to somebody who is not served."""
         promised = self._given.get("min_rate_bps")
-        if served is None or not isinstance(promised, Mapping):
+        if len(served) == len(self._names) or not isinstance(promised, Mapping):
             return
         for reference, rate in promised.items():
             if rate > 0 and reference != EVERYBODY and self._number(reference) not in served:
                 user = called(self._language, self._names[self._number(reference)])
-                raise UnclearRequestError(
-                    message(self._language, "ask_back.promised_and_left_out", user=user, rate=human(rate, "bit/s"))
-                )
+                rate_said = human(rate, "bit/s")
+                raise UnclearRequestError(self._say("ask_back.promised_and_left_out", user=user, rate=rate_said))
 
     def _check_group(self, fields: dict[str, Any]) -> None:
         size = fields.get("resource_block_group_size")
@@ -184,13 +184,11 @@ class _Posing:
             raise UnclearRequestError(self._say("ask_back.whole_groups", size=f"{size:g}"))
         fields["resource_block_group_size"] = int(size)
 
-    def _check_weights(self, fields: Mapping[str, Any], served: tuple[int, ...] | None) -> None:
+    def _check_weights(self, fields: Mapping[str, Any], served: tuple[int, ...]) -> None:
         """Refuse weights that leave nobody to count."""
         if "weights" not in fields:
             return
-        count = len(self._names)
-        weights = np.broadcast_to(fields["weights"], count)[list(range(count) if served is None else served)]
-        if not weights.any():
+        if not np.broadcast_to(fields["weights"], len(self._names))[list(served)].any():
             raise UnclearRequestError(self._say("ask_back.no_weight"))
 
 
@@ -213,3 +211,39 @@ def user_number(reference: str, user_names: tuple[str, ...], language: str = "en
     if figure is None or not 1 <= int(figure[1]) <= len(names):
         raise UnknownUserError(reference, user_names, language)
     return int(figure[1]) - 1, True
+
+
+class RefusedError(UnsupportedProblemError):
+    """A method does not solve a problem; the message says why and what does, in the operator's language."""
+
+    def __init__(self, refusal: UnsupportedProblemError, problem: Problem, method: str | None, language: str) -> None:
+        self.why = refused(method or chain.default_method(problem), problem, language) or str(refusal)
+        super().__init__(joined(language, [self.why, able(problem, language)]).strip())
+
+
+def refused(name: str, problem: Problem, language: str) -> str:
+    """Why a method does not solve a problem; empty where it is not for its objective or its limits."""
+    method, objective = plugins.load("method", name), problem.objective
+    assert not isinstance(objective, str)
+    if method.objectives is not None and objective.name not in method.objectives:
+        return message(language, "refused.objective", name=name, goal=goal_words(objective.name, language))
+    stated: dict[str, Any] = {
+        name: value for name, value in problem.constraints().items() if name != "outage_probability"
+    }
+    surplus = [limit for limit, value in stated.items() if not _solves(name, Problem(objective, **{limit: value}))]
+    limits = message(language, "text.comma").join(message(language, f"limit.{limit}") for limit in surplus)
+    return message(language, "refused.limits", name=name, limits=limits) if limits else ""
+
+
+def able(problem: Problem, language: str) -> str:
+    """The methods that solve a problem, in a sentence; empty where none does."""
+    names = [name for name in plugins.names("method") if _solves(name, problem)]
+    return message(language, "refused.able", methods=listed(language, names)) if names else ""
+
+
+def _solves(name: str, problem: Problem) -> bool:
+    try:
+        chain.check_solvable(problem, name)
+    except UnsupportedProblemError:
+        return False
+    return True

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import datetime
 
-from wirelessagent.agent.state import Reply, Talk, asked_back, nothing_yet
+from wirelessagent.agent.restating import plan_named
+from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.agent.waiting import plan_named
 from wirelessagent.language.acts import AskHistory, AskReasons, AskStatus, Export, TurnReference
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
@@ -91,15 +91,14 @@ def _value(turn: Turn) -> str:
     return human(turn.run.decision.value, turn.run.decision.unit)
 
 
-def status(talk: Talk, act: AskStatus) -> Reply:
+def status(talk: Talk, _: AskStatus) -> Reply:
     """What is asked for, what was decided, and what is in effect."""
-    del act
     site, state = talk.site, talk.state
     if state.request is None and state.on_air is None and not site.touched:
         return Reply(decided=talk.say("in_effect.none"))
     said: list[str] = []
     if state.request is not None:
-        said.append(talk.say("request.asked_for", request=plan_named(state, talk.language)))
+        said.append(talk.say("request.asked_for", request=plan_named(state.request, talk.language)))
     if state.run is not None:
         line = certificate_line(state.run.decision, talk.language)
         said.append(talk.say("in_effect.decided", certificate=line))
@@ -168,3 +167,11 @@ def _in_effect_before(turn: Turn, turns: Sequence[Turn]) -> Outcome | None:
         elif earlier.stage == "applied" and earlier.run is not None:
             found = earlier.run.outcome
     return found
+
+
+REPLIES: Replies = {
+    AskReasons: reasons,
+    AskHistory: history,
+    AskStatus: status,
+    Export: export,
+}

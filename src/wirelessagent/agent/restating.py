@@ -27,6 +27,12 @@ def restated(request: Request, language: str = "en") -> str:
     return message(language, "request.whole" if limits else "request.aim_alone", goal=said, limits=limits)
 
 
+def plan_named(request: Request | None, language: str) -> str:
+    """What is asked for, as a part of a sentence."""
+    plan = "–" if request is None else restated(request, language).rstrip(".。")
+    return plan[:1].lower() + plan[1:]
+
+
 def notes(run: Run, *, noted: bool, before: Sequence[str] = ()) -> list[str]:
     """The notes of a run as sentences, without those of ``before`` and, where it was ``noted``, without the 95 %."""
     language = run.intent.language

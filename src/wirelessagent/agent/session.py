@@ -20,49 +20,21 @@ from typing import Any, Protocol, cast
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent import asking, changing, comparing, recalling, supposing, waiting
+from wirelessagent.agent import asking, changing, comparing, recalling, supposing
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.dialogue import Request, difference, stated_by
 from wirelessagent.agent.events import Event, Progress, silent
-from wirelessagent.agent.posing import UnknownUserError, user_number
-from wirelessagent.agent.refusing import RefusedError
+from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
 from wirelessagent.agent.restating import noted_after
-from wirelessagent.agent.run import Decide, decided, station_of
-from wirelessagent.agent.site import Site
-from wirelessagent.agent.state import Missing, Question, Reply, State, Talk, asked_back
-from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Lines, Run, Turn, shift_between
-from wirelessagent.language.acts import (
-    Act,
-    Aim,
-    Apply,
-    Ask,
-    AskHelp,
-    AskHistory,
-    AskMeaning,
-    AskMethods,
-    AskMost,
-    AskOtherChannel,
-    AskPower,
-    AskReasons,
-    AskStatus,
-    CompareLast,
-    CompareRequests,
-    CompareTools,
-    CompareTurns,
-    Export,
-    Forget,
-    No,
-    Press,
-    Suppose,
-    Undo,
-    Yes,
-    with_another,
-)
+from wirelessagent.agent.site import Decide, Site, decided, station_of
+from wirelessagent.agent.state import Reply, State, Talk, asked_back
+from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
+from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Press, Suppose, Undo, Yes, with_another
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import unanswered, understood
-from wirelessagent.language.conversation.fragments import named_alone
+from wirelessagent.language.conversation.amendments import Missing, Question
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.references import named_alone
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
 from wirelessagent.language.mentions import mentions
@@ -83,30 +55,9 @@ _USER = re.compile(
 _NOTE = re.compile(r"[(（][^()（）]+[)）]$")
 """What a recogniser says of itself at the end of a reply."""
 
-_REPLIES: Mapping[type[Act], Callable[[Talk, Any], Reply]] = {
-    Apply: changing.apply,
-    Yes: changing.confirm,
-    No: changing.reject,
-    Undo: changing.undo,
-    Forget: changing.reset,
-    Suppose: supposing.what_if,
-    AskMost: supposing.what_if,
-    AskPower: supposing.needed_power,
-    AskOtherChannel: supposing.other_channel,
-    CompareLast: comparing.with_last,
-    CompareTurns: comparing.with_turns,
-    CompareTools: comparing.with_tools,
-    CompareRequests: comparing.with_requests,
-    AskReasons: recalling.reasons,
-    AskHistory: recalling.history,
-    AskStatus: recalling.status,
-    Export: recalling.export,
-    AskHelp: asking.help_with,
-    AskMeaning: asking.meaning,
-    AskMethods: asking.methods,
-    **dict.fromkeys(asking.ABOUT_THE_DECISION, asking.about_the_decision),
-}
-"""What becomes of a question or a command, by its kind."""
+_REPLIES = {
+    **changing.REPLIES, **supposing.REPLIES, **comparing.REPLIES, **recalling.REPLIES, **asking.REPLIES,
+}  # fmt: skip
 
 _BUTTONS: Mapping[Press, tuple[str, Act]] = {
     "yes": ("confirm", Yes()), "no": ("reject", No()), "undo": ("undo", Undo()),
@@ -204,7 +155,7 @@ class Session:
         Where a button was ``pressed``, that is what is meant; nothing is read in the text and nothing doubted.
         """
         self._by, self._pressed = by, pressed
-        context, before = self._context(), self._state
+        context = self._context()
         if pressed is None:
             intent = self._taken(self._answered(text, context) or understood(text, context, self._recogniser))
         else:
@@ -222,20 +173,20 @@ class Session:
             pressed=pressed is not None,
         )  # fmt: skip
         try:
-            reply = waiting.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
-            self._take(reply, intent)
+            reply = changing.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
+            self._take(talk, reply)
         except BaseException:  # an interruption too: the base station may have it, or a part of it
             if self._site.telling is not None:
-                broken_off = self._broken_off(self._site.telling, intent)
-                self._take(broken_off, intent)
-                self._kept(text, intent, broken_off, before)
+                reply = self._broken_off(talk, self._site.telling)
+                self._take(talk, reply)
+                self._kept(talk, reply)
             raise
-        return self._kept(text, intent, reply, before)
+        return self._kept(talk, reply)
 
-    def _broken_off(self, run: Run, intent: Intent) -> Reply:
+    def _broken_off(self, talk: Talk, run: Run) -> Reply:
         """What holds where something ended a turn after the base station was told a run."""
         unknown = dataclasses.replace(self._state.settled, on_air=None)
-        return Reply(changed=message(intent.language, "station.broken_off"), stage="nothing", state=unknown, run=run)
+        return Reply(changed=talk.say("station.broken_off"), stage="nothing", state=unknown, run=run)
 
     def _context(self) -> Context:
         state, request, supposed = self._state, self._state.request, self._state.supposed
@@ -286,7 +237,7 @@ class Session:
         """What the intent leads to; what cannot be done becomes a reply, and changes nothing."""
         intent = talk.intent
         try:
-            return _with_tables(_handled(talk, context), intent.language)
+            return _with_tables(_handled(talk, context), talk.language)
         except UnclearRequestError as question:
             reference = question.reference if isinstance(question, UnknownUserError) else None
             missing = None if reference is None else Missing(intent=intent, reference=reference)
@@ -297,12 +248,12 @@ class Session:
             if self._raises:
                 raise
             if isinstance(error, RefusedError):
-                why, changed = str(error), message(intent.language, "plan.nothing_changed")
-                return Reply(decided=why, changed=changed, stage="nothing", error=error)
+                changed = talk.say("plan.nothing_changed")
+                return Reply(decided=str(error), changed=changed, stage="nothing", error=error)
             key = "refused.unsupported" if isinstance(error, UnsupportedProblemError) else "refused.failed"
-            return Reply(decided=message(intent.language, key, why=error), stage="nothing", error=error)
+            return Reply(decided=talk.say(key, why=error), stage="nothing", error=error)
 
-    def _take(self, reply: Reply, intent: Intent) -> None:
+    def _take(self, talk: Talk, reply: Reply) -> None:
         """Let what the reply brought hold, and remember what held before another request."""
         self._site.telling = None
         before, new = self._state, reply.state
@@ -312,23 +263,24 @@ class Session:
             del self._past[-reply.undone :]
         elif new.request != before.request:
             self._past.append(before.settled)
-            new = dataclasses.replace(new, stated=_stated(new, before, intent))
-        noted = noted_after(reply.run, noted=before.noted, requested=intent.kind == "allocate")
+            new = dataclasses.replace(new, stated=_stated(new, before, talk.intent))
+        noted = noted_after(reply.run, noted=before.noted, requested=talk.intent.kind == "allocate")
         self._state = dataclasses.replace(new, noted=noted)
         self._requests.append(new.request)
 
-    def _kept(self, text: str, intent: Intent, reply: Reply, before: State) -> Turn:
+    def _kept(self, talk: Talk, reply: Reply) -> Turn:
         """The turn, remembered and stored; a store that fails is told of and stops nothing."""
+        intent, before, after = talk.intent, talk.state, self._state
         lines = Lines(decided=reply.decided, changed=reply.changed, needs=reply.needs)
         by_another = intent.recogniser not in (self._recogniser.name, READ_HERE)
         if by_another and not (intent.reply and intent.reply in str(lines)):
             lines = lines.ending_with(_read_by(intent), intent.language)
-        after, run = self._state, reply.run if reply.stage != "answered" else None
+        run = reply.run if reply.stage != "answered" else None
         then, now = before.run and before.run.decision, run and run.decision
         turn = Turn(
             number=len(self._turns) + 1,
             session=self.id,
-            text=text,
+            text=talk.text,
             intent=intent,
             lines=lines,
             stage=reply.stage,
@@ -350,7 +302,7 @@ class Session:
             try:
                 self._store.append(turn)
             except WirelessAgentError as error:
-                told = lines.ending_with(message(intent.language, "stage.not_recorded", why=error), intent.language)
+                told = lines.ending_with(talk.say("stage.not_recorded", why=error), talk.language)
                 turn = dataclasses.replace(turn, lines=told)
         self._turns.append(turn)
         return turn
@@ -420,9 +372,7 @@ def _handled(talk: Talk, context: Context) -> Reply:
         return _open_question(talk, context)
     if intent.kind == "out_of_scope":
         return Reply(decided=intent.reply)
-    act = acts[0]
-    doubt = waiting.doubted(talk, act) if isinstance(act, Apply | Yes) and not talk.pressed else None
-    return doubt or _REPLIES[type(act)](talk, act)
+    return _REPLIES[type(acts[0])](talk, acts[0])
 
 
 def _with_tables(reply: Reply, language: str) -> Reply:
@@ -438,11 +388,9 @@ def _open_question(talk: Talk, context: Context) -> Reply:
     intent = talk.intent
     _check_users(intent, talk.site.user_names)
     left = unanswered(talk.text, intent, context)
-    if waiting.is_about_the_plan(talk, left):
-        return waiting.asked_again(talk)
-    question = Question(guess=intent.guess) if intent.guess is not None else Question(
-        pending=left.pending, objective=left.objective, users=left.users, offered=left.offered
-    )  # fmt: skip
+    if changing.is_about_the_plan(talk, left):
+        return changing.asked_again(talk)
+    question = left if intent.guess is None else Question(guess=intent.guess)
     return asked_back(intent.reply, dataclasses.replace(talk.state, planned=None, question=question))
 
 

@@ -1,27 +1,110 @@
-"""The cell that a conversation is about: what is seen of its channel, how decisions are made, and its base station."""
+"""The cell that a conversation is about: what is seen of its channel, how decisions are made, and its base station.
+
+The chain from an intent to a decision and back: sense, repair, decide, report, explain, act.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import dataclasses
 from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias, cast
 
-from wirelessagent import chain
+from wirelessagent import chain, plugins
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent import acting
 from wirelessagent.agent.dialogue import Request
-from wirelessagent.agent.events import Event, Progress
-from wirelessagent.agent.posing import ABOVE_THE_LIMIT, pose
-from wirelessagent.agent.refusing import RefusedError
-from wirelessagent.agent.run import Decide, Sight, decided, look, plan, station_of, with_outcome
-from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Run
+from wirelessagent.agent.events import Event, Progress, silent
+from wirelessagent.agent.posing import ABOVE_THE_LIMIT, Posed, RefusedError, pose
+from wirelessagent.agent.turn import Run, Tools
 from wirelessagent.language.intent import Intent
+from wirelessagent.model.cell import Cell
+from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError, UnsupportedProblemError
+from wirelessagent.model.estimate import ChannelEstimate
+from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
+from wirelessagent.model.problem import Problem
 from wirelessagent.model.scene import Loss, Scene
+from wirelessagent.model.units import percent
 from wirelessagent.sensing.loss import random
+from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.certificates import decided_line
+from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.report import report
+
+Decide: TypeAlias = Callable[[ChannelEstimate, Problem, Cell, Tools], Decision]
+"""What decides."""
+
+
+def decided(estimate: ChannelEstimate, problem: Problem, cell: Cell, tools: Tools) -> Decision:
+    """The decision of the method that the tools name."""
+    return chain.decide(estimate, problem, cell, tools.method, **tools.method_options)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sight:
+    """What is known of a scene's channel: what was seen, and what was made of it."""
+
+    scene: Scene
+    observation: ChannelObservation
+    estimate: ChannelEstimate
+
+
+def look(
+    scene: Scene, losses: Sequence[Loss], seed: int, tools: Tools, *, language: str = "en", progress: Progress = silent
+) -> Sight:
+    """Observe a scene, with what ``losses`` leave of it, and repair what is missing."""
+    seen = scene.observe(*losses, seed=seed)
+    progress(Event(stage="sense", message=describe(seen, language), language=language))
+    estimate = chain.repair(seen, tools.repairer, **tools.repairer_options)
+    missing = int(seen.missing.sum())
+    repaired = message(
+        language, "stage.repaired" if missing else "stage.complete", missing=missing, method=estimate.method
+    )
+    progress(Event(stage="repair", message=repaired, language=language))
+    return Sight(scene=scene, observation=seen, estimate=estimate)
+
+
+def describe(seen: ChannelObservation, language: str = "en") -> str:
+    """The size of an observation and what is missing, in one sentence."""
+    missing = int(seen.missing.sum())
+    history = message(language, "stage.slots", slots=seen.num_slots) if seen.num_slots > 1 else ""
+    return message(
+        language, "stage.sensed", users=seen.num_users, subcarriers=seen.num_subcarriers, history=history,
+        missing=missing, entries=seen.missing.size, share=percent(missing / seen.missing.size),
+    )  # fmt: skip
+
+
+def plan(
+    intent: Intent, posed: Posed, sight: Sight, tools: Tools, *, decide: Decide = decided, progress: Progress = silent
+) -> Run:
+    """Decide on what was posed; nothing is applied."""
+    decision = decide(sight.estimate, posed.problem, posed.cell, tools)
+    progress(Event(stage="decide", message=decided_line(decision, intent.language), language=intent.language))
+    made = report(decision)
+    return Run(
+        intent=intent,
+        scene=dataclasses.replace(sight.scene, cell=posed.cell),
+        observation=sight.observation,
+        estimate=sight.estimate,
+        decision=decision,
+        outcome=None,
+        report=made,
+        notes=posed.notes,
+        explanation=tuple(explain(sight.estimate, made, language=intent.language)),
+        tools=tools,
+    )
+
+
+def station_of(tools: Tools, scene: Scene) -> BaseStation | None:
+    """The base station that is named, else a simulated one where the true channel is known; else None."""
+    name = tools.base_station or ("simulated" if scene.truth is not None else None)
+    if name is None:
+        return None
+    return cast(BaseStation, plugins.create("base_station", name, tools.base_station_options, scene))
 
 
 class Site:
@@ -138,7 +221,7 @@ class Site:
         """A run with what it would achieve, where the true channel is known; nothing is applied."""
         if run.outcome is not None or run.scene.truth is None or not run.decision.is_usable:
             return run
-        return with_outcome(run, SimulatedBaseStation(run.scene).apply(run.decision))
+        return run.with_outcome(SimulatedBaseStation(run.scene).apply(run.decision))
 
     def with_tools(self, **changes: str | None) -> Tools:
         """The tools with others of a kind, at their own defaults."""

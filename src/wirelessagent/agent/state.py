@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any, TypeAlias
 
 from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Run, Stage, Turn
 from wirelessagent.language.acts import Act
+from wirelessagent.language.conversation.amendments import Question
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.language.recogniser import Awaited
 from wirelessagent.model.errors import WirelessAgentError
@@ -17,35 +19,6 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Plain
 from wirelessagent.telling.catalogue import Said, message
 from wirelessagent.telling.text_table import Table
-
-
-@dataclass(frozen=True, kw_only=True)
-class Missing:
-    """A question back about a user: the intent that waits, and whom it names that is not there ("" for nobody)."""
-
-    intent: Intent
-    reference: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class Question:
-    """A question back that is open, and what was understood before it.
-
-    Attributes:
-        pending: constraints.
-        objective: the aim that was named; None where none was.
-        users: users who were named, and of whom nothing was understood.
-        offered: the objective or the command that a yes means; None where it is no question of yes or no.
-        guess: what a yes carries out; None where it is no question of yes or no.
-        missing: the user who is not there, where the question is about one.
-    """
-
-    pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
-    objective: str | None = None
-    users: tuple[str, ...] = ()
-    offered: str | None = None
-    guess: Intent | None = None
-    missing: Missing | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -157,6 +130,10 @@ class Reply:
     undone: int = 0
     error: WirelessAgentError | None = None
     faulty: bool = False
+
+
+Replies: TypeAlias = Mapping[type[Act], Callable[[Talk, Any], Reply]]
+"""What becomes of a question or a command, by the kind of its act."""
 
 
 def asked_back(question: str, state: State | None = None) -> Reply:

@@ -8,13 +8,11 @@ import numpy as np
 
 from wirelessagent.agent.comparing import side_by_side
 from wirelessagent.agent.dialogue import Request, applied
-from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, user_number
-from wirelessagent.agent.refusing import RefusedError
-from wirelessagent.agent.restating import notes, restated
-from wirelessagent.agent.run import Sight
-from wirelessagent.agent.state import Reply, Talk, asked_back, nothing_yet
+from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
+from wirelessagent.agent.restating import notes, plan_named, restated
+from wirelessagent.agent.site import Sight
+from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
-from wirelessagent.agent.waiting import plan_named
 from wirelessagent.language.acts import Act, Aim, AskMost, AskOtherChannel, AskPower, Limit, Suppose
 from wirelessagent.language.intent import Constraint
 from wirelessagent.model.decision import Decision
@@ -22,8 +20,7 @@ from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import called, joined, message
 from wirelessagent.telling.facts.nearest import more_power, nearest
 from wirelessagent.telling.parts import cannot_be_served, outcome_in_words, value_name
-from wirelessagent.telling.reasons import BEYOND_W, reason_in_words
-from wirelessagent.telling.remedies import nearest_answer
+from wirelessagent.telling.reasons import BEYOND_W, nearest_answer, reason_in_words
 
 _SAME = 1e-6
 """A share of the power that nobody sees."""
@@ -32,9 +29,8 @@ _OTHER_AIMS = ("weights", "max_rate_bps", "max_power_w")
 """What the least power knows nothing of, or is asked for instead of."""
 
 
-def other_channel(talk: Talk, act: AskOtherChannel) -> Reply:
+def other_channel(talk: Talk, _: AskOtherChannel) -> Reply:
     """The channel is as it was sensed."""
-    del act
     return asked_back(talk.say("ask_back.channel_given"))
 
 
@@ -90,7 +86,7 @@ def _left_open(talk: Talk, reply: Reply, supposed: Request | None) -> Reply:
     state, needs = talk.state, ""
     if state.planned is not None and state.request is not None:
         key = "plan.still_waits" if supposed is None else "plan.or_what_if"
-        needs = talk.say(key, request=plan_named(state, talk.language))
+        needs = talk.say(key, request=plan_named(state.request, talk.language))
     after = dataclasses.replace(state, question=None, supposed=supposed)
     return dataclasses.replace(reply, changed=talk.say("plan.nothing_changed"), needs=needs, state=after)
 
@@ -244,3 +240,11 @@ def _of_the_aim(talk: Talk, act: AskPower, request: Request, enough_w: float, po
 def _limited(act: AskPower, power_w: float) -> Suppose:
     """The what-if of a budget beside what else is asked about."""
     return Suppose(acts=(*act.acts, Limit(kind="max_power_w", value=power_w)))
+
+
+REPLIES: Replies = {
+    Suppose: what_if,
+    AskMost: what_if,
+    AskPower: needed_power,
+    AskOtherChannel: other_channel,
+}

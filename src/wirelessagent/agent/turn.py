@@ -10,7 +10,6 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from wirelessagent.agent.dialogue import Diff
-from wirelessagent.agent.tools import Tools
 from wirelessagent.language.acts import Act, Press
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import acts_of
@@ -24,14 +23,27 @@ from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.telling.catalogue import joined, lines_of
 from wirelessagent.telling.certificates import certificate_line, summary_line
+from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.report import Report
+from wirelessagent.telling.report import Report, report
 from wirelessagent.telling.text_table import Table
 
 Stage: TypeAlias = Literal["answered", "asked", "planned", "applied", "reverted", "undone", "nothing"]
 """What a turn came to: answered (a question; nothing was to be applied), asked (a question back), planned (a decision
 that waits to be applied), applied, reverted (applied, found worse than promised and taken back), undone, or nothing
 (what was wanted is so already, or cannot be done)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tools:
+    """Plug-ins by name, and their options; None leaves the choice to the chain."""
+
+    repairer: str | None = None
+    repairer_options: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    method: str | None = None
+    method_options: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    base_station: str | None = None
+    base_station_options: Mapping[str, Any] = field(default_factory=dict[str, Any])
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -69,6 +81,12 @@ class Run(Shown):
         return Case(
             decision=self.decision, estimate=self.estimate, method=tools.method, options=tools.method_options
         )  # fmt: skip
+
+    def with_outcome(self, outcome: Outcome | None) -> Run:
+        """The run after the base station did something, with its report and its explanation."""
+        made = report(self.decision, outcome)
+        explained = explain(self.estimate, made, language=self.intent.language)
+        return dataclasses.replace(self, outcome=outcome, report=made, explanation=tuple(explained))
 
     def __str__(self) -> str:
         line = certificate_line(self.decision, self.intent.language)

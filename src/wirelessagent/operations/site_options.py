@@ -64,7 +64,7 @@ class SiteOptions(RecogniserOption, MethodOptions, RepairerOptions, CellOptions)
         """A conversation about the cell that was not begun yet; ``settings`` of the session win over the options."""
         from wirelessagent.agent.acting import TOLERANCE
         from wirelessagent.agent.session import Session
-        from wirelessagent.agent.tools import Tools
+        from wirelessagent.agent.turn import Tools
 
         options: dict[str, Any] = {
             "seed": self.seed,

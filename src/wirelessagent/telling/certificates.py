@@ -9,8 +9,7 @@ from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human, percent, probability, reliability
 from wirelessagent.telling.catalogue import called, joined, listed, message
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.certainty import Certainty, certainty
-from wirelessagent.telling.facts.proof import Certificate, basis, certificate
+from wirelessagent.telling.facts.proof import Certainty, Certificate, basis, certainty, certificate
 from wirelessagent.telling.parts import cannot_be_served, goal_named, outcome_in_words, place
 from wirelessagent.telling.reasons import reason_in_words
 

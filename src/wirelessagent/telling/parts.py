@@ -62,27 +62,27 @@ def outcome_in_words(decision: Decision, language: str) -> str:
 
 def without_anything(decision: Decision, language: str) -> str:
     """How many users get nothing though they count, where no promise was asked for them; empty where none is."""
-    objective = decision.problem.objective
-    count = decision.rate_bps.size
-    if not isinstance(objective, Objective) or objective.measure == "power" or not decision.is_usable:
+    idle, users = _idle(decision)
+    if not idle or decision.value == 0 or not decision.is_usable:
         return ""
-    counts = decision.problem.weights_of(count) > 0
-    idle = int(np.count_nonzero(counts & (decision.rate_bps <= 0)))
-    if not idle or decision.value == 0:
-        return ""
-    return message(language, "decision.without_anything", idle=idle, users=int(np.count_nonzero(counts)))
+    return message(language, "decision.without_anything", idle=idle, users=users)
 
 
 def cannot_be_served(decision: Decision, language: str = "en") -> str:
     """How many users get no rate, where that makes the decision worthless; empty where it does not."""
-    objective = decision.problem.objective
-    if decision.value != 0 or not isinstance(objective, Objective) or objective.measure == "power":
+    starved, users = _idle(decision)
+    if not starved or decision.value != 0:
         return ""
-    counts = decision.problem.weights_of(decision.rate_bps.size) > 0
-    starved = np.flatnonzero(counts & (decision.rate_bps <= 0))
-    if not starved.size:
-        return ""
-    users, size = int(np.count_nonzero(counts)), decision.problem.resource_block_group_size
+    size = decision.problem.resource_block_group_size
     places, kind = -(-decision.owner.size // size), "part.subcarriers" if size == 1 else "part.resource_block_groups"
     key = "decision.cannot_serve_places" if places < users else "decision.cannot_serve"
-    return message(language, key, left=starved.size, users=users, places=places, kind=message(language, kind))
+    return message(language, key, left=starved, users=users, places=places, kind=message(language, kind))
+
+
+def _idle(decision: Decision) -> tuple[int, int]:
+    """How many of those whose rate counts get none, and how many count; none of none where the power is to be least."""
+    objective = decision.problem.objective
+    if not isinstance(objective, Objective) or objective.measure == "power":
+        return 0, 0
+    counts = decision.problem.weights_of(decision.rate_bps.size) > 0
+    return int(np.count_nonzero(counts & (decision.rate_bps <= 0))), int(np.count_nonzero(counts))

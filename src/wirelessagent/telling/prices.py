@@ -20,18 +20,24 @@ def prices_answer(case: Case, prices: MarginalPrices, language: str) -> str:
     """The prices of power and of the dearest promise."""
     figure = value_name(case.decision, language)
     said = [_power_price(case, prices, figure, language)]
-    cost = np.abs(np.where(case.promised_bps > 0, prices.rate, 0.0))
-    if np.nanmax(cost, initial=0.0) > 0:
-        dearest = int(np.nanargmax(cost))
-        price = human(float(cost[dearest]) * _STEP_BPS, case.decision.unit)
-        direction = message(language, "step.up" if prices.rate[dearest] > 0 else "step.down")
-        user = called(language, case.estimate.user_names[dearest])
-        said.append(message(language, "price.dearest", user=user, direction=direction, figure=figure, price=price))
+    dearest = _dearest(case, prices)
+    if dearest is not None:
+        user, price = dearest
+        direction = message(language, "step.up" if prices.rate[user] > 0 else "step.down")
+        name = called(language, case.estimate.user_names[user])
+        said.append(message(language, "price.dearest", user=name, direction=direction, figure=figure, price=price))
     elif case.promised_bps.any():
         said.append(message(language, "price.free"))
     if case.objective.measure != "power" and prices.power > 0:
         said.append(message(language, "price.slopes"))
     return joined(language, said)
+
+
+def _dearest(case: Case, prices: MarginalPrices) -> tuple[int, str] | None:
+    """Whose promise costs most, and what 100 kbit/s more of it would cost; None where none costs anything."""
+    cost = np.nan_to_num(np.abs(np.where(case.promised_bps > 0, prices.rate, 0.0)))
+    user = int(cost.argmax())
+    return (user, human(float(cost[user]) * _STEP_BPS, case.decision.unit)) if cost[user] > 0 else None
 
 
 def _power_price(case: Case, prices: MarginalPrices, figure: str, language: str) -> str:
@@ -97,18 +103,15 @@ def _power_held(case: Case, prices: MarginalPrices, language: str) -> list[str]:
 
 
 def _promise(case: Case, prices: MarginalPrices, language: str) -> list[str]:
-    cost = np.nan_to_num(np.abs(np.where(case.promised_bps > 0, prices.rate, 0.0)))
-    if not cost.any():
+    dearest = _dearest(case, prices)
+    if dearest is None:
         return []
-    dearest = int(cost.argmax())
-    price, name = human(float(cost[dearest]) * _STEP_BPS, case.decision.unit), case.estimate.user_names[dearest]
-    return [message(language, "hindrance.promise", name=name, figure=value_name(case.decision, language), price=price)]
+    name, figure = case.estimate.user_names[dearest[0]], value_name(case.decision, language)
+    return [message(language, "hindrance.promise", name=name, figure=figure, price=dearest[1])]
 
 
 def _most_power(case: Case, language: str) -> list[str]:
-    decision = case.decision
-    used = decision.power_w > 0
-    spent = np.bincount(decision.owner[used], weights=decision.power_w[used], minlength=case.num_users)
+    spent = case.spent_w
     if np.count_nonzero(spent) < 2:
         return []
     user = int(spent.argmax())

@@ -135,10 +135,13 @@ class Report(Shown):
 
     _derived: ClassVar[tuple[str, ...]] = ("regret", "goodput_regret")
 
+    @property
+    def _head(self) -> tuple[str, ...]:
+        return ("", "predicted", "achieved", *([] if self.perfect is None else ["all gains known"]))
+
     def summary(self) -> Summary:
-        header = ("", "predicted", "achieved", *([] if self.perfect is None else ["all gains known"]))
         title = f"Report: {self._missed() or f'a decision that is {self.decision.status}'}"
-        return Summary(title=title, header=header, rows=tuple(self.figures()))
+        return Summary(title=title, header=self._head, rows=tuple(self.figures()))
 
     def picture(self) -> Picture:
         parts = {"decision": self.decision, "achieved": self.achieved, "missed_users": self.missed_users}
@@ -167,8 +170,8 @@ class Report(Shown):
         return f"{len(self.missed_users)} of {served} served users missed {rate}"
 
     def __str__(self) -> str:
-        head = ("", "predicted", "achieved", *([] if self.perfect is None else ["all gains known"]))
-        lines = [f"{label:22}" + "".join(f" {one:>16}" for one in rest) for label, *rest in (head, *self.figures())]
+        rows = (self._head, *self.figures())
+        lines = [f"{label:22}" + "".join(f" {one:>16}" for one in rest) for label, *rest in rows]
         return "\n".join([*lines, *filter(None, [self._missed()])])
 
 

@@ -76,7 +76,7 @@ def _further(case: Case, users: IntArray, of: str, language: str) -> str:
     user, decision = int(users[0]), case.decision
     return message(
         language, f"roster.further_{of}", total=decision.owner.size, rate=human(float(case.rate_bps[user]), "bit/s"),
-        power=human(float(_sizes(case, "power")[user]), "W"), count=int(_sizes(case, "subcarriers")[user]),
+        power=human(float(case.spent_w[user]), "W"), count=int(_sizes(case, "subcarriers")[user]),
     )  # fmt: skip
 
 
@@ -84,12 +84,12 @@ def subcarriers_answer(case: Case, user: int | None, language: str) -> str:
     """The subcarriers of a user, or of everybody."""
     decision, total = case.decision, case.decision.owner.size
     if user is not None:
-        name, own = called(language, case.estimate.user_names[user]), _own(case, user)
+        name, own = called(language, case.estimate.user_names[user]), np.flatnonzero(case.own(user))
         key = "roster.has" if own.size else "roster.has_none"
         return message(language, key, name=name, count=own.size, total=total, places=_places(own, language))
     rows = [message(language, "roster.all", total=total)]
     for each in range(case.num_users):
-        own, name = _own(case, each), called(language, case.estimate.user_names[each])
+        own, name = np.flatnonzero(case.own(each)), called(language, case.estimate.user_names[each])
         if own.size:
             rows.append(message(language, "roster.row", name=name, places=_places(own, language), count=own.size))
     free = np.flatnonzero(decision.power_w <= 0)
@@ -110,18 +110,11 @@ def owner_answer(case: Case, place: int, language: str) -> str:
     return message(language, "roster.owner", place=place, name=name, power=human(power, "W"))
 
 
-def _own(case: Case, user: int) -> IntArray:
-    return np.flatnonzero((case.decision.owner == user) & (case.decision.power_w > 0))
-
-
 def _sizes(case: Case, of: str) -> FloatArray:
     """What each user has, in bit/s, W or subcarriers, shape (user,)."""
-    decision = case.decision
-    if of == "rate":
-        return case.rate_bps
-    used = decision.power_w > 0
-    weights = decision.power_w[used] if of == "power" else np.ones(int(used.sum()))
-    return np.asarray(np.bincount(decision.owner[used], weights=weights, minlength=case.num_users), dtype=np.float64)
+    if of == "subcarriers":
+        return np.array([np.count_nonzero(case.own(user)) for user in range(case.num_users)], dtype=np.float64)
+    return case.rate_bps if of == "rate" else case.spent_w
 
 
 def _size(value: float, of: str) -> str:
@@ -198,7 +191,7 @@ def _over_all(case: Case, user: int, language: str) -> str:
     ]
     if not decision.is_usable:
         return joined(language, said)
-    own: IntArray = np.flatnonzero((decision.owner == user) & (decision.power_w > 0))
+    own: IntArray = np.flatnonzero(case.own(user))
     if not own.size:
         return joined(language, [*said, message(language, "gain.snr_none", best=_snr_db(case, gain.max(), 1.0))])
     snr: FloatArray = np.array([_snr_db(case, gain[each], float(decision.power_w[each])) for each in own])

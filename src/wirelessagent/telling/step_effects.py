@@ -7,8 +7,16 @@ import numpy as np
 from wirelessagent.model.units import human, percent
 from wirelessagent.telling.catalogue import called, joined, message
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.reach import Reach, for_the_total, has_reach, kept_by, reach
-from wirelessagent.telling.facts.steps import Step, power_step, rate_step
+from wirelessagent.telling.facts.steps import (
+    Reach,
+    Step,
+    for_the_total,
+    has_reach,
+    kept_by,
+    power_step,
+    rate_step,
+    reach,
+)  # fmt: skip
 from wirelessagent.telling.parts import outcome_in_words, value_name
 from wirelessagent.telling.reasons import reason_in_words
 
@@ -48,11 +56,6 @@ def more_answer(
     return message(language, "step.no_power", step=human(-step_w, "W"), before=budget)
 
 
-def _stepped(case: Case, step: Step, language: str) -> str:
-    usable = step.before.is_usable and step.after.is_usable
-    return step_answer(case, step, kept_by(case, step) if usable else None, language)
-
-
 def _more_rate(case: Case, language: str, rate_bps: float | None, share: float | None) -> str:
     """What more rate takes where nobody says whose: of the value where that is one, else of the promises and in all."""
 
@@ -71,38 +74,37 @@ def _more_rate(case: Case, language: str, rate_bps: float | None, share: float |
     return joined(language, said)
 
 
-def _more(case: Case, now: float, step: float, spent_w: float, language: str) -> str:
-    found = reach(case, now + step) if now + step > 0 else None
-    return _reach_answer(case, found, now, step, spent_w, language)
+def _stepped(case: Case, step: Step, language: str) -> str:
+    usable = step.before.is_usable and step.after.is_usable
+    return step_answer(case, step, kept_by(case, step) if usable else None, language)
 
 
 def step_answer(case: Case, step: Step, kept: Reach | None, language: str) -> str:
     """What a step changes, and what power would keep the value, in a paragraph."""
-    before, after = step.before, step.after
     said: list[str] = []
-    if not (before.is_usable and after.is_usable):
+    if not (step.before.is_usable and step.after.is_usable):
         said.append(_unmet(case, step, language))
-    elif step.of_power:
-        said.append(_power(case, step, language))
     else:
-        change = change_in_words(case, step, language)
-        said.append(message(language, "step.rate", who=_who(case, step, language), level=_level(step), change=change))
-    if before.is_usable and after.is_usable:
+        if step.of_power:
+            said.append(_power(case, step, language))
+        else:
+            change, who = change_in_words(case, step, language), _who(case, step, language)
+            said.append(message(language, "step.rate", who=who, level=_level(step), change=change))
         budget = case.problem.budget_w(case.cell)
         said += [] if kept is None else [_reached(case, kept, "step.kept", language, before_w=budget)]
         said += _bound(case, step, language)
-    if after.is_usable and not np.isnan(step.limit_w):
+    if step.after.is_usable and not np.isnan(step.limit_w):
         said.append(message(language, "step.limit", limit=human(step.limit_w, "W")))
     return joined(language, said)
 
 
-def _reach_answer(case: Case, found: Reach | None, now: float, step: float, spent_w: float, language: str) -> str:
-    """What power it takes that a value is larger by ``step``, or what a smaller one saves; None if nothing is left."""
+def _more(case: Case, now: float, step: float, spent_w: float, language: str) -> str:
+    """What power it takes that a value is larger by ``step``, or what a smaller one saves."""
     unit, figure = case.decision.unit, value_name(case.decision, language)
     more = message(language, "step.rate_more" if step > 0 else "step.rate_less", step=human(abs(step), unit))
-    if found is None:
+    if not now + step > 0:
         return message(language, "step.nothing_left", step=more, figure=figure, before=human(now, unit))
-    return _reached(case, found, "step.reached", language, before_w=spent_w, step=more)
+    return _reached(case, reach(case, now + step), "step.reached", language, before_w=spent_w, step=more)
 
 
 def _reached(case: Case, found: Reach, key: str, language: str, *, before_w: float, step: str = "") -> str:

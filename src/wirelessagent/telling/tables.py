@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
+from wirelessagent.model.arrays import BoolArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.forecast import Forecast
@@ -14,6 +16,9 @@ from wirelessagent.telling.catalogue import called, message
 from wirelessagent.telling.reasons import power_in_words
 from wirelessagent.telling.report import Report
 from wirelessagent.telling.text_table import Table
+
+Cells: TypeAlias = dict[str, Callable[[int], str]]
+"""What a table says of a user, by the head of the column."""
 
 _ROUNDED_UP = 1.0005
 """So that what rounds to 1000 of a unit is 1 of the next."""
@@ -30,25 +35,77 @@ def served_table(report: Report, language: str = "en") -> Table:
     """What the users get who are served, in few columns."""
     decision, judged = report.decision, report.decision.expected_rate_bps.size > 0
     firm = "promised_at" if judged else "committed_rate" if decision.forecast is not None else "predicted_rate"
-    columns = ["user", "subcarriers", "power", firm, *([] if report.achieved is None else ["achieved_rate"])]
     given = decision.rate_bps if judged else decision.committed_bps
-    rows: list[tuple[str, ...]] = []
-    for user in np.flatnonzero((decision.rate_bps > 0) | (given > 0)).tolist():
-        own = (decision.owner == user) & (decision.power_w > 0)
-        row = [called(language, decision.user_names[user]), str(int(own.sum()))]
-        row += [human(float(decision.power_w[own].sum()), "W"), human(float(given[user]), "bit/s")]
-        rows.append((*row, *([] if report.achieved is None else [_achieved(report, language, user)])))
-    sure = reliability(decision.problem.outage_probability or 0.0)
-    return _table(language, "served_title", columns, rows, sure=sure)
+    cells: Cells = {
+        **_cells(report, language),
+        firm: lambda user: human(float(given[user]), "bit/s"),
+        **_achieved(report, language),
+    }
+    served = np.flatnonzero((decision.rate_bps > 0) | (given > 0))
+    return _of_users(language, "served_title", cells, served.tolist(), decision)
 
 
-def _achieved(report: Report, language: str, user: int) -> str:
-    """A user's true rate, and by how much it falls short where it does."""
-    assert report.achieved is not None
-    achieved = human(report.achieved.user_rate_bps[user], "bit/s")
-    if user not in report.missed_users:
-        return achieved
-    return message(language, "label.short", value=achieved, short=percent(_shortfall(report, user)))
+def user_table(report: Report, estimate: ChannelEstimate | None = None, language: str = "en") -> Table:
+    """Each user's subcarriers, power and rates: predicted, how sure, committed and achieved."""
+    decision, forecast = report.decision, report.decision.forecast
+    predicted, judged = report.predicted.user_rate_bps, decision.expected_rate_bps.size > 0
+    cells = _cells(report, language, estimate)
+    if judged:
+        cells["promised_at"] = lambda user: human(decision.rate_bps[user], "bit/s")
+    if forecast is None:
+        cells["predicted_rate"] = lambda user: human(predicted[user], "bit/s")
+    else:
+        banded = [_banded(forecast, user, rate) for user, rate in enumerate(predicted)]
+        cells["predicted_band" if any("(" in rate for rate in banded) else "predicted_rate"] = banded.__getitem__
+        if not judged:
+            kind = "asked_for" if decision.problem.promises_rates else "committed"
+            cells[kind] = lambda user: _committed(decision, forecast, language, user)
+    cells |= _achieved(report, language)
+    return _of_users(language, "users_title", cells, range(len(decision.user_names)), decision)
+
+
+def _cells(report: Report, language: str, estimate: ChannelEstimate | None = None) -> Cells:
+    """What each table of users begins with."""
+    decision = report.decision
+    cells: Cells = {
+        "user": lambda user: called(language, decision.user_names[user]),
+        "subcarriers": lambda user: str(int(_own(decision, user).sum())),
+    }
+    if estimate is not None:
+        cells["of_them_repaired"] = lambda user: str(int((_own(decision, user) & estimate.repaired[user]).sum()))
+    return {**cells, "power": lambda user: human(float(decision.power_w[_own(decision, user)].sum()), "W")}
+
+
+def _committed(decision: Decision, forecast: Forecast, language: str, user: int) -> str:
+    """A user's committed rate and, where there is one, how surely it is kept."""
+    rate, sure = human(decision.committed_bps[user], "bit/s"), probability(float(forecast.carried[user]))
+    return message(language, "label.with", value=rate, beside=sure) if decision.committed_bps[user] > 0 else rate
+
+
+def _achieved(report: Report, language: str) -> Cells:
+    """A user's true rate, and by how much it falls short where it does; nothing where the truth is not known."""
+    achieved, committed = report.achieved, report.decision.committed_bps
+    if achieved is None:
+        return {}
+
+    def cell(user: int) -> str:
+        rate = human(achieved.user_rate_bps[user], "bit/s")
+        if user not in report.missed_users:
+            return rate
+        short = percent(float(1 - achieved.user_rate_bps[user] / committed[user]))
+        return message(language, "label.short", value=rate, short=short)
+
+    return {"achieved_rate": cell}
+
+
+def _own(decision: Decision, user: int) -> BoolArray:
+    return (decision.owner == user) & (decision.power_w > 0)
+
+
+def _of_users(language: str, title: str, cells: Cells, users: Iterable[int], decision: Decision) -> Table:
+    """A table with a row for each of these users, a column for each kind of cell."""
+    rows = [tuple(cell(user) for cell in cells.values()) for user in users]
+    return _table(language, title, tuple(cells), rows, sure=reliability(decision.problem.outage_probability or 0.0))
 
 
 def figures_of_infeasibility(decision: Decision, language: str = "en") -> Table:
@@ -72,60 +129,6 @@ def report_table(report: Report, language: str = "en") -> Table:
         return _table(language, "predicted_title", ("figure", "predicted"), rows)
     columns = ("figure", "predicted", "achieved", *([] if report.perfect is None else ["all_gains_known"]))
     return _table(language, "achieved_title", columns, rows)
-
-
-def user_table(report: Report, estimate: ChannelEstimate | None = None, language: str = "en") -> Table:
-    """Each user's subcarriers, power and rates: predicted, how sure, committed and achieved."""
-    decision, forecast = report.decision, report.decision.forecast
-    unsure, judged = forecast is not None, decision.expected_rate_bps.size > 0
-    band = forecast is not None and any(
-        "(" in _banded(forecast, user, rate) for user, rate in enumerate(report.predicted.user_rate_bps)
-    )
-    kind = "asked_for" if decision.problem.promises_rates else "committed"
-    columns = [
-        "user",
-        "subcarriers",
-        *([] if estimate is None else ["of_them_repaired"]),
-        "power",
-        *(["promised_at"] * judged),
-        "predicted_band" if band else "predicted_rate",
-        *([kind] * (unsure and not judged)),
-        *([] if report.achieved is None else ["achieved_rate"]),
-    ]
-    rows = [_user(report, estimate, language, user) for user in range(len(decision.user_names))]
-    sure = reliability(decision.problem.outage_probability or 0.0)
-    return _table(language, "users_title", columns, rows, sure=sure)
-
-
-def _user(report: Report, estimate: ChannelEstimate | None, language: str, user: int) -> tuple[str, ...]:
-    """The row of one user in the columns of :func:`user_table`."""
-    decision, forecast = report.decision, report.decision.forecast
-    own = (decision.owner == user) & (decision.power_w > 0)
-    judged = decision.expected_rate_bps.size > 0
-    row = [called(language, decision.user_names[user]), str(int(own.sum()))]
-    if estimate is not None:
-        row.append(str(int((own & estimate.repaired[user]).sum())))
-    row.append(human(float(decision.power_w[own].sum()), "W"))
-    if judged:
-        row.append(human(decision.rate_bps[user], "bit/s"))
-    predicted = report.predicted.user_rate_bps[user]
-    row.append(human(predicted, "bit/s") if forecast is None else _banded(forecast, user, predicted))
-    if forecast is not None and not judged:
-        rate, sure = decision.committed_bps[user], probability(float(forecast.carried[user]))
-        row.append(
-            message(language, "label.with", value=human(rate, "bit/s"), beside=sure)
-            if rate > 0
-            else human(rate, "bit/s")
-        )
-    if report.achieved is not None:
-        row.append(_achieved(report, language, user))
-    return tuple(row)
-
-
-def _shortfall(report: Report, user: int) -> float:
-    """By how much a user's true rate falls short of the committed one, as a share."""
-    assert report.achieved is not None
-    return float(1 - report.achieved.user_rate_bps[user] / report.decision.committed_bps[user])
 
 
 def _banded(forecast: Forecast, user: int, rate_bps: float) -> str:

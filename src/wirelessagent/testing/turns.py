@@ -6,8 +6,7 @@ import numpy as np
 
 from wirelessagent import __version__, chain, plugins
 from wirelessagent.acting.simulated import SimulatedBaseStation
-from wirelessagent.agent.tools import Tools
-from wirelessagent.agent.turn import Lines, Run, Stage, Turn
+from wirelessagent.agent.turn import Lines, Run, Stage, Tools, Turn
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision

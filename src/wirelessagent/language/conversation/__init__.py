@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 
-from wirelessagent.language.conversation.amendments import keeping_what_holds, read_amendment
+from wirelessagent.language.conversation.amendments import leaves_the_question, read_amendment, unanswered
 from wirelessagent.language.conversation.assent import read_assent
 from wirelessagent.language.conversation.commands import (
     beside_method,
@@ -19,7 +19,7 @@ from wirelessagent.language.conversation.commands import (
     read_method,
     with_method,
 )
-from wirelessagent.language.conversation.fragments import read_fragment, read_wondered, referred
+from wirelessagent.language.conversation.fragments import read_fragment, read_wondered
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.questions import (
     asked_instead,
@@ -33,12 +33,12 @@ from wirelessagent.language.conversation.questions import (
     supposed,
     wondered,
 )
-from wirelessagent.language.conversation.unanswered import Unanswered, leaves_the_question, unanswered
+from wirelessagent.language.conversation.references import keeping_what_holds, referred
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
 
-__all__ = ["NAME", "Unanswered", "unanswered", "understood"]
+__all__ = ["NAME", "unanswered", "understood"]
 
 _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""
@@ -69,11 +69,11 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         by = with_method(line, _read(rest, Line.of(rest, context), context, recogniser), name)
         if by is not None:
             return by
-    asked = wondered(text) if context.objective is not None else None
     for read in (read_fragment, *_READERS):
         intent = read(line)
         if intent is not None:
             return intent
+    asked = wondered(text) if context.objective is not None else None
     if asked is not None:
         return _possible(line, asked, recogniser)
     if leaves_the_question(line):

@@ -1,4 +1,4 @@
-"""Lines that answer a question back, free users of a limit or take them back, and what a request leaves as it holds.
+"""Lines that answer a question back, free users of a limit or take them back; and what a question back left open.
 
 Users whose own figure goes are written out, as the request has
 no figure for "nothing": 1 Mbit/s for everybody but user 2 is 1 Mbit/s for each of the others.
@@ -6,16 +6,49 @@ no figure for "nothing": 1 Mbit/s for everybody but user 2 is 1 Mbit/s for each 
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.assent import is_assent
-from wirelessagent.language.conversation.line import NAME, Line, has, is_all
+from wirelessagent.language.conversation.line import Line, has, is_all
+from wirelessagent.language.excess import too_many_figures
 from wirelessagent.language.followups import merged, numbers_of, taken_in
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, LISTS_OF_USERS, Constraint, Intent
+from wirelessagent.language.recogniser import Context
+from wirelessagent.language.sentence import Sentence, own_words
+from wirelessagent.language.text import normalise
 
 _RATES = ("min_rate_bps", "max_rate_bps")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Missing:
+    """A question back about a user: the intent that waits, and whom it names that is not there ("" for nobody)."""
+
+    intent: Intent
+    reference: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Question:
+    """A question back that is open, and what was understood before it.
+
+    Attributes:
+        pending: constraints.
+        objective: the aim that was named; None where none was.
+        users: users who were named, and of whom nothing was understood.
+        offered: the objective or the command that a yes means; None where it is no question of yes or no.
+        guess: what a yes carries out; None where it is no question of yes or no.
+        missing: the user who is not there, where the question is about one.
+    """
+
+    pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    objective: str | None = None
+    users: tuple[str, ...] = ()
+    offered: str | None = None
+    guess: Intent | None = None
+    missing: Missing | None = None
 
 
 def read_amendment(line: Line) -> Intent | None:
@@ -78,7 +111,7 @@ def _freed(line: Line) -> Intent | None:
     context = line.context
     if not line.users and is_all("nobody_needs", line.wish):
         held = [name for name in _RATES if name in context.constraints]
-        return line.allocate(str(context.objective), {}, amends=True, dropped=(held[0],)) if held else None
+        return line.amend({}, dropped=(held[0],)) if held else None
     if not line.users or not is_all("freed", line.wish) or not has("of_a_limit", line.wish):
         return None
     freed = numbers_of(line.users, context.user_names)
@@ -98,10 +131,10 @@ def _freed(line: Line) -> Intent | None:
         if line.figures and isinstance(held, Mapping) and EVERYBODY in held:
             common = _of_everybody(held, theirs, freed, context.user_names)
             if common is not None:
-                return line.allocate(str(context.objective), {name: common}, amends=True, dropped=(name,))
+                return line.amend({name: common}, dropped=(name,))
         values: dict[str, Constraint] = {name: rest} if rest else {}
         gone: dict[str, Constraint] = {name: {user: figure for user, figure in own.items() if user not in rest}}
-        return line.allocate(str(context.objective), values, amends=True, dropped=(name,), taken_off=gone)
+        return line.amend(values, dropped=(name,), taken_off=gone)
     return line.ask("no_limit_of_its_own", users=line.voice.users(line.users))
 
 
@@ -135,7 +168,7 @@ def _taken_in(line: Line) -> Intent | None:
         back = tuple(name for name in LISTS_OF_USERS if name in context.constraints)
         if not back:
             return line.ask("all_served")
-        return line.allocate(str(context.objective), {}, amends=True, dropped=back)
+        return line.amend({}, dropped=back)
     if not line.users or line.figures or not is_all("taken_in", line.wish):
         return None
     return _served(line, line.users)
@@ -158,19 +191,36 @@ def _served(line: Line, users: tuple[str, ...]) -> Intent:
     values, dropped = taken_in(users, line.context)
     if not values and not dropped:
         return line.ask("served_already", users=line.voice.users(users))
-    return line.allocate(str(line.context.objective), values, amends=True, dropped=dropped)
+    return line.amend(values, dropped=dropped)
 
 
-def keeping_what_holds(line: Line, intent: Intent) -> Intent:
-    """A request as a change of the one that holds, or in its place where it starts over; other intents as they are.
+def unanswered(text: str, intent: Intent, context: Context) -> Question:
+    """What the answer to a question back may leave out, as the sentence that led to the question said it."""
+    line = Line.of(text, context)
+    if too_many_figures(normalise(text)):
+        return Question(pending=intent.pending)
+    goal = Sentence(text, own_words()).goal
+    named = (value for value in intent.pending.values() if isinstance(value, Mapping | tuple))
+    settled = {user for value in named for user in value}
+    users = tuple(user for user in line.users if user not in settled)
+    objective = goal.objective if goal.verdict == "clear" else None
+    offered = intent.offered
+    if context.awaits != "clarification" or leaves_the_question(line):
+        return Question(pending=intent.pending, objective=objective, users=users, offered=offered)
+    return Question(
+        pending=merged(context.pending, intent.pending), objective=objective or context.pending_objective,
+        users=users or context.pending_users, offered=offered,
+    )  # fmt: skip
 
-    Replacing it would let a power limit go, or a rate that was promised, because a line names an aim and any other
-    figure: that is for the operator to say. What was read by its conversation alone is what it is.
-    """
-    objective = line.context.objective
-    if intent.kind != "allocate" or objective is None or intent.recogniser == NAME:
-        return intent
-    if not has("starts_over", line.shape):
-        return dataclasses.replace(intent, amends=True)
-    aims = intent.objective != objective or "objective" in intent.evidence
-    return dataclasses.replace(intent, amends=False, dropped=()) if aims else intent
+
+def leaves_the_question(line: Line) -> bool:
+    """Whether a line is no answer: it only reports, or speaks of other users than the question back was about."""
+    asked = line.context.pending_users
+    return is_report(line) or (bool(asked and line.users) and not set(asked) & set(line.users))
+
+
+def is_report(line: Line) -> bool:
+    """Whether a line only states what was or what somebody says, with no word that asks for anything."""
+    said = line.shape
+    tells = has("past", said) or (has("reported", said) and has("states", said))
+    return tells is not None and not has("directs", said)

@@ -195,10 +195,9 @@ def read_method(line: Line) -> Intent | None:
 
 def _solved_by(line: Line, name: str) -> Intent:
     """The request that holds by another method; where none holds, a question that finds nothing to work on."""
-    objective = line.context.objective
-    if objective is None:
+    if line.context.objective is None:
         return line.question("other")
-    return line.allocate(objective, {}, amends=True, details={"method": name})
+    return line.amend({}, details={"method": name})
 
 
 def beside_method(text: str) -> tuple[str, str] | None:

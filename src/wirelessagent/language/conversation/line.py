@@ -136,16 +136,25 @@ class Line:
 
     def allocate(
         self, objective: str, constraints: Mapping[str, Constraint], *, amends: bool, dropped: tuple[str, ...] = (),
-        taken_off: Mapping[str, Constraint] | None = None, details: Mapping[str, Detail] | None = None,
+        details: Mapping[str, Detail] | None = None,
     ) -> Intent:  # fmt: skip
-        """A request, or a change of the one that holds; ``taken_off`` are figures of users that no longer hold."""
-        further: dict[str, Detail] = {**(details or {}), **({"taken_off": taken_off} if taken_off else {})}
+        """A request, or a change of the one that holds."""
         said = self.voice.amended if amends else None
         reply = said(constraints, dropped) if said else self.voice.restated(objective, constraints, ())
         evidence = {name: self.text.strip() for name in constraints}
         return self._intent(
             "allocate", reply, objective=objective, constraints=constraints, evidence=evidence, amends=amends,
-            dropped=dropped, details=further,
+            dropped=dropped, details=details or {},
+        )  # fmt: skip
+
+    def amend(
+        self, constraints: Mapping[str, Constraint], dropped: tuple[str, ...] = (), *,
+        taken_off: Mapping[str, Constraint] | None = None, details: Mapping[str, Detail] | None = None,
+    ) -> Intent:  # fmt: skip
+        """A change of the request that holds; ``taken_off`` are figures of users that no longer hold."""
+        further: dict[str, Detail] = {**(details or {}), **({"taken_off": taken_off} if taken_off else {})}
+        return self.allocate(
+            str(self.context.objective), constraints, amends=True, dropped=dropped, details=further
         )  # fmt: skip
 
     def command(self, topic: str, **details: Detail) -> Intent:
@@ -168,12 +177,7 @@ class Line:
         return self._intent("clarify", said, offered=topic, asks="unsure_command")
 
     def _intent(self, kind: IntentKind, reply: str, **fields: Any) -> Intent:
-        given: dict[str, Any] = {
-            "objective": None,
-            "constraints": dict[str, Constraint](),
-            "evidence": dict[str, str](),
-            **fields,
-        }
+        given: dict[str, Any] = {"objective": None, "constraints": {}, "evidence": {}, **fields}
         return Intent(
             kind=kind, reply=reply, language=self.voice.language, confidence=1.0, recogniser=NAME, **given
         )  # fmt: skip

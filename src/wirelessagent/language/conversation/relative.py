@@ -91,8 +91,7 @@ def _result(
     if supposes:
         return words.line.question("what_if", constraints={name: value}, **details)
     if anew or change.figure is not None:
-        return words.line.allocate(
-            str(words.line.context.objective), {name: value}, amends=True, details=details
+        return words.line.amend({name: value}, details=details
         )  # fmt: skip
     radiated = name == "max_power_w" and words.has("power")
     act: Act = Scale(

@@ -11,9 +11,9 @@ import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeVar, cast
+from typing import Any, cast
 
-from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Whom
+from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Serve, Whom
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.factors import factors
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
@@ -58,9 +58,6 @@ _ONES = frozenset(
 """Number words that mostly count nothing."""
 
 
-_Kind = TypeVar("_Kind", bound="Words")
-
-
 @dataclass(frozen=True)
 class Token:
     """A word, a figure or users, and the classes that it is in."""
@@ -71,13 +68,13 @@ class Token:
     factor: float | None = None
 
 
-def words_of(line: Line, kind: type[_Kind]) -> Iterator[_Kind]:
+def words_of(line: Line) -> Iterator[Words]:
     """The line word by word in each language that it may be in and that knows all of its words."""
     spoken = [line.context.language] if line.context.language else []
     for language in dict.fromkeys([*spoken, *languages_of(line.text)]):
         tokens = tokens_of(line, language)
         if tokens:
-            yield kind(line, tokens, language)
+            yield Words(line, tokens, language)
 
 
 def speaks_of_one(plain: str, of: str = "pronoun") -> bool:
@@ -89,6 +86,11 @@ def speaks_of_one(plain: str, of: str = "pronoun") -> bool:
         for word, token in _table(language)[0].items()
         if of in token.classes and " " not in word
     )
+
+
+def own_users(held: Constraint | None) -> tuple[str, ...]:
+    """Users with a figure of their own in a limit that holds."""
+    return tuple(user for user in held if user != EVERYBODY) if isinstance(held, Mapping) else ()
 
 
 def tokens_of(line: Line, language: str) -> list[Token] | None:
@@ -218,8 +220,9 @@ class Words:
         self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
         self.held = line.context.constraints
 
-    def has(self, name: str) -> bool:
-        return any(name in token.classes for token in self.tokens)
+    def has(self, *names: str) -> bool:
+        """Whether a word is in one of these classes."""
+        return any(token.classes.intersection(names) for token in self.tokens)
 
     @property
     def is_read(self) -> bool:
@@ -236,6 +239,30 @@ class Words:
         sets = [NOUNS[name] for name in NOUNS if self.has(name)]
         return [kind for kind in dict.fromkeys(sets[0]) if all(kind in kinds for kinds in sets)] if sets else []
 
+    def counted(self) -> tuple[str, ...]:
+        """Users named by their number alone: "and 3 too"."""
+        found = [token.figure for token in self.tokens if "bare" in token.classes and token.figure is not None]
+        names = {str(number) for number in range(1, len(self.line.context.user_names) + 1)}
+        users = tuple(f"{figure.value:g}" for figure in found)
+        if not users or len(found) != len(self.figures) or not set(users) <= names:
+            return ()
+        named = any(isinstance(act.whom, Named) for act in self.last(Limit, Drop, LeaveOut, Serve, Scale))
+        return users if named or self.has("leave", "serve") else ()
+
+    def listed(self, name: str) -> tuple[str, ...]:
+        """The users whom the request serves alone ("users") or leaves out; nobody where it says nothing of that."""
+        return cast("tuple[str, ...]", self.held.get(name, ()))
+
+    @property
+    def taken_off(self) -> Mapping[str, Mapping[str, float]]:
+        """The figures of users that the last change took off."""
+        return {
+            kind: stated
+            for kind, stated in self.line.context.stated.items()
+            if isinstance(stated, Mapping) and EVERYBODY not in stated
+            and isinstance(held := self.held.get(kind, {}), Mapping) and not stated.keys() & held.keys()
+        }  # fmt: skip
+
     def whom(self) -> Whom | None:
         if self.users:
             return Named(self.users)
@@ -251,7 +278,7 @@ class Words:
     def spoken_of(self) -> Named | None:
         """The one user who was spoken of before, where a pronoun stands for somebody."""
         users = self.line.context.spoken_of
-        return Named(users) if len(users) == 1 and (self.has("pronoun") or self.has("one")) else None
+        return Named(users) if len(users) == 1 and (self.has("pronoun", "one")) else None
 
     def last_whom(self) -> Whom:
         last = self.last(Limit, Scale, Drop)
@@ -265,12 +292,10 @@ class Words:
         stated: dict[str, Constraint] = {}
         for act in acts:
             if isinstance(act, Limit):
-                users = act.whom.users if isinstance(act.whom, Named) else (EVERYBODY,)
-                stated[act.kind] = dict.fromkeys(users, act.value) if isinstance(act.whom, Named) else act.value
+                named = act.whom.users if isinstance(act.whom, Named) else None
+                stated[act.kind] = act.value if named is None else dict.fromkeys(named, act.value)
             elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
                 stated["leave_out"] = act.whom.users
         dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
-        intent = self.line.allocate(
-            str(self.line.context.objective), stated, amends=True, dropped=dropped, details=details
-        )
+        intent = self.line.amend(stated, dropped=dropped, details=details)
         return dataclasses.replace(intent, acts=tuple(acts))

@@ -10,9 +10,8 @@ import numpy as np
 
 from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.model.decision import Decision
-from wirelessagent.telling.facts.bids import Bids, bids
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.marginal_prices import marginal_prices
+from wirelessagent.telling.facts.marginal_prices import Bids, bids, marginal_prices
 from wirelessagent.telling.facts.steps import Step, promise_step
 
 Standing: TypeAlias = Literal[
@@ -101,7 +100,7 @@ def account(case: Case, user: int) -> Account:
 def share(case: Case, user: int) -> Account:
     """The account of a user, from 0, without where it lost."""
     decision, estimate = case.decision, case.estimate
-    own = (decision.owner == user) & (decision.power_w > 0)
+    own = case.own(user)
     standing, promised = _standing(case, user, bool(own.any())), float(case.promised_bps[user])
     priced = standing == "served" and promised > 0
     return Account(

@@ -14,7 +14,7 @@ from wirelessagent import chain
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.expected import counted_on
 from wirelessagent.deciding.methods.dual import Dual
-from wirelessagent.model.arrays import FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import UnsupportedProblemError
@@ -60,7 +60,7 @@ class Case:
         return self.estimate.num_users
 
     @functools.cached_property
-    def served(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    def served(self) -> BoolArray:
         """True for the users to serve, shape (user,)."""
         return self.problem.serves(self.num_users)
 
@@ -77,6 +77,17 @@ class Case:
     def spends_all(self) -> bool:
         """Whether the whole budget is used."""
         return self.decision.total_power_w >= self.problem.budget_w(self.cell) * (1 - _ROUNDING)
+
+    def own(self, user: int) -> BoolArray:
+        """True for the subcarriers that carry power of a user, shape (subcarrier,)."""
+        return (self.decision.owner == user) & (self.decision.power_w > 0)
+
+    @functools.cached_property
+    def spent_w(self) -> FloatArray:
+        """The power that is radiated to each user, shape (user,)."""
+        used = self.decision.power_w > 0
+        spent = np.bincount(self.decision.owner[used], weights=self.decision.power_w[used], minlength=self.num_users)
+        return np.asarray(spent, dtype=np.float64)
 
     @property
     def rate_bps(self) -> FloatArray:
@@ -113,6 +124,11 @@ class Case:
     def form(self) -> NormalForm:
         """The problem on the channel that counts, in the terms of the methods."""
         return NormalForm.of(Dual(), self.counted, self.plain, self.cell)
+
+    @functools.cached_property
+    def priced(self) -> Decision:
+        """The decision of the dual on the channel that counts with nothing searched, for its bound and its prices."""
+        return chain.decide(self.counted, self.plain, self.cell, "dual", restarts=0)
 
     def solved(self, problem: Problem, cell: Cell | None = None) -> Decision:
         """The same method's decision on the same channel for another problem, or another cell.

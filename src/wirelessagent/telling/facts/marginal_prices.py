@@ -1,7 +1,15 @@
-"""Marginal prices: how the best value changes per watt more, and per bit/s more promised to each user.
+"""Marginal prices: how the best value changes per watt more, and per bit/s more promised to each user; and the bids.
 
-They are the slopes of the dual bound. A decision of a method that knows no prices is given those of the dual for the
-same problem: they speak of the problem, not of the allocation.
+The prices are the slopes of the dual bound. A decision of a method that knows no prices is given those of the dual for
+the same problem: they speak of the problem, not of the allocation.
+
+At the price λ_k of a user's rate, in W per nat, a group of subcarriers is worth to it
+
+    t_kg = Σ over n in g of max over p of λ_k ln(1 + p a_kn) − p
+
+watts: what the rate it carries is worth, less the power it takes. The dual gives each group to the highest bid. A loser
+is behind by the factor on its gains at which its bid would have been as high; with equal prices, one subcarrier and no
+caps that is the ratio of the gains.
 """
 
 from __future__ import annotations
@@ -10,10 +18,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wirelessagent import chain
-from wirelessagent.model.arrays import FloatArray
-from wirelessagent.model.decision import Decision
+from wirelessagent.deciding.core.closed_form import nats_worth
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.priced_worth import priced_worth_w
+from wirelessagent.model.arrays import FloatArray, IntArray
 from wirelessagent.telling.facts.case import Case
+
+_HALVINGS = 60
+_FARTHEST_DB = 120.0
+_DEAREST = 1e130
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,14 +50,80 @@ def marginal_prices(case: Case) -> MarginalPrices:
     decision = case.decision
     power, rate = decision.price_of_power, decision.price_of_rate
     if np.isnan(power) or (not rate.size and case.promised_bps.any()):
-        priced = _priced(case)
-        power = priced.price_of_power if np.isnan(power) else power
-        rate = rate if rate.size else priced.price_of_rate
+        power = case.priced.price_of_power if np.isnan(power) else power
+        rate = rate if rate.size else case.priced.price_of_rate
     if not rate.size:
         rate = np.full(case.num_users, np.nan if case.promised_bps.any() else 0.0)
     return MarginalPrices(power=power, rate=rate, binds=case.spends_all)
 
 
-def _priced(case: Case) -> Decision:
-    """The decision of the dual with nothing searched, for its prices."""
-    return chain.decide(case.counted, case.plain, case.cell, "dual", restarts=0)
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Bids:
+    """Bids of all users for all groups of subcarriers.
+
+    Attributes:
+        price: λ of each user's rate, shape (user,), in W per nat.
+        bid_w: t, shape (user, group), in W; 0 where a user can use nothing of it.
+        owner: of each group, shape (group,), −1 for nobody.
+        start: first subcarrier of each group, and the number of subcarriers, shape (group + 1,).
+        behind_db: by how much a user's gains on the group are too low for the owner's bid, shape (user, group), in dB;
+            0 for the owner, below 0 where a loser bids more, inf where no gain would do.
+    """
+
+    price: FloatArray
+    bid_w: FloatArray
+    owner: IntArray
+    start: IntArray
+    behind_db: FloatArray
+
+    def members(self, group: int) -> tuple[int, int]:
+        """The first and the last subcarrier of a group, from 0."""
+        return int(self.start[group]), int(self.start[group + 1]) - 1
+
+
+def bids(case: Case) -> Bids:
+    """The bids for a usable decision, at its own prices or, where its method has none, at the dual's."""
+    form, price = case.form, prices_of_rates(case)
+    worth = priced_worth_w(form, form.snr_per_w, price)
+    owner = np.maximum.reduceat(np.where(case.decision.power_w > 0, case.decision.owner, -1), form.start[:-1])
+    wanted = np.where(owner >= 0, worth[owner, np.arange(owner.size)], 0.0)
+    behind = _behind_db(form, price, wanted)
+    held = owner >= 0
+    behind[owner[held], np.flatnonzero(held)] = 0.0
+    return Bids(price=price, bid_w=worth, owner=owner, start=form.start, behind_db=behind)
+
+
+def prices_of_rates(case: Case) -> FloatArray:
+    """λ of each user's rate, shape (user,), in W per nat."""
+    found = case.decision.prices
+    if found is None and nats_worth(case.form) is not None:
+        return _closed_prices(case)
+    if found is None:
+        found = case.priced.prices
+    if found is None:
+        return _closed_prices(case)
+    return np.minimum(np.exp(np.minimum(found.log_rate, 300.0)), _DEAREST)
+
+
+def _closed_prices(case: Case) -> FloatArray:
+    """One water level for all whose rate counts: the height of the water on the subcarriers that are not full."""
+    form, decision = case.form, case.decision
+    counts = form.weight > 0
+    used = np.flatnonzero((decision.owner >= 0) & (decision.power_w > 0))
+    a = form.snr_per_w[decision.owner[used], used]
+    used, a = used[a > 0], a[a > 0]
+    level = float((decision.power_w[used] + 1.0 / a).max(initial=0.0))
+    return np.where(counts, level, 0.0)
+
+
+def _behind_db(form: NormalForm, price: FloatArray, wanted: FloatArray) -> FloatArray:
+    """The factor in dB on each user's gains in each group at which its bid is ``wanted`` (group,); (user, group)."""
+    low = np.full((price.size, wanted.size), -_FARTHEST_DB)
+    high = -low
+    sizes = np.diff(form.start)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        factor = np.repeat(10.0 ** (middle / 10.0), sizes, axis=1)
+        enough = priced_worth_w(form, form.snr_per_w * factor, price) >= wanted
+        low, high = np.where(enough, low, middle), np.where(enough, middle, high)
+    return np.where((high >= _FARTHEST_DB) | (wanted <= 0), np.inf, high)

@@ -1,4 +1,8 @@
-"""The nearest requests that can be met, where one cannot: more power, lower rates, fewer users; each solved for.
+"""Why a request cannot be met, and the nearest ones that can: more power, lower rates, fewer users; each solved for.
+
+Promised rates that no power carries are too many for the subcarriers, or for the limits on each of them: a proof by
+counting on the best channel that may be hoped for, the same that the methods use, in terms that can be told in any
+language.
 
 With the objective put aside, promised rates need a least power. These ways lead back to something feasible:
 
@@ -15,12 +19,16 @@ import dataclasses
 import itertools
 import math
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
+from wirelessagent.deciding.core.normal_form import NormalForm
+from wirelessagent.deciding.core.outage_channel import UncertainChannel
+from wirelessagent.deciding.core.rate_proof import ceilings, one_each, usable_groups
+from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.model.cell import Cell
-from wirelessagent.model.decision import Bracket, Decision
+from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
 from wirelessagent.telling.facts.case import Case
 
@@ -38,6 +46,13 @@ _AMPLE = 1e6
 """Budget in budgets for which the dearest users are looked for."""
 _MOST_SETS = 150
 """Sets of users to leave out that are tried to prove that fewer do not help."""
+
+
+Kind: TypeAlias = Literal["no_subcarrier", "too_few", "one_user", "together", "places"]
+"""A user can use no subcarrier; there are too few for all users; one user's subcarriers carry too little; all together
+do; or the rates take more subcarriers than there are."""
+
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,17 +101,8 @@ Way: TypeAlias = MorePower | WithoutLimit | LowerRates | FewerUsers
 
 @dataclass(frozen=True, kw_only=True)
 class Nearest:
-    """What a request that cannot be met would need, and the nearest ones that can; None where there is none.
+    """The nearest requests that can be met, each verified; None where there is none of a kind."""
 
-    Attributes:
-        budget_w: the power that it may use.
-        needed_power_w, scaling: what the rates need, and the common factor that fits, each from both sides.
-        more_power, without_limits, lower_rates, fewer_users: verified alternatives.
-    """
-
-    budget_w: float
-    needed_power_w: Bracket | None
-    scaling: Bracket | None
     more_power: MorePower | None
     without_limits: tuple[WithoutLimit, ...]
     lower_rates: LowerRates | None
@@ -113,11 +119,7 @@ class Nearest:
 
 def nearest(case: Case) -> Nearest:
     """The nearest feasible requests for a case whose decision found nothing."""
-    decision = case.decision
     return Nearest(
-        budget_w=case.problem.budget_w(case.cell),
-        needed_power_w=decision.needed_power_w,
-        scaling=decision.rate_scaling,
         more_power=more_power(case),
         without_limits=without_limits(case),
         lower_rates=lower_rates(case),
@@ -257,3 +259,65 @@ def _without(case: Case, left: list[int] | tuple[int, ...]) -> Decision:
 
 def _ample(cell: Cell) -> Cell:
     return dataclasses.replace(cell, max_power_w=cell.max_power_w * _AMPLE)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shortage:
+    """Why no power is enough.
+
+    Attributes:
+        kind: see :data:`Kind`.
+        user: whom it is about, from 0; −1 for all.
+        users, served: how many are promised a rate, and how many can have a group of subcarriers of their own.
+        places, needed: groups of subcarriers that can be used, and that the rates take at least.
+        promised_bps, most_bps: what is promised, and the most that can be carried; 0 where that is not the matter.
+    """
+
+    kind: Kind
+    user: int = -1
+    users: int = 0
+    served: int = 0
+    places: int = 0
+    needed: int = 0
+    promised_bps: float = 0.0
+    most_bps: float = 0.0
+
+
+def shortage_of(decision: Decision) -> Shortage | None:
+    """Why no power carries what an infeasible decision was to promise; None where some power may."""
+    if decision.estimate is None or decision.status != "infeasible":
+        return None
+    case = Case(decision=decision, estimate=decision.estimate)
+    outage, channel = case.problem.outage_probability, case.counted
+    if outage is not None and (case.estimate.gain_variance > 0).any():
+        channel = UncertainChannel.of(case.estimate, outage).hoped_for()
+    return _shortage(NormalForm.of(Dual(), channel, case.plain, case.cell))
+
+
+def _shortage(form: NormalForm) -> Shortage | None:
+    users = np.flatnonzero(form.promised_nats > 0)
+    if not users.size:
+        return None
+    usable = usable_groups(form)[users]
+    places = int(np.count_nonzero(usable.any(axis=0)))
+    served = int(np.count_nonzero(one_each(usable) >= 0))
+    if served < users.size:
+        kind: Kind = "no_subcarrier" if users.size == 1 else "too_few"
+        return Shortage(kind=kind, user=int(users[0]), users=users.size, served=served, places=places)
+    snr, nats = form.snr_per_w[users], form.promised_nats[users]
+    most = np.add.reduceat(ceilings(form, snr), form.start[:-1], axis=1)  # of each group
+    own, best = most.sum(axis=1), float(most.max(axis=0).sum())
+    worst = int((own / nats).argmin())
+    if own[worst] < nats[worst] * (1.0 - _ROUNDING):
+        promised, carried = float(nats[worst]), float(own[worst])
+        return _rates(form, "one_user", promised, carried, int(users[worst]))
+    if best < nats.sum() * (1.0 - _ROUNDING):
+        return _rates(form, "together", float(nats.sum()), best)
+    needed = int(np.ceil(nats / most.max(axis=1) * (1.0 - _ROUNDING)).sum())
+    return Shortage(kind="places", users=users.size, places=places, needed=needed) if needed > places else None
+
+
+def _rates(form: NormalForm, kind: Kind, promised: float, most: float, user: int = -1) -> Shortage:
+    """One that is a matter of rates, in nats."""
+    scale = form.bps_per_nat
+    return Shortage(kind=kind, user=user, promised_bps=promised * scale, most_bps=most * scale)
