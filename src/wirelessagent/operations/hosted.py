@@ -32,6 +32,7 @@ from wirelessagent.model.scene import Scene
 from wirelessagent.operations.chat import ChatRequest
 from wirelessagent.operations.hosted_answers import CellFacts, ChannelAnswer, HostedTurn, SeenAnswer
 from wirelessagent.operations.operation import Event, Progress
+from wirelessagent.operations.pseudonyms import hidden_text
 from wirelessagent.operations.recording import opened
 from wirelessagent.operations.simulate import scene_arrays
 from wirelessagent.operations.trade_off import TradeOffAnswer, trade_off
@@ -134,7 +135,7 @@ class Hosted:
 
     def say(self, text: str, progress: Progress, *, by: str = "") -> None:
         """Take a line; it applies nothing."""
-        self._take(text, progress, by)
+        self._take(hidden_text(text, self._session.user_names), progress, by)
 
     def press(self, what: Press, progress: Progress, *, by: str = "") -> None:
         """Take a button; it means what it is, whatever was said before."""

@@ -13,9 +13,12 @@ import hashlib
 import hmac
 import re
 from collections.abc import Collection, Iterator
+from typing import TYPE_CHECKING
 
-from wirelessagent.model.scene import Scene
 from wirelessagent.settings import Settings
+
+if TYPE_CHECKING:
+    from wirelessagent.model.scene import Scene
 
 _COUNTED = re.compile(r"user \d+")
 _CONSONANTS, _VOWELS = "bdfghjklmnprstvz", "aiou"
