@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import httpx2
+import platformdirs
 
 _URL = re.compile(r"http://[^\s]+/")
 
@@ -71,7 +72,7 @@ def started(store: Path, *options: str, token: str = "", at: str = "") -> Iterat
     """A server on a store (in that file, or ``at`` a URL), until the end of the context."""
     environment = {
         **os.environ, "WIRELESSAGENT_COMPILE": "never", "PYTHONUNBUFFERED": "1",
-        "XDG_CACHE_HOME": str(store.with_suffix(".cache")),
+        "XDG_CACHE_HOME": str(_cache(store.with_suffix(".cache"))),
     }  # fmt: skip
     log = store.with_suffix(".log").open("a")
     process = subprocess.Popen(
@@ -90,6 +91,15 @@ def started(store: Path, *options: str, token: str = "", at: str = "") -> Iterat
             process.wait()
         process.stdout.close()
         log.close()
+
+
+def _cache(folder: Path) -> Path:
+    """A cache of a server's own, as another machine would have, with the machine code that is there."""
+    ours = folder / "wirelessagent"
+    ours.mkdir(parents=True, exist_ok=True)
+    with contextlib.suppress(FileExistsError):
+        (ours / "kernels").symlink_to(platformdirs.user_cache_path("wirelessagent") / "kernels")
+    return folder
 
 
 def token_for(store: Path, name: str, role: str) -> str:
