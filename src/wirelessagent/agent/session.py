@@ -31,7 +31,7 @@ from wirelessagent.agent.state import Reply, State, Talk, asked_back
 from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
 from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Press, Suppose, Undo, Yes, with_another
 from wirelessagent.language.conversation import NAME as READ_HERE
-from wirelessagent.language.conversation import unanswered, understood
+from wirelessagent.language.conversation import called, unanswered, understood, with_users
 from wirelessagent.language.conversation.amendments import Missing, Question
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.references import named_alone
@@ -214,7 +214,12 @@ class Session:
             acts=self._last_acts(),
             spoken_of=self._spoken_of(),
             earlier=tuple(turn.acts for turn in self._turns),
+            called=self._called(),
         )
+
+    def _called(self) -> Mapping[str, str]:
+        """What the operator calls users."""
+        return called([turn.text for turn in self._turns])
 
     def _last_acts(self) -> tuple[Act, ...]:
         """The acts of the last line that changed something, or of the very last one where that supposed something."""
@@ -226,8 +231,9 @@ class Session:
 
     def _spoken_of(self) -> tuple[str, ...]:
         """The users whom the last line that named any named, unless something was changed since."""
+        names = self._called()
         for turn in reversed(self._turns):
-            found = mentions(normalise(turn.text), self._site.user_names)
+            found = mentions(normalise(with_users(turn.text, names)), self._site.user_names)
             users = tuple(dict.fromkeys(user for each in found for user in each.users))
             if users or any(_changes_or_supposes(act) for act in turn.acts):
                 return users

@@ -37,6 +37,7 @@ class Context:
         acts: those of the last line that changed or supposed something.
         spoken_of: the users whom a line named behind the last change, or with it: whom "give them 1 Mbit/s" is about.
         earlier: the acts of each turn so far, from the first.
+        called: the numbers of users by what the operator calls them.
         language: of the conversation so far; "" at its start.
     """
 
@@ -60,6 +61,7 @@ class Context:
     acts: tuple[Act, ...] = ()
     spoken_of: tuple[str, ...] = ()
     earlier: tuple[tuple[Act, ...], ...] = ()
+    called: Mapping[str, str] = field(default_factory=dict[str, str])
     language: str = ""
 
 

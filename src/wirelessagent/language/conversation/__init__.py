@@ -21,6 +21,7 @@ from wirelessagent.language.conversation.commands import (
 )
 from wirelessagent.language.conversation.fragments import read_fragment, read_wondered
 from wirelessagent.language.conversation.line import NAME, Line
+from wirelessagent.language.conversation.nicknames import called, only_called, with_users
 from wirelessagent.language.conversation.questions import (
     asked_instead,
     given_instead,
@@ -38,7 +39,7 @@ from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
 
-__all__ = ["NAME", "unanswered", "understood"]
+__all__ = ["NAME", "called", "unanswered", "understood", "with_users"]
 
 _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""
@@ -55,7 +56,11 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     Nothing that is only supposed is asked for, what holds stays where another aim is named, and a command that changes
     something is all that its line says. What is not clearly asked for now is asked about.
     """
+    noted = only_called(text) if len(text) <= _LONGEST else {}
+    text = with_users(text, context.called)
     line = Line.of(text[:_LONGEST], context)
+    if noted:
+        return line.courtesy("called", users=", ".join(f"{name} = {number}" for name, number in noted.items()))
     intent = made_certain(line, _read(text, line, context, recogniser), text)
     return guarded(text, context, referred(line, keeping_what_holds(line, only_supposed(line, intent))))
 

@@ -163,9 +163,9 @@ class Line:
     def question(self, topic: str, **details: Detail) -> Intent:
         return self._intent("question", self.voice.say(f"question.{topic}"), topic=topic, details=details)
 
-    def courtesy(self, key: str) -> Intent:
+    def courtesy(self, key: str, /, **names: str) -> Intent:
         """Words that ask for nothing, answered in kind."""
-        return self._intent("out_of_scope", self.voice.say(key))
+        return self._intent("out_of_scope", self.voice.say(key, **names))
 
     def ask(self, key: str, pending: Mapping[str, Constraint] | None = None, /, **names: str) -> Intent:
         """A question back, whose answer may use what is pending."""
