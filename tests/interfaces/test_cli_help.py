@@ -147,7 +147,7 @@ def completions(typed: str) -> list[str]:
     ("typed", "found"),
     [
         ("wirelessagent s", ["simulate", "solve", "serve"]),
-        ("wirelessagent history ", ["show", "replay", "export"]),
+        ("wirelessagent history ", ["show", "replay", "export", "seal"]),
         ("wirelessagent ask --se", ["--seed"]),
         ("wirelessagent ask --num-us", ["--num-users"]),
         ("wirelessagent solve x.npz --method gr", ["greedy"]),

@@ -8,6 +8,7 @@ recogniser. English and Chinese only.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 
 from wirelessagent.language.conversation.amendments import leaves_the_question, read_amendment, unanswered
 from wirelessagent.language.conversation.assent import read_assent
@@ -56,7 +57,7 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     Nothing that is only supposed is asked for, what holds stays where another aim is named, and a command that changes
     something is all that its line says. What is not clearly asked for now is asked about.
     """
-    noted = only_called(text) if len(text) <= _LONGEST else {}
+    noted: Mapping[str, str] = only_called(text) if len(text) <= _LONGEST else {}
     text = with_users(text, context.called)
     line = Line.of(text[:_LONGEST], context)
     if noted:
