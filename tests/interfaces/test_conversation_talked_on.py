@@ -1,4 +1,4 @@
-"""Lines that go on with the figure that a talk is about: steps without a unit, once more, behind a story, none at all."""
+"""Lines that go on with the figure that a talk is about: steps without a unit, once more, behind a story, none."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ POWER_W = "highest total rate with at most 12 W"
         ((POWER_W, "halve that limit", "again"), 3.0), ((POWER_W, "2 W mehr", "noch mal 4"), 18.0),
         ((POWER_W, "lift the ceiling by 2 W", "another 2"), 16.0), ((POWER_W, "减2瓦", "再1瓦"), 9.0),
         ((POWER_W, "halve that limit", "ok too much, make it 9"), 9.0), ((POWER_W, "ouch. 9 will do"), 9.0),
-        (("highest total rate", "cap the power at 14"), 14.0),
+        (("highest total rate", "cap the power at 14"), 14.0), ((POWER_W, "lift it to 14"), 14.0),
+        ((POWER_W, "lift it by 2 W", "lift it"), 14.0),
     ],
 )  # fmt: skip
 def test_a_bare_figure_goes_on_with_the_power_that_was_said(lines: tuple[str, ...], power_w: float) -> None:
@@ -41,6 +42,8 @@ def test_a_bare_figure_goes_on_with_the_power_that_was_said(lines: tuple[str, ..
         (("highest total rate, cap everybody at 5 Mbit/s", "user 4 only 2", "no caps for anyone after all"), {}),
         (("总速率尽量高，用户1至少200 kbit/s", "用户2也一样", "2不用了"), {"min_rate_bps": {"1": 2e5}}),
         (("让最慢的用户尽量快，不服务用户2和用户3", "2回来了，把他加上"), {"leave_out": ("3",)}),
+        (("highest total rate, 250 kbit/s each", "no subcarrier over 0.3 W", "fine, lift it again"),
+         {"min_rate_bps": 2.5e5}),
         (("proportional fairness, weight 2 for user 1", "max-min, sans priorités"), {}),
     ],
 )  # fmt: skip

@@ -33,13 +33,13 @@ from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Word
 from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
 from wirelessagent.language.moods import is_ordered
-from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.text import languages_of, normalise
 
 _LONGEST = 120
 _SHORT = 40
 _MOST_STEPS = 20
 _FIRST_NUMBER = re.compile(r"\s*(\d{1,3})\s+(?=[^\W\d_]{2,}\s)")
+_NUMBER = re.compile(r"\d+(?:\.\d+)?")
 _BUT = re.compile(r"(?:\s(?=(?:but|and)\s)|(?=但|而))(.+)$")
 _LAST_CLAUSE = re.compile(r"(?:[,;.!](?!\d)|[，；。！])\s*((?:[^,，;；.。!！]|[,.](?=\d))+)[.。!！\s]*$")
 
@@ -125,10 +125,11 @@ def _behind_a_story(line: Line) -> Line | None:
     if clause is None or line.is_asked:
         return None
     story = Line.of(line.text[: clause.start()], line.context)
-    told = {figure.value for figure in parse_quantities(story.text)}
-    known = {figure for held in line.context.constraints.values() for figure in figures_of(held)}
+    held = {figure for limit in line.context.constraints.values() for figure in figures_of(limit)}
+    known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)}
+    new = {figure.value for figure in story.figures} - held or set(_NUMBER.findall(story.text)) - known
     acts = is_ordered(story.text) or any(True for _ in words_of(story))
-    if story.users or acts or not told <= known or story.is_asked or tells_no_mere_fact(story.text):
+    if story.users or acts or new or story.is_asked or tells_no_mere_fact(story.text):
         return None
     return None if story.sentence.goal.objective else Line.of(clause[1], line.context)
 
@@ -337,6 +338,11 @@ def _dropped(words: Words) -> Intent | None:
         kinds = own
     if users and not words.has("leave", *NOUNS):  # "6不用了"
         kinds = own
+    raised = words.has("more") and (bool(words.line.context.share_of) or not words.has("again"))  # "lift it"
+    said_it = words.has("it") and whom is None and not words.has(*NOUNS)
+    if said_it and not raised and not is_all("cancel", words.line.said):  # "lift it again" behind a limit
+        last = words.last(Limit)
+        kinds, whom = [act.kind for act in last], last[0].whom if len(last) == 1 else None
     if len(kinds) > 1:
         kinds = [act.kind for act in words.last(Limit) if act.kind in kinds][-1:]
     if len(kinds) != 1 or (isinstance(whom, Named) and kinds[0] not in own and kinds[0] != "min_rate_bps"):
@@ -420,7 +426,7 @@ _FORMS = (
     Form("take", "it", _taken_up),
     Form("as_it_was", f"before after users lead correct make undo told leave first {_NOUNS}", _as_it_was),
     Form("equal weight", "every make again lead", _weighed_equally),
-    Form("remove|too", f"users bare every others both pronoun one again lead correct more by {_NOUNS}", _dropped),
+    Form("remove|too", f"it users bare every others both pronoun one again lead correct more by {_NOUNS}", _dropped),
     Form("every serve", "again lead take make", _all_served),
     Form("others serve", "again lead too make bare", _all_served),
     Form("both serve", "again lead every", _both_served),
