@@ -39,6 +39,8 @@ def test_a_bare_figure_goes_on_with_the_power_that_was_said(lines: tuple[str, ..
         (("least power, 400 kbit/s each", "user 3 needs only half of that"),
          {"min_rate_bps": {"all": 4e5, "3": 2e5}}),
         (("highest total rate, 250 kbit/s each", "250k was a bit stingy, let's say 400"), {"min_rate_bps": 4e5}),
+        (("highest total rate, 250 kbit/s for user 3", "It's 4K, so raise his to 350 please"),
+         {"min_rate_bps": {"3": 3.5e5}}),
         (("highest total rate, cap everybody at 5 Mbit/s", "user 4 only 2", "no caps for anyone after all"), {}),
         (("总速率尽量高，用户1至少200 kbit/s", "用户2也一样", "2不用了"), {"min_rate_bps": {"1": 2e5}}),
         (("让最慢的用户尽量快，不服务用户2和用户3", "2回来了，把他加上"), {"leave_out": ("3",)}),

@@ -39,7 +39,7 @@ _LONGEST = 120
 _SHORT = 40
 _MOST_STEPS = 20
 _FIRST_NUMBER = re.compile(r"\s*(\d{1,3})\s+(?=[^\W\d_]{2,}\s)")
-_NUMBER = re.compile(r"\d+(?:\.\d+)?")
+_NUMBER = re.compile(r"(?<![A-Za-z\d.])\d++(?:\.\d+)?+(?![A-Za-z])")  # "7", and no "4K"
 _BUT = re.compile(r"(?:\s(?=(?:but|and)\s)|(?=但|而))(.+)$")
 _LAST_CLAUSE = re.compile(r"(?:[,;.!](?!\d)|[，；。！])\s*((?:[^,，;；.。!！]|[,.](?=\d))+)[.。!！\s]*$")
 
