@@ -34,7 +34,8 @@ _LIMITS: tuple[tuple[str, str, str], ...] = (
      r"mindestrate)"), "最低速率|保底(?:速率)?|速率(?:保证|要求|下限)|最小速率"),
     ("outage_probability", (r"(?:outage(?:\s+probability|\s+limit)?|reliability(?:\s+requirement|"
         r"\s+target)?)"), "中断概率(?:限制|要求)?|可靠性(?:要求)?"),
-    ("weights", r"(?:weights?|weighting|priorit(?:y|ies))", "权重|优先级"),
+    ("weights", (r"(?:weights?|weighting|priorit(?:y|ies)|priorités?|poids|prioridad(?:es)?|pesos?|"
+     r"priorität(?:en)?|gewichtung(?:en)?|gewichte?)"), "权重|优先级"),
     ("circuit_power_w", r"circuit\s+power", "电路功率"),
     ("resource_block_group_size", r"(?:groups?|blocks?|grouping)(?:\s+of\s+subcarriers)?", "(?:子载波)?分组"),
 )  # fmt: skip

@@ -36,7 +36,7 @@ def read_figure(words: Words) -> Intent | None:
         return None
     figure, corrects = words.figures[0], words.has("correct")
     supposed = [act for one in words.last(Suppose) for act in one.acts if isinstance(act, Limit)]
-    before = supposed or [*words.last(Limit), *(_as_held(words, act) for act in words.last(Scale))]
+    before = supposed or [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
     if corrects and words.taken_off:
         before = [act for act in stated(words.taken_off) if isinstance(act, Limit)]
     kinds = _kinds_of(words, figure, before)
@@ -60,7 +60,7 @@ def read_figure(words: Words) -> Intent | None:
         return None
     replaced = words.replaced
     if words.has("instead") or (
-        replaced is not None and value_of(replaced, kind, model) not in _figures(words.held.get(kind))
+        replaced is not None and value_of(replaced, kind, model) not in figures_of(words.held.get(kind))
     ):
         return None
     wondered = words.line.is_asked or words.has("suppose") or supposed
@@ -82,7 +82,7 @@ def _says_anew(words: Words) -> bool:
     )
 
 
-def _as_held(words: Words, act: Scale) -> Limit:
+def as_held(words: Words, act: Scale) -> Limit:
     """A figure that was scaled, as it holds."""
     held = words.held.get(act.kind)
     users = act.whom.users if isinstance(act.whom, Named) else (EVERYBODY,)
@@ -110,6 +110,8 @@ def _kinds_of(words: Words, figure: Quantity, before: Sequence[Limit]) -> list[s
 def _model(words: Words, figure: Quantity, kind: str, models: Sequence[Limit]) -> Limit | None:
     """What the figure stands in the place of: what was said last, else what holds and is named by a noun."""
     model, held = models[-1] if models else None, words.held.get(kind)
+    if not models and kind == "max_power_w":
+        held = held or words.line.context.max_power_w
     if not models and figure.kind == "bare" and kind in words.named_kinds() and isinstance(held, float):
         model = Limit(kind=kind, value=held)
     if words.has("others", "every") or words.users:
@@ -127,9 +129,10 @@ def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: boo
     """Whether a line says no more than what a figure is to be now, and so leans on what was said before."""
     classes = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
     classes += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposes else []
+    classes += ["more", "less"] if figure.kind == "bare" and words.has("to") else []
     classes += ["revise"] if model is not None and isinstance(model.whom, Named) else []
     if len(words.named_kinds()) == 1:
-        classes += ["make", "promise"] if words.users else ["make"]
+        classes += ["make", "promise"] if words.users else ["make", "limit"]
     says_nothing_else = all(token.figure or "skip" in token.classes for token in words.tokens)
     alone = model is not None and words.line.context.awaits == "nothing" and says_nothing_else
     leans = alone or words.has(*classes) or (words.has("limit") and figure.kind == "power")
@@ -158,7 +161,7 @@ def _whom(words: Words, kind: str, model: Limit | None) -> Whom | None:
     return whom
 
 
-def _figures(held: Constraint | None) -> tuple[float, ...]:
+def figures_of(held: Constraint | None) -> tuple[float, ...]:
     """All figures of a limit that holds."""
     if isinstance(held, Mapping):
         return tuple(held.values())

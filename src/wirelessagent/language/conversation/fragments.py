@@ -26,10 +26,10 @@ from wirelessagent.language.acts import (
     Serve,
     Undo,
 )  # fmt: skip
-from wirelessagent.language.conversation.figure_in_place import read_figure, value_of
+from wirelessagent.language.conversation.figure_in_place import figures_of, read_figure, value_of
 from wirelessagent.language.conversation.line import Line, begins, is_all
-from wirelessagent.language.conversation.relative import read_relative
-from wirelessagent.language.conversation.tokens import NOUNS, Token, Words, speaks_of_one, tokens_of, words_of
+from wirelessagent.language.conversation.relative import read_relative, read_repeated
+from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, speaks_of_one, tokens_of, words_of
 from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
 from wirelessagent.language.moods import is_ordered
@@ -39,8 +39,9 @@ _LONGEST = 120
 _SHORT = 40
 _MOST_STEPS = 20
 _FIRST_NUMBER = re.compile(r"\s*(\d{1,3})\s+(?=[^\W\d_]{2,}\s)")
+_NUMBER = re.compile(r"(?<![A-Za-z\d.])\d++(?:\.\d+)?+(?![A-Za-z])")  # "7", and no "4K"
 _BUT = re.compile(r"(?:\s(?=(?:but|and)\s)|(?=但|而))(.+)$")
-_LAST_CLAUSE = re.compile(r"[,，;；.。!！]\s*([^,，;；.。!！]+)[.。!！\s]*$")
+_LAST_CLAUSE = re.compile(r"(?:[,;.!](?!\d)|[，；。！])\s*((?:[^,，;；.。!！]|[,.](?=\d))+)[.。!！\s]*$")
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,9 @@ def read_fragment(line: Line) -> Intent | None:
     found = [_read(words) for words in words_of(line)]
     if order is not None:
         found += [_read(words) for words in words_of(order) if words.spoken_of is not None]
+    figure = _behind_a_story(line)
+    if figure is not None:
+        found += [read_figure(words) or read_relative(words) for words in words_of(figure)]
     return next((intent for intent in found if intent is not None), None)
 
 
@@ -113,6 +117,21 @@ def _order_about_one(line: Line) -> Line | None:
     if len(users) != 1 or acts or story.is_asked or tells_no_mere_fact(story.text):
         return None
     return Line.of(clause[1], dataclasses.replace(line.context, spoken_of=users))
+
+
+def _behind_a_story(line: Line) -> Line | None:
+    """What is said last behind a clause that only tells of nobody, or of what holds: "ouch. 95 will do"."""
+    clause = _LAST_CLAUSE.search(line.text)
+    if clause is None or line.is_asked:
+        return None
+    story = Line.of(line.text[: clause.start()], line.context)
+    held = {figure for limit in line.context.constraints.values() for figure in figures_of(limit)}
+    known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)}
+    new = {figure.value for figure in story.figures} - held or set(_NUMBER.findall(story.text)) - known
+    acts = is_ordered(story.text) or any(True for _ in words_of(story))
+    if story.users or acts or new or story.is_asked or tells_no_mere_fact(story.text):
+        return None
+    return None if story.sentence.goal.objective else Line.of(clause[1], line.context)
 
 
 def _without_what_stays(line: Line) -> Line:
@@ -317,6 +336,13 @@ def _dropped(words: Words) -> Intent | None:
     kinds = [kind for kind in words.named_kinds() if kind in words.held]
     if words.has("own") and whom is not None and not words.has(*NOUNS):  # "cancel user 5's"
         kinds = own
+    if users and not words.has("leave", *NOUNS):  # "6不用了"
+        kinds = own
+    raised = words.has("more") and (bool(words.line.context.share_of) or not words.has("again"))  # "lift it"
+    said_it = words.has("it") and whom is None and not words.has(*NOUNS)
+    if said_it and not raised and not is_all("cancel", words.line.said):  # "lift it again" behind a limit
+        last = words.last(Limit)
+        kinds, whom = [act.kind for act in last], last[0].whom if len(last) == 1 else None
     if len(kinds) > 1:
         kinds = [act.kind for act in words.last(Limit) if act.kind in kinds][-1:]
     if len(kinds) != 1 or (isinstance(whom, Named) and kinds[0] not in own and kinds[0] != "min_rate_bps"):
@@ -358,6 +384,8 @@ def _served(words: Words) -> Intent | None:
 def _left_out(words: Words) -> Intent | None:
     """ "take 7 off the list"."""
     users, lists = _of_whom(words), words.last(LeaveOut, Serve)
+    if words.figures and words.has("step") and {act.kind for act in words.last(Limit, Scale)} & {*UNITS["power"]}:
+        return None  # "enlève 2" behind a power
     leans = bool(lists) or not words.is_read or words.spoken_of is not None
     return words.acts([LeaveOut(whom=Named(users))]) if users and leans else None
 
@@ -394,10 +422,11 @@ _FORMS = (
     Form("undo", "correct it lead again make more less factor rate limit promise power weight", _undone),
     Form("too|equal", "users bare lead weight rate promise again", _as_another),
     Form("again", "lead", _again),
+    Form("again", "lead it take", read_repeated),
     Form("take", "it", _taken_up),
     Form("as_it_was", f"before after users lead correct make undo told leave first {_NOUNS}", _as_it_was),
     Form("equal weight", "every make again lead", _weighed_equally),
-    Form("remove|too", f"users bare every others both pronoun one again lead correct more by {_NOUNS}", _dropped),
+    Form("remove|too", f"it users bare every others both pronoun one again lead correct more by {_NOUNS}", _dropped),
     Form("every serve", "again lead take make", _all_served),
     Form("others serve", "again lead too make bare", _all_served),
     Form("both serve", "again lead every", _both_served),

@@ -8,10 +8,12 @@ and how, for "no, a third" behind it.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from wirelessagent.language.acts import Act, Everybody, Limit, Named, Scale
+from wirelessagent.language.conversation.figure_in_place import as_held, value_of
 from wirelessagent.language.conversation.line import has
 from wirelessagent.language.conversation.tokens import UNITS, Words
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Detail, Intent
@@ -20,9 +22,12 @@ from wirelessagent.language.quantities import Quantity
 _SAID = (
     "users", "every", "each", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
     "promise", "power", "limit", "again", "by", "to", "figure", "decibel", "bare", "at_most", "suppose", "worth",
-    "spend", "effect", "been", "with", "one",
+    "spend", "effect", "been", "with", "one", "grant", "group", "circuit", "subcarrier", "further",
 )  # fmt: skip
-_SCALED = ("max_power_w", "min_rate_bps", "max_rate_bps")
+_SCALED = (
+    "max_power_w", "min_rate_bps", "max_rate_bps", "circuit_power_w", "subcarrier_max_power_w",
+    "resource_block_group_size",
+)  # fmt: skip
 
 Basis = float | Mapping[str, float]
 
@@ -79,6 +84,24 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
     return _result(words, name, basis, change, supposes=supposes, users=users)
 
 
+def read_repeated(words: Words) -> Intent | None:
+    """ "Again": what was changed last by what holds, once more."""
+    context, scaled = words.line.context, words.last(Scale)
+    if scaled:
+        return words.acts(scaled) if len(scaled) == len(context.acts) else None
+    if context.share_how == "of" or context.supposed_objective is not None:
+        return None
+    for name, basis in context.share_of.items():
+        held = words.held.get(name)
+        if isinstance(held, float) and isinstance(basis, float):
+            again = 2 * held - basis
+            details: dict[str, Detail] = {"share_of": {name: held}, "share_how": context.share_how}
+            return (
+                words.line.amend({name: again}, details=details) if again > 0 else words.line.ask("nothing_left_of_it")
+            )
+    return None
+
+
 def _result(
     words: Words, name: str, basis: Basis, change: _Change, *, supposes: bool, users: tuple[str, ...] = (),
     anew: bool = False,
@@ -126,6 +149,9 @@ def _change(words: Words, *, corrects: bool) -> _Change | None:
         how = "of" if to or not corrects else words.line.context.share_how
     else:
         how = "less" if less else "more"
+    further = words.has("further") and how == "of" and not to and bool(words.line.context.share_of)
+    if further and not factors:  # "another 2"
+        how = words.line.context.share_how
     if factors:
         return _of_share(factors[0], how) if factors[0] < 1 else _Change(how="of", factor=factors[0])
     figure = figures[0]
@@ -134,8 +160,20 @@ def _change(words: Words, *, corrects: bool) -> _Change | None:
         return _of_share(figure.value, how) if clear else None
     if figure.kind == "bare" and words.has("decibel") and how != "of":
         return _Change(how="of", factor=10.0 ** ((-figure.value if how == "less" else figure.value) / 10))
-    is_step = how != "of" and (corrects or _is_by(words, figure))
+    is_step = how != "of" and (corrects or further or _is_by(words, figure))
+    figure = _with_unit(words, figure) if is_step and figure.kind == "bare" else figure
     return _Change(how=how, figure=figure) if is_step and figure.kind in ("power", "rate") else None
+
+
+def _with_unit(words: Words, figure: Quantity) -> Quantity:
+    """A figure without a unit in that of the limit that was stated last: "4 less"; as it is where it may be a user."""
+    models = [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
+    kinds = [kind for kind in ("power", "rate") if {act.kind for act in models} <= {*UNITS[kind]}]
+    counts = figure.value in range(1, len(words.line.context.user_names) + 1)
+    if len(models) != 1 or len(kinds) != 1 or (counts and kinds == ["rate"]):
+        return figure
+    value = value_of(figure, models[0].kind, models[0])
+    return figure if value is None else dataclasses.replace(figure, value=value, kind=kinds[0])
 
 
 def _of_share(share: float, how: str) -> _Change | None:
@@ -144,11 +182,12 @@ def _of_share(share: float, how: str) -> _Change | None:
 
 
 def _is_by(words: Words, figure: Quantity) -> bool:
-    """Whether a figure says by how much: "by 2 W", "2 W less", "少2瓦"."""
+    """Whether a figure says by how much: "by 2 W", "2 W less", "add 2 W", "少2瓦"."""
     place = next(place for place, token in enumerate(words.tokens) if token.figure is figure)
     beside = [token.classes & {"more", "less"} for token in words.tokens[place + 1 :]]
-    ahead = words.line.voice.language == "zh" and place > 0 and words.tokens[place - 1].classes & {"more", "less", "by"}
-    return words.has("by") or any(beside) or bool(ahead)
+    ahead = words.tokens[place - 1].classes if place else frozenset[str]()
+    led = "step" in ahead or (words.line.voice.language == "zh" and ahead & {"more", "less", "by"})
+    return words.has("by") or any(beside) or bool(led)
 
 
 def _weighed(words: Words, factor: float) -> Intent | None:
@@ -171,13 +210,14 @@ def _worth(words: Words, figure: Quantity, step: float) -> Intent:
 
 def _changed_limit(words: Words, change: _Change) -> str | None:
     """The limit that is changed: what is named, or what was stated last."""
-    if words.has("power") or (change.figure is not None and change.figure.kind == "power"):
+    if words.has("power"):
         return "max_power_w"
-    named = words.named_kinds()
-    kinds = named or [act.kind for act in words.last(Limit)] or [*UNITS["rate"]]
+    kinds = words.named_kinds() or [act.kind for act in words.last(Limit)]
     if change.figure is not None:
-        kinds = [kind for kind in kinds if kind in UNITS["rate"]] or [*UNITS["rate"]]
-    held = list(dict.fromkeys(kind for kind in kinds if kind in words.held))
+        kinds = [kind for kind in dict.fromkeys(kinds) if kind in UNITS[change.figure.kind]]
+    if change.figure is not None and change.figure.kind == "power":
+        return kinds[0] if len(kinds) == 1 else "max_power_w"
+    held = list(dict.fromkeys(kind for kind in kinds or UNITS["rate"] if kind in words.held))
     if not held and (words.has("rate") or words.has("promise")):
         return "min_rate_bps"
     return held[0] if len(held) == 1 and held[0] in _SCALED else None

@@ -184,7 +184,10 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
 
 
 def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], Quantity | None]:
-    """The tokens without the figure that another replaces ("300 rather than 200", "500 was too much, 400"), and it."""
+    """The tokens without the figure that another replaces ("300 rather than 200", "500 was too much, 400"), and it.
+
+    What holds was too much in "too much, make it 9", which says nothing more.
+    """
     kept = list(tokens)
     said = [token for token in kept if not token.classes <= {"skip"} or token.figure]
     replaced: Quantity | None = None
@@ -192,7 +195,8 @@ def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], Quantity |
         gone = behind if "instead" in token.classes else token if "too_much" in behind.classes else None
         if gone is not None and gone.figure is not None and sum(each.figure is not None for each in kept) > 1:
             kept, replaced = [each for each in kept if each is not token and each is not behind], gone.figure
-    return kept, replaced
+    first = next((place for place, token in enumerate(kept) if token.figure is not None), 0)
+    return [token for token in kept[:first] if "too_much" not in token.classes] + kept[first:], replaced
 
 
 def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:

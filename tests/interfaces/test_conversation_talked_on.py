@@ -1,0 +1,65 @@
+"""Lines that go on with the figure that a talk is about: steps without a unit, once more, behind a story, none."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from conversations import talked_into
+
+pytestmark = pytest.mark.machine_code
+
+POWER_W = "highest total rate with at most 12 W"
+
+
+@pytest.mark.parametrize(
+    ("lines", "power_w"),
+    [
+        ((POWER_W, "noch mal 4 weniger"), 8.0), ((POWER_W, "quítale 5"), 7.0), ((POWER_W, "add 2 W"), 14.0),
+        ((POWER_W, "enlève 2", "encore 1"), 9.0), ((POWER_W, "太低了，加回3瓦"), 15.0), ((POWER_W, "3 W weg"), 9.0),
+        ((POWER_W, "3 W less", "again"), 6.0), ((POWER_W, "3 W less", "again", "do that again"), 3.0),
+        ((POWER_W, "halve that limit", "again"), 3.0), ((POWER_W, "2 W mehr", "noch mal 4"), 18.0),
+        ((POWER_W, "lift the ceiling by 2 W", "another 2"), 16.0), ((POWER_W, "减2瓦", "再1瓦"), 9.0),
+        ((POWER_W, "halve that limit", "ok too much, make it 9"), 9.0), ((POWER_W, "ouch. 9 will do"), 9.0),
+        (("highest total rate", "cap the power at 14"), 14.0), ((POWER_W, "lift it to 14"), 14.0),
+        ((POWER_W, "lift it by 2 W", "lift it"), 14.0),
+    ],
+)  # fmt: skip
+def test_a_bare_figure_goes_on_with_the_power_that_was_said(lines: tuple[str, ...], power_w: float) -> None:
+    assert talked_into(*lines)[0] == {"max_power_w": pytest.approx(power_w)}
+
+
+@pytest.mark.parametrize(
+    ("lines", "held"),
+    [
+        (("highest total rate, groups of 2 subcarriers", "make those groups twice as big"),
+         {"resource_block_group_size": 4.0}),
+        (("max energy efficiency, the circuit takes 8 W", "2 W less", "another 1"), {"circuit_power_w": 5.0}),
+        (("highest total rate, no subcarrier above 900 mW", "100 mW less"), {"subcarrier_max_power_w": 0.8}),
+        (("least power, 400 kbit/s each", "user 3 needs only half of that"),
+         {"min_rate_bps": {"all": 4e5, "3": 2e5}}),
+        (("highest total rate, 250 kbit/s each", "250k was a bit stingy, let's say 400"), {"min_rate_bps": 4e5}),
+        (("highest total rate, 250 kbit/s for user 3", "It's 4K, so raise his to 350 please"),
+         {"min_rate_bps": {"3": 3.5e5}}),
+        (("highest total rate, cap everybody at 5 Mbit/s", "user 4 only 2", "no caps for anyone after all"), {}),
+        (("总速率尽量高，用户1至少200 kbit/s", "用户2也一样", "2不用了"), {"min_rate_bps": {"1": 2e5}}),
+        (("让最慢的用户尽量快，不服务用户2和用户3", "2回来了，把他加上"), {"leave_out": ("3",)}),
+        (("highest total rate, 250 kbit/s each", "no subcarrier over 0.3 W", "fine, lift it again"),
+         {"min_rate_bps": 2.5e5}),
+        (("proportional fairness, weight 2 for user 1", "max-min, sans priorités"), {}),
+    ],
+)  # fmt: skip
+def test_a_line_goes_on_with_any_limit(lines: tuple[str, ...], held: dict[str, Any]) -> None:
+    assert talked_into(*lines)[0] == {name: pytest.approx(value) if isinstance(value, float) else value
+                                      for name, value in held.items()}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "said", ["if the surgeon calls, make it 9", "500 was too much", "another 2", "again", "room 7 is free, make it 9"]
+)
+def test_what_only_may_be_meant_changes_nothing(said: str) -> None:
+    assert talked_into(POWER_W, said)[0] == {"max_power_w": 12.0}
+
+
+def test_what_is_said_to_start_over_in_french_is_forgotten() -> None:
+    assert talked_into(POWER_W, "on repart de zéro")[1][-1].stage == "undone"
