@@ -154,9 +154,9 @@ def _names(language: str) -> re.Pattern[str]:
     if language == "zh":
         familiar = f"(?:{listed['nicknames']})(?:{listed['surnames']}|{listed['given']})"
         titled = f"(?:{listed['surnames']})(?:{listed['titles']})"
-        return re.compile(f"(?P<titled>(?<![最缩减变大太过较很]){familiar}|{titled})")
+        return re.compile(rf"(?P<titled>(?<![最缩减变大太过较很]){familiar}|{titled}|(?:{USER_NOUN})\s*[A-Z](?![\w]))")
     large = rf"(?!(?i:{listed['titles']})\b)[A-ZÀ-Þ][a-zß-ÿ]+"
     return re.compile(
         rf"\b(?i:{listed['titles']})\b\.?\s+(?P<titled>{large})|\b(?i:{listed['before']})\s+(?P<behind>{large})|"
-        rf"(?:^|[,;.:!?]\s)\s*(?P<ahead>{large})\s+(?i:{listed['after']})\b"
+        rf"(?:^|[,;.:!?]\s)\s*(?P<ahead>{large})\s+(?i:{listed['after']})\b|(?i:\b{USER_NOUN})\s+(?P<lettered>[A-Z])(?!\w)"
     )
