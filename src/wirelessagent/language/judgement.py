@@ -111,7 +111,11 @@ def aim_of_a_clause(sentence: Sentence) -> str:
         clause = Sentence(plain[start:end], own_words())
         shares = _shares(clause)
         name = max(BUILT_IN, key=lambda aim: shares.labels[aim])
-        if shares.familiar and shares.labels[name] >= _SURE_ALONE and clause.goal.verdict not in ("negated", "opposite"):
+        if (
+            shares.familiar
+            and shares.labels[name] >= _SURE_ALONE
+            and clause.goal.verdict not in ("negated", "opposite")
+        ):
             found[name] = shares.labels[name]
     return next(iter(found)) if len(found) == 1 else ""
 

@@ -157,6 +157,8 @@ class Reach:
             return self._is_denied(hit, clause)
         if hit.mood in _TAKEN_UP and self._is_taken_up(clause):
             return False
+        if hit.mood == "elsewhere" and self._turns_here(clause):
+            return False
         reach = (hit.start, hit.end) if hit.reach == "inside" else self._reach(hit, clause)
         free = 0 if clause.opens in _ASIDE or self._intent.kind == "command" else clause.end
         aside = [(each.start, each.end) for each in self._clauses if each.opens in _ASIDE]
@@ -231,7 +233,9 @@ class Reach:
             return alone if full or not self._is_short(hit, clause) else (clause.start, later[0].end if later else end)
         if (hit.reach == "ahead" or hit.mood in ("elsewhere", "time", "past")) and not full:
             if self._is_short(hit, clause):
-                return start, self._first_of(later, end, "so") if hit.mood == "past" else end
+                if hit.mood == "past":
+                    end = min(self._first_of(later, end, "so"), self._next(later, "imperative", end))
+                return start, end
             if hit.mood == "elsewhere":
                 turns = self._plain[start : clause.start].strip()
                 return clause.start, self._first_of(later, end, "besides") if turns else end
@@ -279,6 +283,12 @@ class Reach:
             if orders and all(any(a <= start and end <= b for a, b in said) for start, end in denied):
                 return True
         return False
+
+    def _turns_here(self, clause: Clause) -> bool:
+        """Whether the act stands in a clause of this cell, behind one of another: "forget the Wi-Fi, here I want …"."""
+        here = [each for each in self._clauses if each.start >= clause.end and self._found("here", each)]
+        behind = min((each.start for each in here), default=len(self._plain))
+        return bool(here) and all(any(place[1] > behind for place in part) for part in self._parts)
 
     def _first_of(self, clauses: Sequence[Clause], end: int, name: str) -> int:
         """Where the first of these clauses begins that opens so, or begins with such a word."""
