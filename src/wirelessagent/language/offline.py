@@ -149,7 +149,7 @@ class _Understanding:
         return dataclasses.replace(request, amends=True, dropped=dropped)
 
     def _is_plain(self) -> bool:
-        """Whether what looks like a supposition has no word of one, and does not ask: "never more than 14 W, clear?"."""
+        """Whether what looks like a supposition has no word of one, and does not ask: "never over 14 W, clear?"."""
         plain = self._sentence.plain
         return self._judged.topic == "what_if" and not is_supposed(plain) and not forms.asks_without_a_mark(plain)
 
