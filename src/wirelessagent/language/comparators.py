@@ -129,9 +129,9 @@ _GAP = deferred(rf"(?:\s|{_WORD.pattern}|{_SIGNS}){{0,16}}$")
 _WORDS = rf"(?:(?!(?:and|y|et|und)\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"
 _CAP = (  # "cap users at", "limite l'utilisateur 5 à", "limitado a", "auf … begrenzt" stands behind
     rf"\b(?:rate-)?(?:cap|limit|restrict|throttl|clamp|polic|chok|stop|held\s+down|cut\s+off)(?:s|e|es|p?ed|t?ing|ping|ing)?\s+{_WORDS}"
-    rf"(?:at|to)\b|\b(?:l[ií]mit|cap|top|restring|fren)\w*\s+{_WORDS}(?:a|en)\b"
+    rf"(?:at|to)\b|\b(?:l[ií]mit|c[aá]p|top|restring|fren|techo|tope)\w*\s+{_WORDS}(?:a|en)\b"
     rf"|\b(?:limit|plafonn|brid|restrei|cap)\w*\s+{_WORDS}à(?!\w)"
-    rf"|\b(?:begrenz|beschränk|deckel|kapp|drossel|drossl|limitier)\w*\s+{_WORDS}(?:auf|bei)\b"
+    rf"|\b(?:begrenz|beschränk|deckel|deckl|kapp|drossel|drossl|limitier)\w*\s+{_WORDS}(?:auf|bei)\b"
 )
 _BEFORE = Phrases(
     rf"(?P<at_least>{_any_of(_AT_LEAST)})|(?P<at_most>{_CAP}|{_any_of(_AT_MOST)})|(?P<exactly>{_any_of(_EXACTLY)})"

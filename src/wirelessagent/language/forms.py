@@ -54,7 +54,8 @@ _ASKS_IN_CHINESE = deferred(
 )
 _TAG = deferred(  # "…, will you?", "…, ¿vale?", "…，好吗？"
     r"(?i)(?:[\s,]+(?:will|would|could|can|won't) (?:you|ya)|,\s*(?:please|ok(?:ay)?|right|yes|vale|sí|por favor|"
-    r"puedes|d'accord|s'il (?:te|vous) pla[iî]t|ja|bitte|gut|in ordnung)|"
+    r"puedes|understood|clear|got it|klar|"
+    r"verstanden|oíste|entendido|está claro|compris|d'accord|s'il (?:te|vous) pla[iî]t|ja|bitte|gut|in ordnung)|"
     r"[,\uff0c]?\s*(?:好吗|好吧|行吗|可以吗|好不好|行不行))\s*[?\uff1f]\s*$"
 )
 _STATED = deferred(

@@ -19,7 +19,8 @@ from typing import TYPE_CHECKING
 from wirelessagent.language.followups import dropped_in
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.linear_model import shipped_model
-from wirelessagent.language.moods import Span, places, table_of
+from wirelessagent.language.moods import Span, is_ordered, places, table_of
+from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.reach import Doubt, Reach
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words
@@ -38,6 +39,10 @@ READ_IN_A_TALK = "conversation"
 """Who reads what a line is because of its conversation."""
 
 _NAMES_SHOWN = 12
+_REPORTED = {"min_rate_bps", "max_rate_bps", "max_power_w"}
+"""What is reported as often as ordered; of weights and groups hardly anybody speaks but to order them."""
+_A_SENTENCE = 6
+"""Words from which on a sentence tells something; two Chinese signs count as one."""
 
 _QUOTED = re.compile(
     r"\"[^\"]+\"|“[^”]+[”\"]|„[^“”]+[“”]|«[^»]+»|‹[^›]+›|「[^」]+」|『[^』]+』|《[^》]+》|(?<!\w)'[^']+'(?!\w)"
@@ -62,6 +67,8 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
         key = "unknown_name" if users else "unknown_name_alone"
         return _asking(intent, voice.say(key, text=text[slice(*name)], users=users))
     doubt = doubted(text, context, intent, _moods_of(intent)) if acts else None
+    if doubt is None and acts and told(plain, intent):
+        doubt = Doubt(mood="report", reach="text", start=0, end=len(text))
     if doubt is None:
         return intent
     guess = intent.reply.rstrip(" .。")
@@ -115,6 +122,23 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
     return None
 
 
+def told(plain: str, intent: Intent) -> bool:
+    """Whether a sentence changes figures alone and has nothing of an order: no verb of one, no "must", no bound.
+
+    A few words are an order by themselves ("user 3 2 Mbit/s"); a whole sentence about a figure more likely reports it.
+    """
+    if intent.kind != "allocate" or "objective" in intent.evidence or not intent.amends or is_ordered(plain):
+        return False
+    if not intent.constraints.keys() <= _REPORTED:
+        return False
+    bounded = any(figure.comparator for figure in parse_quantities(plain))
+    words = len(re.findall(r"[^\W\d_\u3400-\u9fff]{2,}", plain)) + len(re.findall(r"[\u3400-\u9fff]", plain)) // 2
+    if bounded or words < _A_SENTENCE:
+        return False
+    classes = (table_of(language)["modal"]["words"] for language in languages_of(plain))
+    return not any(True for listed in classes for _ in places(listed, plain))
+
+
 def tells_no_mere_fact(text: str) -> bool:
     """Whether a clause that is no order has a word of a mood in it, but of what was or what is denied.
 
@@ -141,8 +165,9 @@ def stranger(plain: str, context: Context | None) -> Span | None:
         name = match[form].casefold()
         if name in own or _IS_A_USER.match(plain, match.end(form)):
             continue
-        if form == "titled" or not shipped_model().familiarity(name):
-            return match.span() if form == "titled" else match.span(form)
+        whole = form in ("titled", "lettered")
+        if whole or not shipped_model().familiarity(name):
+            return match.span() if whole else match.span(form)
     return None
 
 
@@ -154,9 +179,9 @@ def _names(language: str) -> re.Pattern[str]:
     if language == "zh":
         familiar = f"(?:{listed['nicknames']})(?:{listed['surnames']}|{listed['given']})"
         titled = f"(?:{listed['surnames']})(?:{listed['titles']})"
-        return re.compile(f"(?P<titled>(?<![最缩减变大太过较很]){familiar}|{titled})")
+        return re.compile(rf"(?P<titled>(?<![最缩减变大太过较很]){familiar}|{titled}|用户\s*[A-Z](?![A-Za-z0-9]))")
     large = rf"(?!(?i:{listed['titles']})\b)[A-ZÀ-Þ][a-zß-ÿ]+"
     return re.compile(
         rf"\b(?i:{listed['titles']})\b\.?\s+(?P<titled>{large})|\b(?i:{listed['before']})\s+(?P<behind>{large})|"
-        rf"(?:^|[,;.:!?]\s)\s*(?P<ahead>{large})\s+(?i:{listed['after']})\b"
+        rf"(?:^|[,;.:!?]\s)\s*(?P<ahead>{large})\s+(?i:{listed['after']})\b|(?i:\b{USER_NOUN})\s+(?P<lettered>[A-Z])(?!\w)"
     )

@@ -47,6 +47,17 @@ def is_ordered(plain: str) -> bool:
     return _begins_a_clause(plain, "imperative", 0)
 
 
+def is_supposed(plain: str) -> bool:
+    """Whether a word of a condition stands anywhere.
+
+    >>> is_supposed("what if it were 5 W"), is_supposed("nothing above 5 W")
+    (True, False)
+    """
+    reaches = (table_of(language)["condition"].items() for language in languages_of(plain))
+    words = (listed for classes in reaches for reach, listed in classes if reach != "first")
+    return any(any(True for _ in places(listed, plain)) for listed in words)
+
+
 def is_taken_up(plain: str, place: int) -> bool:
     """Whether a clause behind a place begins with an order to carry out what was told before.
 

@@ -21,9 +21,9 @@ from wirelessagent.language.deferred import deferred
 from wirelessagent.language.excess import MOST_FIGURES, too_many_figures
 from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
-from wirelessagent.language.judgement import Judgement, judge
+from wirelessagent.language.judgement import Judgement, aim_of_a_clause, judge
 from wirelessagent.language.leftovers import unread
-from wirelessagent.language.moods import is_ordered
+from wirelessagent.language.moods import is_ordered, is_supposed
 from wirelessagent.language.nobody_starves import nobody_starves
 from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -113,7 +113,7 @@ class _Understanding:
         asked = _ASKED.search(forms.without_a_tag(self._text)) is not None
         commands = judged.kind == "command" and judged.topic not in (*CHANGING, "reject")
         if judged.kind in ("question", "out_of_scope") or commands:
-            ordered = reading.values.keys() & _ONLY_ORDERED or is_ordered(self._sentence.plain)
+            ordered = reading.values.keys() & _ONLY_ORDERED or is_ordered(self._sentence.plain) or self._is_plain()
             if reading.doubts or asked or not ordered:
                 return None  # "exclude user 7, he is only testing" is an order, whatever it is like
         elif asked:
@@ -142,9 +142,16 @@ class _Understanding:
             values = merged(context.pending, values)
         if not values and not dropped:
             return None
+        if aim_of_a_clause(self._sentence) not in ("", context.objective):
+            return None  # "0.3 W per subcarrier; apart from that the highest sum"
         reply = self._voice.amended(values, dropped)
         request = self._answer.allocate(context.objective, values, reading.evidence, reply, 0.85)
         return dataclasses.replace(request, amends=True, dropped=dropped)
+
+    def _is_plain(self) -> bool:
+        """Whether what looks like a supposition has no word of one, and does not ask: "never over 14 W, clear?"."""
+        plain = self._sentence.plain
+        return self._judged.topic == "what_if" and not is_supposed(plain) and not forms.asks_without_a_mark(plain)
 
     def _not_a_request(self) -> Intent | None:
         """Commands, questions, and what has nothing to do with a cell."""

@@ -31,7 +31,7 @@ _READ = ("negation", "refusal", "past", "time", "condition")
 """Moods whose words may be a part of a limit or of an aim that was read."""
 _STORIES = ("report", "others")
 """Moods of what is told, which may go on into the next clause."""
-_TAKEN_UP = (*_STORIES, "past")
+_TAKEN_UP = (*_STORIES, "past", "quotation")
 """Moods of what an order behind it may take up."""
 _ASIDE = ("because", "who", "agreed", "tell")
 """What opens a clause that keeps its words to itself."""
@@ -101,12 +101,19 @@ class Reach:
             return True
         if hit.mood == "time" and self._is_no_start(hit, clause):
             return True
+        if hit.reach == "first":
+            return not self._opens_a_condition(hit, clause)
         if hit.mood != "negation":
             return False
         if any(_overlap((clause.start, clause.end), span) for span in self._left_out):
             return True
         figure = any(clause.start <= first < clause.end for first, _ in self._figures)
         return figure and order
+
+    def _opens_a_condition(self, hit: Doubt, clause: Clause) -> bool:
+        """Whether a verb stands where "if" would, before a comma: "fällt das Netzteil aus, …"."""
+        ahead = self._plain[self._sentence(hit)[0] : hit.start]
+        return not _worded(ahead) and clause.behind in (",", "，")
 
     def _is_no_start(self, hit: Doubt, clause: Clause) -> bool:
         """Whether a time is now, or one until or since which something holds, or a figure: "at ten watts"."""
@@ -129,6 +136,9 @@ class Reach:
         """Whether a condition is one of courtesy: "if it's no trouble", "I'd be grateful if it did not exceed 17 W"."""
         said = self._found("courtesy", clause)
         ifs = [start for reach in self._table["condition"] for start, _ in self._found("condition", clause, reach)]
+        if hit.mood == "condition" and not _worded(self._plain[clause.start : hit.start]):
+            before = [each for each in self._clauses if each.end == clause.start and clause.behind != "?"]
+            said = [place for each in before for place in self._found("courtesy", each)] + said
         if not said or not ifs:
             return False
         ahead = any(start <= first for start, _ in said for first in ifs)
@@ -146,6 +156,8 @@ class Reach:
         if hit.mood == "negation":
             return self._is_denied(hit, clause)
         if hit.mood in _TAKEN_UP and self._is_taken_up(clause):
+            return False
+        if hit.mood == "elsewhere" and self._turns_here(clause):
             return False
         reach = (hit.start, hit.end) if hit.reach == "inside" else self._reach(hit, clause)
         free = 0 if clause.opens in _ASIDE or self._intent.kind == "command" else clause.end
@@ -200,7 +212,7 @@ class Reach:
                 return alone  # "I didn't mean that, undo it"
             last = len(self._plain)
             return 0, self._next(later, "imperative", last) if self._has_object(hit, clause) else last
-        if hit.reach == "sentence":
+        if hit.reach in ("sentence", "first"):
             return start, end
         if self._begins("comment", clause):
             return start, clause.end
@@ -221,7 +233,9 @@ class Reach:
             return alone if full or not self._is_short(hit, clause) else (clause.start, later[0].end if later else end)
         if (hit.reach == "ahead" or hit.mood in ("elsewhere", "time", "past")) and not full:
             if self._is_short(hit, clause):
-                return start, self._first_of(later, end, "so") if hit.mood == "past" else end
+                if hit.mood == "past":
+                    end = min(self._first_of(later, end, "so"), self._next(later, "imperative", end))
+                return start, end
             if hit.mood == "elsewhere":
                 turns = self._plain[start : clause.start].strip()
                 return clause.start, self._first_of(later, end, "besides") if turns else end
@@ -269,6 +283,12 @@ class Reach:
             if orders and all(any(a <= start and end <= b for a, b in said) for start, end in denied):
                 return True
         return False
+
+    def _turns_here(self, clause: Clause) -> bool:
+        """Whether the act stands in a clause of this cell, behind one of another: "forget the Wi-Fi, here I want …"."""
+        here = [each for each in self._clauses if each.start >= clause.end and self._found("here", each)]
+        behind = min((each.start for each in here), default=len(self._plain))
+        return bool(here) and all(any(place[1] > behind for place in part) for part in self._parts)
 
     def _first_of(self, clauses: Sequence[Clause], end: int, name: str) -> int:
         """Where the first of these clauses begins that opens so, or begins with such a word."""
