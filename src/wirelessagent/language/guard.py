@@ -19,8 +19,7 @@ from typing import TYPE_CHECKING
 from wirelessagent.language.followups import dropped_in
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.linear_model import shipped_model
-from wirelessagent.language.moods import Span, is_ordered, places, table_of
-from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.moods import Span, places, table_of
 from wirelessagent.language.reach import Doubt, Reach
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words
@@ -39,10 +38,6 @@ READ_IN_A_TALK = "conversation"
 """Who reads what a line is because of its conversation."""
 
 _NAMES_SHOWN = 12
-_REPORTED = {"min_rate_bps", "max_rate_bps", "max_power_w"}
-"""What is reported as often as ordered; of weights and groups hardly anybody speaks but to order them."""
-_A_SENTENCE = 6
-"""Words from which on a sentence tells something; two Chinese signs count as one."""
 
 _QUOTED = re.compile(
     r"\"[^\"]+\"|“[^”]+[”\"]|„[^“”]+[“”]|«[^»]+»|‹[^›]+›|「[^」]+」|『[^』]+』|《[^》]+》|(?<!\w)'[^']+'(?!\w)"
@@ -67,8 +62,6 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
         key = "unknown_name" if users else "unknown_name_alone"
         return _asking(intent, voice.say(key, text=text[slice(*name)], users=users))
     doubt = doubted(text, context, intent, _moods_of(intent)) if acts else None
-    if doubt is None and acts and told(plain, intent):
-        doubt = Doubt(mood="report", reach="text", start=0, end=len(text))
     if doubt is None:
         return intent
     guess = intent.reply.rstrip(" .。")
@@ -120,23 +113,6 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
             if first is not None:
                 return first
     return None
-
-
-def told(plain: str, intent: Intent) -> bool:
-    """Whether a sentence changes figures alone and has nothing of an order: no verb of one, no "must", no bound.
-
-    A few words are an order by themselves ("user 3 2 Mbit/s"); a whole sentence about a figure more likely reports it.
-    """
-    if intent.kind != "allocate" or "objective" in intent.evidence or not intent.amends or is_ordered(plain):
-        return False
-    if not intent.constraints.keys() <= _REPORTED:
-        return False
-    bounded = any(figure.comparator for figure in parse_quantities(plain))
-    words = len(re.findall(r"[^\W\d_\u3400-\u9fff]{2,}", plain)) + len(re.findall(r"[\u3400-\u9fff]", plain)) // 2
-    if bounded or words < _A_SENTENCE:
-        return False
-    classes = (table_of(language)["modal"]["words"] for language in languages_of(plain))
-    return not any(True for listed in classes for _ in places(listed, plain))
 
 
 def tells_no_mere_fact(text: str) -> bool:
