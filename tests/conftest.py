@@ -5,8 +5,10 @@ from __future__ import annotations
 import os
 import socket
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
+import postgres
 import pytest
 
 os.environ.setdefault("WIRELESSAGENT_COMPILE", "never")  # the machine code that is there is used, the rest interpreted
@@ -32,3 +34,13 @@ def _own_store(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(os.environ, "WIRELESSAGENT_STORE_URL", str(tmp_path_factory.mktemp("store") / "audit.sqlite3"))
         yield
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def place(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
+    """Where a store may be."""
+    if request.param == "sqlite":
+        yield str(tmp_path / "store.sqlite3")
+        return
+    with postgres.running_or_skipped(tmp_path / "cluster") as url:
+        yield url

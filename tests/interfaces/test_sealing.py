@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
-import postgres
 import pytest
 from sqlalchemy import create_engine
 from sqlalchemy.exc import DBAPIError
@@ -23,16 +21,6 @@ from wirelessagent.store.store import Store
 from wirelessagent.testing.turns import decided_turn, random_turn
 
 pytestmark = pytest.mark.machine_code
-
-
-@pytest.fixture(params=["sqlite", "postgresql"])
-def place(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
-    """Where a store may be."""
-    if request.param == "sqlite":
-        yield str(tmp_path / "store.sqlite3")
-        return
-    with postgres.running_or_skipped(tmp_path / "cluster") as url:
-        yield url
 
 
 def test_the_chain_holds_and_the_file_gives_back_what_was_seen(place: str, tmp_path: Path) -> None:

@@ -7,7 +7,6 @@ import sqlite3
 import subprocess
 import threading
 import time
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -20,16 +19,6 @@ from wirelessagent.store.ledger import ChangedError, Ledger
 from wirelessagent.store.store import Store
 
 pytestmark = pytest.mark.machine_code
-
-
-@pytest.fixture(params=["sqlite", "postgresql"])
-def place(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
-    """Where a store may be."""
-    if request.param == "sqlite":
-        yield str(tmp_path / "store.sqlite3")
-        return
-    with postgres.running_or_skipped(tmp_path / "cluster") as url:
-        yield url
 
 
 def test_of_two_who_want_an_item_one_wins(place: str) -> None:

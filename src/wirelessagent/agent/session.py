@@ -121,7 +121,6 @@ class Session:
         self._state, self._past = State(), list[State]()
         self._turns, self._requests = list[Turn](), list[Request | None]()
         self._language = self._by = ""
-        self._pressed: Press | None = None
         self.id = uuid.uuid4().hex[:12]
 
     @property
@@ -154,7 +153,7 @@ class Session:
 
         Where a button was ``pressed``, that is what is meant; nothing is read in the text and nothing doubted.
         """
-        self._by, self._pressed = by, pressed
+        self._by = by
         context = self._context()
         if pressed is None:
             intent = self._taken(self._answered(text, context) or understood(text, context, self._recogniser))
@@ -170,7 +169,7 @@ class Session:
             self._progress(Event(stage="understand", message=read, language=intent.language))
         talk = Talk(
             site=self._site, state=self._state, past=self._past, turns=self._turns, intent=intent, text=text,
-            pressed=pressed is not None,
+            pressed=pressed,
         )  # fmt: skip
         try:
             reply = changing.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
@@ -192,6 +191,7 @@ class Session:
         state, request, supposed = self._state, self._state.request, self._state.supposed
         question = state.question or Question()
         before: Mapping[str, Detail] = self._turns[-1].intent.details if self._turns else {}
+        names = called([turn.text for turn in self._turns])
         return Context(
             user_names=self._site.user_names,
             max_power_w=self._site.scene.cell.max_power_w,
@@ -212,14 +212,10 @@ class Session:
             share_how=str(before.get("share_how", "of")),
             language=self._language,
             acts=self._last_acts(),
-            spoken_of=self._spoken_of(),
+            spoken_of=self._spoken_of(names),
             earlier=tuple(turn.acts for turn in self._turns),
-            called=self._called(),
+            called=names,
         )
-
-    def _called(self) -> Mapping[str, str]:
-        """What the operator calls users."""
-        return called([turn.text for turn in self._turns])
 
     def _last_acts(self) -> tuple[Act, ...]:
         """The acts of the last line that changed something, or of the very last one where that supposed something."""
@@ -229,9 +225,8 @@ class Session:
                 return acts
         return ()
 
-    def _spoken_of(self) -> tuple[str, ...]:
+    def _spoken_of(self, names: Mapping[str, str]) -> tuple[str, ...]:
         """The users whom the last line that named any named, unless something was changed since."""
-        names = self._called()
         for turn in reversed(self._turns):
             found = mentions(normalise(with_users(turn.text, names)), self._site.user_names)
             users = tuple(dict.fromkeys(user for each in found for user in each.users))
@@ -302,7 +297,7 @@ class Session:
             diff=difference(before.request, after.request),
             shift=shift_between(then, now),
             by=self._by,
-            pressed=self._pressed,
+            pressed=talk.pressed,
         )
         if self._store is not None:
             try:

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Run, Stage, Turn
-from wirelessagent.language.acts import Act
+from wirelessagent.language.acts import Act, Press
 from wirelessagent.language.conversation.amendments import Question
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.language.recogniser import Awaited
@@ -80,7 +80,7 @@ class Talk:
         turns: what was said so far.
         intent: what was understood of the line.
         text: the line.
-        pressed: whether it stands for a button.
+        pressed: the button that it stands for; None where it was said.
     """
 
     site: Site
@@ -89,7 +89,7 @@ class Talk:
     turns: Sequence[Turn]
     intent: Intent
     text: str
-    pressed: bool = False
+    pressed: Press | None = None
 
     @property
     def language(self) -> str:

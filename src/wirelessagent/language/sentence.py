@@ -15,7 +15,7 @@ from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.spelling import respelt
 from wirelessagent.language.stated import Reading
-from wirelessagent.language.text import language_of, normalise
+from wirelessagent.language.text import language_of, normalise, replaced
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
 from wirelessagent.model.objective import Objective
@@ -54,15 +54,9 @@ class Sentence:
         spans = [(q.phrase_start, q.phrase_end, _PLACEHOLDERS[q.kind]) for q in self.quantities]
         taken = [(start, end) for start, end, _ in spans]
         spans += [(m.start, m.end, " @user ") for m in mentions(self.plain, (), taken) if m.role == "named"]
-        parts: list[str] = []
-        place = 0
-        for start, end, placeholder in sorted(spans):
-            if start >= place:
-                parts += [self._spelt[place:start], placeholder]
-                place = end
         terms = [item.term.objective or item.term.concept for item in self.found]
         goal = f"goal:{self.goal.verdict}:{self.goal.objective}"
-        return "".join([*parts, self._spelt[place:]]), [*terms, goal], self.language
+        return replaced(self._spelt, sorted(spans)), [*terms, goal], self.language
 
 
 def own_words() -> tuple[OwnWords, ...]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 import unicodedata
+from collections.abc import Iterable
 
 from wirelessagent.language.deferred import deferred
 
@@ -96,6 +97,20 @@ def unaccented(text: str) -> str:
 def is_chinese(word: str) -> bool:
     """Whether a text is a Chinese character, or begins with one."""
     return "\u3400" <= word < "\ua000" or "\uf900" <= word < "\ufb00"
+
+
+def replaced(text: str, spans: Iterable[tuple[int, int, str]]) -> str:
+    """A text with others in the places of spans from left to right; one that begins within another is left out.
+
+    >>> replaced("user 3 gets 1 W", [(0, 6, "@"), (5, 6, "3"), (12, 15, "#")])
+    '@ gets #'
+    """
+    parts, place = list[str](), 0
+    for start, end, other in spans:
+        if start >= place:
+            parts += [text[place:start], other]
+            place = end
+    return "".join([*parts, text[place:]])
 
 
 def has_chinese(text: str) -> bool:

@@ -30,12 +30,12 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.scene import Scene
 from wirelessagent.operations.chat import ChatRequest
-from wirelessagent.operations.hosted_answers import CellFacts, ChannelAnswer, HostedTurn, SeenAnswer
+from wirelessagent.operations.hosted_answers import CellFacts, ChannelAnswer, HostedTurn, SeenAnswer, TradeOffAnswer
 from wirelessagent.operations.operation import Event, Progress
 from wirelessagent.operations.pseudonyms import hidden_text
 from wirelessagent.operations.recording import opened
 from wirelessagent.operations.simulate import scene_arrays
-from wirelessagent.operations.trade_off import TradeOffAnswer, trade_off
+from wirelessagent.operations.trade_off import trade_off
 from wirelessagent.operations.turn_record import LinesAnswer, TurnRecord
 from wirelessagent.sensing.npz import write_npz
 from wirelessagent.store.plain import plain

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from wirelessagent.language.acts import Press
 from wirelessagent.operations.record import GapMatrix, Matrix, Record, SwitchMatrix, Vector
 from wirelessagent.operations.turn_record import TurnRecord
 
-__all__ = ["CellFacts", "ChannelAnswer", "HostedTurn", "Press", "SeenAnswer"]
+__all__ = ["CellFacts", "ChannelAnswer", "HostedTurn", "Press", "SeenAnswer", "TradeOffAnswer", "TradeOffPoint"]
 
 
 class CellFacts(Record):
@@ -40,6 +42,28 @@ class SeenAnswer(Record):
     num_slots: int
     missing: int
     gain: GapMatrix
+
+
+class TradeOffPoint(Record):
+    """The best that was found at one place of a curve."""
+
+    at: float
+    status: str
+    value: float | None
+    bound: float | None
+    total_power_w: float | None
+    total_rate_bps: float
+    lowest_rate_bps: float
+
+
+class TradeOffAnswer(Record):
+    """The curve that a decision lies on: over the power budget in W, or over all promises by a common factor."""
+
+    varies: Literal["max_power_w", "promises"]
+    here: float
+    objective: str
+    unit: str
+    points: list[TradeOffPoint]
 
 
 class HostedTurn(Record):

@@ -15,6 +15,7 @@ import re
 from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
+from wirelessagent.language.text import replaced
 from wirelessagent.settings import Settings
 
 if TYPE_CHECKING:
@@ -60,11 +61,7 @@ def hidden_text(text: str, user_names: Collection[str]) -> str:
     key = _key()
     if key is None:
         return text
-    parts, end = list[str](), 0
-    for start, stop, said in _named(text, frozenset(user_names), key):
-        parts += [text[end:start], said]
-        end = stop
-    return "".join([*parts, text[end:]])
+    return replaced(text, _named(text, frozenset(user_names), key))
 
 
 def _named(text: str, known: Collection[str], key: str) -> Iterator[tuple[int, int, str]]:

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Literal, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from wirelessagent.model.errors import NothingRecordedError
+from wirelessagent.operations.hosted_answers import TradeOffAnswer, TradeOffPoint
 from wirelessagent.operations.operation import Event, Progress
-from wirelessagent.operations.record import Record
 
 if TYPE_CHECKING:
     from wirelessagent.agent.turn import Run
@@ -26,28 +26,6 @@ _STEPS = 8
 
 _MOST_PROMISED = 1.6
 """How far a curve over promises goes, as a factor of what is promised."""
-
-
-class TradeOffPoint(Record):
-    """The best that was found where the figure that varies is ``at``."""
-
-    at: float
-    status: str
-    value: float
-    bound: float
-    total_power_w: float
-    total_rate_bps: float
-    lowest_rate_bps: float
-
-
-class TradeOffAnswer(Record):
-    """A curve: what varies, where the decision itself stands, and the points in rising order."""
-
-    varies: Literal["max_power_w", "promises"]
-    here: float
-    objective: str
-    unit: str
-    points: list[TradeOffPoint]
 
 
 def trade_off(run: Run | None, progress: Progress) -> TradeOffAnswer:

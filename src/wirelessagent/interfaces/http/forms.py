@@ -130,28 +130,6 @@ class OperationAnswer(BaseModel):
     picture: str | None = Field(description="SVG, where it was asked for and can be drawn")
 
 
-class TradeOffPoint(BaseModel):
-    """The best that was found at one place of a curve."""
-
-    at: float
-    status: str
-    value: float | None
-    bound: float | None
-    total_power_w: float | None
-    total_rate_bps: float
-    lowest_rate_bps: float
-
-
-class TradeOffAnswer(BaseModel):
-    """The curve that a decision lies on: over the power budget in W, or over all promises by a common factor."""
-
-    varies: Literal["max_power_w", "promises"]
-    here: float
-    objective: str
-    unit: str
-    points: list[TradeOffPoint]
-
-
 class Start(BaseModel):
     """What the console starts from."""
 

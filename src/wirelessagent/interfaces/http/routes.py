@@ -19,7 +19,7 @@ from wirelessagent.interfaces.http.answers import (
     strict_json,
     worked,
 )
-from wirelessagent.operations.hosted_answers import ChannelAnswer, Press
+from wirelessagent.operations.hosted_answers import ChannelAnswer, Press, TradeOffAnswer
 from wirelessagent.operations.operation import installed_version
 from wirelessagent.operations.recognisers import llm_model
 from wirelessagent.service.jobs import Tell
@@ -148,7 +148,7 @@ async def read_channel(request: Request, id: Id) -> Any:
     return current(request, await service_of(request).channel(id))
 
 
-@router.get("/sessions/{id}/turns/{number}/trade-off", responses=_as(forms.TradeOffAnswer), tags=["conversations"])
+@router.get("/sessions/{id}/turns/{number}/trade-off", responses=_as(TradeOffAnswer), tags=["conversations"])
 async def trade_off(request: Request, id: Id, number: Annotated[int, Path(ge=1, le=2**31)]) -> Response:
     """What a turn's decision trades: its best value at other budgets, or the least power for other promises."""
     service = service_of(request)

@@ -21,7 +21,7 @@ from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words
-from wirelessagent.language.text import has_chinese, language_of, normalise
+from wirelessagent.language.text import has_chinese, language_of, normalise, replaced
 from wirelessagent.language.word_tables import table, written
 
 NAME = READ_IN_A_TALK
@@ -105,7 +105,7 @@ class Line:
         taken = [(start, end) for start, end, _ in spans]
         named = [each for each in mentions(plain, context.user_names, taken) if each.role == "named"]
         spans += [(each.start, each.end, "@") for each in named]
-        shape = " ".join(_replaced(plain, sorted(spans)).lower().split())
+        shape = " ".join(replaced(plain, sorted(spans)).lower().split())
         said = _WORD.findall(shape)  # hardly anything ("10 W") or one word ("nein") has no language of its own
         if context.language and language == "en" and (not said or shape.rstrip(".!?") in said[:1]):
             language = context.language
@@ -181,12 +181,3 @@ class Line:
         return Intent(
             kind=kind, reply=reply, language=self.voice.language, confidence=1.0, recogniser=NAME, **given
         )  # fmt: skip
-
-
-def _replaced(plain: str, spans: list[tuple[int, int, str]]) -> str:
-    parts, place = list[str](), 0
-    for start, end, sign in spans:
-        if start >= place:
-            parts += [plain[place:start], sign]
-            place = end
-    return "".join([*parts, plain[place:]])

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.sentence import Sentence, own_words
-from wirelessagent.language.text import language_of, languages_of, normalise
+from wirelessagent.language.text import language_of, languages_of, normalise, replaced
 from wirelessagent.language.word_tables import table, written
 
 Span = tuple[int, int]
@@ -34,22 +34,18 @@ def with_users(text: str, names: Mapping[str, str]) -> str:
     >>> with_users("the ambulance needs 2 Mbit/s", {"ambulance": "3"})
     'user 3 needs 2 Mbit/s'
     """
-    plain = normalise(text)
-    given = list(_given(plain))
+    plain, language = normalise(text), language_of(text)
+    given = _given(plain)
     known = {**names, **{name: number for _, name, number in given}}
     kept = [span for span, *_ in given]
     spans = [
-        (*match.span(), match["before"], number)
-        for name, number in sorted(known.items(), key=lambda each: -len(each[0]))
+        (*match.span(), _user(match["before"], number, language))
+        for name, number in known.items()
         if name in plain.lower()
-        for match in _called(name, language_of(text)).finditer(plain)
+        for match in _called(name, language).finditer(plain)
+        if not any(first < match.end() and match.start() < last for first, last in kept)
     ]
-    parts, place = list[str](), 0
-    for start, end, before, number in sorted(spans):
-        if start >= place and not any(first < end and start < last for first, last in kept):
-            parts += [text[place:start], _user(before, number, language_of(text))]
-            place = end
-    return "".join([*parts, text[place:]])
+    return replaced(text, sorted(spans))
 
 
 def only_called(text: str) -> Mapping[str, str]:
@@ -59,7 +55,7 @@ def only_called(text: str) -> Mapping[str, str]:
     ({'ambulance': '3'}, {})
     """
     plain = normalise(text)
-    given = list(_given(plain))
+    given = _given(plain)
     rest = "".join(" " if any(a <= at < b for (a, b), *_ in given) else sign for at, sign in enumerate(plain))
     for language in languages_of(text) if given else ():
         for words in table("talk_forms", language)["nicknames"]["aside"]:
@@ -67,18 +63,19 @@ def only_called(text: str) -> Mapping[str, str]:
     return {} if any(map(str.isalnum, rest)) else {name: number for _, name, number in given}
 
 
-def _given(plain: str) -> Iterator[tuple[Span, str, str]]:
-    """Where a name is given, the name, and the number of the user who gets it."""
-    for language in languages_of(plain):
-        for pattern in _patterns(language):
-            for match in pattern.finditer(plain):
-                name = match["name"].lower().strip()
-                asked = plain[match.end() :].lstrip()[:1] in ("?", "？")
-                if not asked and _names_somebody(name, language):
-                    yield match.span(), name, str(int(match["user"]))
-
-
 @functools.lru_cache(maxsize=256)
+def _given(plain: str) -> tuple[tuple[Span, str, str], ...]:
+    """Where a name is given, the name, and the number of the user who gets it; each line of a talk is asked often."""
+    return tuple(
+        (match.span(), name, str(int(match["user"])))
+        for language in languages_of(plain)
+        for pattern in _patterns(language)
+        for match in pattern.finditer(plain)
+        if plain[match.end() :].lstrip()[:1] not in ("?", "？")
+        and _names_somebody(name := match["name"].lower().strip(), language)
+    )
+
+
 def _names_somebody(name: str, language: str) -> bool:
     """Whether words are no words of a request or of talking: "the slowest", "the others", "the one" name nobody."""
     never = set(table("talk_forms", language)["nicknames"]["never"].split())
