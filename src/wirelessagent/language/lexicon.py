@@ -198,7 +198,7 @@ NOT_AFTER = (
 POLITE = (
     "can_spare could_spare quick_question quick_check quick_look quick_word fair_enough fair_point fair_amount "
     "fair_bit fair_chance "
-    "fair_warning to_be_fair no_matter_what regardless "
+    "fair_warning to_be_fair apart_from_that other_than_that except_for_that no_matter_what regardless "
     "whatever_it_takes off_peak no_doubt 无论如何 不管怎样 不管怎么样 "
     "can could would will shall please lets let_us how_about what_about why_not why_dont is_it_possible_to "
     "i_want_you_to dont_forget do_not_forget not_only no_wait nothing_but make_sure green_light high_speed_train "
