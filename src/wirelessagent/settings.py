@@ -45,8 +45,7 @@ class EnvironmentSettings(BaseModel):
     def _told(cls, field: str, message: str, value: object) -> str:
         """What is wrong with one variable."""
         said = message.removeprefix("Value error, ").removeprefix("Input ")
-        secret = cls.model_config.get("hide_input_in_errors") or field == "pseudonym_key"
-        got = "" if secret else f"; got {value!r}"
+        got = "" if cls.model_config.get("hide_input_in_errors") else f"; got {value!r}"
         return f"{cls.prefix}{field.upper()}: {said}{got}"
 
 
@@ -56,9 +55,19 @@ class Settings(EnvironmentSettings):
     Attributes:
         store: whether what is asked for is recorded.
         store_url: where: a SQLAlchemy URL or an SQLite file; a file in the user's data folder if not given.
-        pseudonym_key: what user names are turned into pseudonyms with, 16 characters or more; they stay if not given.
     """
 
     store: bool = True
     store_url: str | None = None
+
+
+class PseudonymSettings(EnvironmentSettings):
+    """What user names are turned into pseudonyms with; read by itself, so that no other setting gets in its way.
+
+    Attributes:
+        pseudonym_key: 16 characters or more; names stay if not given.
+    """
+
+    model_config = ConfigDict(frozen=True, hide_input_in_errors=True)
+
     pseudonym_key: SecretStr | None = Field(None, min_length=16)

@@ -16,7 +16,7 @@ from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.text import replaced
-from wirelessagent.settings import Settings
+from wirelessagent.settings import PseudonymSettings
 
 if TYPE_CHECKING:
     from wirelessagent.model.scene import Scene
@@ -89,5 +89,5 @@ def _letters(of: str, key: str, shape: str) -> str:
 
 
 def _key() -> str | None:
-    key = Settings.read().pseudonym_key
+    key = PseudonymSettings.read().pseudonym_key
     return None if key is None else key.get_secret_value()

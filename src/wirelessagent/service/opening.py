@@ -11,7 +11,7 @@ from wirelessagent.service.limits import Limits
 from wirelessagent.service.names import PublicNames
 from wirelessagent.service.service import Service
 from wirelessagent.service.workers import Workers
-from wirelessagent.settings import Settings
+from wirelessagent.settings import PseudonymSettings
 from wirelessagent.store.ledger import Ledger
 from wirelessagent.store.place import file_of, url_of
 
@@ -40,7 +40,7 @@ def open_service(store: str | None, limits: Limits, *, workers: int = 1, pseudon
         cache / "observations",
         Workers(workers, time_limit_s=limits.work_s, environment=environment, names=names),
         limits,
-        pseudonyms=bool(pseudonym_key or Settings.read().pseudonym_key),
+        pseudonyms=bool(pseudonym_key or PseudonymSettings.read().pseudonym_key),
     )
 
 
