@@ -58,6 +58,7 @@ def test_what_fails_names_no_path(server: Server) -> None:
 def test_a_store_that_fails_is_told_of_in_the_log(tmp_path: Path) -> None:
     store = tmp_path / "store.sqlite3"
     with started(store) as server, server.client as client:
+        assert client.get("readyz").status_code == 200  # it is up before its store fails
         with sqlite3.connect(store) as broken:
             broken.execute("ALTER TABLE service_item RENAME TO gone")
         for answer in (client.get("v1/cells"), client.get("readyz"), client.post("v1/operations/simulate", json={})):
