@@ -82,3 +82,13 @@ def test_a_cell_that_is_made_while_its_observation_is_removed(
     with pytest.raises(ConflictError, match="'c' works on this observation"):
         asyncio.run(kept.drop(sent))
     assert ledger.find("observation", sent) is not None
+
+
+def test_many_files_at_once(ledger: Ledger, tmp_path: Path) -> None:
+    kept = Observations(ledger, tmp_path / "files", _Worker(), Limits(observations=500))
+
+    async def send() -> None:
+        await asyncio.gather(*(kept.add("a.csv", b"x", {}, lambda _: None) for _ in range(200)))
+
+    asyncio.run(send())
+    assert len(ledger.all("observation")) == 200

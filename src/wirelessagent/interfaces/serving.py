@@ -82,7 +82,7 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
             f"host: {request.host} is open to others, by itself or by a proxy, so a token is needed: make one with "
             "'wirelessagent token NAME --role operator' first, or listen on 127.0.0.1 alone"
         )
-    listening = _listening(request.host, request.port)
+    listening = listening_on(request.host, request.port)
     port = listening.getsockname()[1]
     hosts = {request.host.lower(), *(LOCAL_NAMES if request.host in LOCAL_NAMES else ()), *(request.allowed_host or ())}
     if request.host in ("0.0.0.0", "::"):
@@ -120,9 +120,15 @@ def _key_in(file: Path | None) -> str:
     return key
 
 
-def _listening(host: str, port: int) -> socket.socket:
+def listening_on(host: str, port: int) -> socket.socket:
+    """A socket on which a server can be called at once.
+
+    Raises:
+        InputError: the address cannot be had.
+    """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    listening = socket.socket(family)
+    # Of a socket that does not say that it is TCP's, asyncio leaves Nagle's algorithm on: 40 ms for each answer.
+    listening = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     if os.name == "posix":
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:

@@ -6,6 +6,7 @@ A worker reads a file by its path, so what it works on is copied into a folder o
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import secrets
 import time
@@ -184,8 +185,9 @@ def _make(folder: Path) -> None:
     """The folder, without the copies that nobody used for long."""
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     for path in folder.iterdir():
-        if path.stat().st_mtime < time.time() - _UNUSED_S:
-            path.unlink(missing_ok=True)
+        with contextlib.suppress(FileNotFoundError):  # another request was done with it meanwhile
+            if path.stat().st_mtime < time.time() - _UNUSED_S:
+                path.unlink()
 
 
 def _write(path: Path, content: bytes) -> None:
