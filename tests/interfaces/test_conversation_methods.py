@@ -6,7 +6,7 @@ import pytest
 from conversations import talk
 
 from wirelessagent.agent.turn import Turn
-from wirelessagent.language.llm_prompt import plain
+from wirelessagent.language.llm.prompt import plain
 
 HELD = "highest total rate, at most 10 W"
 

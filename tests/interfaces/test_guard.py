@@ -13,8 +13,8 @@ import wirelessagent as wa
 from wirelessagent.agent.session import Session
 from wirelessagent.language.conversation import understood
 from wirelessagent.language.guard import MOODS, doubted, stranger
-from wirelessagent.language.llm import LlmRecogniser
-from wirelessagent.language.llm_settings import LlmSettings
+from wirelessagent.language.llm.endpoint import LlmSettings
+from wirelessagent.language.llm.reader import LlmRecogniser
 from wirelessagent.language.moods import LANGUAGES, table_of
 from wirelessagent.language.offline import OfflineRecogniser, recognise
 from wirelessagent.language.recogniser import Context

@@ -17,7 +17,6 @@ SPOKEN = Path(language.__file__).parent / "training" / "spoken"
 MARKED = {
     f"{module.name}.{name}": pattern
     for module in pkgutil.iter_modules(language.__path__)
-    if not module.name.startswith("llm")
     for name, pattern in vars(importlib.import_module(f"wirelessagent.language.{module.name}")).items()
     if isinstance(pattern, Phrases) and pattern.marks
 }

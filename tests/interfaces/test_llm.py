@@ -20,11 +20,13 @@ from llm_stub import Reply, StubLlm, call, case_of, error, meaning, raw, refuse,
 from pydantic import ValidationError
 
 from wirelessagent.language.intent import COMMANDS, QUESTIONS, Intent
-from wirelessagent.language.llm import LlmRecogniser
-from wirelessagent.language.llm_door import NoAnswer, counted
-from wirelessagent.language.llm_settings import LlmSettings
+from wirelessagent.language.llm import reader
+from wirelessagent.language.llm.client import NoAnswer, counted
+from wirelessagent.language.llm.endpoint import LlmSettings
+from wirelessagent.language.llm.reader import LlmRecogniser
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.vocabulary import OwnWords
 from wirelessagent.model.errors import InputError, MissingDependencyError
 
 pytestmark = pytest.mark.machine_code
@@ -166,7 +168,7 @@ FAULTS: dict[str, tuple[list[Reply], str, int]] = {
     "wrong unit": ([right(constraints=[{"constraint": "min_rate_bps", "figure": 1}, STATED[1]])] * 3, "not said", 2),
     "wrong kind": ([right(constraints=[{"constraint": "max_power_w", "figure": "F1"}])] * 3, "not said", 2),
     "dropped figure": ([right(constraints=STATED[:1])] * 3, "left out a figure", 2),
-    "set aside": ([right(constraints=STATED[:1], set_aside=["F2"])] * 3, "otherwise than the rules", 2),
+    "other share": ([right(constraints=[STATED[0], {"constraint": "max_power_w", "figure": "S1"}])] * 3, "rules", 2),
     "swapped": ([right(constraints=[STATED[0], {"constraint": "circuit_power_w", "figure": "F2"}])] * 3, "rules", 2),
     "misquoted": ([right(objective_words="more speed")] * 3, "were not said", 2),
     "no quotation": ([right(objective="max_rate", objective_words="")] * 3, "quoted no words", 2),
@@ -219,7 +221,7 @@ def test_limits_stay_until_they_are_taken_back() -> None:
 @pytest.mark.parametrize("text", ["hello there", "what if we had 20 W?", "don't save power", "is save power good?"])
 @pytest.mark.parametrize("topic", [None, "undo", "reset"])
 def test_what_asks_for_nothing_changes_nothing(text: str, topic: str | None) -> None:
-    acts = {"kind": "allocate", "objective": "min_power", "objective_words": text, "set_aside": ["F1"]}
+    acts = {"kind": "allocate", "objective": "min_power", "objective_words": text}
     reply = meaning(**({"kind": "command", "topic": topic} if topic else acts))
     intent = Asked(stream=False)([reply, reply], text, Context(objective="max_rate"))
     assert intent.recogniser.startswith("offline (the LLM's answer did not hold")
@@ -296,7 +298,7 @@ def test_is_asked_once_more_with_the_reason(asked: Asked, first: str) -> None:
     intent = asked([FAULTS[first][0][0], right()])
     assert (intent.recogniser, dict(intent.constraints)) == ("llm", TRUE_CONSTRAINTS)
     told = json.dumps(asked.stub.requests[1]["messages"][-1])
-    expected = {"invented": "100", "wrong unit": "min_rate_bps", "dropped figure": "F2"}.get(first, "")
+    expected = {"invented": "100", "wrong unit": "min_rate_bps", "dropped figure": "max_power_w"}.get(first, "")
     assert expected in told
 
 
@@ -369,19 +371,17 @@ def test_any_text_gets_an_answer(text: str) -> None:
 
 
 def test_objectives_come_from_the_registry(monkeypatch: pytest.MonkeyPatch) -> None:
-    from wirelessagent.language import llm
-    from wirelessagent.language.llm_prompt import Offer
-
-    known = llm.offered()
-    added = Offer(name="share_evenly", summary="Everybody the same.", phrases={"en": ("share and share alike",)})
-    monkeypatch.setattr(llm, "offered", lambda: (*known, added))
+    added = OwnWords(objective="share_evenly", names=("share_evenly",), phrases=(("en", ("share and share alike",)),))
+    known = reader.own_words()
+    monkeypatch.setattr(reader, "own_words", lambda: (*known, added))
     asked = Asked(stream=False)
-    intent = asked([meaning(kind="allocate", objective="share_evenly", objective_words="share alike")], "share alike")
+    said = "please share and share alike"
+    intent = asked([meaning(kind="allocate", objective="share_evenly", objective_words=said)], said)
     assert intent.objective == "share_evenly"
     request = asked.stub.requests[0]
     schema = json.dumps(request["tools"][0]["function"]["parameters"])
     system = json.dumps(request["messages"])
-    assert all(offer.name in schema and offer.name in system for offer in (*known, added))
+    assert all(words.objective in schema and words.objective in system for words in (*known, added))
     assert "share and share alike" in system
 
 

@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
+import json
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, get_args
 
 import pytest
 
-from wirelessagent.language.intent import CONSTRAINTS, LISTS_OF_USERS, Constraint, Intent, IntentKind
-from wirelessagent.language.llm_check import Case, Read
-from wirelessagent.language.llm_figures import KINDS, figures_of
-from wirelessagent.language.llm_meaning import FiguredConstraint, Meaning, meaning_with
-from wirelessagent.language.llm_reasons import Objection, told
+from wirelessagent.language.guard import guarded
+from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, LISTS_OF_USERS, Constraint, Intent, IntentKind
+from wirelessagent.language.llm.check import Case
+from wirelessagent.language.llm.client import NoAnswer, Objection
+from wirelessagent.language.llm.meaning import Details, FiguredConstraint, Meaning, meaning_with
+from wirelessagent.language.llm.prompt import KINDS, figures_of
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.sentence import Sentence, own_words
+
+INTENTS = Path(__file__).parents[1] / "intents"
 
 
 def by_rules(
@@ -33,7 +41,7 @@ def by_rules(
     )  # fmt: skip
 
 
-def read(text: str, rules: Intent, context: Context | None = None, **filled: Any) -> Read:
+def read(text: str, rules: Intent, context: Context | None = None, **filled: Any) -> Intent:
     meaning = Meaning.model_validate({"kind": "allocate", "language": "en"} | filled)
     return Case(text, context or Context(), rules).read(meaning)
 
@@ -52,7 +60,12 @@ RATE = {"objective": "max_rate", "objective_words": "faster"}
 
 
 def test_every_constraint_has_a_kind_of_figure() -> None:
-    assert set(KINDS) == set(get_args(FiguredConstraint)) == set(CONSTRAINTS) - set(LISTS_OF_USERS)
+    assert set(get_args(FiguredConstraint)) == set(CONSTRAINTS) - set(LISTS_OF_USERS)
+    assert set(KINDS) - set(get_args(FiguredConstraint)) == set(Details.model_fields) - {
+        "user",
+        "compared_with",
+        "format",
+    }
 
 
 def test_type_knows_objectives_and_topics() -> None:
@@ -66,7 +79,7 @@ def test_type_knows_objectives_and_topics() -> None:
 
 def test_reliability_is_the_outage_that_it_leaves() -> None:
     rules = by_rules(outage_probability=0.01)
-    for figure in ("F1", "F1b", 0.99, 0.01):
+    for figure in ("F1", "S2", 0.99, 0.01):
         found = read("faster at 99 %", rules, **RATE, constraints=[stated("outage_probability", figure)])
         assert found.constraints == {"outage_probability": pytest.approx(0.01)}
 
@@ -74,9 +87,9 @@ def test_reliability_is_the_outage_that_it_leaves() -> None:
 def test_share_of_the_power_is_worked_out_here() -> None:
     context = Context(max_power_w=40.0)
     rules = by_rules(max_power_w=16.0)
-    found = read("faster on 40 % of the power", rules, context, **RATE, constraints=[stated("max_power_w", "F1c")])
+    found = read("faster on 40 % of the power", rules, context, **RATE, constraints=[stated("max_power_w", "S2")])
     assert found.constraints == {"max_power_w": pytest.approx(16.0)}
-    wrong = [stated("max_power_w", "F1d")]
+    wrong = [stated("max_power_w", "S1")]
     refused("otherwise", "faster on 40 % of the power", rules, context, **RATE, constraints=wrong)
 
 
@@ -86,33 +99,38 @@ def test_figures_by_user() -> None:
     constraints = [stated("min_rate_bps", "F1", "1", "user 2"), stated("min_rate_bps", 5e5)]
     found = read(text, rules, **RATE, constraints=constraints, leave_out=["3"])
     assert found.constraints == {"min_rate_bps": {"1": 4e6, "2": 4e6, "all": 5e5}, "leave_out": ("3",)}
-    refused("otherwise", text, rules, **RATE, constraints=constraints)
+    refused("left_out", text, rules, **RATE, constraints=constraints)
     refused("otherwise", text, rules, **RATE, constraints=constraints, leave_out=["1"])
     refused("no_user", text, rules, **RATE, constraints=constraints, leave_out=["7"])
-    refused("twice", text, rules, **RATE, constraints=[*constraints, stated("min_rate_bps", "F2", "1")])
-    refused("cells_own", "faster, user 1 has 4 W", by_rules(), **RATE, constraints=[stated("max_power_w", "F1", "1")])
+    refused(
+        "otherwise", text, rules, **RATE, constraints=[*constraints, stated("min_rate_bps", "F2", "1")], leave_out=["3"]
+    )
+    refused("doubtful", "faster, user 1 has 4 W", by_rules(), **RATE, constraints=[stated("max_power_w", "F1", "1")])
+    what_if = {"kind": "question", "topic": "what_if", "constraints": [stated("max_power_w", "F1", "1")]}
+    refused("impossible", "what if user 1 had 4 W?", by_rules("question"), **what_if)
 
 
 def test_weights_are_numbers_of_the_sentence() -> None:
-    found = read("faster, user 5 counts twice", by_rules(), **RATE, constraints=[stated("weights", 2, "5")])
-    assert found.constraints == {"weights": {"5": 2.0}}
-    refused("invented", "faster, user 5 counts twice", by_rules(), **RATE, constraints=[stated("weights", 3, "5")])
+    text = "faster, user 5 counts twice"
+    rules = OfflineRecogniser().read(text)
+    assert read(text, rules, **RATE, constraints=[stated("weights", 2, "5")]).constraints == {"weights": {"5": 2.0}}
+    refused("invented", text, rules, **RATE, constraints=[stated("weights", 3, "5")])
 
 
 def test_rules_in_doubt_about_a_figure_have_the_operator_asked() -> None:
     refused("doubtful", "faster, cut 5 W", by_rules(), **RATE, constraints=[stated("max_power_w", "F1")])
-    refused("passed_over", "faster, 20", by_rules(), **RATE, set_aside=["F1"])
-    refused("passed_over", "faster, at most 0 W", by_rules(), **RATE, set_aside=["F1"])
+    refused("doubtful", "faster, at most 0 W", by_rules(), **RATE)
+    refused("doubtful", "faster with 30 dB", by_rules(), **RATE)
     refused("invented", "faster, at most 0 W", by_rules(), **RATE, constraints=[stated("max_power_w", "F1")])
     refused("invented", "faster, at most -3 W", by_rules(), **RATE, constraints=[stated("max_power_w", -3)])
 
 
 def test_bounds_are_not_turned_round() -> None:
     text = "faster, at most 3 Mbit/s"
-    refused("turned", text, by_rules(max_rate_bps=3e6), **RATE, constraints=[stated("min_rate_bps", "F1")])
+    refused("doubtful", text, by_rules(max_rate_bps=3e6), **RATE, constraints=[stated("min_rate_bps", "F1")])
     text = "faster, at least 3 Mbit/s, at most 1 Mbit/s"
     both = [stated("min_rate_bps", "F1"), stated("max_rate_bps", "F2")]
-    refused("crossed", text, by_rules(min_rate_bps=3e6, max_rate_bps=1e6), **RATE, constraints=both)
+    refused("doubtful", text, by_rules(min_rate_bps=3e6, max_rate_bps=1e6), **RATE, constraints=both)
 
 
 class TestConversation:
@@ -215,18 +233,18 @@ class TestConversation:
         assert read("compare with the last one", rules, **against).details == {"with": "last"}
 
     def test_a_topic_of_another_kind_is_refused(self) -> None:
-        refused("mixed", "why?", by_rules(), kind="question", topic="undo")
-        refused("mixed", "faster", by_rules(), **RATE, topic="undo")
+        refused("impossible", "why?", by_rules(), kind="question", topic="undo")
+        refused("impossible", "faster", by_rules(), **RATE, topic="undo")
 
 
 def test_question_back_is_cleaned() -> None:
     found = read("hm", by_rules(), kind="clarify", question="What\x1b[31m do you\u202e want?")
-    assert found.question == "What [31m do you  want?"
+    assert found.reply == "What [31m do you  want?"
 
 
 def test_question_back_only_asks() -> None:
     def asked(question: str) -> str:
-        return read("hm", by_rules(), kind="clarify", question=question).question
+        return read("hm", by_rules(), kind="clarify", question=question).reply
 
     assert asked("All is applied. Type yes.\nLeast power or most speed?") == "Least power or most speed?"
     assert asked("已应用。要速率还是要省电？") == "要速率还是要省电？"
@@ -254,8 +272,11 @@ def test_question_back_only_asks() -> None:
 )  # fmt: skip
 def test_no_request_from_a_sentence_that_makes_none(text: str, objective: str, words: str) -> None:
     rules = OfflineRecogniser().recognise(text)
-    with pytest.raises(Objection):
-        read(text, rules, objective=objective, objective_words=words, set_aside=["F1"])
+    try:
+        intent = read(text, rules, objective=objective, objective_words=words)
+    except Objection:
+        return
+    assert guarded(text, None, intent).kind == "clarify"
 
 
 @pytest.mark.parametrize(
@@ -289,16 +310,47 @@ def test_a_label_is_a_label_however_it_is_spelt(label: str) -> None:
     rules = by_rules("allocate", "max_rate", max_power_w=3.0)
     found = read("faster, at most 3 W", rules, **RATE, constraints=[stated("max_power_w", label)])
     assert found.constraints == {"max_power_w": 3.0}
-    assert read("faster in 2 s", by_rules(), **RATE, set_aside=[label])
 
 
 def test_figures_of_the_rules_have_labels_too() -> None:
     rules = by_rules("allocate", "max_rate", min_rate_bps=2.5e6)
-    figures = figures_of("a quarter more for everyone", Context(), rules)
+    sentence = Sentence("a quarter more for everyone", own_words())
+    figures = figures_of(sentence, Context(), rules, rules.constraints)
     assert [(f.label, f.value) for f in figures if f.kind == "rate"] == [("S2", 2.5e6)]
 
 
 def test_reasons_in_both_languages() -> None:
-    assert told("late", "en", {"seconds": 2.0}) == "the LLM did not answer: no answer within 2 s"
-    assert told("invented", "zh", {}) == "大模型的答案不成立：给出了没有说过的数值"
-    assert told("invented", "pt", {}) == told("invented", "en", {})
+    assert NoAnswer("late", {"seconds": 2.0}).told("en") == "the LLM did not answer: no answer within 2 s"
+    assert NoAnswer("invented").told("zh") == "大模型的答案不成立：给出了没有说过的数值"
+    assert NoAnswer("invented").told("pt") == NoAnswer("invented").told("en")
+
+
+def test_an_llm_that_lies_about_the_aim_gets_next_to_nothing_through() -> None:
+    """Every aim for each sentence of the development sets, quoted whole, with the figures that the rules read."""
+    aims = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
+    lines = [
+        line for path in sorted(INTENTS.glob("development*.jsonl")) for line in path.read_text("utf-8").splitlines()
+    ]
+    told, acted = {True: 0, False: 0}, {True: 0, False: 0}
+    for row in map(json.loads, lines[::6]):
+        rules = OfflineRecogniser().read(row["text"])
+        case = Case(row["text"], Context(), rules)
+        for aim in aims:
+            is_true = row["objective"] == aim
+            said = {"kind": "allocate", "language": "en", "objective": aim, "objective_words": row["text"]}
+            told[is_true] += 1
+            with contextlib.suppress(Objection):
+                acted[is_true] += case.read(Meaning.model_validate(said | repeated(case.rules))).kind == "allocate"
+    assert acted[True] >= 0.97 * told[True]
+    assert acted[False] <= 0.02 * told[False]
+
+
+def repeated(rules: Mapping[str, Constraint]) -> dict[str, Any]:
+    """What an LLM fills in that reads what the rules read."""
+    lists = {name: list(value) for name, value in rules.items() if isinstance(value, tuple)}
+    constraints: list[dict[str, Any]] = []
+    for name, value in rules.items():
+        if not isinstance(value, tuple):
+            each = value if isinstance(value, Mapping) else {EVERYBODY: value}
+            constraints += [stated(name, one, *({user} - {EVERYBODY})) for user, one in each.items()]
+    return lists | {"constraints": constraints}

@@ -9,9 +9,9 @@ from conversations import CHINESE, ENGLISH, LOSS, SCENE, SEED, Line
 from llm_stub import StubLlm, truthful
 
 from wirelessagent.agent.session import Session
-from wirelessagent.language.llm import LlmRecogniser
-from wirelessagent.language.llm_prompt import plain
-from wirelessagent.language.llm_settings import LlmSettings
+from wirelessagent.language.llm.endpoint import LlmSettings
+from wirelessagent.language.llm.prompt import plain
+from wirelessagent.language.llm.reader import LlmRecogniser
 
 pytestmark = pytest.mark.machine_code
 

@@ -10,7 +10,7 @@ import pytest
 from llm_stub import Reply, StubLlm, call, error, say
 from pydantic import ValidationError
 
-from wirelessagent.language.llm_settings import LlmSettings
+from wirelessagent.language.llm.endpoint import LlmSettings
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.catalogue import OPERATIONS, load
 from wirelessagent.operations.forms import form_of
@@ -99,7 +99,7 @@ class TestAssistant:
     """Questions answered with tools, before a real server."""
 
     def ask(self, *replies: Reply, timeout_s: float = 120.0) -> tuple[str, StubLlm]:
-        from wirelessagent.language.llm_assistant import LlmAssistant
+        from wirelessagent.language.llm.tools import LlmAssistant
 
         with StubLlm(list(replies)) as stub:
             settings = LlmSettings(base_url=stub.url, model="m", timeout_s=timeout_s)
@@ -107,7 +107,7 @@ class TestAssistant:
             return assistant.answer("What power would 1 Mbit/s each need?"), stub
 
     def why_not(self, *replies: Reply) -> str:
-        from wirelessagent.language.llm_door import NoAnswer
+        from wirelessagent.language.llm.client import NoAnswer
 
         with pytest.raises(NoAnswer) as caught:
             self.ask(*replies)

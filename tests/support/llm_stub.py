@@ -179,19 +179,19 @@ def truthful(rows: Iterable[Json]) -> Callable[[Json], Reply]:
     """A script that answers each sentence with the meaning that the table gives it.
 
     A row has ``text``, ``kind``, ``objective`` and ``constraints`` as in tests/intents, and may have ``topic``,
-    ``details``, ``amends``, ``dropped`` and ``reply``. Figures are given by value; what is not used is set aside.
+    ``details``, ``amends``, ``dropped`` and ``reply``. Figures are given by value.
     """
     table = {row["text"]: row for row in rows}
 
     def script(request: Json) -> Reply:
         case = case_of(request)
         row = table.get(case["sentence"])
-        return say("I don't know this sentence.") if row is None else meaning(**_meaning_of(row, case))
+        return say("I don't know this sentence.") if row is None else meaning(**_meaning_of(row))
 
     return script
 
 
-def _meaning_of(row: Json, case: Json) -> Json:
+def _meaning_of(row: Json) -> Json:
     stated: list[Json] = []
     lists: Json = {}
     details = dict(row.get("details", {}))
@@ -210,12 +210,10 @@ def _meaning_of(row: Json, case: Json) -> Json:
         details["compared_with"] = details.pop("with")
     if "user" in details:
         details["user"] = str(details["user"])
-    used = [each["figure"] for each in stated]
     filled: Json = {
         "kind": row["kind"],
         "objective": row.get("objective") or supposed,
         "constraints": stated,
-        "set_aside": _unused(case, used) if row["kind"] == "allocate" else [],
         "amends": row.get("amends", False),
         "drops": list(row.get("dropped", [])),
         "topic": row.get("topic"),
@@ -227,21 +225,6 @@ def _meaning_of(row: Json, case: Json) -> Json:
     if row["kind"] == "clarify":
         filled["question"] = row.get("reply") or "What should the cell aim for?"
     return filled
-
-
-def _unused(case: Json, used: list[float]) -> list[str]:
-    """The labels of the sentence's own figures that no constraint takes."""
-
-    def close(a: float, b: float) -> bool:
-        return abs(a - b) <= 1e-6 * max(abs(a), abs(b))
-
-    taken = {
-        figure["label"].rstrip("bcd")
-        for figure in case["figures"]
-        if "value" in figure and any(close(figure["value"], value) for value in used)
-    }
-    own = [figure["label"] for figure in case["figures"] if figure["label"].startswith("F")]
-    return [label for label in own if label[-1].isdigit() and label not in taken]
 
 
 def main() -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
-from wirelessagent.language.llm_tool import LlmTool
+from wirelessagent.language.llm.client import LlmTool
 from wirelessagent.operations.compare import COMPARE
 from wirelessagent.operations.forms import filled, form_of, needs_channel
 from wirelessagent.operations.list_plugins import PLUGINS

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def llm_model() -> str | None:
     """The LLM that the settings name; None where they name none that can be used."""
-    from wirelessagent.language.llm_settings import LlmSettings
+    from wirelessagent.language.llm.endpoint import LlmSettings
 
     try:
         return LlmSettings.read().model
@@ -35,6 +35,6 @@ class RecogniserOption(Request):
             from wirelessagent.language.offline import OfflineRecogniser
 
             return OfflineRecogniser()
-        from wirelessagent.language.llm import LlmRecogniser
+        from wirelessagent.language.llm.reader import LlmRecogniser
 
         return LlmRecogniser()

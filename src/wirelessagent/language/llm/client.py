@@ -15,29 +15,34 @@ from collections.abc import (
     AsyncIterator,
     Callable,
     Coroutine,
-    Iterator,
     Mapping,
     Sequence,
 )
-from typing import TYPE_CHECKING, Any, TypeVar
+from concurrent.futures import Future
+from dataclasses import dataclass
+from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
-from wirelessagent.language.llm_reasons import Objection, told
-from wirelessagent.language.llm_settings import LlmSettings
-from wirelessagent.language.llm_tool import LlmTool
+from wirelessagent.language.llm.endpoint import LlmSettings
 from wirelessagent.model.errors import MissingDependencyError, WirelessAgentError
-
-if TYPE_CHECKING:
-    from pydantic_ai.models.openai import OpenAIChatModel
+from wirelessagent.telling.catalogue import has_message, message
 
 _HEADERS = ("host", "authorization", "content-type", "content-length", "accept", "accept-encoding", "connection")
 _GRACE_S = 0.5  # for a cancelled request to close its connection
 _MOST_ROUNDS_WITH_TOOLS = 8
 _MOST_BYTES = 1_000_000
+_WHY = ("no_answer", "did_not_hold", "not_asked")
 
 Answer = TypeVar("Answer")
-Filled = TypeVar("Filled", bound=BaseModel)
+
+
+class Objection(Exception):
+    """Why a meaning cannot be so: ``reason`` for the LLM, and the ``key`` of what the operator is told."""
+
+    def __init__(self, key: str, reason: str) -> None:
+        super().__init__(reason)
+        self.key, self.reason = key, reason
 
 
 class NoAnswer(Exception):
@@ -48,116 +53,89 @@ class NoAnswer(Exception):
         super().__init__(self.told("en"))
 
     def told(self, language: str) -> str:
-        return told(self.key, language, self._names)
+        """The reason as one clause, "the LLM did not answer: HTTP 500"."""
+        kind = next(kind for kind in _WHY if has_message(language, f"llm.{kind}.{self.key}"))
+        reason = message(language, f"llm.{kind}.{self.key}", **self._names)
+        return message(language, f"llm.because_{kind}", reason=reason)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LlmTool:
+    """A tool that an LLM may call: what the operations above hand in, and nothing else.
+
+    ``run`` goes from a filled-in form to text and changes nothing; a ``WirelessAgentError`` is told to the LLM.
+    """
+
+    name: str
+    summary: str
+    form: type[BaseModel]
+    run: Callable[[Any], str]
 
 
 def require_llm() -> None:
     """Raise :class:`MissingDependencyError` where the extra ``llm`` is not installed."""
     try:
-        import openai
+        import openai  # noqa: F401  # pyright: ignore[reportUnusedImport]
         import pydantic_ai  # noqa: F401  # pyright: ignore[reportUnusedImport]
     except ImportError as error:
         raise MissingDependencyError("pydantic-ai-slim[openai]", "llm", "the LLM recogniser") from error
-    del openai
 
 
-def fill_in(
-    settings: LlmSettings, task: str, data: str, form: type[Filled], check: Callable[[Filled], Answer]
-) -> Answer:
-    """What ``check`` makes of the form that the LLM fills in; where it objects, the LLM is asked once more.
+def ask(
+    settings: LlmSettings, task: str, data: str, check: Callable[[Any], Answer], *,
+    form: type[BaseModel] | None = None, tools: Sequence[LlmTool] = (),
+) -> Answer:  # fmt: skip
+    """What ``check`` makes of an LLM's answer, a filled-in ``form`` or words; it may call the tools before.
+
+    Where ``check`` raises an :class:`Objection`, the LLM is told and asked once more.
 
     Raises:
         NoAnswer: there is none, or none that holds.
     """
-    objections: list[Objection] = []
+    made: list[Answer] = []
 
-    async def ask() -> Answer:
+    async def answered() -> Answer:
         from pydantic_ai import Agent, ModelRetry, NativeOutput, PromptedOutput, ToolOutput
         from pydantic_ai.usage import UsageLimits
 
-        def checked(filled: Filled) -> Filled:
+        def checked(answer: Any) -> Any:
             try:
-                check(filled)
+                made.append(check(answer))
             except Objection as objection:
-                objections.append(objection)
-                raise ModelRetry(objection.reason) from objection
-            return filled
-
-        ways: dict[str, Any] = {"tool": ToolOutput, "schema": NativeOutput, "words": PromptedOutput}
-        agent: Any = Agent(output_type=ways[settings.output](form, name="meaning"), instructions=task, retries=1)
-        agent.output_validator(checked)
-        async with _model(settings) as model:
-            limits = UsageLimits(request_limit=2)
-            run = await agent.run(data, model=model, usage_limits=limits, event_stream_handler=_streaming(settings))
-        return check(run.output)
-
-    return _held(lambda: _within(settings, ask), objections)
-
-
-def converse(
-    settings: LlmSettings, task: str, data: str, tools: Sequence[LlmTool], check: Callable[[str, Sequence[str]], None]
-) -> str:
-    """What the LLM says to a question, having called the tools that it wants.
-
-    ``check`` gets the answer and all that the tools told; where it objects, the LLM is asked once more.
-
-    Raises:
-        NoAnswer: there is none, or none that holds.
-    """
-    told: list[str] = []
-    objections: list[Objection] = []
-
-    async def ask() -> str:
-        from pydantic_ai import Agent, ModelRetry
-        from pydantic_ai.usage import UsageLimits
-
-        def checked(answer: str) -> str:
-            try:
-                check(answer, told)
-            except Objection as objection:
-                objections.append(objection)
                 raise ModelRetry(objection.reason) from objection
             return answer
 
-        agent: Any = Agent(output_type=str, instructions=task, retries=1, tools=[_tool(tool, told) for tool in tools])
+        ways: dict[str, Any] = {"tool": ToolOutput, "schema": NativeOutput, "words": PromptedOutput}
+        output = str if form is None else ways[settings.output](form, name="meaning")
+        agent: Any = Agent(output_type=output, instructions=task, retries=1, tools=[_tool(tool) for tool in tools])
         agent.output_validator(checked)
         async with _model(settings) as model:
-            limits = UsageLimits(request_limit=_MOST_ROUNDS_WITH_TOOLS)
-            run = await agent.run(data, model=model, usage_limits=limits, event_stream_handler=_streaming(settings))
-        return str(run.output)
+            limits = UsageLimits(request_limit=_MOST_ROUNDS_WITH_TOOLS if tools else 2)
+            stream = _to_its_end if settings.stream else None  # a stream that is handled is asked for
+            await agent.run(data, model=model, usage_limits=limits, event_stream_handler=stream)
+        return made[-1]
 
-    return _held(lambda: _within(settings, ask), objections)
-
-
-def _held(ask: Callable[[], Answer], objections: Sequence[Objection]) -> Answer:
-    """The answer, or what was last objected to where the second one did not hold either."""
-    try:
-        return ask()
-    except NoAnswer as error:
-        if objections and error.key == "unusable":
-            raise NoAnswer(objections[-1].key) from None
-        raise
+    return _within(settings, answered)
 
 
-def _tool(tool: LlmTool, told: list[str]) -> Any:
+def _tool(tool: LlmTool) -> Any:
     """One of our tools as pydantic-ai's; what it refuses goes back to the LLM as the reason."""
     from pydantic_ai import ModelRetry, Tool
 
     def call(**values: Any) -> str:
         try:
-            told.append(tool.run(tool.form.model_validate(values)))
+            return tool.run(tool.form.model_validate(values))
         except (WirelessAgentError, ValueError) as error:
             raise ModelRetry(str(error)) from error
         except MemoryError as error:
             raise ModelRetry("that is too large") from error
-        return told[-1]
 
     schema = tool.form.model_json_schema()
     return Tool.from_schema(call, name=tool.name, description=tool.summary, json_schema=schema)
 
 
 @contextlib.asynccontextmanager
-async def _model(settings: LlmSettings) -> AsyncGenerator[OpenAIChatModel]:
+async def _model(settings: LlmSettings) -> AsyncGenerator[Any]:
     """The model at its endpoint, its connections closed at the end."""
     from openai import AsyncOpenAI, DefaultAsyncHttpxClient
     from pydantic_ai.models.openai import OpenAIChatModel
@@ -215,20 +193,14 @@ async def counted(parts: AsyncIterable[bytes]) -> AsyncIterator[bytes]:
         yield part
 
 
-def _streaming(settings: LlmSettings) -> Any:
-    """A handler that reads a stream to its end, which has the request made as one; None for a whole answer."""
-
-    async def drain(_: Any, events: Any) -> None:
-        async for _event in events:
-            pass
-
-    return drain if settings.stream else None
+async def _to_its_end(_: Any, events: Any) -> None:
+    async for _event in events:
+        pass
 
 
 def _within(settings: LlmSettings, ask: Callable[[], Coroutine[Any, Any, Answer]]) -> Answer:
     """The result of a question, asked on a thread of its own: the caller may be running a loop already."""
-    done: list[Answer] = []
-    failed: list[NoAnswer] = []
+    result: Future[Answer] = Future()
     late = NoAnswer("late", {"seconds": settings.timeout_s})
 
     async def bounded() -> Answer:
@@ -237,29 +209,30 @@ def _within(settings: LlmSettings, ask: Callable[[], Coroutine[Any, Any, Answer]
 
     def work() -> None:
         try:
-            done.append(asyncio.run(bounded()))
+            result.set_result(asyncio.run(bounded()))
         except TimeoutError:
-            failed.append(late)
+            result.set_exception(late)
         except BaseException as error:  # noqa: BLE001  # whatever it is, the operator gets an answer
-            failed.append(_understood(error))
+            result.set_exception(_understood(error))
 
-    thread = threading.Thread(target=work, name="wirelessagent-llm", daemon=True)
-    thread.start()
-    thread.join(settings.timeout_s + _GRACE_S)
-    if done:
-        return done[0]
-    raise failed[0] if failed else late
+    threading.Thread(target=work, name="wirelessagent-llm", daemon=True).start()
+    try:
+        return result.result(settings.timeout_s + _GRACE_S)
+    except TimeoutError:
+        raise late from None
 
 
 def _understood(error: BaseException) -> NoAnswer:
     """Why there is no answer, in words of ours: those of servers and libraries may hold anything."""
     from pydantic_ai import exceptions
 
-    ours = next((each for each in _causes(error) if isinstance(each, NoAnswer)), None)
-    if ours is not None:
-        return ours
-    if any(isinstance(each, UnicodeEncodeError) for each in _causes(error)):
-        return NoAnswer("unsent")
+    cause: BaseException | None = error
+    while cause is not None:
+        if isinstance(cause, NoAnswer):
+            return cause
+        if isinstance(cause, Objection | UnicodeEncodeError):
+            return NoAnswer(cause.key if isinstance(cause, Objection) else "unsendable")
+        cause = cause.__cause__ or cause.__context__
     if isinstance(error, exceptions.ModelHTTPError):
         return NoAnswer("key" if error.status_code in (401, 403) else "status", {"status": error.status_code})
     if isinstance(error, exceptions.ContentFilterError):
@@ -269,11 +242,3 @@ def _understood(error: BaseException) -> NoAnswer:
     if isinstance(error, exceptions.UnexpectedModelBehavior | exceptions.UsageLimitExceeded):
         return NoAnswer("unusable")
     return NoAnswer("unreadable")
-
-
-def _causes(error: BaseException) -> Iterator[BaseException]:
-    """An error and what it came from."""
-    cause: BaseException | None = error
-    while cause is not None:
-        yield cause
-        cause = cause.__cause__ or cause.__context__

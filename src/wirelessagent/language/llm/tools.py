@@ -6,14 +6,16 @@ asked once more, and then there is no answer.
 
 from __future__ import annotations
 
+import dataclasses
+import functools
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
-from wirelessagent.language.llm_door import converse, require_llm
-from wirelessagent.language.llm_reasons import Objection
-from wirelessagent.language.llm_settings import LlmSettings
-from wirelessagent.language.llm_tool import LlmTool
-from wirelessagent.language.quantities import Quantity, parse_quantities
+from pydantic import BaseModel
+
+from wirelessagent.language.llm.client import LlmTool, Objection, ask, require_llm
+from wirelessagent.language.llm.endpoint import LlmSettings
+from wirelessagent.language.quantities import parse_quantities
 
 _TASK = """\
 You answer an operator's question about an OFDMA cell, in the operator's language, in at most five short sentences, with
@@ -43,21 +45,22 @@ class LlmAssistant:
         Raises:
             NoAnswer: nothing that can be relied on.
         """
+        told = [question]
 
-        def check(answer: str, told: Sequence[str]) -> None:
+        def noted(tool: LlmTool, form: BaseModel) -> str:
+            told.append(tool.run(form))
+            return told[-1]
+
+        def checked(answer: str) -> str:
             if not answer.strip():
                 raise Objection("asked_nothing", "the answer is empty")
-            known = [figure for text in (question, *told) for figure in _figures(text)]
-            for figure in _figures(answer):
-                if not any(_is_same(figure, other) for other in known):
-                    raise Objection("invented", f"{figure.text!r} stands in no tool's answer and not in the question")
+            known = [figure for text in told for figure in parse_quantities(text)]
+            for said in parse_quantities(answer):
+                values = [figure.value for figure in known if figure.kind == said.kind]
+                same = any(math.isclose(said.value, value, rel_tol=_ROUNDED) for value in values)
+                if said.kind in ("power", "rate", "ratio") and not same:
+                    raise Objection("invented", f"{said.text!r} stands in no tool's answer and not in the question")
+            return answer
 
-        return converse(self._settings, _TASK, question, self._tools, check)
-
-
-def _figures(text: str) -> Iterable[Quantity]:
-    return (figure for figure in parse_quantities(text) if figure.kind in ("power", "rate", "ratio"))
-
-
-def _is_same(one: Quantity, other: Quantity) -> bool:
-    return one.kind == other.kind and math.isclose(one.value, other.value, rel_tol=_ROUNDED)
+        tools = [dataclasses.replace(tool, run=functools.partial(noted, tool)) for tool in self._tools]
+        return ask(self._settings, _TASK, question, checked, tools=tools)

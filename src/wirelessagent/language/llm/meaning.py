@@ -18,8 +18,6 @@ FiguredConstraint = Literal[
 ]  # fmt: skip
 AnyConstraint = Literal[FiguredConstraint, "users", "leave_out"]
 Reference = str | float
-"""A figure's label, or its value in SI units."""
-
 _REFERENCE = "label of a figure that is listed, such as F1, or its value"
 
 
@@ -60,11 +58,6 @@ class Meaning(_Filled):
     constraints: list[Stated] = Field(default_factory=list[Stated], max_length=1000)
     users: list[str] = Field(default_factory=list, max_length=1000, description="users to serve alone, such as '3'")
     leave_out: list[str] = Field(default_factory=list, max_length=1000, description="users to leave out, such as '3'")
-    set_aside: list[str] = Field(
-        default_factory=list,
-        max_length=100,
-        description="labels of the sentence's figures that ask for nothing: corrected ones, descriptions",
-    )
     drops: list[AnyConstraint] = Field(
         default_factory=list[AnyConstraint], description="constraints of the current request that no longer hold"
     )

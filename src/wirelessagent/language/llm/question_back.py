@@ -11,7 +11,7 @@ import unicodedata
 from collections.abc import Sequence
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.llm_reasons import Objection
+from wirelessagent.language.llm.client import Objection
 from wirelessagent.language.quantities import parse_quantities
 
 _SENTENCE = deferred(r"(?s).+?(?:[.!?](?=\s|$)|[。！？\uff1f\uff01]|\n|$)")
@@ -39,7 +39,8 @@ def question_back(text: str, known: Sequence[float]) -> str:
     """
     if _ADDRESS.search(text):
         raise Objection("pretended", "the question may hold no address or link")
-    asked = [said for each in _SENTENCE.findall(_clean(text)) if (said := each.strip()).endswith(("?", "\uff1f"))]
+    shown = "".join(sign if unicodedata.category(sign)[0] != "C" or sign == "\n" else " " for sign in text)
+    asked = [said for each in _SENTENCE.findall(shown.strip()) if (said := each.strip()).endswith(("?", "\uff1f"))]
     question = " ".join(asked)
     if not question:
         raise Objection("asked_nothing", "kind clarify needs a question to the operator, with its question mark")
@@ -49,9 +50,3 @@ def question_back(text: str, known: Sequence[float]) -> str:
     if any(not any(math.isclose(q.value, value, rel_tol=1e-3) for value in known) for q in said):
         raise Objection("invented", "the question may only name listed figures")
     return question
-
-
-def _clean(text: str) -> str:
-    """The text without signs that steer a screen or cannot be seen."""
-    kept = (sign if unicodedata.category(sign)[0] != "C" or sign == "\n" else " " for sign in text)
-    return "".join(kept).strip()

@@ -1,0 +1,149 @@
+"""What an LLM is told: the task, with the registered objectives, and one sentence with its figures, as JSON.
+
+The sentence, the users' names and everything else that others wrote stand in the data only, never in the instructions.
+The figures that the LLM may use are the parser's, what the rules make of them (99 % reliability is an outage of 1 %,
+40 % of the power is 8 W) and the conversation's own; it refers to them by label or by value, and brings none itself.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
+
+from wirelessagent import plugins
+from wirelessagent.language.comparators import Comparator
+from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
+from wirelessagent.language.numerals import numbers
+from wirelessagent.language.recogniser import Context
+from wirelessagent.language.sentence import Sentence
+from wirelessagent.language.vocabulary import OwnWords
+
+_MOST_USERS = 300
+_LONGEST_NAME = 60
+_UNITS = {"power": "W", "rate": "bit/s"}
+
+FigureKind: TypeAlias = Literal["power", "rate", "ratio", "number"]
+
+KINDS: Mapping[str, FigureKind] = {
+    "max_power_w": "power", "circuit_power_w": "power", "subcarrier_max_power_w": "power", "min_rate_bps": "rate",
+    "max_rate_bps": "rate", "outage_probability": "ratio", "weights": "number", "resource_block_group_size": "number",
+    "power_w": "power", "rate_bps": "rate", "missing_share": "ratio", "number": "number",
+}  # fmt: skip
+"""Which kind of figure each constraint takes, and each detail of a question or a command."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figure:
+    """A figure: F1 for the sentence's own, N1 for its other numbers, S1 for the conversation's or the rules'.
+
+    ``words`` are the operator's or say where it comes from; ``comparator`` is how the sentence bounds it, and
+    ``stands_for`` the constraint or detail that an S belongs to, and no other.
+    """
+
+    label: str
+    value: float
+    kind: FigureKind
+    words: str
+    comparator: Comparator | None = None
+    stands_for: str = ""
+
+
+def figures_of(
+    sentence: Sentence, context: Context, offline: Intent, rules: Mapping[str, Constraint]
+) -> tuple[Figure, ...]:
+    """Every figure that may be used for a sentence, of which the rules read these constraints.
+
+    >>> from wirelessagent.language.offline import recognise
+    >>> from wirelessagent.language.sentence import own_words
+    >>> text = "at most 10 W"
+    >>> found = figures_of(Sentence(text, own_words()), Context(), recognise(text), {"max_power_w": 10.0})
+    >>> [(figure.label, figure.value) for figure in found]
+    [('F1', 10.0), ('S1', 20.0)]
+    """
+    known: list[Figure] = []
+    for place, q in enumerate(sentence.quantities, start=1):
+        kind: FigureKind = q.kind if q.kind in ("power", "rate", "ratio") else "number"
+        if 0 < q.value < math.inf and not q.doubtful:
+            known.append(Figure(label=f"F{place}", value=q.value, kind=kind, words=q.text, comparator=q.comparator))
+    inside = [(quantity.start, quantity.end) for quantity in sentence.quantities]
+    for place, number in enumerate(numbers(sentence.plain), start=1):
+        value = math.inf if number.value is None else float(number.value)
+        if math.isfinite(value) and not any(start <= number.start < end for start, end in inside):
+            words = sentence.plain[number.start : number.end]
+            known.append(Figure(label=f"N{place}", value=value, kind="number", words=words))
+    said = {**sentence.reading.evidence, **offline.evidence}
+    held = [("max_power_w", context.max_power_w, "the cell's limit")]
+    held += [(name, value, f"{name} of the current request") for name, value in _values(context.constraints)]
+    held += [(name, value, f"{name}, said before the question") for name, value in _values(context.pending)]
+    read = [(name, value, said.get(name) or name) for name, value in _values({**offline.details, **rules})]
+    held += [each for each in read if matching(known, each[1], each[0]) is None]
+    for place, (name, value, words) in enumerate(held, start=1):
+        known.append(Figure(label=f"S{place}", value=value, kind=KINDS[name], words=words, stands_for=name))
+    return tuple(known)
+
+
+def matching(figures: Iterable[Figure], given: str | float, name: str) -> Figure | None:
+    """The figure that a label or a value refers to for a constraint or a detail; the sentence's own before others."""
+    fitting = (figure for figure in figures if figure.kind == KINDS[name] and figure.stands_for in ("", name))
+    return next((figure for figure in fitting if _means(figure, given)), None)
+
+
+def _means(figure: Figure, given: str | float) -> bool:
+    try:
+        return math.isclose(figure.value, float(given), rel_tol=1e-6)
+    except ValueError:
+        return isinstance(given, str) and figure.label.casefold() == given.strip().casefold()
+
+
+def _values(stated: Mapping[str, Constraint | Detail]) -> Iterator[tuple[str, float]]:
+    """The figures among constraints and details, by name."""
+    for name, value in stated.items():
+        each = value.values() if isinstance(value, Mapping) else [value]
+        yield from ((name, float(one)) for one in each if name in KINDS and isinstance(one, int | float))
+
+
+def instructions(own: Iterable[OwnWords]) -> str:
+    """The task, with the objectives that are registered, what each is and how operators ask for it."""
+    summaries = {found.name: found.summary for found in plugins.plugins("objective")}
+    lines: list[str] = []
+    for words in own:
+        said = "; ".join(f"{language}: {', '.join(phrases)}" for language, phrases in words.phrases if phrases)
+        lines.append(f"- {words.objective}: {summaries.get(words.objective, '')}" + (f" ({said})" if said else ""))
+    task = Path(__file__).with_name("task.txt").read_text(encoding="utf-8")
+    return task.rstrip().format(objectives="\n".join(lines))
+
+
+def case(text: str, figures: Iterable[Figure], context: Context) -> str:
+    """One sentence with its figures and what it may refer to, as JSON."""
+    names = [name[:_LONGEST_NAME] for name in context.user_names[:_MOST_USERS]]
+    current = {"objective": context.objective, "constraints": plain(context.constraints)}
+    data = {
+        "sentence": text,
+        "figures": [_shown(figure) for figure in figures],
+        "user_names": names,
+        "num_users": len(context.user_names),
+        "current_request": None if context.objective is None else current,
+        "awaited": context.awaits,
+        "before_the_question": plain(context.pending),
+    }
+    return json.dumps(data, ensure_ascii=False)
+
+
+def plain(constraints: Mapping[str, Constraint]) -> dict[str, Any]:
+    """Constraints as JSON takes them."""
+    return {name: _plain(value) for name, value in constraints.items()}
+
+
+def _plain(value: Constraint) -> Any:
+    if isinstance(value, Mapping):
+        return {("everybody else" if user == EVERYBODY else user): each for user, each in value.items()}
+    return list(value) if isinstance(value, tuple) else value
+
+
+def _shown(figure: Figure) -> dict[str, Any]:
+    told = {"label": figure.label, "words": figure.words, "kind": figure.kind, "value": figure.value}
+    return told | {"unit": _UNITS.get(figure.kind, ""), "bound": figure.comparator}
