@@ -120,7 +120,7 @@ def test_the_efficiency_of_now_is_a_figure_and_the_word_is_explained() -> None:
 def test_the_record_holds_lines_and_the_key_and_places_of_each_message() -> None:
     for turn in said("Highest total rate, at most 10 W", "now with 5 W", "最多8瓦", "10 Mbit/s each", "why not?"):
         record = understood(turn)
-        assert record["schema"] == 3
+        assert record["schema"] == 4
         assert record["lines"] == {name: str(getattr(turn.lines, name)) for name in ("decided", "changed", "needs")}
         assert json.loads(json.dumps(record)) == record
         for name, line in record["lines"].items():

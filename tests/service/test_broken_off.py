@@ -15,6 +15,7 @@ from typing import Any
 
 import httpx2
 import pytest
+from llm_stub import StubLlm, meaning
 from servers import Server, started
 
 from wirelessagent.acting.base_station import BaseStation
@@ -285,6 +286,30 @@ def test_taken_up_it_is_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         assert (one.in_effect, one.waits) == (other.in_effect, other.waits)
         for name in ("stage", "lines", "intent", "at_utc", "request", "awaits", "reply"):
             assert getattr(one.record, name) == getattr(other.record, name), name
+
+
+def test_taken_up_no_language_model_is_asked_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What its line meant is what was recorded, however the model would read it by now."""
+    pytest.importorskip("pydantic_ai")
+    limits = [{"constraint": "max_power_w", "figure": 10}]
+    said = {"kind": "allocate", "objective_words": "the crowd is uploading", "constraints": limits}
+    first, later = (meaning(**said, objective=aim) for aim in ("max_rate", "max_min_rate"))
+    monkeypatch.setenv("WIRELESSAGENT_STORE", "yes")
+    with StubLlm([first, *[later] * 9]) as stub:
+        for name, value in (("BASE_URL", stub.url), ("MODEL", "stub"), ("API_KEY", "none")):
+            monkeypatch.setenv(f"WIRELESSAGENT_LLM_{name}", value)
+        request = ChatRequest(seed=1, recogniser="llm", store=str(tmp_path / "store.sqlite3"))
+        talk = Hosted(request, "one", silent)
+        talk.say("the crowd is uploading, at most 10 W", silent)
+        talk.press("yes", silent)
+        asked = len(stub.requests)
+        again = Hosted(request, "one", silent)
+        assert (len(stub.requests), asked) == (1, 1)
+    assert talk.turns[0].record.intent["objective"] == "max_rate"
+    assert [turn.record.stage for turn in again.turns] == ["planned", "applied"]
+    for one, other in zip(talk.turns, again.turns, strict=True):
+        assert (one.in_effect, one.record.request) == (other.in_effect, other.record.request)
+        assert (one.record.recogniser, one.record.intent) == (other.record.recogniser, other.record.intent)
 
 
 def test_a_press_is_what_it_is_behind_any_line() -> None:
