@@ -89,8 +89,9 @@ def test_it_has_what_the_paper_has(document: dict[str, Any]) -> None:
     names = {operation["operationId"] for _, _, operation in operations(document)}
     assert names == {
         "cells", "sense", "repair", "solve_max_rate", "solve_min_power", "solve_max_energy_efficiency", "ask",
-        "propose", "apply", "explain", "history",
+        "move_cell", "propose", "apply", "explain", "history",
     }  # fmt: skip
+    assert len(names) <= 12  # most platforms take a dozen
 
 
 def test_a_public_address(tmp_path: Path) -> None:
@@ -126,6 +127,21 @@ def test_collector_predictor_and_solvers(server: Server) -> None:
     unmet = call(server, "solve-min-power", observation=mended["observation"], min_rate_bps=1e9)
     assert (unmet["ok"], unmet["status"]) == (True, "infeasible")
     assert "allocation" not in unmet
+
+
+def test_a_cell_is_moved_to_an_observation(server: Server) -> None:
+    cell = server.cell()
+    server.say(cell["session"], "highest total rate")
+    seen = call(server, "sense", users=3, subcarriers=6)
+    moved = call(server, "move-cell", cell=cell["id"], observation=seen["observation"])
+    assert (moved["ok"], moved["cell"]["users"], moved["cell"]["subcarriers"]) == (True, 3, 6)
+    assert server.get(f"v1/cells/{cell['id']}")["session"] != cell["session"]
+    proposed = call(server, "propose", cell=cell["id"], text="highest total rate")
+    assert proposed["plan"]
+    for wrong in ({"observation": ""}, {"observation": "nobody"}):
+        refused = call(server, "move-cell", cell=cell["id"], **wrong)
+        assert (refused["ok"], bool(refused["error"])) == (False, True)
+    assert server.plan(server.get(f"v1/cells/{cell['id']}")["session"]) == proposed["plan"]
 
 
 def test_what_a_platform_leaves_blank_is_left_out(server: Server) -> None:

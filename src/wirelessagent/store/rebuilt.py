@@ -32,9 +32,10 @@ def intent_of(turn: StoredTurn) -> Intent | None:
 
 
 def _intent(said: Mapping[str, Any]) -> Intent:
-    found = {field.name: _tuples(said[field.name]) for field in dataclasses.fields(Intent)}
+    found: dict[str, Any] = {field.name: _tuples(said[field.name]) for field in dataclasses.fields(Intent)}
     guess, acts = said["guess"], tuple(map(act_of, said["acts"]))
-    intent = Intent(**{**found, "acts": (), "guess": guess and _intent(guess)})
+    found.update(acts=(), guess=guess and _intent(guess))
+    intent = Intent(**found)
     return intent if acts == acts_of(intent) else dataclasses.replace(intent, acts=acts)
 
 

@@ -58,6 +58,9 @@ export const remove = (path) => call("DELETE", path);
 export const post = (path, fields = {}, later = false) =>
   call("POST", path, { body: JSON.stringify(fields), type: "application/json", later });
 
+/** Put something in the place of what is there. */
+export const put = (path, fields) => call("PUT", path, { body: JSON.stringify(fields), type: "application/json" });
+
 /** Send a file as it is. */
 export const upload = (path, file) => call("POST", path, { body: file, type: "application/octet-stream" });
 

@@ -248,7 +248,7 @@ function setUp() {
   setUpConversation(actions);
   setUpTheme(draw);
   setUpTools(() => ({ cell: state.cell, channel: state.channel, cells: state.console.cells }));
-  setUpUpload({ made: (cell) => reload(cell.id).catch(fail), allowed: () => state.console.role === "operator" });
+  setUpUpload({ made: (cell) => reload(cell.id).catch(fail), cell: () => state.cell, allowed: () => state.console.role === "operator" });
   setUpNewCell((cell) => {
     byId("settings").close();
     reload(cell.id).catch(fail);
