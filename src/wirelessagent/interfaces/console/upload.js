@@ -1,6 +1,6 @@
 /** A measured channel by drag and drop: what was understood is shown, with its holes, before it becomes a cell. */
 
-import { post, put, upload } from "./api.js";
+import { path, post, put, upload } from "./api.js";
 import { gainMatrix } from "./channel.js";
 import { byId, element, facts } from "./dom.js";
 import { choices, onSend, refuse } from "./forms.js";
@@ -84,7 +84,7 @@ export function setUpUpload({ made, cell, allowed }) {
     return post("v1/cells", { name: byId("upload-name").value, options });
   };
   onSend(byId("upload-form"), async (button) => {
-    const moved = () => put(`v1/cells/${encodeURIComponent(cell().id)}/observation`, { observation: understood.id });
+    const moved = () => put(path`v1/cells/${cell().id}/observation`, { observation: understood.id });
     made(await (button === byId("upload-use") ? moved() : newCell()));
     byId("upload").close();
   });
