@@ -340,3 +340,23 @@ def test_an_aim_that_is_told_of_somebody_else_is_asked_about(said: str) -> None:
 )  # fmt: skip
 def test_courtesy_and_a_story_beside_a_wish_ask_nothing(said: str) -> None:
     assert recognise(said, Context(user_names=USERS)).kind == "allocate"
+
+
+@pytest.mark.parametrize(
+    "said", ["the night shift ran 5 W", "My cousin's shop makes do with 5 W", "Eight watts melted the old amplifier"]
+)
+def test_what_has_no_listed_word_is_asked_about_where_it_is_hardly_an_order(said: str) -> None:
+    now = Context(user_names=("user 1", "user 2"), objective="max_rate", language="en")
+    asked = recognise(said, now)
+    assert asked.kind == "clarify"
+    assert asked.guess is not None
+    assert asked.guess.constraints
+    assert recognise("run it at 5 W", now).kind == "allocate"
+
+
+def test_a_word_of_condition_asks_nothing_in_what_is_surely_an_order() -> None:
+    said = "Would you, if that fits, please keep it below 7 W"
+    now = Context(user_names=("user 1", "user 2"), objective="max_rate", language="en")
+    read = OfflineRecogniser().read(said, now)
+    assert doubted(said, now, read) is not None
+    assert recognise(said, now).constraints == {"max_power_w": 7.0}

@@ -101,7 +101,7 @@ def test_no_sentence_of_the_test_sets_was_written_for_training(tested: set[str])
 
 
 def test_spoken_sentences_have_labels_of_the_model_and_constraints_of_an_intent() -> None:
-    heads = {label.partition(".")[0] for label in shipped_model().labels} | set(shipped_model().labels)
+    heads = {label.partition(".")[0] for label in shipped_model().labels} | {*shipped_model().labels, "order", "none"}
     wrong = [each for each in spoken() if each.label not in heads or not checked_constraints(each.constraints or {})]
     assert [each for each in wrong if each.label not in heads or each.constraints] == []
 
@@ -137,7 +137,7 @@ def test_base_words_are_forms_as_the_features_see_them(language: str) -> None:
 def test_the_shipped_model_knows_the_labels_of_the_templates(drawn: list[tuple[str, str]]) -> None:
     model = shipped_model()
     assert set(model.labels) == {label for _, label in drawn}
-    assert model.weights.shape == (BUCKETS, len(model.labels))
+    assert model.weights.shape == (BUCKETS, len(model.labels) + 1)
     assert MODEL_FILE.stat().st_size < 2_000_000
     shares = model.probabilities(*read_by_rules(["maximise the total rate"])[0])
     assert sum(shares.values()) == pytest.approx(1.0)
@@ -150,13 +150,18 @@ def test_a_fit_tells_its_sentences_apart(tmp_path: Path) -> None:
     texts = ["save power", "less power please", "max rate", "highest rate now"]
     labels = ["min_power", "min_power", "max_rate", "max_rate"]
     read = read_by_rules(texts)
-    weights, intercepts = fit(matrix_of(read), labels, ["max_rate", "min_power"], np.ones(len(labels)))
-    told = np.asarray(matrix_of(read) @ weights + intercepts).argmax(axis=1)
+    rows = matrix_of(read)
+    weights, intercepts = fit(rows, labels, ["max_rate", "min_power"], np.ones(len(labels)))
+    told = np.asarray(rows @ weights + intercepts).argmax(axis=1)
     assert told.tolist() == [1, 1, 0, 0]
-    save(tmp_path / "model.npz", ["max_rate", "min_power"], weights, intercepts, known_words(read))
+    orders = fit(rows, ["no", "no", "yes", "yes"], ["no", "yes"], np.ones(len(labels)))
+    save(tmp_path / "model.npz", ["max_rate", "min_power"], (weights, intercepts), orders, known_words(read))
     with np.load(tmp_path / "model.npz") as arrays:
         assert arrays["weights"].dtype == np.int8
-        assert np.allclose(arrays["weights"] * arrays["scales"], weights, atol=arrays["scales"].max())
+        kept = arrays["weights"] * arrays["scales"]
+        assert np.allclose(kept[:, :-1], weights, atol=arrays["scales"].max())
+        ordered = np.asarray(rows @ kept[:, -1]) + arrays["intercepts"][-1]
+        assert (ordered > 0).tolist() == [False, False, True, True]
 
 
 def test_features_are_the_same_everywhere() -> None:

@@ -5,7 +5,8 @@ a wish of somebody else's, speaks of another system, or of a user whom the cell 
 are closed classes, as data by language (``moods/<language>.toml``). A word of such a class that the act accounts for
 says nothing: "no more than 10 W" is a limit, "without user 3" leaves one out, "from now on" is now. Any other word
 whose reach (its clause, its sentence or the whole text) touches the act makes a question of it, with the act for a
-plain yes. What an ordinary word may hide ("my users complain", a name in small letters) is not seen here.
+plain yes. Beside them the model judges the sentence as a whole: it asks where no listed word stands and an order is
+unlikely all the same, and passes over some classes where a sentence is surely one.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.followups import dropped_in
@@ -22,7 +23,7 @@ from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.moods import Span, places, table_of
 from wirelessagent.language.reach import Doubt, Reach
 from wirelessagent.language.replies import Voice
-from wirelessagent.language.sentence import Sentence, labels_of, own_words
+from wirelessagent.language.sentence import Sentence, labels_of, own_words, read_once
 from wirelessagent.language.text import USER_NOUN, languages_of, normalise
 
 if TYPE_CHECKING:
@@ -32,12 +33,18 @@ MOODS = (
     "negation", "refusal", "report", "quotation", "past", "time", "condition", "irony", "others", "elsewhere",
 )  # fmt: skip
 """The classes whose words make a question of an act."""
+_PASSED_OVER = ("refusal", "condition", "irony", "others")
+"""The classes that say nothing in a sentence that is surely an order; what denies, tells, quotes, or names others,
+another system or a time to come is asked about all the same."""
 CHANGING = ("undo", "reset")
 """Commands that change something; to apply a plan has a closed grammar of its own (``conversation.assent``)."""
 READ_IN_A_TALK = "conversation"
 """Who reads what a line is because of its conversation."""
 
 _NAMES_SHOWN = 12
+_UNLIKELY, _SURELY = 0.2, 0.9
+"""Below the one a sentence without a word of a mood is asked about, from the other on some classes are passed over; by
+sentences that were kept from the training."""
 
 _QUOTED = re.compile(
     r"\"[^\"]+\"|“[^”]+[”\"]|„[^“”]+[“”]|«[^»]+»|‹[^›]+›|「[^」]+」|『[^』]+』|《[^》]+》|(?<!\w)'[^']+'(?!\w)"
@@ -61,12 +68,34 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
         users = ", ".join(context.user_names[:_NAMES_SHOWN]) if context is not None else ""
         key = "unknown_name" if users else "unknown_name_alone"
         return _asking(intent, voice.say(key, text=text[slice(*name)], users=users))
-    doubt = doubted(text, context, intent, _moods_of(intent)) if acts else None
-    if doubt is None:
+    if not acts:
+        return intent
+    sure, moods = _sure(text, context, intent), _moods_of(intent)
+    if sure >= _SURELY:
+        moods = [mood for mood in moods if mood not in _PASSED_OVER]
+    doubt = doubted(text, context, intent, moods)
+    if doubt is None and (sure >= _UNLIKELY or any(_hits(text, plain, MOODS))):
         return intent
     guess = intent.reply.rstrip(" .。")
-    reply = voice.say("mood", text=text[doubt.start : doubt.end].strip(), guess=guess[:1].lower() + guess[1:])
+    guess = guess[:1].lower() + guess[1:]
+    said = "" if doubt is None else text[doubt.start : doubt.end].strip()
+    reply = voice.say("mood", text=said, guess=guess) if said else voice.say("no_order", guess=guess)
     return dataclasses.replace(_asking(intent, reply), guess=intent)
+
+
+def _sure(text: str, context: Context | None, intent: Intent) -> float:
+    """How sure the model is that a sentence orders something now.
+
+    A command says by itself that it does; of what only the talk gives a meaning ("yes") the words alone say nothing.
+    """
+    if intent.kind == "command" or intent.recogniser == READ_IN_A_TALK:
+        return _UNLIKELY
+    return shipped_model().is_order(*_sentence(text, context).for_model(moods=True))
+
+
+def _sentence(text: str, context: Context | None) -> Sentence:
+    names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
+    return read_once(text, own_words(), tuple(names), limit)
 
 
 def _moods_of(intent: Intent) -> Sequence[str]:
@@ -87,32 +116,33 @@ def _asking(intent: Intent, reply: str) -> Intent:
 def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[str] = MOODS) -> Doubt | None:
     """The first word of a mood that reaches the act of an intent and that nothing accounts for."""
     plain = normalise(text)
-    sentence: Sentence | None = None
     for language in languages_of(text):
-        hits = [
-            Doubt(mood=mood, reach=reach, start=start, end=end)
-            for mood in moods
-            for reach, words in table_of(language)[mood].items()
-            for start, end in places(words, plain)
-        ]
-        if "quotation" in moods:
-            marks = (match.span() for match in _QUOTED.finditer(plain))
-            hits += [Doubt(mood="quotation", reach="inside", start=start, end=end) for start, end in marks]
+        hits = [hit for tongue, hit in _hits(text, plain, moods) if tongue == language]
         told = (
             "others" in moods
             and intent.kind == "allocate"
             and any(places(table_of(language)["subject"]["finite"], plain))
         )
         if hits or told:
-            names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
-            sentence = sentence or Sentence(plain, own_words(), names=names, max_power_w=limit)
-            known = Reach(sentence, dropped_in(plain, context)[1], intent, language)
+            known = Reach(_sentence(text, context), dropped_in(plain, context)[1], intent, language)
             reached = (hit for hit in hits if not known.accounts_for(hit) and known.touches(hit))
             first = min(reached, key=lambda hit: hit.start, default=None)
             first = first or (known.foreign_subject() if told else None)
             if first is not None:
                 return first
     return None
+
+
+def _hits(text: str, plain: str, moods: Sequence[str]) -> Iterator[tuple[str, Doubt]]:
+    """The words of these classes in a text, each with its language."""
+    for language in languages_of(text):
+        for mood in moods:
+            for reach, words in table_of(language)[mood].items():
+                for start, end in places(words, plain):
+                    yield language, Doubt(mood=mood, reach=reach, start=start, end=end)
+        if "quotation" in moods:
+            for match in _QUOTED.finditer(plain):
+                yield language, Doubt(mood="quotation", reach="inside", start=match.start(), end=match.end())
 
 
 def tells_no_mere_fact(text: str) -> bool:

@@ -15,6 +15,8 @@ LANGUAGES = ("en", "zh", "es", "fr", "de")
 Span = tuple[int, int]
 
 _LETTER = r"[0-9A-Za-zÀ-ɏ]"
+_EDGE = 3
+"""Characters from where a text begins or ends."""
 
 
 def table_of(language: str) -> Mapping[str, Mapping[str, Sequence[str]]]:
@@ -36,6 +38,23 @@ def places(words: Sequence[str], plain: str) -> Iterator[Span]:
         if span[0] >= end:
             end = span[1]
             yield span
+
+
+def classes_in(plain: str) -> list[str]:
+    """The classes whose words stand in a text, by how far they reach and by whether they begin or end it, in order.
+
+    >>> classes_in("if only it were 5 W")[0]
+    'condition:first<'
+    """
+    found: list[tuple[int, str]] = []
+    for language in languages_of(plain):
+        for name, classes in table_of(language).items():
+            if name != "names":
+                for reach, words in classes.items():
+                    for start, end in places(words, plain):
+                        where = "<" if start < _EDGE else ">" if end > len(plain) - _EDGE else ""
+                        found.append((start, f"{name}:{reach}{where}"))
+    return [name for _, name in sorted(found)]
 
 
 def is_ordered(plain: str) -> bool:

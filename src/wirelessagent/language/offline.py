@@ -28,7 +28,7 @@ from wirelessagent.language.nobody_starves import nobody_starves
 from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Voice
-from wirelessagent.language.sentence import Sentence, labels_of, own_words
+from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import language_of, normalise
 from wirelessagent.language.topics import details_of
 from wirelessagent.language.vocabulary import OwnWords
@@ -90,7 +90,7 @@ class _Understanding:
     ) -> None:
         self._text, self._voice, self._answer, self._context = text, voice, Answer(voice, language, NAME), context
         names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
-        self._sentence = Sentence(text, own, names=names, max_power_w=limit)
+        self._sentence = read_once(text, own, tuple(names), limit)
         self._reading, self._goal = self._sentence.reading, self._sentence.goal
         self._dropped, dropped_spans = dropped_in(self._sentence.plain, context)
         named = [(item.start, item.end) for item in self._sentence.found if item.term.concept != "domain"]

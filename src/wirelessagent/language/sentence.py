@@ -12,6 +12,7 @@ from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
+from wirelessagent.language.moods import classes_in
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.spelling import respelt
 from wirelessagent.language.stated import Reading
@@ -49,14 +50,24 @@ class Sentence:
         words = (word for word in _WORD.finditer(self.plain) if not any(a <= word.start() < b for a, b in spans))
         return any(not (unit := unit_at(self.plain, word.start())) or unit.end < word.end() for word in words)
 
-    def for_model(self) -> tuple[str, list[str], str]:
-        """The words with placeholders for figures and users, the concepts in their order, and the language."""
+    def for_model(self, *, moods: bool = False) -> tuple[str, list[str], str]:
+        """The words with placeholders for figures and users, the concepts (and moods) in order, and the language."""
         spans = [(q.phrase_start, q.phrase_end, _PLACEHOLDERS[q.kind]) for q in self.quantities]
         taken = [(start, end) for start, end, _ in spans]
         spans += [(m.start, m.end, " @user ") for m in mentions(self.plain, (), taken) if m.role == "named"]
         terms = [item.term.objective or item.term.concept for item in self.found]
         goal = f"goal:{self.goal.verdict}:{self.goal.objective}"
-        return replaced(self._spelt, sorted(spans)), [*terms, goal], self.language
+        return (
+            replaced(self._spelt, sorted(spans)),
+            [*terms, goal, *(classes_in(self.plain) if moods else ())],
+            self.language,
+        )
+
+
+@functools.lru_cache(maxsize=4)
+def read_once(text: str, own: tuple[OwnWords, ...], names: tuple[str, ...], max_power_w: float) -> Sentence:
+    """A sentence that several ask about one after the other."""
+    return Sentence(text, own, names=names, max_power_w=max_power_w)
 
 
 def own_words() -> tuple[OwnWords, ...]:

@@ -13,21 +13,20 @@ export function refuse(form, problem) {
 /**
  * Have something done when a form is sent.
  * @param {HTMLFormElement} form
- * @param {(button: HTMLButtonElement|null) => Promise<void>} act gets the button that sent it
+ * @param {() => Promise<void>} act
  */
 export function onSend(form, act) {
   form.onsubmit = async (event) => {
     event.preventDefault();
     refuse(form, null);
-    const buttons = form.querySelectorAll("button:not([type=button])");
-    const rest = (is) => buttons.forEach((button) => { button.disabled = is; });
-    rest(true);
+    const button = form.querySelector("button.first");
+    button.disabled = true;
     try {
-      await act(event.submitter);
+      await act();
     } catch (problem) {
       refuse(form, problem);
     } finally {
-      rest(false);
+      button.disabled = false;
     }
   };
 }

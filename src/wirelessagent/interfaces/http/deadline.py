@@ -11,15 +11,10 @@ from typing import Any
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
 
-def within(seconds: float) -> type[HttpToolsProtocol]:
-    """HTTP in which a request's head arrives within so much time."""
-    return type("WithinProtocol", (DeadlineProtocol,), {"head_s": seconds})
-
-
 class DeadlineProtocol(HttpToolsProtocol):
-    """HTTP whose requests begin in time."""
+    """HTTP whose requests arrive in time."""
 
-    head_s: float
+    head_s = 15.0
     _deadline: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: Any) -> None:

@@ -6,12 +6,13 @@ no figure for "nothing": 1 Mbit/s for everybody but user 2 is 1 Mbit/s for each 
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.assent import is_assent
-from wirelessagent.language.conversation.line import Line, has, is_all
+from wirelessagent.language.conversation.line import NAME, Line, has, is_all
 from wirelessagent.language.excess import too_many_figures
 from wirelessagent.language.followups import merged, numbers_of, taken_in
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, LISTS_OF_USERS, Constraint, Intent
@@ -67,7 +68,7 @@ def _agreed(line: Line) -> Intent | None:
     """A yes to "did you mean …?"."""
     context = line.context
     if context.guess is not None:
-        return context.guess if is_assent(line.text) else None
+        return dataclasses.replace(context.guess, recogniser=NAME) if is_assent(line.text) else None
     if context.offered is None or forms.plain_command(line.shape) != "confirm":
         return None
     if context.offered in COMMANDS:

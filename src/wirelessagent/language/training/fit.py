@@ -27,10 +27,10 @@ def matrix_of(read: Sequence[ForModel]) -> sparse.csr_matrix:
     return sparse.csr_matrix((values.astype(np.float32), np.concatenate(columns), starts), shape=(len(read), BUCKETS))
 
 
-def read_by_rules(texts: Sequence[str]) -> list[ForModel]:
+def read_by_rules(texts: Sequence[str], *, moods: bool = False) -> list[ForModel]:
     """What the parsers and the lexicon make of each sentence, as the model gets it at run time."""
     own = own_words()
-    return [Sentence(text, own).for_model() for text in texts]
+    return [Sentence(text, own).for_model(moods=moods) for text in texts]
 
 
 def known_words(read: Sequence[ForModel]) -> npt.NDArray[np.uint32]:
@@ -78,11 +78,13 @@ def fit(
 def save(
     path: Path,
     names: Sequence[str],
-    weights: npt.NDArray[np.float32],
-    intercepts: npt.NDArray[np.float32],
+    kinds: tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]],
+    orders: tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]],
     known: npt.NDArray[np.uint32],
 ) -> None:
-    """Write the model, the weights as int8 with a scale per label."""
+    """Write the model, the weights as int8 with a scale per label; ``orders`` was fitted to "no" and "yes"."""
+    weights = np.column_stack([kinds[0], orders[0][:, 1] - orders[0][:, 0]])
+    intercepts = np.append(kinds[1], orders[1][1] - orders[1][0])
     scales = np.asarray(np.abs(weights).max(axis=0) / 127, dtype=np.float32)
     rounded = np.asarray(np.rint(weights / scales), dtype=np.int8)
     np.savez_compressed(

@@ -356,7 +356,7 @@ def sentences() -> Iterator[tuple[str, Mapping[str, Any]]]:
             text, _, meaning = line.partition("\t")
             yield text, json.loads(meaning)
     for each in spoken():
-        if each.label in OBJECTIVES and each.constraints is not None:
+        if (each.label in OBJECTIVES or each.near) and each.constraints is not None:
             yield each.text, each.constraints
 
 

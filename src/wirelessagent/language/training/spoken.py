@@ -1,8 +1,10 @@
 """Sentences written down as people say them, beside those drawn from templates: ``spoken/<language>.tsv``.
 
 Each line is a label, a sentence, and for a request its constraints as JSON in SI units, where they are known. Labels
-are objectives, kinds of intents, and topics of questions and commands. They were written for training, by authors who
-saw no test set.
+are objectives, kinds of intents, and topics of questions and commands; "none" is a question, a remark or a report, all
+that orders nothing now, and "order" is what orders something that nobody wrote down. They were written for training, by
+authors who saw no test set; those in ``<language>_near.tsv`` so that what orders something and what does not are easily
+mistaken for each other.
 """
 
 from __future__ import annotations
@@ -13,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from wirelessagent.language.training.compose import OBJECTIVES
 from wirelessagent.model.errors import InputError
 
 SPOKEN = Path(__file__).with_name("spoken")
@@ -20,12 +23,24 @@ SPOKEN = Path(__file__).with_name("spoken")
 
 @dataclass(frozen=True, kw_only=True)
 class Spoken:
-    """A sentence with its label; ``constraints`` are None where nobody wrote them down."""
+    """A sentence with its label; ``constraints`` are None where nobody wrote them down.
+
+    Attributes:
+        near: whether it was written to be mistaken.
+    """
 
     text: str
     label: str
     language: str
     constraints: Mapping[str, Any] | None = None
+    near: bool = False
+
+    @property
+    def is_order(self) -> bool | None:
+        """Whether it orders something now; None where it may or may not."""
+        if self.label in ("order", *OBJECTIVES) or (self.label == "clarify" and self.constraints):
+            return True
+        return False if self.label.startswith(("none", "question", "out_of_scope")) else None
 
 
 def spoken(folder: Path = SPOKEN) -> Iterator[Spoken]:
@@ -40,4 +55,8 @@ def spoken(folder: Path = SPOKEN) -> Iterator[Spoken]:
     for path in paths:
         for line in path.read_text(encoding="utf-8").splitlines():
             label, text, *more = line.split("\t")
-            yield Spoken(text=text, label=label, language=path.stem, constraints=json.loads(more[0]) if more else None)
+            language, _, near = path.stem.partition("_")
+            yield Spoken(
+                text=text, label=label, language=language, near=bool(near),
+                constraints=json.loads(more[0]) if more else None,
+            )  # fmt: skip
