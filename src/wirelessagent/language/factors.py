@@ -6,33 +6,20 @@ import re
 from collections.abc import Iterator
 from decimal import Decimal
 
+from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import Number, chinese_value
 from wirelessagent.language.phrases import Phrases
 
+_ONE_AND_A_HALF = ("uno y medio", "un et demi", "one and a half", "una y media", "une fois et demie", "una vez y media")
 _COUNTS = {
-    **dict.fromkeys(("two", "zwei", "dos", "deux"), 2),
-    **dict.fromkeys(("three", "drei", "tres", "trois"), 3),
-    **dict.fromkeys(("four", "vier", "cuatro", "quatre"), 4),
-    **dict.fromkeys(("five", "fünf", "cinco", "cinq"), 5),
-    **dict.fromkeys(("six", "sechs", "seis"), 6),
-    **dict.fromkeys(("ten", "zehn", "diez", "dix"), 10),
-    **dict.fromkeys(("anderthalb", "eineinhalb"), Decimal("1.5")),
-    **dict.fromkeys(("zweieinhalb",), Decimal("2.5")),
-    **dict.fromkeys(("uno y medio", "un et demi", "one and a half", "una y media"), Decimal("1.5")),
-    **dict.fromkeys(("dos y medio", "deux et demi", "two and a half"), Decimal("2.5")),
-    **dict.fromkeys(("une fois et demie", "una vez y media"), Decimal("1.5")),
-    "deux fois et demie": Decimal("2.5"),
+    **cardinals(2, 10),
+    **listed("fold"),
+    **dict.fromkeys(_ONE_AND_A_HALF, Decimal("1.5")),
+    **dict.fromkeys(("dos y medio", "deux et demi", "two and a half", "deux fois et demie"), Decimal("2.5")),
 }
 _WORD = "(?:" + "|".join(sorted(_COUNTS, key=len, reverse=True)) + ")"
-_NAMED = {
-    **dict.fromkeys(("twice", "double", "doubles", "doubled", "doubly", "doble", "dupla", "doublement"), 2),
-    **dict.fromkeys(("thrice", "triple", "triples", "tripled", "threefold"), 3),
-    **dict.fromkeys(("quadruple", "quadruples", "cuádruple", "fourfold"), 4),
-    "fivefold": 5, "tenfold": 10,
-    **dict.fromkeys(("half", "halb", "moitié", "mitad", "hälfte"), Decimal("0.5")),
-}  # fmt: skip
 _TIMES = Phrases(
-    rf"\b(?P<named>{'|'.join(_NAMED)})\b|\b(?P<german>doppelt|dreifach|vierfach|fünffach|zehnfach)\w*|"
+    rf"\b(?P<named>{'|'.join(listed('fold'))})\b|\b(?P<german>doppelt|dreifach|vierfach|fünffach|zehnfach)\w*|"
     rf"\b(?P<compound>{_WORD})(?:fach|mal)\w*|(?P<phrase>(?:une\s+fois\s+et\s+demie|deux\s+fois\s+et\s+demie|"
     rf"una\s+vez\s+y\s+media))|"
     rf"\b(?P<word>{_WORD})[\s-]?(?:times|veces|fois|mal|fold)\b|"
@@ -69,5 +56,5 @@ def _value(match: re.Match[str], group: str) -> Decimal | None:
     if group == "zh":
         value = chinese_value(word)
         return None if value is None else Decimal(str(value)) + (_HALF if match["zhmore"].endswith("半") else 0)
-    known = {"named": _NAMED, "german": _GERMAN, "zhtwo": {word: 2}, "zhhalf": {word: _HALF}}.get(group, _COUNTS)
+    known = {"german": _GERMAN, "zhtwo": {word: 2}, "zhhalf": {word: _HALF}}.get(group, _COUNTS)
     return Decimal(known[word])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.phrases import Phrases
 
 HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
@@ -80,10 +81,7 @@ MISSING = deferred(
     r"(?ia)\b(?:missing|lost|loss|unknown|holes?|absent|gone|faltar\w*|falta\w*|perd\w*|manqu\w*|fehl\w*|"
     r"verloren)\b|缺失|丢失|缺少|丢包|未知|缺|丢"
 )
-_COUNT = (
-    r"(?:[0-9]+|two|three|four|five|six|seven|eight|nine|ten|twelve|sixteen|twenty|dos|tres|cuatro|cinco|seis|ocho|diez|"
-    r"deux|trois|quatre|cinq|huit|dix|zwei|drei|vier|fünf|sechs|acht|zehn)"
-)
+_COUNT = rf"(?:[0-9]+|{'|'.join(cardinals(2, 10))})"
 COUNTED_USERS = deferred(
     rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:of them|of the users|"
     r"users|ues|subscribers|devices|sensors|terminals|subcarriers|channels|usuarios|"
@@ -179,9 +177,7 @@ BLOCKS = Phrases(
     r"|子载波(?:按|以|每)?(?P<apart>[0-9]{1,3}|[二两三四五六八十]{1,2})个?(?:为|分)?(?:一|成)?[组块](?:来?分(?:配)?)?)",
     marks="group block bundle chunk cluster pack rbg 子载波 grup bloq bloc paq gruppe blöck päck pair carrier porteuse",
 )
-BLOCK_WORDS = {"pairs": 2, **{f"{word}er": size for word, size in (
-    ("zwei", 2), ("drei", 3), ("vier", 4), ("fünf", 5), ("sechs", 6), ("acht", 8), ("zehn", 10), ("zwölf", 12),
-)}}  # fmt: skip
+BLOCK_WORDS = {"pairs": 2, **{f"{word}er": size for word, size in cardinals(2, 12, ("de",)).items()}}
 STEP = Phrases(
     r"\b(?:one|an?|another|an? (?:extra|additional|further))\s+(?:more\s+|extra\s+|"
     r"additional\s+)?watt(?:\s+more)?\b|(?:再?多|再加|加)一瓦|"

@@ -13,37 +13,15 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.phrases import Phrases
 from wirelessagent.language.units import unit_at
 
 Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
 
-_WORDS = (
-    "one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen "
-    "eighteen nineteen twenty"
-)
-_ORDINALS = {
-    word: str(place)
-    for listing in (
-        "first second third fourth fifth sixth seventh eighth ninth tenth",
-        "primer segundo tercer cuarto quinto sexto séptimo octavo noveno décimo",
-        "premier deuxième troisième quatrième cinquième sixième septième huitième neuvième dixième",
-        "erste zweite dritte vierte fünfte sechste siebte achte neunte zehnte",
-        "ersten zweiten dritten vierten fünften sechsten siebten achten neunten zehnten",
-    )
-    for place, word in enumerate(listing.split(), start=1)
-}
-_NUMBER_WORDS = {
-    word: str(place)
-    for listing in (
-        _WORDS,
-        "uno dos tres cuatro cinco seis siete ocho nueve diez",
-        "un deux trois quatre cinq six sept huit neuf dix",
-        "eins zwei drei vier fünf sechs sieben acht neun zehn",
-    )
-    for place, word in enumerate(listing.split(), start=1)
-}
+_ORDINALS = {word: str(place) for word, place in listed("ordinals").items()}
+_NUMBER_WORDS = {word: str(value) for word, value in cardinals(1, 20).items() if word != "once"} | {"un": "1"}
 
 _NOUN = (
     r"(?:users?|ues?|subscribers?|subs?|terminals?|customers?|clients?|devices?|phones?|handsets?|sensors?|stations?|"

@@ -9,26 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from decimal import Decimal
 
+from wirelessagent.language.number_words import cardinals
+from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.phrases import Phrases
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.units import unit_at
 
-_COUNTS = {
-    word: count
-    for count, words in enumerate(
-        (
-            "two dos deux zwei 二 两 2",
-            "three tres trois drei 三 3",
-            "four cuatro quatre vier 四 4",
-            "five cinco cinq fünf 五 5",
-            "six seis six sechs 六 6",
-            "seven siete sept sieben 七 7",
-        ),
-        start=2,
-    )
-    for word in words.split()
-}
-_LATIN = "|".join(sorted((word for word in _COUNTS if word[0].isalnum() and word[0] < "\u3400"), key=len, reverse=True))
+_COUNTS = cardinals(2, 7)
+_LATIN = "|".join([*_COUNTS, "[2-7]"])
 _RELIABLE = (
     r"(?:reliab\w*|availab\w*|dependab\w*|fiab\w*|confiab\w*|disponib\w*|zuverlässig\w*|verfügbar\w*|sicherheit)"
 )
@@ -63,5 +51,5 @@ def nines(plain: str) -> Iterator[Quantity]:
 
 def _value(word: str, *, counted: bool) -> float:
     if counted:
-        return float(1 - Decimal(10) ** -_COUNTS[word])
+        return float(1 - Decimal(10) ** -int(_COUNTS.get(word) or chinese_value(word) or word))
     return float(Decimal(word.replace(",", ".")) / 100)

@@ -1,4 +1,4 @@
-"""Numbers in words, by one grammar with a table for each language: "forty-five hundred", "siebzehneinhalb".
+"""Numbers in words, by one grammar with a table for each language (``figures``): "forty-five hundred", "eineinhalb".
 
 What adds (twenty, five), what multiplies (hundred, million) and what divides (half, quarter) is all that a table says;
 each word added must fit into the room that the one before leaves, so that "two three" and "vingt cinquante" are no
@@ -13,10 +13,11 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.word_tables import table
 
 _PLAIN = str.maketrans("áàâäéèêëíîïóôöúùûüñç", "aaaaeeeeiiiooouuuunc")
 _GERMAN_PLAIN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
-_ONE, _HALF, _QUARTER, _TENTH = Decimal(1), Decimal("0.5"), Decimal("0.25"), Decimal("0.1")
+_ONE, _HALF = Decimal(1), Decimal("0.5")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,80 +42,45 @@ class _Grammar:
         )
 
 
-def _counted(words: str, start: int = 0, step: int = 1) -> dict[str, int]:
-    return {word: start + step * place for place, word in enumerate(words.split())}
+def plain_word(word: str, language: str) -> str:
+    """A word as the tables spell it: small letters, no accents; German umlauts as two letters."""
+    return word.lower().translate(_GERMAN_PLAIN if language == "de" else _PLAIN)
 
 
-def _words(words: str) -> frozenset[str]:
-    return frozenset(words.split())
+def _values(language: str) -> dict[str, int]:
+    """The words that mean a whole number, as they are spelt."""
+    words = table("figures", language)["numbers"]
+    counted = ((words["ones"], 0, 1), (words["tens"], 20, 10))
+    return {word: start + step * i for each, start, step in counted for i, word in enumerate(each)} | words["values"]
 
 
-_ENGLISH = _Grammar(
-    values=_counted(
-        "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen "
-        "seventeen eighteen nineteen"
-    )
-    | _counted("twenty thirty forty fifty sixty seventy eighty ninety", 20, 10)
-    | {"fourty": 40},
-    scales={"hundred": 100, "thousand": 10**3, "million": 10**6, "billion": 10**9},
-    parts={"half": _HALF, "quarter": _QUARTER, "quarters": _QUARTER, "tenth": _TENTH, "tenths": _TENTH},
-    articles=_words("a an"), joins=_words("and"), points=_words("point"), links=_words("of a an one"),
-    vague=_words("few several couple dozens hundreds thousands millions third"),
-    dozens=_words("dozen"),
-)  # fmt: skip
-_SPANISH = _Grammar(
-    values=_counted(
-        "cero uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince dieciseis "
-        "diecisiete dieciocho diecinueve veinte veintiuno veintidos veintitres veinticuatro veinticinco veintiseis "
-        "veintisiete veintiocho veintinueve"
-    )
-    | _counted("treinta cuarenta cincuenta sesenta setenta ochenta noventa", 30, 10)
-    | _counted("cien doscientos trescientos cuatrocientos quinientos seiscientos setecientos ochocientos novecientos",
-               100, 100)
-    | _counted("doscientas trescientas cuatrocientas quinientas seiscientas setecientas ochocientas novecientas",
-               200, 100)
-    | {"ciento": 100, "un": 1, "una": 1, "veintiun": 21, "veintiuna": 21},
-    scales={"mil": 10**3, "millon": 10**6, "millones": 10**6},
-    parts={"medio": _HALF, "media": _HALF, "cuarto": _QUARTER, "cuartos": _QUARTER, "decimo": _TENTH,
-           "decima": _TENTH, "decimas": _TENTH},
-    articles=_words("un una"), joins=_words("y"), points=_words("coma punto"), links=_words("de un una"),
-    vague=_words("pocos pocas varios varias algunos cientos miles millares decenas docenas centenares "
-                 "decena centenar treintena veintena quincena"),
-    dozens=_words("docena"),
-)  # fmt: skip
-_FRENCH = _Grammar(
-    values=_counted("zero un deux trois quatre cinq six sept huit neuf dix onze douze treize quatorze quinze seize")
-    | _counted("vingt trente quarante cinquante soixante septante octante nonante", 20, 10)
-    | {"une": 1, "huitante": 80},
-    scales={"cent": 100, "cents": 100, "mille": 10**3, "mil": 10**3, "million": 10**6, "millions": 10**6,
-            "milliard": 10**9},
-    parts={"demi": _HALF, "demie": _HALF, "quart": _QUARTER, "quarts": _QUARTER, "dixieme": _TENTH,
-           "dixiemes": _TENTH},
-    articles=_words("un une"), joins=_words("et"), points=_words("virgule point"), links=_words("de d un une"),
-    vague=_words("quelques plusieurs dizaine dizaines quinzaine vingtaine trentaine quarantaine cinquantaine "
-                 "soixantaine centaine centaines millier milliers peu"),
-    dozens=_words("douzaine"),
-)  # fmt: skip
-_GERMAN_ONES = _counted(
-    "null ein zwei drei vier fuenf sechs sieben acht neun zehn elf zwoelf dreizehn vierzehn fuenfzehn sechzehn "
-    "siebzehn achtzehn neunzehn"
-) | {"eins": 1, "zwo": 2}
-_GERMAN_TENS = _counted("zwanzig dreissig vierzig fuenfzig sechzig siebzig achtzig neunzig", 20, 10)
-_GERMAN = _Grammar(
-    values=_GERMAN_ONES | _GERMAN_TENS | _counted("eine einen einem einer eines", 1, 0),
-    scales={"hundert": 100, "tausend": 10**3, "million": 10**6, "millionen": 10**6, "milliarde": 10**9,
-            "milliarden": 10**9},
-    parts=dict.fromkeys(("halb", "halbe", "halbes", "halben", "halber", "halbem"), _HALF)
-    | {"viertel": _QUARTER, "dreiviertel": Decimal("0.75"), "zehntel": _TENTH, "achtel": Decimal("0.125"),
-       "viertelmillion": Decimal(250_000), "dreiviertelmillion": Decimal(750_000)},
-    articles=_words("ein eine einen einem einer eines"), joins=_words("und"), points=_words("komma punkt"),
-    links=_words("eines einer von einem"),
-    vague=_words("paar einige einigen wenige wenigen mehrere mehreren hunderte tausende dutzende drittel"),
-    added={"einhalb": _HALF}, dozens=_words("dutzend"),
-)  # fmt: skip
+def _grammar(language: str) -> _Grammar:
+    """The number words of a language, as its table of figures has them."""
+    words = table("figures", language)["numbers"]
+
+    def plain(pairs: Mapping[str, int]) -> dict[str, int]:
+        return {plain_word(word, language): value for word, value in pairs.items()}
+
+    exact: Mapping[str, Mapping[str, Decimal]] = {
+        name: {plain_word(word, language): Decimal(str(value)) for word, value in words.get(name, {}).items()}
+        for name in ("parts", "added")
+    }
+    sets = {
+        name: frozenset(plain_word(word, language) for word in words[name])
+        for name in ("articles", "joins", "points", "links", "vague", "dozens")
+    }
+    return _Grammar(values=plain(_values(language)), scales=plain(words["scales"]), **exact, **sets)
+
+
+LANGUAGES = ("en", "es", "fr", "de")
+_GRAMMARS = {language: _grammar(language) for language in LANGUAGES}
+_GERMAN = table("figures", "de")["numbers"]
+_GERMAN_ONES = {
+    word: value for word, value in _GRAMMARS["de"].values.items() if value < 20 and word not in _GERMAN["articles"][1:]
+}
+_GERMAN_TENS = {word: value for word, value in _GRAMMARS["de"].values.items() if value >= 20}
 # What stresses an article, which is then a number: "a full megabit", "un seul".
-_STRESS = _words("full whole single solid solo seul seule volles ganzes einziges einzigen")
-_GRAMMARS = {"en": _ENGLISH, "es": _SPANISH, "fr": _FRENCH, "de": _GERMAN}
+_STRESS = frozenset(word for language in LANGUAGES for word in table("figures", language)["numbers"]["stress"])
 
 _GERMAN_ROOTS = "|".join(
     sorted(_GERMAN_ONES | _GERMAN_TENS | {"hundert": 0, "tausend": 0, "und": 0, "einhalb": 0}, key=len, reverse=True)
@@ -132,9 +98,29 @@ class Spoken:
     is_article: bool
 
 
-def plain_word(word: str, language: str) -> str:
-    """A word as the tables spell it: small letters, no accents; German umlauts as two letters."""
-    return word.lower().translate(_GERMAN_PLAIN if language == "de" else _PLAIN)
+@functools.cache
+def listed(name: str) -> Mapping[str, Decimal]:
+    """The words of all languages that stand for a number, as they are spelt, by a list of their tables.
+
+    >>> listed("ordinals")["fifth"], listed("scales")["tausend"], listed("fold")["twice"]
+    (Decimal('5'), Decimal('1000'), Decimal('2'))
+    """
+    tables = [table("figures", language)["numbers"][name] for language in LANGUAGES]
+    return {word: Decimal(str(value)) for words in tables for word, value in words.items()}
+
+
+def cardinals(least: int, most: int, languages: Sequence[str] = LANGUAGES) -> Mapping[str, int]:
+    """The single words that mean a whole number from ``least`` to ``most`` and are no articles, as they are spelt.
+
+    >>> cardinals(2, 3, ("fr", "de"))
+    {'deux': 2, 'trois': 3, 'zwei': 2, 'drei': 3, 'zwo': 2}
+    """
+    return {
+        word: value
+        for language in languages
+        for word, value in _values(language).items()
+        if least <= value <= most and word not in table("figures", language)["numbers"]["articles"]
+    }
 
 
 @functools.lru_cache(maxsize=4096)

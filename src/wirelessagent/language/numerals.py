@@ -13,19 +13,13 @@ from dataclasses import dataclass
 from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.number_words import Spoken, languages_of, spoken
+from wirelessagent.language.number_words import Spoken, cardinals, languages_of, listed, spoken
 from wirelessagent.language.text import USER_NOUN, language_of
 from wirelessagent.language.units import unit_at
 
-_SCALES = {
-    **dict.fromkeys(("hundred", "cents"), 100),
-    **dict.fromkeys(("thousand", "mil", "mille", "tausend"), 10**3),
-    **dict.fromkeys(("million", "millions", "millón", "millones", "millionen"), 10**6),
-    **dict.fromkeys(("billion", "milliard", "milliards", "milliarden"), 10**9),
-}
+_SCALES = {word: int(value) for word, value in listed("scales").items() if word != "cent"}  # of money
 _PARTS = {
-    **dict.fromkeys(("half", "medio", "media", "demi", "demie", "halb", "halbes"), Decimal("0.5")),
-    **dict.fromkeys(("quarter", "cuarto", "quart", "viertel"), Decimal("0.25")),
+    **{word: value for word, value in listed("parts").items() if value in (Decimal("0.5"), Decimal("0.25"))},
     "½": Decimal("0.5"), "¼": Decimal("0.25"), "¾": Decimal("0.75"),
 }  # fmt: skip
 
@@ -50,7 +44,7 @@ _NUMBER = deferred(
 _WORDS = deferred(rf"[{_LETTERS}]+(?:(?:[\s-]{{1,2}}|'|\s?(?:\.{{3}}|…)\s?)[{_LETTERS}]+){{0,11}}")
 _WORD = deferred(rf"[{_LETTERS}]+")
 _AND_PART = deferred(
-    r"(?i)(?:\s+(?:and\s+an?|y|et|und\s+ein)\s+(?P<part>half|quarter|medio|media|cuarto|demie?|quart|halbes|viertel)\b|"
+    rf"(?i)(?:\s+(?:and\s+an?|y|et|und\s+ein)\s+(?P<part>{'|'.join(part for part in _PARTS if part.isalpha())})\b|"
     r"\s?(?P<sign>[½¼¾]))"
 )
 _OVER = deferred(r"/(?P<below>[1-9][0-9]?)(?![0-9/])(?:\s+(?:of\s+an?|de|d'un))?")
@@ -66,6 +60,13 @@ _PLURAL = deferred(
     r"abonnés|usagers|kunden)\s*$"
 )
 _BELOW_ZERO = deferred(r"(?i)(?<!al )(?<!lo )(?<!au )(?<!ou )\b(?:menos|moins)\s+$")
+
+MOST_FIGURES = 40
+_MOST_DIGITS = 200
+_FIGURE = deferred(
+    r"[0-9]+(?:[.,'][0-9]+)*|[零〇一二两三四五六七八九十百千万亿半几]+|"
+    rf"\b(?:{'|'.join([*cardinals(2, 99), *listed('scales')])})\b"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,6 +103,18 @@ def _numbers(text: str) -> Iterator[Number]:
         if number is not None:
             position = max(number.end, match.start() + 1)
             yield number
+
+
+def too_many_figures(plain: str) -> bool:
+    """Whether a normalised text holds more figures, users' numbers among them, or longer ones than a request can have.
+
+    A pasted table or a log is refused before anybody reads it.
+
+    >>> too_many_figures("users 1 to 40, 20 W"), too_many_figures("1 2 3 " * 20), too_many_figures("9" * 300)
+    (False, True, True)
+    """
+    sizes = [match.end() - match.start() for match in _FIGURE.finditer(plain.lower())]
+    return len(sizes) > MOST_FIGURES or sum(sizes) > _MOST_DIGITS
 
 
 def and_part(text: str, position: int) -> tuple[Decimal, int] | None:

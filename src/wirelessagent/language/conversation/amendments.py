@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.assent import is_assent
 from wirelessagent.language.conversation.line import NAME, Line, has, is_all
-from wirelessagent.language.excess import too_many_figures
 from wirelessagent.language.followups import merged, numbers_of, taken_in
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, LISTS_OF_USERS, Constraint, Intent
+from wirelessagent.language.numerals import too_many_figures
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.text import normalise

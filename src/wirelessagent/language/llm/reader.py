@@ -11,13 +11,13 @@ from __future__ import annotations
 import dataclasses
 import logging
 
-from wirelessagent.language.excess import too_many_figures
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.llm import prompt
 from wirelessagent.language.llm.check import NAME, Case
 from wirelessagent.language.llm.client import NoAnswer, ask, require_llm
 from wirelessagent.language.llm.endpoint import LlmSettings
 from wirelessagent.language.llm.meaning import meaning_with
+from wirelessagent.language.numerals import too_many_figures
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.sentence import own_words
