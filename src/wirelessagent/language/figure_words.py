@@ -49,15 +49,10 @@ PER_USER = deferred(
     r"subcarrier|channel|carrier|antenna|tone)|/\s*(?:user|ue)|每|(?:por|par|pro|je)\s+(?:usuario|utilisateur|"
     r"nutzer))"
 )
-TOTAL_BEFORE = deferred(
-    r"(?i)(?:\b(?:total|sum|overall|aggregate|combined|cell|network)\s+(?:data\s+)?(?:rate|throughput|speed|"
-    r"capacity)|"
-    r"总速率|总吞吐量?|和速率|总共|合计|一共)[\w\s:=]{0,8}$"
-)
+TOTAL_BEFORE = deferred(r"(?:总速率|总吞吐量?|和速率|总共|合计|一共)[\w\s:=]{0,8}$")
 TOTAL_AFTER = deferred(
     r"(?i)\s*(?:of\s+)?(?:in\s+total|total|altogether|overall|combined|in\s+sum|"
-    r"(?:to\s+be\s+)?(?:split|shared|divided|distributed)(?:\s+(?:between|among|by|equally|evenly|over))?)\b|"
-    r"\s*(?:大家|一起|共同)?(?:平分|均分|分摊)"
+    r"(?:to\s+be\s+)?(?:split|shared|divided|distributed))\b"
 )
 CHANGE_BEFORE = deferred(
     r"(?i)(?:\b(?:by|save|saves|saving|cut|another|extra|additional|reduce|(?<!au )plus|increase)\s*(?:about|"
@@ -74,8 +69,7 @@ SET_TO = deferred(
 )
 RATE_SET_TO = deferred(
     r"(?i)\b(?:raise|increase|bring|set|lift|boost|push|lower|reduce)\s+(?:the\s+|each\s+|every\s+|their\s+)*"
-    r"(?:min\w*\s+|user\w*\s+|data\s+|bit\s+)*(?:rates?|speeds?|throughput)\s+(?:up\s+|down\s+)?to\s+$|"
-    r"(?:速率|速度|网速)(?:提高|提升|增加|升|调|设)(?:到|至|为)\s*$"
+    r"(?:min\w*\s+|user\w*\s+|data\s+|bit\s+)*(?:rates?|speeds?|throughput)\s+(?:up\s+|down\s+)?to\s+$"
 )
 MISSING = deferred(
     r"(?ia)\b(?:missing|lost|loss|unknown|holes?|absent|gone|faltar\w*|falta\w*|perd\w*|manqu\w*|fehl\w*|"
@@ -91,13 +85,13 @@ COUNTED_USERS = deferred(
 SOME_USERS = Phrases(
     r"\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
     r"(?:部分|一些|某些|某个)用户|"
-    r"\b(?:odd|even)(?:[- ]numbered)?\s+users?\b|\bhalf\s+(?:of\s+)?(?:the|our)\s+users\b|"
+    r"\b(?:odd|even)(?:[- ]numbered)?\s+users?\b|"
     r"\b(?:except|but|without)\s+(?:for\s+)?the\s+(?:last|first)(?:\s+(?:one|two|three|few|user|users))?(?=\s*(?:$|[,.;:!]))|"
     r"\b(?:leav\w+|drop\w*|exclud\w+|kick\w*|cut)\s+(?:out\s+)?(?:the\s+)?users\s+(?:out\s+)?(?:who|that|which|with|whose)\b|"
-    r"\busers?\s+[0-9]+\s+(?:and|or)\s+(?:up|above|higher|beyond|onwards?|more)\b|\bfrom\s+user\s+[0-9]+\s+on(?:wards?)?\b|"
+    r"\busers?\s+[0-9]+\s+(?:and|or)\s+(?:up|above|higher|beyond|onwards?|more)\b|"
     r"\b(?:users?|ues?)\s+[-−][0-9]+|用户\s*[-−][0-9]+|"
     r"(?:单|双|奇数|偶数)号?(?:的)?用户|(?:一半|半数)的?用户|[0-9]号(?:及|和)?(?:以后|以上|往后)|"
-    r"(?:踢|去掉|不服务|排除)[^,\uff0c。0-9]{1,10}的用户|[^,\uff0c。0-9]{1,8}的用户都?(?:踢|去掉|不服务|排除|剔除)"
+    r"[^,\uff0c。0-9]{1,8}的用户都?(?:踢|去掉|不服务|排除|剔除)"
 )
 NOBODY = Phrases(
     r"\bserv(?:e|ing) (?:(?:nobody|no one)(?!\s+(?:else|but|except|apart|other))|"
@@ -109,15 +103,15 @@ NOBODY = Phrases(
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
 HALVED = Phrases(
     r"\bby (?:a )?(?:half|third|quarter)\b|"
-    rf"\b(?:half (?:the|of the|as much)|halve|(?:double|twice) the)\s+{_OF_OURS}|"
+    rf"\b(?:half (?:the|of the|as much)|halve)\s+{_OF_OURS}|"
     r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)",
-    marks="half halve third quarter double twice 减半 一半 翻倍",
+    marks="half halve third quarter 减半 一半 翻倍",
 )
 EITHER = deferred(  # between two figures
     r"(?i)\s*,?\s*(?:or|o|ou|oder|或者?|还是|(?:or\s+)?(?:if\s+possible|ideally|preferably),?\s+(?:else|otherwise|or)|else|otherwise)\s*"
 )
 OTHERS_HALVED = Phrases(
-    r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)(?!的?(?:功率|权重))",
+    r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)",
     marks="一半 减半 翻倍 双倍 加倍",
 )
 _POWER = (
@@ -179,9 +173,7 @@ BLOCKS = Phrases(
 )
 BLOCK_WORDS = {"pairs": 2, **{f"{word}er": size for word, size in cardinals(2, 12, ("de",)).items()}}
 STEP = Phrases(
-    r"\b(?:one|an?|another|an? (?:extra|additional|further))\s+(?:more\s+|extra\s+|"
-    r"additional\s+)?watt(?:\s+more)?\b|(?:再?多|再加|加)一瓦|"
-    r"\bun vatio más\b|\bun watt de plus\b|\bein(?: weiteres)? watt mehr\b|\bein weiteres watt\b",
+    r"\b(?:one|an?|another)\s+(?:more\s+)?watt(?:\s+more)?\b|(?:再?多|再加|加)一瓦|"
+    r"\bun vatio más\b|\bun watt de plus\b|\bein watt mehr\b",
     marks="watt vatio 一瓦",
 )
-MOVE_BEFORE = deferred(r"(?i)\b(?:reduce|lower|cut|save|drop|decrease|less)\b[\w\s]*$")

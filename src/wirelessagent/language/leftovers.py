@@ -38,9 +38,8 @@ _MONTH = (
 )
 _TIMES = Phrases(
     rf"(?<![\w.,])[0-9]{{1,3}}(?::[0-9]{{2}}|[.,]5)?\s?{_SPELL}|(?<![\w.,])[0-9]{{1,2}}[:：][0-9]{{2}}(?![0-9])|"
-    rf"(?<![\w.,])[0-9]{{1,2}}(?:\.|st|nd|rd|th|er)?\s+(?:de\s+|of\s+)?{_MONTH}|\b{_MONTH}\s+[0-9]{{1,2}}(?![\w.,]?[0-9])|"
+    rf"(?<![\w.,])[0-9]{{1,2}}(?:\.|st|nd|rd|th|er)?\s+(?:de\s+|of\s+)?{_MONTH}|"
     r"(?<![\w.,])(?:19|20)[0-9]{2}(?=\s*(?:$|[,.;:!?)]|年))|"
-    rf"(?<=\bde )[0-9]{{1,2}}(?= à [0-9]{{1,2}} h\b)|"
     rf"\b(?:von|zwischen|entre|between|from) [0-9]{{1,2}}(?=(?: h)? (?:bis|und|y|et|and|to|à) [0-9]{{1,2}}\s?{_SPELL})|"
     r"\b(?:half an?|a half|next half) hour\b|\blas? [0-9]{1,2} de la (?:mañana|tarde|noche|madrugada)|"
     r"\b(?:for|in|within|after|until|during|next|last|past|every)\s+(?:the\s+)?(?:next\s+|last\s+)?"
@@ -59,7 +58,7 @@ _GLUED = deferred(  # CO2, TV5, A9, 9th, 3GPP
     r"(?<![A-Za-z0-9_])(?:(?!(?:[UuRrPpWwXx]|UE|ue|Ue)[0-9])[A-Za-z]{1,4}[0-9₀-₉]{1,3}|[0-9]{1,3}(?:st|nd|rd|th|er|ère|ème|º|ª))"
     r"(?![A-Za-z0-9]*[=<>≤≥])(?![A-Za-z0-9.,]*[0-9])|3GPP|CO₂"
 )
-_OF_THE_YEAR = Phrases(r"\b(?:this|last|next|each|every|per|the) (?:first |last )?quarter\b(?! of)", "quarter")
+_OF_THE_YEAR = Phrases(r"\b(?:this|last|next|each|every|per|the) quarter\b", "quarter")
 _PAIRS = Phrases(
     r"\b(?:between|of|the|these|those|either|in|both|or|my|our|by)\s+(?:the\s+)?(?:two|three)(?=\s*(?:$|"
     r"[.,;:!?)]|of\s+(?:them|us)|sides?|extremes?|ends?|goals?|things?|worlds?|"
@@ -69,7 +68,7 @@ _PAIRS = Phrases(
 )
 _VAGUE = deferred(
     r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
-    r"(?<=a )number)\s+(?:of\s+)?|(?<=[0-9a-z])-odd\s+"
+    r"(?<=a )number)\s+(?:of\s+)?"
 )
 _SETS_A_LIMIT = deferred(
     r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max|min|maximum|minimum|exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥]|"
@@ -82,9 +81,6 @@ _ABBREVIATED = deferred(r"\s?-?(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})
 _ALONE_AHEAD = deferred(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
 _ALONE_BEHIND = deferred(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
 _ALL_IDIOMS = (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR, _PRICES, _GLUED)
-_RATING = deferred(  # what a device has, and a limit only where nothing else is said
-    r"(?i)\s?-?(?:[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz|(?:kilo|mega|giga)hertz)(?![^\W\d_])|\s*[千兆毫]?(?:伏|赫)"
-)
 FOREIGN_UNIT = deferred(  # no user's number stands before one
     r"(?i)\s?-?(?:[kMG]?Hz|hertz|[km]?V|volts?|voltios?|[km]?A|[km]?Wh|J|joules?|julios?|dB|°|[kMGT]?B|bits?|bytes?|"
     r"kilo\w+|mega\w+|giga\w+|cm|mm|km|m²|ms|grad|degrees?|percent)(?![^\W\d_])"
@@ -164,9 +160,6 @@ def may_be_a_limit(plain: str, number: Number) -> bool:
     if abbreviated is not None and is_all_said(plain, number.start, abbreviated.end()):
         return True
     after = _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None
-    foreign = _RATING.match(plain, number.end)
-    if foreign is not None and is_all_said(plain, number.start, foreign.end()):
-        return True
     return after or _SETS_A_LIMIT.search(plain, 0, number.start) is not None
 
 

@@ -37,7 +37,7 @@ def take_share(notes: Notes, max_power_w: float) -> None:
     """A share of the power, of the cell's limit: "with half the power"."""
     match = figure_words.SHARE.search(notes.plain)
     before = notes.plain[: match.start()] if match is not None else ""
-    if match is None or figure_words.CHANGE_BEFORE.search(before) or figure_words.MOVE_BEFORE.search(before):
+    if match is None or figure_words.CHANGE_BEFORE.search(before):
         return
     if any(each.start < match.start() < each.end for each in notes.quantities):  # "two and a half watts"
         return
