@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from wirelessagent.language.exceptions import exception_of
 from wirelessagent.language.intent import checked_constraints
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.offline import recognise
 from wirelessagent.language.restating import limits_in_words
+from wirelessagent.language.standings import exception_of
 from wirelessagent.model.errors import InputError
 
 KEPT = [

@@ -10,8 +10,7 @@ import pytest
 
 from wirelessagent import language
 from wirelessagent.language.clauses import clause_end, clause_start, cuts_between
-from wirelessagent.language.phrases import Phrases
-from wirelessagent.language.text import lowered, normalise
+from wirelessagent.language.text import Phrases, lowered, normalise
 
 SPOKEN = Path(language.__file__).parent / "training" / "spoken"
 MARKED = {

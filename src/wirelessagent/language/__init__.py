@@ -1,13 +1,13 @@
 """From an operator's words to a typed request: quantities, recognisers and replies.
 
-The layers, each knowing only those before it: ``text``, ``spelling`` (the same length) → ``numerals`` (digits and
-number words) → ``unit_slips``, ``units`` → ``comparators`` (at least, at most) → ``quantities`` (all of these, the
-only source of figures) → ``mentions`` (who is spoken of), ``nines``, ``factors`` and ``leftovers`` (the other
-numbers), ``roles``, ``surroundings`` and ``figure_words`` (what words beside a user or a figure make of it) →
-``role_features``, ``figure_roles``, ``judged`` (what each is there for, by a small model) → ``exceptions`` (who is kept
-or excepted), ``allotments`` (who gets which figure) → ``constraints`` (which field a figure means) and ``vocabulary``,
+The layers, each knowing only those before it: ``text``, ``spelling`` (the same length) → ``number_words``, ``units``,
+``numerals`` (digits, number words, multiples) → ``comparators`` (at least, at most) → ``quantities`` (all of these, the
+only source of figures) → ``mentions`` (who is spoken of), ``ratios`` and ``leftovers`` (the other numbers),
+``standings`` and ``surroundings`` (what words beside a user or a figure make of it) → ``role_features``,
+``figure_roles``, ``looks``, ``judged`` (what each is there for, by a small model) → ``allotments`` (who gets which
+figure), ``powers``, ``rates``, ``whole_cell`` → ``constraints`` (which field a figure means) and ``vocabulary``,
 ``goals`` (which objective the words mean) → ``sentence`` (all of that, once) → ``features``, ``linear_model``,
 ``forms`` → ``judgement`` (what the sentence wants) → ``topics``, ``followups`` (details, changes of a request),
 ``nobody_starves`` (a wish beside the wish) → ``offline`` (the recogniser).
-``lexicon`` holds the words and ``replies`` the sentences, as data; ``training`` makes the models.
+``figures`` holds the words beside figures and users, ``lexicon`` those of wishes and ``replies`` the sentences, as data; ``training`` makes the models.
 """

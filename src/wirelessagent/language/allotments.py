@@ -9,14 +9,20 @@ from dataclasses import dataclass
 
 from wirelessagent.language.clauses import clause_end, clause_start, cuts_between
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.exceptions import Standing, exception_of, promised_nothing
-from wirelessagent.language.figure_words import CORRECTION
 from wirelessagent.language.intent import EVERYBODY, Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import Mention, Role
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.roles import UserRole, is_something_of, role_of
+from wirelessagent.language.standings import (
+    Standing,
+    UserRole,
+    exception_of,
+    is_something_of,
+    promised_nothing,
+    role_of,
+)
+from wirelessagent.language.surroundings import CORRECTION
 
 _SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.5, 0.45
 _AT_ODDS = 0.15

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.phrases import Phrases
 from wirelessagent.language.spelling import one_edit
-from wirelessagent.language.text import CLAUSE_END, USER_NOUN
+from wirelessagent.language.text import CLAUSE_END, USER_NOUN, Phrases
 from wirelessagent.language.word_tables import languages_with, table
 
 Comparator: TypeAlias = Literal["at_least", "at_most", "exactly"]

@@ -11,18 +11,28 @@ import itertools
 import math
 from collections.abc import Sequence
 
-from wirelessagent.language import figure_words
 from wirelessagent.language.allotments import Allotments
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.judged import Judged
-from wirelessagent.language.neighbours import Neighbours, is_change
-from wirelessagent.language.nines import nines
 from wirelessagent.language.powers import Powers
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.rates import Rates
+from wirelessagent.language.ratios import nines
 from wirelessagent.language.stated import Notes, Reading
-from wirelessagent.language.surroundings import is_calculated, is_refused
+from wirelessagent.language.surroundings import Neighbours, is_calculated, is_change, is_refused
+from wirelessagent.language.text import Phrases
 from wirelessagent.language.whole_cell import doubt_parts, take_blocks, take_counts, take_share
+
+_MISSING = deferred(
+    r"(?ia)\b(?:missing|lost|loss|unknown|holes?|absent|gone|faltar\w*|falta\w*|perd\w*|manqu\w*|fehl\w*|"
+    r"verloren)\b|缺失|丢失|缺少|丢包|未知|缺|丢"
+)
+_STEP = Phrases(
+    r"\b(?:one|an?|another)\s+(?:more\s+)?watt(?:\s+more)?\b|(?:再?多|再加|加)一瓦|"
+    r"\bun vatio más\b|\bun watt de plus\b|\bein watt mehr\b",
+    marks="watt vatio 一瓦",
+)
 
 _SURE = 0.6
 
@@ -51,7 +61,7 @@ class _Reader:
         self._notes = notes
         self._judged = Judged(notes.plain, notes.quantities, names, notes.spoken_for)
         self._allotments = Allotments(notes.text, notes.plain, self._judged)
-        self._neighbours = Neighbours(notes.plain, self._judged)
+        self._neighbours = Neighbours(notes.plain, self._judged.figures, self._judged.mentions)
         self._powers = Powers(notes, self._judged, self._neighbours)
         self._rates = Rates(notes, self._judged, self._neighbours, self._allotments)
 
@@ -124,7 +134,7 @@ class _Reader:
     def _take_ratio(self, index: int) -> None:
         """A share of the channel that is missing, an outage or a reliability."""
         notes, figure, (before, after) = self._notes, self._judged.figures[index], self._neighbours.beside(index)
-        if figure_words.MISSING.search(before + " " + after):
+        if _MISSING.search(before + " " + after):
             notes.missing = figure.value
             notes.not_used.append(figure.text)
             return
@@ -149,5 +159,5 @@ class _Reader:
         doubt_parts(notes, allotted.spans)
         for start, end in allotted.take_users():
             notes.doubt("named_user", text=notes.text[start:end])
-        if figure_words.STEP.search(notes.plain) is not None:
+        if _STEP.search(notes.plain) is not None:
             notes.steps.setdefault("power_w", 1.0)

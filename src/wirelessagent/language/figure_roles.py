@@ -19,14 +19,13 @@ import numpy.typing as npt
 
 from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.figure_words import CORRECTION
 from wirelessagent.language.hints import HINTS, hints
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.role_features import Span, Token, around, around_base, hashed, in_base_words, tokens_of
-from wirelessagent.language.roles import role_of
-from wirelessagent.language.surroundings import beside, signs
+from wirelessagent.language.standings import role_of
+from wirelessagent.language.surroundings import CORRECTION, beside, signs
 from wirelessagent.language.text import language_of
 
 ROLES_FILE = Path(__file__).with_name("roles.npz")

@@ -13,9 +13,8 @@ from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.factors import factors
-from wirelessagent.language.numerals import Number, numbers
-from wirelessagent.language.phrases import Phrases
+from wirelessagent.language.numerals import Number, factors, numbers
+from wirelessagent.language.text import Phrases
 from wirelessagent.language.units import unit_at
 
 Span = tuple[int, int]

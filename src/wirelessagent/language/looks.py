@@ -1,22 +1,38 @@
 """What a sentence holds: figures with a unit, everybody mentioned, and the numbers that are neither.
 
 It is looked at twice: before anybody asks what the numbers are, and with those settled that turned out to be users or
-to borrow the unit of another figure.
+to borrow the unit of another figure ("user 3 needs 2 Mbit/s, the others only one", "twice that"). Which numbers borrow,
+the model of roles says (``judged``); here they get their unit and their value.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from decimal import Decimal
 
-from wirelessagent.language.borrowed import figures_of, ones
-from wirelessagent.language.figure_roles import View
+from wirelessagent.language.deferred import deferred
+from wirelessagent.language.figure_roles import SCALED, View
 from wirelessagent.language.leftovers import loose_numbers
 from wirelessagent.language.mentions import Mention, mentions, merged
-from wirelessagent.language.nines import nines
 from wirelessagent.language.numerals import Number
-from wirelessagent.language.odds import odds
-from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.quantities import Quantity, QuantityKind
+from wirelessagent.language.ratios import nines, odds
+from wirelessagent.language.readings import Reading, readings
+
+Span = tuple[int, int]
+BORROWING: Mapping[str, QuantityKind] = {
+    "rate": "rate", "power": "power", "multiple": "rate", "outage": "ratio", "reliability": "ratio",
+}  # fmt: skip
+_SCALES = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
+_FAR = 200  # no two rates of one sentence are farther apart: another unit is meant
+_PARTS = {"half": "0.5", "medi": "0.5", "demi": "0.5", "halb": "0.5", "quar": "0.25", "cuar": "0.25", "vier": "0.25"}
+_ONE = deferred(  # "the others only one", against "one user"
+    r"(?i)(?<![\w'-])(?:(?:one|uno|una|une?|ein(?:s|e[nmr]?)?)|"
+    r"(?P<part>(?:an?\s+|une?\s+|ein(?:e[nr]?)?\s+)?(?:half|quarter|medio|cuarto|demie?|quart|halbe[sn]?|viertel)))"
+    r"(?=\s*(?:$|[,.;:!?)]|(?:each|apiece|for|at|max|maximum|out|and|only|on|per|to|para|al?|el|y|como|con|seul|pour|au|"
+    r"à|l'|seulement|et|chacun|für|bei|und|der|die|dem|pro|je|als|höchstens|mindestens)\b))"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,3 +108,61 @@ def _with_numbers(plain: str, found: Sequence[Mention], users: Sequence[Number])
         for number in users
     ]
     return merged(plain, sorted([*found, *bare], key=lambda mention: mention.start))
+
+
+def ones(plain: str, taken: Sequence[Span]) -> Iterator[Number]:
+    """Every "one" or "half" of a normalised text that stands alone, where no ``taken`` span is: no article is one."""
+    for match in _ONE.finditer(plain):
+        if not any(match.start() < end and start < match.end() for start, end in taken):
+            part = match["part"]
+            value = Decimal(1) if part is None else Decimal(_PARTS[part.lower().split()[-1][:4]])
+            yield Number(value=value, start=match.start(), end=match.end(), form="words")
+
+
+def figures_of(
+    plain: str, roles: Mapping[Number, str], quantities: Sequence[Quantity], stated: Sequence[Quantity]
+) -> dict[Number, Quantity]:
+    """The numbers that borrow a unit or a value, as quantities; those are missing that find none to borrow.
+
+    ``roles`` says what each number is, ``quantities`` hold their bounds, ``stated`` are the figures with a unit.
+    """
+    if not roles:
+        return {}
+    units = [reading for reading in readings(plain) if reading.unit is not None and reading.number.value is not None]
+    found: dict[Number, Quantity] = {}
+    for number, role in roles.items():
+        value = _value(plain, number, role, units, [*stated, *found.values()])
+        if value is None:
+            continue
+        own = [q for q in quantities if q.start <= number.start < q.end]
+        start, end = (own[0].phrase_start, own[0].phrase_end) if own else (number.start, number.end)
+        found[number] = Quantity(
+            value=value, kind=BORROWING[role], text=plain[number.start : number.end], start=number.start,
+            end=number.end, comparator=own[0].comparator if own else None, phrase_start=start,
+            phrase_end=max(number.end, end),
+        )  # fmt: skip
+    return found
+
+
+def _value(plain: str, number: Number, role: str, units: Sequence[Reading], stated: Sequence[Quantity]) -> float | None:
+    """What a number is worth in SI units, or None where there is nothing to borrow from."""
+    if number.value is None:
+        return None
+    kind = BORROWING[role]
+    if kind == "ratio":
+        return float(number.value) if 0 < number.value < 1 else None
+    if role == "multiple":
+        earlier = [figure.value for figure in stated if figure.kind == "rate" and figure.end <= number.start]
+        return float(number.value) * earlier[-1] if earlier else None
+    scaled = SCALED.match(plain, number.end) if kind == "rate" else None
+    if scaled is not None:
+        return float(number.value * _SCALES[scaled.group().strip()])
+    able = [reading for reading in units if reading.unit is not None and reading.unit.kind == kind]
+    before = [reading for reading in able if reading.end <= number.start][::-1]
+    after = [reading for reading in able if reading.end > number.start]
+    alike = [figure.value for figure in stated if figure.kind == kind]
+    for reading in (*before, *after):
+        value = reading.unit.value(number.value) if reading.unit is not None else 0.0
+        if any(1 / _FAR <= value / other <= _FAR for other in alike if other > 0):
+            return value
+    return None

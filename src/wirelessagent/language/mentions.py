@@ -15,7 +15,7 @@ from typing import Literal, TypeAlias
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import chinese_value
-from wirelessagent.language.phrases import Phrases
+from wirelessagent.language.text import Phrases
 from wirelessagent.language.units import unit_at
 
 Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]

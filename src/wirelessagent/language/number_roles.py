@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from wirelessagent.language.borrowed import BORROWING
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.figure_roles import SCALED, answers
-from wirelessagent.language.figure_words import CORRECTION, COUNTED_USERS
 from wirelessagent.language.leftovers import FOREIGN_UNIT, idioms, may_be_a_limit
-from wirelessagent.language.looks import Look
+from wirelessagent.language.looks import BORROWING, Look
 from wirelessagent.language.mentions import JOINT, LISTED
 from wirelessagent.language.numerals import Number
+from wirelessagent.language.surroundings import CORRECTION
+from wirelessagent.language.whole_cell import COUNTED_USERS
 
 _ONE_OF_A_LIST, _NEAR = 0.3, 24
 _MOST_WEIGHT = 10**6

@@ -14,7 +14,7 @@ from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import Spoken, cardinals, languages_of, listed, spoken
-from wirelessagent.language.text import USER_NOUN, language_of
+from wirelessagent.language.text import USER_NOUN, Phrases, language_of
 from wirelessagent.language.units import unit_at
 
 _SCALES = {word: int(value) for word, value in listed("scales").items() if word != "cent"}  # of money
@@ -67,6 +67,30 @@ _FIGURE = deferred(
     r"[0-9]+(?:[.,'][0-9]+)*|[零〇一二两三四五六七八九十百千万亿半几]+|"
     rf"\b(?:{'|'.join([*cardinals(2, 99), *listed('scales')])})\b"
 )
+
+_ONE_AND_A_HALF = ("uno y medio", "un et demi", "one and a half", "una y media", "une fois et demie", "una vez y media")
+_FOLDS = {
+    **cardinals(2, 10),
+    **listed("fold"),
+    **dict.fromkeys(_ONE_AND_A_HALF, Decimal("1.5")),
+    **dict.fromkeys(("dos y medio", "deux et demi", "two and a half", "deux fois et demie"), Decimal("2.5")),
+}
+_MANY = "(?:" + "|".join(sorted(_FOLDS, key=len, reverse=True)) + ")"
+_TIMES = Phrases(
+    rf"\b(?P<named>{'|'.join(listed('fold'))})\b|\b(?P<german>doppelt|dreifach|vierfach|fünffach|zehnfach)\w*|"
+    rf"\b(?P<compound>{_MANY})(?:fach|mal)\w*|(?P<phrase>(?:une\s+fois\s+et\s+demie|deux\s+fois\s+et\s+demie|"
+    rf"una\s+vez\s+y\s+media))|"
+    rf"\b(?P<word>{_MANY})[\s-]?(?:times|veces|fois|mal|fold)\b|"
+    rf"\b(?:compt\w+|val\w+|pes\w+|p[eè]s\w+|cuent\w+|cont\w+|counts?|counting|count|zähl\w+)\s+(?:(?:al?|el|le|"
+    rf"l'|usuario|utilisateur|abonné|abonado|cliente?|user|[0-9]+)\s*){{0,4}}(?:pour|por|como|comme|for|as|für)\s+"
+    rf"(?P<counted>{_MANY})\b|"
+    r"(?<![\w.])(?:x\s?(?P<x>[0-9]+(?:\.[0-9]+)?)(?![\w.])|(?P<n>[0-9]+(?:[.,][0-9]+)?)\s*(?:times\b|x\b|-?fold\b|"
+    r"veces\b|fois\b|mal\b|-?fach\w*))|(?P<zhn>[0-9]+(?:\.[0-9]+)?)\s*倍|"
+    r"(?P<zhtwo>翻倍|加倍|双倍|双份|翻一番|顶[两二]个|当[两二]个|算[两二]个)|(?P<zhhalf>减半|一半|半份|半倍)|"
+    r"(?P<zh>[一二两三四五六七八九十](?:点[一二三四五六七八九])?)(?P<zhmore>[倍份]半?)"
+)
+_GERMAN_FOLDS = {"doppelt": 2, "dreifach": 3, "vierfach": 4, "fünffach": 5, "zehnfach": 10}
+_HALF = Decimal("0.5")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -270,3 +294,28 @@ def chinese_value(numeral: str) -> Decimal | None:
         previous = letter
     value = Decimal(total + section + digit * max(scale, 1))
     return value + Decimal("0." + "".join(str(_CHINESE_DIGITS[c]) for c in fraction)) if fraction else value
+
+
+def factors(plain: str) -> Iterator[Number]:
+    """The words of a normalised text that multiply, from left to right, as numbers of the form "times".
+
+    >>> [(factor.value, factor.start) for factor in factors("user 3 counts twice")]
+    [(Decimal('2'), 14)]
+    """
+    for match in _TIMES.finditer(plain):
+        group = "zh" if match["zh"] else match.lastgroup or ""
+        start = match.start(group) if group == "counted" else match.start()
+        value = _fold(match, group)
+        if value is not None:
+            yield Number(value=value, start=start, end=match.end(), form="times")
+
+
+def _fold(match: re.Match[str], group: str) -> Decimal | None:
+    word = " ".join(match[group].lower().split())
+    if group in ("n", "x", "zhn"):
+        return Decimal(word.replace(",", "."))
+    if group == "zh":
+        value = chinese_value(word)
+        return None if value is None else Decimal(str(value)) + (_HALF if match["zhmore"].endswith("半") else 0)
+    known = {"german": _GERMAN_FOLDS, "zhtwo": {word: 2}, "zhhalf": {word: _HALF}}.get(group, _FOLDS)
+    return Decimal(known[word])

@@ -6,12 +6,33 @@ import itertools
 import math
 from collections.abc import Mapping
 
-from wirelessagent.language import figure_words
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.judged import Judged
-from wirelessagent.language.neighbours import Neighbours, is_change
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Notes
-from wirelessagent.language.surroundings import is_cells_power
+from wirelessagent.language.surroundings import (
+    CIRCUIT,
+    CORRECTION,
+    PER_USER,
+    SUBCARRIER,
+    TOTAL_AFTER,
+    Neighbours,
+    is_cells_power,
+    is_change,
+)
+
+_HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
+_NEGATED = deferred(  # "more than 10 W are not to be had", 超过4瓦不行
+    r"(?i)\b(?:not|no|never|nicht|ned|nie|kein\w*|nunca|sin|pas|jamais|garde-toi|évite|vermeide|avoid|gibt's aber)\b|"
+    r"[别不勿禁]|报警|跳闸"
+)
+_SET_TO = deferred(
+    r"(?i)(?:\b(?:reduce|lower|cut|drop|bring|decrease|turn|raise|increase|set|limit)\s+(?:down\s+|up\s+)?(?:the\s+)?"
+    r"(?:total\s+|max\w*\s+)?(?:transmit\s+|tx\s+|radiated\s+)?(?:power|budget)(?:\s+budget)?\s+(?:down\s+|"
+    r"up\s+)?(?:to|at)|"
+    r"(?:总?发?射?功率)(?:降低?|减[小少]?|调|提高|升|增加?|设)(?:到|至|为)|(?:降低?|减[小少]?|"
+    r"提高)(?:总?发?射?功率)(?:到|至))\s*$"
+)
 
 _SURE, _CERTAIN = 0.6, 0.8
 _SURE_OF_A_LIMIT = 0.75  # most figures are limits, so that the model takes a strange one for one too easily
@@ -38,7 +59,7 @@ class Powers:
         }
         for index in chances:
             before, after = self._neighbours.beside(index)
-            if before.strip().lower() in _NOTHING_AHEAD and figure_words.TOTAL_AFTER.match(after):
+            if before.strip().lower() in _NOTHING_AHEAD and TOTAL_AFTER.match(after):
                 chances[index] = {role: float(role == "max_power_w") for role in chances[index]}
         places = sorted(chances)[:_MOST_POWERS]
         for index in places:
@@ -72,7 +93,7 @@ class Powers:
         low, high = self._figures[index], self._figures[index + 1]
         same = max(first, key=lambda role: first[role]) == max(second, key=lambda role: second[role])
         doubtful = max(second.values()) < _CERTAIN
-        if (same or doubtful) and figure_words.CORRECTION.search(self._plain, low.end, high.start):
+        if (same or doubtful) and CORRECTION.search(self._plain, low.end, high.start):
             chances[index] = {**dict.fromkeys(first, 0.0), "none": 1.0}
             chances[index + 1] = {role: max(first[role], second[role]) if role != "none" else 0.0 for role in second}
 
@@ -81,14 +102,14 @@ class Powers:
         figure, (before, after) = self._figures[index], self._neighbours.beside(index)
         role, certain = self._roles.get(index, ("", False))
         circuit = role == "circuit_power_w"
-        known = circuit and (certain or figure_words.CIRCUIT.search(before + " " + after) is not None)
+        known = circuit and (certain or CIRCUIT.search(before + " " + after) is not None)
         if is_change(before, after):
             self._notes.steps["power_w"] = figure.value
             self._notes.doubt("change", text=figure.text)
         elif (
             figure.comparator == "at_least"
             and (role != "none" or self._neighbours.ends_a_range(index + 1))
-            and not figure_words.NEGATED.search(before + after)
+            and not _NEGATED.search(before + after)
         ):
             self._notes.doubt("power_floor", text=figure.text)
         elif not (known or (certain and role == "max_power_w") or is_cells_power(before, after)):
@@ -96,21 +117,21 @@ class Powers:
         elif circuit:
             self._mask_circuit(figure, before, after)
             self._notes.take("circuit_power_w", figure.value, figure)
-        elif figure.value > figure_words.HUGE_POWER_W:
+        elif figure.value > _HUGE_POWER_W:
             self._notes.doubt("huge", text=figure.text)
         elif self._neighbours.is_of_a_subcarrier(index):
-            of_each = figure_words.SUBCARRIER.match(after)
+            of_each = SUBCARRIER.match(after)
             if of_each is not None:  # "on a single subcarrier" counts nothing
                 self._notes.masked.append((figure.end, figure.end + of_each.end()))
             self._notes.take("subcarrier_max_power_w", figure.value, figure)
-        elif figure_words.PER_USER.match(after):
+        elif PER_USER.match(after):
             self._notes.doubt("power_per_user", text=figure.text)
         elif role == "none":
             self._notes.counted.append((figure.start, figure.end))
         elif role == "":
             self._notes.doubt("whose_power", text=figure.text)
         else:
-            setting = figure_words.SET_TO.search(before)
+            setting = _SET_TO.search(before)
             if setting is not None:
                 self._notes.masked.append((figure.start - len(before) + setting.start(), figure.end))
             self._notes.take("max_power_w", figure.value, figure)
@@ -118,6 +139,6 @@ class Powers:
     def _mask_circuit(self, figure: Quantity, before: str, after: str) -> None:
         """The words for the circuits are no wish for a "fixed" or a "constant" anything."""
         for words, offset in ((before, figure.start - len(before)), (after, figure.end)):
-            circuit = figure_words.CIRCUIT.search(words)
+            circuit = CIRCUIT.search(words)
             if circuit is not None:
                 self._notes.masked.append((offset + circuit.start(), offset + circuit.end()))

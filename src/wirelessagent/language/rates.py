@@ -4,23 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from wirelessagent.language import figure_words
 from wirelessagent.language.allotments import Allotments, Target
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.moods import is_taken_up
-from wirelessagent.language.neighbours import Neighbours, is_change
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Notes
+from wirelessagent.language.surroundings import CORRECTION, PER_USER, TOTAL_AFTER, Neighbours, is_change
+
+_EXACT = deferred(
+    r"(?i)(?:\s+(?:each|apiece|per user|por usuario|par personne|chacun|cada uno|pro nutzer))?\s*,?\s*(?:exactly|exact|"
+    r"precisely|no more,? no less|exact[oa]s?|clavad[oa]s?|ni más ni menos|exactement|pile|tout rond|"
+    r"ni plus ni moins|genau|exakt)\b"
+)
+_EXACT_BEFORE = deferred(
+    r"(?i)\b(?:exactly|precisely|exactamente|exactement|précisément|genau|exakt)\s+$|(?:锁定?在?|锁死在|恰好|正好|刚好)\s*$"
+)
+_TOTAL_BEFORE = deferred(r"(?:总速率|总吞吐量?|和速率|总共|合计|一共)[\w\s:=]{0,8}$")
+_RATE_SET_TO = deferred(
+    r"(?i)\b(?:raise|increase|bring|set|lift|boost|push|lower|reduce)\s+(?:the\s+|each\s+|every\s+|their\s+)*"
+    r"(?:min\w*\s+|user\w*\s+|data\s+|bit\s+)*(?:rates?|speeds?|throughput)\s+(?:up\s+|down\s+)?to\s+$"
+)
+_EITHER = deferred(  # between two figures
+    r"(?i)\s*,?\s*(?:or|o|ou|oder|或者?|还是|(?:or\s+)?(?:if\s+possible|ideally|preferably),?\s+(?:else|otherwise|or)|else|otherwise)\s*"
+)
 
 _SURE = 0.6
 _SURE_OF_A_LIMIT = 0.75  # most figures are limits, so that the model takes a strange one for one too easily
 _BOUNDS = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _CONTRARY = {"at_least": "max_rate_bps", "at_most": "min_rate_bps"}
 _CONTRARY_CHANCE = 0.1  # "at least" seldom caps
-_TURNED = deferred(
-    rf"(?i)\s*[,;.\uff0c；。]?\s*(?:oh\s+)?(?:{figure_words.CORRECTION.pattern.removeprefix('(?ia)')})[\s,\uff0c]*"
-)
+_TURNED = deferred(rf"(?i)\s*[,;.\uff0c；。]?\s*(?:oh\s+)?(?:{CORRECTION.pattern.removeprefix('(?ia)')})[\s,\uff0c]*")
 
 
 class Rates:
@@ -35,7 +49,7 @@ class Rates:
         """Take the rate at a place for whomever it is for, or raise what is in doubt about it."""
         figure, (before, after) = self._figures[index], self._neighbours.beside(index)
         lead = before[: max(0, len(before) - (figure.start - figure.phrase_start))]
-        setting = figure_words.RATE_SET_TO.search(before)
+        setting = _RATE_SET_TO.search(before)
         if setting is not None:
             self._notes.masked.append((figure.start - len(before) + setting.start(), figure.end))
         if not self._neighbours.ends_a_range(index):
@@ -46,9 +60,9 @@ class Rates:
         role = max(chances, key=lambda name: chances[name])
         sure = chances[role] / sum(chances.values())
         if (
-            not figure_words.PER_USER.match(after)
+            not PER_USER.match(after)
             and target.role == "everybody"
-            and (figure_words.TOTAL_BEFORE.search(lead) or figure_words.TOTAL_AFTER.match(after))
+            and (_TOTAL_BEFORE.search(lead) or TOTAL_AFTER.match(after))
         ):
             self._notes.doubt("total_rate", text=figure.text)
         elif is_change(before, after):
@@ -83,14 +97,14 @@ class Rates:
                 return {_BOUNDS[bound]: 1.0, "none": 0.0}
             chances = {role: max(first[role], chances[role]) if role != "none" else 0.0 for role in chances}
         before, after = self._neighbours.beside(index)
-        exact = figure_words.EXACT.match(after) or figure_words.EXACT_BEFORE.search(before)
+        exact = _EXACT.match(after) or _EXACT_BEFORE.search(before)
         if figure.comparator == "exactly" or exact:
             return {"both": 1.0 - chances["none"], "none": chances["none"]}
         contrary = _CONTRARY.get(figure.comparator or "")
         return {role: chance * (_CONTRARY_CHANCE if role == contrary else 1) for role, chance in chances.items()}
 
     def _allot(self, name: str, target: Target, figure: Quantity) -> None:
-        earlier = self._allotments.give(name, target, figure, corrects=figure_words.CORRECTION)
+        earlier = self._allotments.give(name, target, figure, corrects=CORRECTION)
         if earlier is not None:
             self._notes.doubt("conflict", one=earlier, other=figure.text)
 
@@ -103,7 +117,7 @@ class Rates:
         target = self._allotments.target_of(one.start) if between and one.kind == "rate" else None
         others = target is not None and target.role == "named" and set(target.users).isdisjoint(between[0].users)
         corrected = others and _TURNED.fullmatch(self._plain, one.end, between[0].start) is not None
-        if (figure_words.EITHER.fullmatch(gap) and one.value != other.value) or corrected:
+        if (_EITHER.fullmatch(gap) and one.value != other.value) or corrected:
             start = between[0].start if corrected else other.start
             owner = target.mention if corrected and target is not None else None
             first = one.start if owner is None else min(owner.start, one.start)

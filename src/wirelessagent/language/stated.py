@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from wirelessagent.language import figure_words
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.surroundings import CORRECTION
 
 Span = tuple[int, int]
 
@@ -76,7 +76,7 @@ class Notes:
         """Take a value, the later one after words of correction; two values without them are a doubt."""
         if name in self.values and self.values[name] != value:
             start = self._last_end[name]
-            correction = figure_words.CORRECTION.search(self.plain[start : figure.start])
+            correction = CORRECTION.search(self.plain[start : figure.start])
             if correction is None:
                 self.doubt("conflict", one=self.evidence[name], other=figure.text)
                 return

@@ -1,14 +1,70 @@
-"""What stands beside a figure and changes its meaning: arithmetic, something else's power, a part of the users."""
+"""What beside a figure changes its meaning: arithmetic, a correction, another figure, something else's power."""
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
 
-from wirelessagent.language import figure_words, lexicon
+from wirelessagent.language import lexicon
 from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.mentions import Mention
 from wirelessagent.language.quantities import Quantity
+
+CIRCUIT = deferred(
+    r"(?ia)\b(?:circuits?|circuitry|static|fixed|idle|overhead|baseline(?= (?:power|consumption|draw|load|"
+    r"energy))|stand-?by|quiescent|electronics|hardware|"
+    r"cooling|constant)\b"
+    r"(?:\s+(?:power|energy|consumption|draw|load)\b)*|(?<![A-Za-z])p[_ ]?c(?:ircuit)?(?![A-Za-z])|\b(?:fij[oa]s?|"
+    r"circuitos?|(?<!on )(?<!je )fixe(?!\s+(?:à|un|une|le|la|[0-9]))|statique|schaltung\w*|"
+    r"fest\w{0,2}|grundlast|grundverbrauch|ruheverbrauch|elektronik)\b|(?:\b(?:cabinet|rack|baseband|bbu|boards?|"
+    r"equipment|shelter|fans?|rectifier)\b)|\b(?:regardless of (?:the )?(?:traffic|load)|no matter the load|"
+    r"even (?:when |while )?idle|by itself|on its own|at zero load|without any traffic)\b|(?:机柜|基带|主设备|空载|"
+    r"风扇|电路|静态|固定|基础|设备自身|待机|硬件|板子|整机|器件|本底)"
+    r"(?:功率|功耗|能耗|消耗|耗电|损耗)?"
+)
+_RADIATED = deferred(
+    r"(?i)\b(?:transmit|transmission|transmitted|tx|radiated|output|p_?max|sendeleistung|strahl\w*|"
+    r"puissance d'émission|"
+    r"potencia (?:de transmisión|radiada))\b|发射|辐射"
+)
+CORRECTION = deferred(
+    r"(?ia)\b(?:no|nope|wait|sorry|i mean|i meant|make (?:that|it)|scratch that|rather|correction|oops|actually|"
+    r"better|pardon|er|"
+    r"non|nein|perdón|pardon|mejor|plutôt|lieber|besser|doch|digo|ich meine|je veux dire|quiero decir|strike that|"
+    r"let's say)\b|"
+    r"[,\uff0c。]\s*不\s*[,\uff0c]|不对|不是|应该是|改成|改为|算了|错了|说错|还是|哦不|不不|口误|更正|纠正"
+)
+PER_USER = deferred(
+    r"(?i)\s*(?:each\b|apiece\b|(?:per|a|for (?:each|every))\s+(?:user|ue|person|head|subscriber|device|sensor|"
+    r"subcarrier|channel|carrier|antenna|tone)|/\s*(?:user|ue)|每|(?:por|par|pro|je)\s+(?:usuario|utilisateur|"
+    r"nutzer))"
+)
+TOTAL_AFTER = deferred(
+    r"(?i)\s*(?:of\s+)?(?:in\s+total|total|altogether|overall|combined|in\s+sum|"
+    r"(?:to\s+be\s+)?(?:split|shared|divided|distributed))\b"
+)
+CHANGE_BEFORE = deferred(
+    r"(?i)(?:\b(?:by|save|saves|saving|cut|another|extra|additional|reduce|(?<!au )plus|increase)\s*(?:about|"
+    r"around|roughly)?|"
+    r"(?:减少|降低|节省|省下?|增加|提高|再加|(?<![最至])多给|下降|提升|升高|(?<=[功速]率)[降减升增加])了?)\s*$"
+)
+CHANGE_AFTER = deferred(r"(?i)\s*(?:(?:of\s+)?(?:more|less|lower|higher|faster|extra)\b)")
+CARRIER = (
+    r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|(?:unter|sub)träger[ns]?)"
+)
+_ONE_OF = (
+    r"(?:each|every|any|no|an?|one|the|single|individual|cada|una|ninguna|sola|chaque|une|aucune|seule|jede[mnr]?|"
+    r"eine[mnr]?|keine?[mnr]?|einzelne[mnr]?)"
+)
+SUBCARRIER = deferred(
+    r"(?i)\s*(?:of\s+power\s+)?(?:/|(?:per|por|par|pro|je|on|for|in|at|into|over|en|sur|auf)(?!\w)|(?=each|any))"
+    rf"[\s-]*(?:{_ONE_OF}\s+)*{CARRIER}(?!\w)"
+)
+SUBCARRIER_BEFORE = deferred(
+    rf"(?i)(?:(?<!\w)(?:{_ONE_OF}|per|por|par|pro|je)[\s-]+(?:{_ONE_OF}\s+)*{CARRIER}(?!\w)|"
+    r"(?:每个?|单个?|任一|任何|各)子载波)[^,;.，。]{0,40}$"
+)
 
 _OPERATOR = r"\^*×·⋅∙÷+±√∛"
 _CALCULATED_BEFORE = deferred(
@@ -82,6 +138,9 @@ _UNWANTED = deferred(
     r"(?:不想要|不需要|不再要求|不再需要|不再要|(?<!要)不要(?!超|低|少|高|大))(?:每人|每个用户|每户|大家|都|有|给|的)*\s*$"
 )
 
+_RANGE_GAP = 8
+_NEAR = 30
+
 
 def beside(plain: str, quantities: Sequence[Quantity], index: int) -> tuple[str, str]:
     """What stands before and after a figure within its clause, other figures being borders too."""
@@ -97,13 +156,13 @@ def signs(figure: Quantity, before: str, after: str) -> list[str]:
     """What the words beside a power say of it by themselves; nothing of other figures."""
     if figure.kind != "power":
         return []
-    ahead = figure_words.CIRCUIT.search(before)
-    if ahead is not None and figure_words.RADIATED.search(before, ahead.end()):
+    ahead = CIRCUIT.search(before)
+    if ahead is not None and _RADIATED.search(before, ahead.end()):
         ahead = None
     found = {
         "circuit ahead": ahead is not None,
-        "circuit behind": figure_words.CIRCUIT.search(after) is not None,
-        "radiated": figure_words.RADIATED.search(before + after) is not None,
+        "circuit behind": CIRCUIT.search(after) is not None,
+        "radiated": _RADIATED.search(before + after) is not None,
         "not ours": not is_cells_power(before, after),
     }
     return [name for name, holds in found.items() if holds] or ["nothing"]
@@ -145,3 +204,42 @@ def _known_words() -> frozenset[str]:
     words = set(_STOP_WORDS.split())
     words |= {word for listing in listings for phrase in listing.split() for word in phrase.split("_")}
     return frozenset(words)
+
+
+class Neighbours:
+    """The figures of a normalised sentence, by their place among them."""
+
+    def __init__(self, plain: str, figures: Sequence[Quantity], mentions: Sequence[Mention]) -> None:
+        self._plain, self.figures, self._mentions = plain, figures, mentions
+
+    def beside(self, index: int) -> tuple[str, str]:
+        """What stands before and after a figure within its clause, other figures being borders too."""
+        return beside(self._plain, self.figures, index)
+
+    def is_replaced(self, index: int) -> bool:
+        """Whether a rate is corrected by the next figure, nobody being named between: "1 Mbit/s, sorry, 2 each"."""
+        if {each.kind for each in self.figures[index : index + 2]} != {"rate"} or index + 1 == len(self.figures):
+            return False
+        figure, other = self.figures[index], self.figures[index + 1]
+        named = any(m.role == "named" and figure.end <= m.start < other.start for m in self._mentions)
+        gap = self._plain[figure.end : other.start]
+        return not named and len(gap) < _NEAR and CORRECTION.search(gap) is not None
+
+    def ends_a_range(self, index: int) -> bool:
+        """Whether a figure is the upper end of a range, and so for whomever the lower one is."""
+        if not 0 < index < len(self.figures):
+            return False
+        lower, figure = self.figures[index - 1], self.figures[index]
+        near = figure.start - lower.end <= _RANGE_GAP and lower.kind == figure.kind
+        parted = any(lower.end <= mention.start < figure.start for mention in self._mentions)
+        return near and not parted and (lower.comparator, figure.comparator) == ("at_least", "at_most")
+
+    def is_of_a_subcarrier(self, index: int) -> bool:
+        """Whether a power is that of a single subcarrier."""
+        before, after = self.beside(index)
+        return bool(SUBCARRIER.match(after) or SUBCARRIER_BEFORE.search(before))
+
+
+def is_change(before: str, after: str) -> bool:
+    """Whether the figure is an amount to save or to add, not a limit."""
+    return CHANGE_BEFORE.search(before) is not None or CHANGE_AFTER.match(after) is not None

@@ -15,7 +15,7 @@ from decimal import Decimal
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.unit_slips import slip_at
+from wirelessagent.language.spelling import one_edit
 from wirelessagent.model.units import dbm_to_w
 
 UnitKind: TypeAlias = Literal["power", "rate", "ratio"]
@@ -70,6 +70,16 @@ _NOT_A_RATE_OR_POWER = deferred(
     r"m2|m²|kg)\b"
     r"|[\s·-]*(?:h|hrs?|hours?|horas?|heures?|stunden?)\b|小时|\s*/?每?(?:赫兹?|焦耳?)"
 )
+
+_MISSPELT = deferred(r"[A-Za-zÀ-ÿ]{3,12}(?:/s(?![A-Za-z]))?(?![A-Za-z0-9])")
+_PREFIXED = [f"{prefix}{core}" for prefix in ("kilo", "mega", "giga") for core in ("bit", "bits", "byte", "bytes")]
+_A_SECOND = [f"{prefix}{core}/s" for prefix in "kmg" for core in ("bit", "bits", "byte", "bytes")]
+_SHORT = ("kbps", "mbps", "gbps", "dbm", "dbw")
+_POWERS = [f"{prefix}{core}" for prefix in ("", "milli", "kilo", "mega") for core in ("watt", "watts")]
+_SPELT = (*_POWERS, "vatio", "vatios", *_PREFIXED, *_A_SECOND, *_SHORT)
+_OF_THEIR_OWN = frozenset(("wait", "waits", "want", "wants", "wart", "warts", "waft", "wafts"))
+_NEXT_KEY = {"dbn": "dbm"}
+_ANOTHER_TIME = ("pm", "ph", "pd")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -208,3 +218,32 @@ def _ratio(text: str, start: int) -> Unit | None:
     if match is None:
         return None
     return Unit(kind="ratio", end=match.end(), factor=Decimal("0.001" if match["thousandth"] else "0.01"))
+
+
+@functools.lru_cache(maxsize=1024)
+def unit_meant(word: str) -> str:
+    """The unit that a word with one slip stands for, "" where it is none or several.
+
+    >>> unit_meant("wats"), unit_meant("kbis/s"), unit_meant("megabites"), unit_meant("want")
+    ('watts', 'kbits/s', '', '')
+    """
+    small = word.lower()
+    if small in _NEXT_KEY:
+        return _NEXT_KEY[small]
+    if small in _OF_THEIR_OWN or small in _SPELT or small.endswith(_ANOTHER_TIME):
+        return ""
+    near = [unit for unit in _SPELT if unit[0] == small[0] and one_edit(small, unit) and _may_be(small, unit)]
+    meanings = {unit.replace("/s", "").rstrip("s") for unit in near}
+    return max(near, key=lambda unit: (len(unit) == len(small) + 1, unit)) if len(meanings) == 1 else ""
+
+
+def _may_be(word: str, unit: str) -> bool:
+    """Whether a word has letters enough for a unit: "mbs" may as well be bytes."""
+    return unit not in _SHORT or len(word) >= len(unit)
+
+
+def slip_at(text: str, position: int) -> tuple[str, int] | None:
+    """The unit meant by the misspelt word at this place of a text, and where that word ends."""
+    match = _MISSPELT.match(text, position)
+    meant = unit_meant(match.group()) if match is not None else ""
+    return (meant, match.end()) if match is not None and meant else None

@@ -8,21 +8,103 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from wirelessagent.language import figure_words
 from wirelessagent.language.clauses import clause_end, clause_start
+from wirelessagent.language.deferred import deferred
+from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.stated import Notes, Span
-from wirelessagent.language.surroundings import describes_all
+from wirelessagent.language.surroundings import CARRIER, CHANGE_BEFORE, describes_all
+from wirelessagent.language.text import Phrases
+
+_COUNT = rf"(?:[0-9]+|{'|'.join(cardinals(2, 10))})"
+COUNTED_USERS = deferred(
+    rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:of them|of the users|"
+    r"users|ues|subscribers|devices|sensors|terminals|subcarriers|channels|usuarios|"
+    r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
+    r"设备|传感器|子载波)"
+)
+_SOME_USERS = Phrases(
+    r"\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
+    r"(?:部分|一些|某些|某个)用户|"
+    r"\b(?:odd|even)(?:[- ]numbered)?\s+users?\b|"
+    r"\b(?:except|but|without)\s+(?:for\s+)?the\s+(?:last|first)(?:\s+(?:one|two|three|few|user|users))?(?=\s*(?:$|[,.;:!]))|"
+    r"\b(?:leav\w+|drop\w*|exclud\w+|kick\w*|cut)\s+(?:out\s+)?(?:the\s+)?users\s+(?:out\s+)?(?:who|that|which|with|whose)\b|"
+    r"\busers?\s+[0-9]+\s+(?:and|or)\s+(?:up|above|higher|beyond|onwards?|more)\b|"
+    r"\b(?:users?|ues?)\s+[-−][0-9]+|用户\s*[-−][0-9]+|"
+    r"(?:单|双|奇数|偶数)号?(?:的)?用户|(?:一半|半数)的?用户|[0-9]号(?:及|和)?(?:以后|以上|往后)|"
+    r"[^,\uff0c。0-9]{1,8}的用户都?(?:踢|去掉|不服务|排除|剔除)"
+)
+_NOBODY = Phrases(
+    r"\bserv(?:e|ing) (?:(?:nobody|no one)(?!\s+(?:else|but|except|apart|other))|"
+    r"none of (?:them|the users)|no users?(?! (?:below|under|above|with)))\b|"
+    r"\bleav(?:e|ing) (?:everyone|everybody|all users|all of them) out\b|"
+    r"(?:所有|全部|全体)(?:用户|人|终端)(?:一个)?(?:都|全)?不(?:服务|带|管)|(?:一个|谁)(?:用户)?都不(?:服务|带|管)",
+    marks="serv leav 所有 全部 全体 一个 谁",
+)
+_OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
+_HALVED = Phrases(
+    r"\bby (?:a )?(?:half|third|quarter)\b|"
+    rf"\b(?:half (?:the|of the|as much)|halve)\s+{_OF_OURS}|"
+    r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)",
+    marks="half halve third quarter 减半 一半 翻倍",
+)
+_OTHERS_HALVED = Phrases(
+    r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)",
+    marks="一半 减半 翻倍 双倍 加倍",
+)
+_POWER = (
+    r"(?:power|budget|watts|wattage|potencia|presupuesto|puissance|leistung|sendeleistung)\b(?:\s+(?:budget|limit))?"
+)
+_FULL = (
+    r"(?:\s+|of|de|d'|the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|el|del|notre|nuestra|der|die|"
+    r"unserer|vollen|maximalen)*"
+)
+_SHARE = Phrases(
+    r"(?<!save )(?<!by )(?<!saving )(?<!cut )(?:(?P<half>\bhalf\b|\b(?:la )?mitad\b|\b(?:la )?moitié\b|"
+    r"\bhalbe[rn]?\b|\bhälfte\b)|(?P<thirds>\b(?:two thirds|dos tercios|deux tiers|zwei dritteln?)\b)|"
+    r"(?P<third>\b(?:(?:a|one|un|ein(?:em)?) )?(?:third|tercio|tiers|drittel)\b)|"
+    r"(?P<quarters>\b(?:three quarters|tres cuartos|trois quarts|drei vierteln?|dreiviertel)\b)|"
+    r"(?P<quarter>\b(?:(?:a|one|un|ein(?:em)?) )?(?:quarter|cuarto|quart|viertel)\b)|"
+    r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:\.[0-9]+)?)\s*(?:%|percent|per cent|prozent|por ciento|pour cent))"
+    rf"{_FULL}\s*{_POWER}"
+    r"|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_half>一半)|(?<![0-9.])(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|"
+    r"百分之(?P<zh_word>[0-9]{1,3})|(?P<zh_third>三分之一)|(?P<zh_thirds>三分之二)|(?P<zh_quarter>四分之一)|"
+    r"(?P<zh_tenths>[一二三四五六七八九])成)的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
+    r"|(?:功率)(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?:(?P<of_half>一半)|(?P<of_tenths>[一二三四五六七八九])成)(?!五)",
+    marks="half mitad moitié halbe hälfte third tercio tiers drittel quart cuarto viertel % percent per_cent prozent "
+    "por_ciento pour_cent 一半 百分之 分之 成",
+)
+_TENTHS = {letter: place / 10 for place, letter in enumerate("一二三四五六七八九", start=1)}
+_SHARES = {
+    "half": 1 / 2, "zh_half": 1 / 2, "of_half": 1 / 2, "third": 1 / 3, "zh_third": 1 / 3, "thirds": 2 / 3,
+    "zh_thirds": 2 / 3, "quarter": 1 / 4, "zh_quarter": 1 / 4, "quarters": 3 / 4,
+}  # fmt: skip
+_SIZE = r"[0-9]{1,3}|[a-zäéöûü]{3,8}"
+_GROUP = r"(?:groups?|blocks?|bundles?|chunks?|clusters?|packs?|rbgs?|grupos|bloques|groupes?|blocs|paquets|paquetes)"
+_BLOCKS = Phrases(
+    rf"(?:\b{_GROUP}\s+(?:of|de)\s+(?P<of>{_SIZE})\b(?:\s+(?:adjacent\s+|neighbouring\s+)?{CARRIER}(?!\w))?"
+    rf"|\b(?:gruppen|blöcken?)\s+(?:von|zu|à|aus)\s+(?:je\s+)?(?P<zu>{_SIZE})\b"
+    rf"|\b(?P<per>{_SIZE})\s+(?:adjacent\s+|neighbouring\s+)?{CARRIER}\s+(?:per|in (?:a|each|every)|to a|each)\s+"
+    r"(?:group|block|bundle|rbg)"
+    r"|\b(?:rbg|resource[- ]block[- ]group|block|group)\s?(?:size|大小)\s*(?:of|=|:|is|为|是)?\s*(?P<size>[0-9]{1,3})"
+    rf"|{CARRIER}(?:\s+\w+){{0,3}}\s+(?:in|par)\s+(?P<in>pairs|deux|trois|quatre|six|huit|[0-9]{{1,3}})\b"
+    rf"|{CARRIER}(?:\s+\w+){{0,2}}\s+(?P<by>[a-z]{{3,6}}) by (?P=by)\b"
+    r"|\b(?P<fold>zweier|dreier|vierer|fünfer|sechser|achter|zehner|zwölfer)(?:gruppen|blöcken?|päckchen)\b"
+    r"|(?:每|按)?(?P<zh>[0-9]{1,3}|[二两三四五六八十]{1,2})个?子载波(?:一组|为一组|一块|为一块|捆绑|绑定|分组|一个组|成组)"
+    r"|子载波(?:按|以|每)?(?P<apart>[0-9]{1,3}|[二两三四五六八十]{1,2})个?(?:为|分)?(?:一|成)?[组块](?:来?分(?:配)?)?)",
+    marks="group block bundle chunk cluster pack rbg 子载波 grup bloq bloc paq gruppe blöck päck pair carrier porteuse",
+)
+_BLOCK_WORDS = {"pairs": 2, **{f"{word}er": size for word, size in cardinals(2, 12, ("de",)).items()}}
 
 
 def take_blocks(notes: Notes) -> None:
     """How many subcarriers go together: "in groups of 4"."""
-    match = figure_words.BLOCKS.search(notes.plain)
+    match = _BLOCKS.search(notes.plain)
     if match is None or match.lastgroup is None:
         return
     word, place = match[match.lastgroup], match.start(match.lastgroup)
     said = next((number.value for number in numbers(notes.plain) if number.start == place), None)
-    size = int(figure_words.BLOCK_WORDS.get(word) or said or 0)
+    size = int(_BLOCK_WORDS.get(word) or said or 0)
     if size < 1 and word.isalpha():
         return  # "groups of users"
     notes.spoken_for.append(match.span())
@@ -35,15 +117,15 @@ def take_blocks(notes: Notes) -> None:
 
 def take_share(notes: Notes, max_power_w: float) -> None:
     """A share of the power, of the cell's limit: "with half the power"."""
-    match = figure_words.SHARE.search(notes.plain)
+    match = _SHARE.search(notes.plain)
     before = notes.plain[: match.start()] if match is not None else ""
-    if match is None or figure_words.CHANGE_BEFORE.search(before):
+    if match is None or CHANGE_BEFORE.search(before):
         return
     if any(each.start < match.start() < each.end for each in notes.quantities):  # "two and a half watts"
         return
     group = match.lastgroup or ""
-    tenths = figure_words.TENTHS.get(match[group]) if group.endswith("tenths") else None
-    share = figure_words.SHARES.get(group) or tenths or float(match[group]) / 100
+    tenths = _TENTHS.get(match[group]) if group.endswith("tenths") else None
+    share = _SHARES.get(group) or tenths or float(match[group]) / 100
     notes.spoken_for.append(match.span())
     notes.masked.append(match.span())
     if 0 < share <= 1:
@@ -58,7 +140,7 @@ def take_counts(notes: Notes, recounted: Sequence[Span], allotted: Sequence[Span
     ``recounted`` are counts of users who are named, ``allotted`` spans that speak of named users.
     """
     taken = [*((figure.start, figure.end) for figure in notes.quantities), *notes.spoken_for, *allotted]
-    for match in figure_words.COUNTED_USERS.finditer(notes.plain):
+    for match in COUNTED_USERS.finditer(notes.plain):
         described = any(match.start() <= start < match.end() for start, _ in recounted)
         if described or any(start <= match.start() < end for start, end in taken):
             continue
@@ -74,15 +156,15 @@ def doubt_parts(notes: Notes, allotted: Sequence[Span]) -> None:
     """Some of the users, half of something, nobody at all: each a question."""
     settled = [*notes.spoken_for, *allotted, *notes.counted]
     for key, pattern in (
-        ("some_users", figure_words.SOME_USERS),
-        ("change", figure_words.HALVED),
-        ("change", figure_words.OTHERS_HALVED),
-        ("some_users", figure_words.NOBODY),
+        ("some_users", _SOME_USERS),
+        ("change", _HALVED),
+        ("change", _OTHERS_HALVED),
+        ("some_users", _NOBODY),
     ):
         match = pattern.search(notes.plain)
         if match is None:
             continue
-        if pattern is figure_words.HALVED and any(a < match.end() and match.start() < b for a, b in settled):
+        if pattern is _HALVED and any(a < match.end() and match.start() < b for a, b in settled):
             continue
         if any(start <= match.start() and match.end() <= end for start, end in allotted):  # "odd-numbered users"
             continue

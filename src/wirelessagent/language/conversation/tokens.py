@@ -15,10 +15,9 @@ from typing import Any, cast
 
 from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Serve, Whom
 from wirelessagent.language.conversation.line import Line
-from wirelessagent.language.factors import factors
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.mentions import mentions
-from wirelessagent.language.numerals import numbers
+from wirelessagent.language.numerals import factors, numbers
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.text import CJK, languages_of, normalise, unaccented
 from wirelessagent.language.word_tables import table

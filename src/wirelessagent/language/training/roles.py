@@ -22,10 +22,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy import optimize, sparse
 
-from wirelessagent.language.borrowed import BORROWING, figures_of
 from wirelessagent.language.figure_roles import LABELS, ROLES_FILE, View
 from wirelessagent.language.intent import EVERYBODY
-from wirelessagent.language.looks import Look, first_look, second_look
+from wirelessagent.language.looks import BORROWING, Look, figures_of, first_look, second_look
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity, parse_quantities

@@ -1,16 +1,22 @@
-"""How often something may fail or must hold, said as odds: "one miss in twenty", "une coupure sur dix", 十次里有九次.
+"""Ratios without a percent sign: odds ("one miss in twenty", 十次里有九次) and reliabilities ("five nines", 四个九).
 
-They are ratios like a percentage; whether of what fails or of what holds, the model of roles says.
+Odds are ratios like a percentage; whether of what fails or of what holds, the model of roles says. A reliability is one
+where nothing else can be meant: so many nines, a number of nines alone ("…, 99.999") or a number above fifty right
+beside a word for reliability.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.text import Phrases
+from wirelessagent.language.units import unit_at
 
 _PARTS = {
     **dict.fromkeys(("one", "once", "a single", "un", "une", "una", "ein", "eine", "einen", "einer", "einmal"), 1),
@@ -47,6 +53,22 @@ _ODDS = deferred(
     rf"(?P<zhwhole>{_NUMERAL})(?P<unit>次|回)(?:里|中|之中|当中)?[^,，。;；0-9一二两三四五六七八九十百千]{{0,6}}(?P<zhpart>{_NUMERAL})(?P=unit)"
 )
 
+_HOW_MANY = cardinals(2, 7)
+_LATIN = "|".join([*_HOW_MANY, "[2-7]"])
+_RELIABLE = (
+    r"(?:reliab\w*|availab\w*|dependab\w*|fiab\w*|confiab\w*|disponib\w*|zuverlässig\w*|verfügbar\w*|sicherheit)"
+)
+_LINK = r"(?:\s+(?:of|at|is|be|to|de|del|von|bei|à|al|a|at\s+least|mindestens|au\s+moins))*\s*[:=]?\s*"
+_NUMBER = r"(?P<{}>[5-9][0-9](?:[.,][0-9]{{1,6}})?)(?![0-9.,]*[0-9])"
+_NINES = Phrases(
+    rf"(?<![\w.,])(?P<count>{_LATIN})[\s-]+(?:nines|9'?s|nueves|neufs|neunen|neuner)(?![\w%])|"
+    r"(?P<zh>[二两三四五六七2-7])\s?个\s?[九9](?![0-9一二三四五六七八九十百千万])|"
+    r"(?:(?<=^)|(?<=[,;:\uff0c；、(。]\s)|(?<=[,;:\uff0c；、(。]))(?P<alone>99[.,]9{1,5})(?=\s*(?:$|[,;!?)\uff0c；。]|\.(?![0-9])))|"
+    rf"\b{_RELIABLE}{_LINK}{_NUMBER.format('behind')}|(?<![\w.,]){_NUMBER.format('ahead')}\s+{_RELIABLE}|"
+    rf"可靠[性度率]?(?:要?达?到|要|为|是|不低于|至少|>=|≥|=|:)?\s*{_NUMBER.format('zhbehind')}",
+    marks="nine 9 nueve neuf neun 九 reliab availab dependab fiab disponib zuverlässig verfügbar sicherheit 可靠",
+)
+
 
 def odds(plain: str, taken: Sequence[tuple[int, int]]) -> Iterator[Quantity]:
     """The odds of a normalised text as ratios, where no ``taken`` span is.
@@ -81,3 +103,26 @@ def _number(word: str, words: dict[str, int]) -> float:
 
 def _chinese(word: str) -> float:
     return float(word) if word.isdigit() else float(chinese_value(word) or 0)
+
+
+def nines(plain: str) -> Iterator[Quantity]:
+    """The reliabilities of a normalised text that are no percentages, as ratios.
+
+    >>> [(q.text, q.value) for text in ("five nines", "reliability 99.9", "四个九") for q in nines(text)]
+    [('five nines', 0.99999), ('99.9', 0.999), ('四个九', 0.9999)]
+    """
+    for match in _NINES.finditer(plain):
+        group = match.lastgroup or ""
+        counted = group in ("count", "zh")
+        start, end = match.span() if counted else match.span(group)
+        if unit_at(plain, end) is None:
+            yield Quantity(
+                value=_reliability(match[group].lower(), counted=counted), kind="ratio", text=plain[start:end],
+                start=start, end=end, phrase_start=start, phrase_end=end,
+            )  # fmt: skip
+
+
+def _reliability(word: str, *, counted: bool) -> float:
+    if counted:
+        return float(1 - Decimal(10) ** -int(_HOW_MANY.get(word) or chinese_value(word) or word))
+    return float(Decimal(word.replace(",", ".")) / 100)
