@@ -9,5 +9,6 @@ figure), ``powers``, ``rates``, ``whole_cell`` → ``constraints`` (which field 
 ``goals`` (which objective the words mean) → ``sentence`` (all of that, once) → ``features``, ``linear_model``,
 ``forms`` → ``judgement`` (what the sentence wants) → ``topics``, ``followups`` (details, changes of a request),
 ``nobody_starves`` (a wish beside the wish) → ``offline`` (the recogniser).
-``figures`` holds the words beside figures and users, ``lexicon`` those of wishes and ``replies`` the sentences, as data; ``training`` makes the models.
+``figures`` holds the words beside figures and users, ``lexicon`` those of wishes and ``replies`` the sentences, as
+data; ``training`` makes the models.
 """

@@ -12,15 +12,13 @@ from typing import Literal, TypeAlias
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.spelling import one_edit
 from wirelessagent.language.text import CLAUSE_END, USER_NOUN, Phrases
-from wirelessagent.language.word_tables import languages_with, table
+from wirelessagent.language.word_tables import words_of
 
 Comparator: TypeAlias = Literal["at_least", "at_most", "exactly"]
 
 
 def _words(name: str) -> list[str]:
-    """The words of all languages by a list of their tables (``figures``)."""
-    listings = (table("figures", language)["bounds"].get(name, ()) for language in languages_with("figures"))
-    return list(dict.fromkeys(word for listing in listings for word in listing))
+    return list(words_of("figures", "bounds", name))
 
 
 # What a list of words cannot say: words that mean a bound only where certain others do not stand before or behind.

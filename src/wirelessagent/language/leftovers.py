@@ -80,6 +80,9 @@ _ABBREVIATED = deferred(r"\s?-?(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})
 _ALONE_AHEAD = deferred(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
 _ALONE_BEHIND = deferred(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
 _ALL_IDIOMS = (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR, _PRICES, _GLUED)
+_RATING = deferred(  # what a device has, and a limit only where nothing else is said
+    r"(?i)\s?-?(?:[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz|(?:kilo|mega|giga)hertz)(?![^\W\d_])|\s*[千兆毫]?(?:伏|赫)"
+)
 FOREIGN_UNIT = deferred(  # no user's number stands before one
     r"(?i)\s?-?(?:[kMG]?Hz|hertz|[km]?V|volts?|voltios?|[km]?A|[km]?Wh|J|joules?|julios?|dB|°|[kMGT]?B|bits?|bytes?|"
     r"kilo\w+|mega\w+|giga\w+|cm|mm|km|m²|ms|grad|degrees?|percent)(?![^\W\d_])"
@@ -159,6 +162,9 @@ def may_be_a_limit(plain: str, number: Number) -> bool:
     if abbreviated is not None and is_all_said(plain, number.start, abbreviated.end()):
         return True
     after = _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None
+    foreign = _RATING.match(plain, number.end)
+    if foreign is not None and is_all_said(plain, number.start, foreign.end()):
+        return True
     return after or _SETS_A_LIMIT.search(plain, 0, number.start) is not None
 
 

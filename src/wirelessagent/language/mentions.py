@@ -17,18 +17,15 @@ from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.text import Phrases
 from wirelessagent.language.units import unit_at
+from wirelessagent.language.word_tables import words_of
 
 Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
 
 _ORDINALS = {word: str(place) for word, place in listed("ordinals").items()}
 _NUMBER_WORDS = {word: str(value) for word, value in cardinals(1, 20).items() if word != "once"} | {"un": "1"}
 
-_NOUN = (
-    r"(?:users?|ues?|subscribers?|subs?|terminals?|customers?|clients?|devices?|phones?|handsets?|sensors?|stations?|"
-    r"nodes?|meters?|cpes?|accounts?|usuari[oa]s?|abonad[oa]s?|terminales|clientes?|equipos?|sensores|"
-    r"utilisat(?:eur|rice)s?|usagers?|abonn[ée]e?s?|appareils?|capteurs?|nutzer(?:n|in|s)?|anwender(?:n|in|s)?|"
-    r"teilnehmer(?:n|in|s)?|abonnent(?:en|in)?|kund(?:en?|in)|(?:end)?ger[äa]e?te?[ns]?|sensoren)"
-)
+_NOUN = f"(?:{'|'.join(words_of('figures', 'users', 'nouns', 'things'))})"
+_EACH = f"(?:{'|'.join(words_of('figures', 'users', 'each'))})"
 _WORD_NUMBER = "(?:" + "|".join(sorted(_NUMBER_WORDS, key=len, reverse=True)) + ")"
 _NUMBER = rf"(?:[0-9]{{1,4}}(?![0-9.,]*[0-9%])|{_WORD_NUMBER}\b)"
 _AND = (
@@ -88,17 +85,14 @@ _EVERYBODY = Phrases(
     r"client|head)|"
     r"each (?:and every )?(?:one|user|ue|person|subscriber|customer|terminal|device|client|of them|of the users)|"
     r"each|apiece|all(?: the| our)? (?:users|ues|"
-    r"subscribers|customers|terminals|devices|clients|phones|people)|all of them|all|(?:per|a|/)\s?(?:user|ue|"
-    r"person|head|subscriber|customer|capita|"
-    r"device|terminal|client|sensor|camera|meter|phone|handset|household|station|room)|"
+    rf"subscribers|customers|terminals|devices|clients|phones|people)|all of them|all|(?:per|a|/)\s?(?:{_EACH}|capita)|"
     r"whoever|nobody|no one|noone|no user|none|anyone|anybody|people|users|(?:para |"
     r"a )?todos(?: los usuarios)?|cada (?!vatio|watt|julio|joule|bit|segundo|vez|mes|d[ií]a)\w+|"
-    r"por (?:usuario|abonado|cliente|persona|cabeza|terminal|sensor|cámara|medidor|equipo|dispositivo)|nadie|"
+    rf"por {_EACH}|nadie|"
     r"cualquiera|quien sea|tous(?: les utilisateurs)?|tout le monde|chacune?|"
-    r"chaque (?!watt|joule|bit|fois|seconde|mois|jour)\w+|par (?:utilisateur|abonné|client|personne|tête|terminal|"
-    r"capteur|caméra|appareil)|personne|qui que ce soit|quiconque|alle(?: nutzer)?|jeder?[nm]?(?: nutzer| "
-    r"einzelne[nr]?)?|(?:pro|je) (?:nutzer(?:in)?|kopf|teilnehmer(?:in)?|kunde|person|nase|(?:end)?gerät|sensor|"
-    r"kamera)|jedermann|niemand|keine[rmn]?|für alle)\b|"
+    rf"chaque (?!watt|joule|bit|fois|seconde|mois|jour)\w+|par {_EACH}|"
+    r"personne|qui que ce soit|quiconque|alle(?: nutzer)?|jeder?[nm]?(?: nutzer| "
+    rf"einzelne[nr]?)?|(?:pro|je) {_EACH}|jedermann|niemand|keine[rmn]?|für alle)\b|"
     r"(?:每个|每位|每一个|每名|每|各|所有|全部|全体)(?:的)?(?:用户|人|终端|ue|户|客户|设备|位)?|人人|"
     r"大家|人均|没人|谁也|人手|(?:一人|一户)(?=[一两二三四五六七八九十百半0-9])"
 )

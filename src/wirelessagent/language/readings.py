@@ -9,15 +9,13 @@ from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
 from wirelessagent.language.text import USER_NOUN, has_chinese
 from wirelessagent.language.units import Unit, unit_at
+from wirelessagent.language.word_tables import words_of
 
 _SUFFIX = deferred(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9]|/(?!\s?(?:users?|ue|person|head)\b))|m(?![A-Za-z0-9/])")
 _CHINESE_SUFFIX = deferred(
     r"\s?(?P<suffix>[kKM])(?!\s*[A-Za-z0-9/瓦赫焦伏安米克])"
 )  # "每人2M": so are rates written there
-_WHO = (
-    r"(?:users?|ues?|person|people|head|subscriber|customer|client|device|phone|sensor|terminal|one|usuario|abonado|persona|"
-    r"utilisateur|abonné|personne|tête|nutzer|teilnehmer|kopf|kunden?|gerät)"
-)
+_WHO = f"(?:{'|'.join(words_of('figures', 'users', 'each'))}|people|one)"
 _APIECE_AFTER = deferred(  # what is given to each with a mere "k" or "M" is a rate
     rf"(?i)\s*(?:each|apiece|a\s+(?:head|piece)|(?:for|to)\s+(?:everyone|everybody|all|each|every)|(?:per|a|/)\s*{_WHO}|"
     rf"para\s+(?:todos|cada)|cada\s+uno|por\s+{_WHO}|pour\s+(?:tous|chacun|chaque|tout\s+le\s+monde)|chacun|par\s+{_WHO}|"

@@ -36,7 +36,8 @@ _ZH_OUT_AFTER = deferred(
 _BARE_NOT = deferred(r"(?:别|不要|不许|不准|不能|不得|勿|甭|不用|不必)再?(?:把|将|让)?\s*$")
 _KEPT_AFTER = deferred(
     r"(?i)\s*(?:(?:is|are|be|bleibt|bleiben)\s+)?(?:not|never|nicht|niemals)\s+(?:to\s+be\s+|be\s+)?"
-    r"(?:kick|drop|left|exclud|remov|cut|skip|forgotten|ignor|raus|weg|aus|rauswerf|vergess|weglass)"
+    r"(?:kick|drop|left|exclud|remov|cut|skip|forgotten|ignor|raus|weg|aus|rauswerf|vergess|weglass)|"
+    r"\s*(?:不用|不要|别|不能|不许|不必)(?:踢|排除|去掉|剔除|移除|拿掉|停掉|断开)"
 )
 _EXCEPT_BEFORE = deferred(
     r"(?i)(?:\b(?:except(?:ing)?(?:\s+for)?|but(?!\s+(?:only|also))|apart\s+from|aside\s+from|other\s+than|save(?:\s+for)?|"
@@ -71,6 +72,7 @@ _CAP = (
 )
 _NO_CAP = deferred(  # "the cap doesn't apply to user 3", "3号不限速"
     rf"(?i)@[^0-9]{{0,30}}?(?:{_NO}[^0-9]{{0,20}}?\b{_CAP}\b|\b(?:unlimited|uncapped|unbegrenzt)\b|\b(?:illimité|ilimitad)\w*)|"
+    rf"(?:{_NO}\s+(?:\w+\s+)?{_CAP}|\b{_CAP}\b[^0-9@]{{0,12}}(?:n't|\bnot|\bno|\bnicht)\b)[^0-9@]{{0,15}}@|"
     r"@\s*[^0-9]{0,4}?(?:不|无|没有?|别)[受设做]?(?:这个|此|该)?(?:限(?!制功率)|封顶|上限)|"
     r"(?:上限|限速|封顶)[^0-9@]{0,6}@[^0-9]{0,4}?(?:不|除外|例外)|(?:不限|不封)@"
 )

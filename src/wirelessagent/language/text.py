@@ -12,6 +12,7 @@ import unicodedata
 from collections.abc import Iterable, Iterator
 
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.word_tables import words_of
 
 _SAME_LENGTH = {
     # Full-width ASCII, but for the comma and the semicolon: they never stand inside a number.
@@ -59,8 +60,7 @@ _SMALL_WORDS = {language: frozenset(words.split()) for language, words in _SMALL
 _LETTERS = {"es": "ñ¿¡", "fr": "çêœàùèîû", "de": "ßäöü"}
 
 USER_NOUN = (
-    r"(?:users?|ues?|subscribers?|customers?|clients?|devices?|phones?|terminals?|usuarios?|abonados?|clientes?|"
-    r"utilisateurs?|abonnés?|usagers?|nutzern?|teilnehmern?|kunden?|abonnenten?|endgeräte?)"
+    rf"(?:{'|'.join(words_of('figures', 'users', 'nouns'))})"
     r"(?:\s*(?:number|nummer|número|numéro|no\.?|nr\.?|n°|nº|#))?"
 )
 

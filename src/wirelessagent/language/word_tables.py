@@ -29,6 +29,17 @@ def languages_with(subject: str) -> tuple[str, ...]:
     return tuple(sorted(file.stem for file in (_FOLDER / subject).glob("*.toml")))
 
 
+def words_of(subject: str, section: str, *names: str) -> tuple[str, ...]:
+    """The words that the files of all languages list on a subject by these names, each once, the longest first.
+
+    >>> words_of("figures", "bounds", "power")[:2]
+    ('consumption', 'wattage')
+    """
+    tables = [table(subject, language).get(section, {}) for language in languages_with(subject)]
+    found = dict.fromkeys(word for each in tables for name in names for word in each.get(name, ()))
+    return tuple(sorted(found, key=len, reverse=True))
+
+
 def written(subject: str, language: str, pattern: str) -> str:
     """A regular expression with what ``[parts]`` of a file says in the place of each ``{part}``."""
     return _PART.sub(lambda part: written(subject, language, table(subject, language)["parts"][part[1]]), pattern)
