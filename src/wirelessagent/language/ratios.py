@@ -12,27 +12,25 @@ from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.number_words import cardinals
+from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.text import Phrases
 from wirelessagent.language.units import unit_at
 
 _PARTS = {
-    **dict.fromkeys(("one", "once", "a single", "un", "une", "una", "ein", "eine", "einen", "einer", "einmal"), 1),
-    **dict.fromkeys(("two", "twice", "dos", "deux", "zwei", "zweimal"), 2),
-    **dict.fromkeys(("three", "tres", "trois", "drei", "dreimal"), 3),
-    **dict.fromkeys(("four", "cuatro", "quatre", "vier", "viermal"), 4),
-    **dict.fromkeys(("five", "cinco", "cinq", "fünf", "fünfmal"), 5),
-    **dict.fromkeys(("nine", "nueve", "neuf", "neun", "neunmal"), 9),
-    **dict.fromkeys(("nineteen", "diecinueve", "dix-neuf", "neunzehn"), 19),
+    **{word: count for word, count in cardinals(1, 19).items() if count < 10 or count == 19},
+    **{f"{word}mal": count for word, count in cardinals(2, 9, ("de",)).items()},
+    **dict.fromkeys(("once", "a single", "un", "une", "una", "ein", "eine", "einen", "einer", "einmal"), 1),
+    "twice": 2,
+    "dix-neuf": 19,
 }
 _WHOLES = {
-    **dict.fromkeys(("ten", "diez", "dix", "zehn"), 10),
-    **dict.fromkeys(("twenty", "veinte", "vingt", "zwanzig"), 20),
-    **dict.fromkeys(("fifty", "cincuenta", "cinquante", "fünfzig"), 50),
-    **dict.fromkeys(("a hundred", "one hundred", "hundred", "cien", "cent", "hundert"), 100),
-    **dict.fromkeys(("a thousand", "thousand", "mil", "mille", "tausend"), 1000),
+    **{word: count for word, count in cardinals(10, 100).items() if count in (10, 20, 50, 100)},
+    **{word: int(scale) for word, scale in listed("scales").items() if scale in (100, 1000)},
+    "a hundred": 100,
+    "one hundred": 100,
+    "a thousand": 1000,
 }
 _ORDINALS = {
     "zehnte": 10, "zwanzigste": 20, "fünfzigste": 50, "hundertste": 100, "tausendste": 1000, "tenth": 10,

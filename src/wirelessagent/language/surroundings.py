@@ -10,6 +10,7 @@ from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.word_tables import words_of
 
 CIRCUIT = deferred(
     r"(?ia)\b(?:circuits?|circuitry|static|fixed|idle|overhead|baseline(?= (?:power|consumption|draw|load|"
@@ -36,9 +37,8 @@ CORRECTION = deferred(
     r"[,\uff0c。]\s*不\s*[,\uff0c]|不对|不是|应该是|改成|改为|算了|错了|说错|还是|哦不|不不|口误|更正|纠正"
 )
 PER_USER = deferred(
-    r"(?i)\s*(?:each\b|apiece\b|(?:per|a|for (?:each|every))\s+(?:user|ue|person|head|subscriber|device|sensor|"
-    r"subcarrier|channel|carrier|antenna|tone)|/\s*(?:user|ue)|每|(?:por|par|pro|je)\s+(?:usuario|utilisateur|"
-    r"nutzer))"
+    r"(?i)\s*(?:each\b|apiece\b|(?:per|a|for (?:each|every)|por|par|pro|je)\s+"
+    rf"(?:{'|'.join(words_of('figures', 'users', 'each'))}|subcarrier|channel|carrier|antenna|tone)|/\s*(?:user|ue)|每)"
 )
 TOTAL_AFTER = deferred(
     r"(?i)\s*(?:of\s+)?(?:in\s+total|total|altogether|overall|combined|in\s+sum|"
