@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
@@ -32,12 +32,11 @@ class _Grammar:
     points: frozenset[str]
     links: frozenset[str]
     vague: frozenset[str]
-    added: Mapping[str, Decimal] = field(default_factory=dict[str, Decimal])
-    dozens: frozenset[str] = frozenset()
+    dozens: frozenset[str]
 
     def knows(self, word: str) -> bool:
         """Whether a number may begin with this word."""
-        return any(word in words for words in (self.values, self.scales, self.parts, self.vague, self.added)) or (
+        return any(word in words for words in (self.values, self.scales, self.parts, self.vague)) or (
             word in self.articles or word in self.dozens or word in self.points
         )
 
@@ -61,15 +60,20 @@ def _grammar(language: str) -> _Grammar:
     def plain(pairs: Mapping[str, int]) -> dict[str, int]:
         return {plain_word(word, language): value for word, value in pairs.items()}
 
-    exact: Mapping[str, Mapping[str, Decimal]] = {
-        name: {plain_word(word, language): Decimal(str(value)) for word, value in words.get(name, {}).items()}
-        for name in ("parts", "added")
-    }
-    sets = {
-        name: frozenset(plain_word(word, language) for word in words[name])
-        for name in ("articles", "joins", "points", "links", "vague", "dozens")
-    }
-    return _Grammar(values=plain(_values(language)), scales=plain(words["scales"]), **exact, **sets)
+    def one_of(name: str) -> frozenset[str]:
+        return frozenset(plain_word(word, language) for word in words[name])
+
+    return _Grammar(
+        values=plain(_values(language)),
+        scales=plain(words["scales"]),
+        parts={plain_word(word, language): Decimal(str(value)) for word, value in words["parts"].items()},
+        articles=one_of("articles"),
+        joins=one_of("joins"),
+        points=one_of("points"),
+        links=one_of("links"),
+        vague=one_of("vague"),
+        dozens=one_of("dozens"),
+    )
 
 
 LANGUAGES = ("en", "es", "fr", "de")
@@ -295,14 +299,11 @@ class _Reader:
         return (whole or 0) + Decimal(f"0.{digits or 0}")
 
     def _with_parts(self, value: Decimal | None) -> Decimal | None:
-        """The value with its halves and quarters: "three quarters", "two and a half", "zwei einhalb"."""
+        """The value with its halves and quarters: "three quarters", "two and a half"."""
         if self._is_part(0):
             share = self._grammar.parts[self._word()]
             self._place += 1
             return share if value is None else value * share
-        if self._word() in self._grammar.added:
-            self._place += 1
-            return (value or 0) + self._grammar.added[self._words[self._place - 1]]
         if value is None or self._word() not in self._grammar.joins:
             return value
         start = self._place
