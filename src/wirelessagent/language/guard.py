@@ -34,8 +34,8 @@ MOODS = (
 )  # fmt: skip
 """The classes whose words make a question of an act."""
 _PASSED_OVER = ("refusal", "condition", "irony", "others")
-"""The classes that say nothing in a sentence that is surely an order; what denies, tells, quotes, or names others,
-another system or a time to come is asked about all the same."""
+"""The classes that say nothing in a sentence that is surely an order; what denies, tells of what was said or done,
+quotes, or names another system or a time to come is asked about all the same."""
 CHANGING = ("undo", "reset")
 """Commands that change something; to apply a plan has a closed grammar of its own (``conversation.assent``)."""
 READ_IN_A_TALK = "conversation"
@@ -74,7 +74,9 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
     if sure >= _SURELY:
         moods = [mood for mood in moods if mood not in _PASSED_OVER]
     doubt = doubted(text, context, intent, moods)
-    if doubt is None and (sure >= _UNLIKELY or any(_hits(text, plain, MOODS))):
+    if doubt is None and (
+        sure >= _UNLIKELY or any(any(_hits(plain, language, MOODS)) for language in languages_of(text))
+    ):
         return intent
     guess = intent.reply.rstrip(" .。")
     guess = guess[:1].lower() + guess[1:]
@@ -117,7 +119,7 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
     """The first word of a mood that reaches the act of an intent and that nothing accounts for."""
     plain = normalise(text)
     for language in languages_of(text):
-        hits = [hit for tongue, hit in _hits(text, plain, moods) if tongue == language]
+        hits = list(_hits(plain, language, moods))
         told = (
             "others" in moods
             and intent.kind == "allocate"
@@ -133,16 +135,15 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
     return None
 
 
-def _hits(text: str, plain: str, moods: Sequence[str]) -> Iterator[tuple[str, Doubt]]:
-    """The words of these classes in a text, each with its language."""
-    for language in languages_of(text):
-        for mood in moods:
-            for reach, words in table_of(language)[mood].items():
-                for start, end in places(words, plain):
-                    yield language, Doubt(mood=mood, reach=reach, start=start, end=end)
-        if "quotation" in moods:
-            for match in _QUOTED.finditer(plain):
-                yield language, Doubt(mood="quotation", reach="inside", start=match.start(), end=match.end())
+def _hits(plain: str, language: str, moods: Sequence[str]) -> Iterator[Doubt]:
+    """The words of these classes of a language in a text."""
+    for mood in moods:
+        for reach, words in table_of(language)[mood].items():
+            for start, end in places(words, plain):
+                yield Doubt(mood=mood, reach=reach, start=start, end=end)
+    if "quotation" in moods:
+        for match in _QUOTED.finditer(plain):
+            yield Doubt(mood="quotation", reach="inside", start=match.start(), end=match.end())
 
 
 def tells_no_mere_fact(text: str) -> bool:
