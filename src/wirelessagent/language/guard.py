@@ -17,6 +17,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from wirelessagent.language.features import word_hashes
 from wirelessagent.language.followups import dropped_in
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.linear_model import shipped_model
@@ -45,6 +46,9 @@ _NAMES_SHOWN = 12
 _UNLIKELY, _SURELY = 0.2, 0.9
 """Below the one a sentence without a word of a mood is asked about, from the other on some classes are passed over; by
 sentences that were kept from the training."""
+
+_FEWEST_WORDS = 3
+"""Of a sentence that the model can judge."""
 
 _QUOTED = re.compile(
     r"\"[^\"]+\"|“[^”]+[”\"]|„[^“”]+[“”]|«[^»]+»|‹[^›]+›|「[^」]+」|『[^』]+』|《[^》]+》|(?<!\w)'[^']+'(?!\w)"
@@ -92,7 +96,10 @@ def _sure(text: str, context: Context | None, intent: Intent) -> float:
     """
     if intent.kind == "command" or intent.recogniser == READ_IN_A_TALK:
         return _UNLIKELY
-    return shipped_model().is_order(*_sentence(text, context).for_model(moods=True))
+    words, concepts, language = _sentence(text, context).for_model(moods=True)
+    if len(word_hashes(words)) < _FEWEST_WORDS:
+        return _UNLIKELY
+    return shipped_model().is_order(words, concepts, language)
 
 
 def _sentence(text: str, context: Context | None) -> Sentence:

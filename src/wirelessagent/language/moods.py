@@ -44,7 +44,7 @@ def classes_in(plain: str) -> list[str]:
     """The classes whose words stand in a text, by how far they reach and by whether they begin or end it, in order.
 
     >>> classes_in("if only it were 5 W")[0]
-    'condition:first<'
+    'condition:sentence<'
     """
     found: list[tuple[int, str]] = []
     for language in languages_of(plain):
