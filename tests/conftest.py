@@ -36,11 +36,16 @@ def _own_store(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         yield
 
 
+@pytest.fixture(scope="session")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """The URL of a PostgreSQL."""
+    with postgres.running_or_skipped(tmp_path_factory.mktemp("postgresql") / "cluster") as url:
+        yield url
+
+
 @pytest.fixture(params=["sqlite", "postgresql"])
-def place(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
+def place(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     """Where a store may be."""
     if request.param == "sqlite":
-        yield str(tmp_path / "store.sqlite3")
-        return
-    with postgres.running_or_skipped(tmp_path / "cluster") as url:
-        yield url
+        return str(tmp_path / "store.sqlite3")
+    return postgres.new_database(request.getfixturevalue("cluster"))

@@ -7,7 +7,6 @@ simulated cell. The one of PostgreSQL is what pg_dump made of it.
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
 from pathlib import Path
 
 import postgres
@@ -26,17 +25,15 @@ STORES = Path(__file__).parent.parent / "stores"
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])
-def place(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
+def place(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     """Such a store."""
     if request.param == "sqlite":
         shutil.copy(STORES / "before_the_service.sqlite3", tmp_path / "store.sqlite3")
-        yield str(tmp_path / "store.sqlite3")
-        return
-    psycopg = pytest.importorskip("psycopg")
-    with postgres.running_or_skipped(tmp_path / "cluster") as url:
-        with psycopg.connect(url.replace("+psycopg", "")) as connection:
-            connection.execute((STORES / "before_the_service.postgresql.sql").read_bytes())
-        yield url
+        return str(tmp_path / "store.sqlite3")
+    url = postgres.new_database(request.getfixturevalue("cluster"))
+    with pytest.importorskip("psycopg").connect(postgres.plain(url)) as connection:
+        connection.execute((STORES / "before_the_service.postgresql.sql").read_bytes())
+    return url
 
 
 def versions(place: str) -> list[int]:

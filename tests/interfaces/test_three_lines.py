@@ -74,11 +74,33 @@ def test_what_is_dropped_is_named() -> None:
 def test_a_plan_that_waits_needs_a_yes_and_says_so_after_other_answers() -> None:
     turns = said("Highest total rate, at most 10 W", "how sure is this?", "what if we had 5 W?", "yes", confirm=True)
     assert [turn.stage for turn in turns] == ["planned", "answered", "answered", "applied"]
-    assert turns[0].lines.needs == "Apply it? (yes or no)"
+    assert turns[0].lines.needs == "Apply it?"
     assert turns[1].lines.needs.startswith("The plan still waits")
     assert turns[2].lines.changed == "Nothing was changed."
     assert "'do that' takes the what-if" in turns[2].lines.needs
     assert turns[3].lines.needs == ""
+
+
+SAME = {
+    "en": ("highest total rate, at most 10 W", "at most 5 W"),
+    "zh": ("最高总速率，功率不超过10 W", "功率不超过5 W"),
+    "es": ("máxima tasa total, como máximo 10 W", "como máximo 5 W"),
+    "fr": ("débit total maximal, au plus 10 W", "au plus 5 W"),
+    "de": ("höchste Gesamtrate, höchstens 10 W", "höchstens 5 W"),
+}
+
+
+@pytest.mark.parametrize("language", SAME)
+def test_a_line_says_neither_its_own_name_nor_how_it_is_answered(language: str) -> None:
+    """The console shows each line beside its name, and a plan beside its buttons."""
+    for turn in said(*SAME[language], confirm=True):
+        assert turn.intent.language == language
+        assert turn.lines.needs == message(language, "ask_back.apply_it")
+        assert turn.lines.needs[-1] in "?？"
+        for line in ("decided", "changed", "needs"):
+            name = str(message(language, f"console.{line}"))
+            assert not getattr(turn.lines, line).casefold().startswith(name.casefold())
+    assert "5 W" in turn.lines.changed
 
 
 def test_a_question_back_is_a_need_alone() -> None:
@@ -98,7 +120,7 @@ def test_the_efficiency_of_now_is_a_figure_and_the_word_is_explained() -> None:
 def test_the_record_holds_lines_and_the_key_and_places_of_each_message() -> None:
     for turn in said("Highest total rate, at most 10 W", "now with 5 W", "最多8瓦", "10 Mbit/s each", "why not?"):
         record = understood(turn)
-        assert record["schema"] == 3
+        assert record["schema"] == 4
         assert record["lines"] == {name: str(getattr(turn.lines, name)) for name in ("decided", "changed", "needs")}
         assert json.loads(json.dumps(record)) == record
         for name, line in record["lines"].items():

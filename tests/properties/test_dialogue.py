@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -27,6 +28,8 @@ from wirelessagent.language.acts import (
     Serve,
     Suppose,
     Whom,
+    act_of,
+    shown,
 )  # fmt: skip
 from wirelessagent.language.intent import EVERYBODY, LISTS_OF_USERS
 
@@ -165,3 +168,8 @@ def test_a_rate_assumed_for_each_user_holds_for_the_others() -> None:
     request, _ = applied(Request(objective="min_power"), [Limit(kind=RATE, value=1e6, whom=Named(("3",)))])
     assert request is not None
     assert request.constraints[RATE] == {"all": 2e5, "3": 1e6}
+
+
+@given(st.from_type(Act))
+def test_an_act_that_is_shown_can_be_read_again(act: Act) -> None:
+    assert repr(act_of(json.loads(json.dumps(shown(act))))) == repr(act)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import signal
 import subprocess
@@ -14,6 +15,7 @@ from typing import Any
 
 import httpx2
 import pytest
+from llm_stub import StubLlm, meaning
 from servers import Server, started
 
 from wirelessagent.acting.base_station import BaseStation
@@ -27,6 +29,9 @@ from wirelessagent.service.names import PublicNames
 from wirelessagent.service.workers import Workers
 
 pytestmark = pytest.mark.machine_code
+
+LIMIT_S = 8.0
+"""For one piece of work: one test waits for it, the others stay below it."""
 
 _RADIO = '''
 import os
@@ -55,7 +60,7 @@ class Radio(BaseStation):
             case "wait":
                 time.sleep(600)
             case "dawdle":
-                time.sleep(3)
+                time.sleep(2)
         return self.read_back(decision)
 '''
 
@@ -66,7 +71,7 @@ class Radio:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         info = folder / "radio-1.0.dist-info"
-        info.mkdir(parents=True)
+        info.mkdir()
         (folder / "radio.py").write_text(_RADIO)
         (info / "METADATA").write_text("Metadata-Version: 2.1\nName: radio\nVersion: 1.0\n")
         (info / "entry_points.txt").write_text("[wirelessagent.base_station]\nradio = radio:Radio\n")
@@ -82,47 +87,61 @@ class Radio:
         return len(file.read_text().splitlines()) if file.exists() else 0
 
 
-@pytest.fixture
-def radio(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Radio:
-    radio = Radio(tmp_path / "radio")
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(radio.folder), os.environ.get("PYTHONPATH", "")]))
-    return radio
+class Operator:
+    """Somebody at a server whose cells are on that base station; it can be started again on its store."""
+
+    def __init__(self, store: Path, servers: contextlib.ExitStack) -> None:
+        self._store, self._servers = store, servers
+        self.start()
+
+    def start(self) -> None:
+        self.server = self._servers.enter_context(started(self._store, "--work-limit-s", str(LIMIT_S)))
+
+    def begin(self) -> str:
+        """A new cell's conversation, with something in effect and a plan that waits."""
+        made = self.server.post("v1/cells", {"name": "radio", "options": {"seed": 1, "base_station": "radio"}})
+        assert made.status_code == 201, made.text
+        session = made.json()["session"]
+        self.server.say(session, "highest total rate")
+        assert _press(self.server, session)["stage"] == "applied"
+        self.server.say(session, "at most 10 W")
+        return session
+
+
+@pytest.fixture(scope="module")
+def stations(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Radio]:
+    radio = Radio(tmp_path_factory.mktemp("radio"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", os.pathsep.join([str(radio.folder), os.environ.get("PYTHONPATH", "")]))
+        yield radio
+
+
+@pytest.fixture(scope="module")
+def operator(stations: Radio, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Operator]:
+    del stations
+    with contextlib.ExitStack() as servers:
+        yield Operator(tmp_path_factory.mktemp("operator") / "store.sqlite3", servers)
 
 
 @pytest.fixture
-def place(tmp_path: Path) -> Path:
-    return tmp_path / "store.sqlite3"
+def radio(stations: Radio) -> Radio:
+    stations.will("obey")
+    return stations
 
 
 @pytest.fixture
-def talking(radio: Radio, place: Path) -> Iterator[tuple[Server, str]]:
-    """A server with a cell on that base station, and the cell's conversation; something is in effect."""
-    with started(place) as server:
-        session = _begun(server)
-        assert radio.told == 1
-        yield server, session
-
-
-def _begun(server: Server) -> str:
-    made = server.post("v1/cells", {"name": "radio", "options": {"seed": 1, "base_station": "radio"}})
-    assert made.status_code == 201, made.text
-    session = made.json()["session"]
-    server.say(session, "highest total rate")
-    assert _press(server, session)["stage"] == "applied"
-    server.say(session, "at most 10 W")
-    return session
+def talking(radio: Radio, operator: Operator) -> tuple[Server, str]:
+    """The server, and a conversation there about a cell on that base station; something is in effect."""
+    told = radio.told
+    session = operator.begin()
+    assert radio.told == told + 1
+    return operator.server, session
 
 
 def _press(server: Server, session: str) -> dict[str, Any]:
     done = server.post(f"v1/sessions/{session}/confirm", {"plan": server.plan(session)})
     assert done.status_code == 200, done.text
     return done.json()
-
-
-def _end_workers(server: Server) -> None:
-    found = subprocess.run(["pgrep", "-P", str(server.process.pid)], capture_output=True, text=True, check=True)
-    for number in found.stdout.split():
-        os.kill(int(number), signal.SIGKILL)
 
 
 def test_a_base_station_that_refuses(talking: tuple[Server, str], radio: Radio) -> None:
@@ -134,7 +153,7 @@ def test_a_base_station_that_refuses(talking: tuple[Server, str], radio: Radio) 
     before = server.get(f"v1/sessions/{session}")
     assert (before["in_effect"], before["plan"]) == (None, None)
     told = radio.told
-    _end_workers(server)
+    server.end_workers()
     server.say(session, "how sure is this?")
     after = server.get(f"v1/sessions/{session}")
     assert (after["in_effect"], after["plan"], after["turns"][:4]) == (None, None, before["turns"])
@@ -142,7 +161,7 @@ def test_a_base_station_that_refuses(talking: tuple[Server, str], radio: Radio) 
 
 
 def test_a_worker_that_dies_while_it_applies(talking: tuple[Server, str], radio: Radio) -> None:
-    server, session = talking
+    (server, session), told = talking, radio.told
     radio.will("die")
     broken_off = _press(server, session)
     assert (broken_off["stage"], broken_off["outcome"]) == ("nothing", None)
@@ -153,21 +172,20 @@ def test_a_worker_that_dies_while_it_applies(talking: tuple[Server, str], radio:
     server.say(session, "how sure is this?")
     server.say(session, "at most 8 W")
     assert _press(server, session)["stage"] == "applied"
-    assert radio.told == 3
+    assert radio.told == told + 2
     assert server.get(f"v1/sessions/{session}")["in_effect"] == 7
     assert server.get(f"v1/history?session={session}")["turns"][3]["stage"] == "nothing"
 
 
-def test_a_base_station_that_never_answers(radio: Radio, place: Path) -> None:
-    with started(place, "--work-limit-s", "15") as server:
-        session = _begun(server)
-        radio.will("wait")
-        assert "not known" in _press(server, session)["lines"]["changed"]
-        assert server.get(f"v1/sessions/{session}")["in_effect"] is None
-        assert radio.told == 2
+def test_a_base_station_that_never_answers(talking: tuple[Server, str], radio: Radio) -> None:
+    (server, session), told = talking, radio.told
+    radio.will("wait")
+    assert "not known" in _press(server, session)["lines"]["changed"]
+    assert server.get(f"v1/sessions/{session}")["in_effect"] is None
+    assert radio.told == told + 1
 
 
-def test_a_server_that_dies_while_it_applies(talking: tuple[Server, str], radio: Radio, place: Path) -> None:
+def test_a_server_that_dies_while_it_applies(talking: tuple[Server, str], radio: Radio, operator: Operator) -> None:
     server, session = talking
     radio.will("wait")
     plan, told = server.plan(session), radio.told
@@ -183,22 +201,23 @@ def test_a_server_that_dies_while_it_applies(talking: tuple[Server, str], radio:
     server.kill()
     pressing.join()
     radio.will("obey")
-    with started(place) as again:
-        held = again.get(f"v1/sessions/{session}")
-        assert (held["in_effect"], held["plan"]) == (None, None)
-        assert again.post(f"v1/sessions/{session}/confirm", {"plan": plan}).status_code == 409
-        turns = again.get(f"v1/sessions/{session}")["turns"]
-        assert (len(turns), turns[-1]["by"]) == (4, "local")
-        assert "not known" in turns[-1]["lines"]["changed"]
-        again.say(session, "at most 8 W")
-        assert _press(again, session)["stage"] == "applied"
-        assert radio.told == told + 2
+    operator.start()
+    again = operator.server
+    held = again.get(f"v1/sessions/{session}")
+    assert (held["in_effect"], held["plan"]) == (None, None)
+    assert again.post(f"v1/sessions/{session}/confirm", {"plan": plan}).status_code == 409
+    turns = again.get(f"v1/sessions/{session}")["turns"]
+    assert (len(turns), turns[-1]["by"]) == (4, "local")
+    assert "not known" in turns[-1]["lines"]["changed"]
+    again.say(session, "at most 8 W")
+    assert _press(again, session)["stage"] == "applied"
+    assert radio.told == told + 2
 
 
 def test_a_worker_that_died_idle_is_replaced_and_nobody_notices(talking: tuple[Server, str]) -> None:
     server, session = talking
     for line in ("how sure is this?", "at most 8 W"):
-        _end_workers(server)
+        server.end_workers()
         assert server.say(session, line)["stage"] in ("answered", "planned")
 
 
@@ -232,7 +251,7 @@ class _Failing(BaseStation):
         return self.read_back(decision)
 
 
-def test_taken_up_it_is_as_it_was(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_taken_up_it_is_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Refused, put back, broken off: each turn told again is as it was told, and nothing is decided or told anew."""
 
     def failing(tools: object, scene: Any) -> BaseStation:
@@ -245,7 +264,7 @@ def test_taken_up_it_is_as_it_was(place: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("WIRELESSAGENT_STORE", "yes")
     monkeypatch.setattr(hosted, "station_of", failing)
     monkeypatch.setattr(_Failing, "attempts", 0)
-    request = ChatRequest(seed=1, store=str(place))
+    request = ChatRequest(seed=1, store=str(tmp_path / "store.sqlite3"))
     talk = Hosted(request, "one", silent)
     for line in ("highest total rate", "at most 10 W", "at most 9 W", "undo", "at most 8 W"):
         talk.say(line, silent)
@@ -267,6 +286,30 @@ def test_taken_up_it_is_as_it_was(place: Path, monkeypatch: pytest.MonkeyPatch) 
         assert (one.in_effect, one.waits) == (other.in_effect, other.waits)
         for name in ("stage", "lines", "intent", "at_utc", "request", "awaits", "reply"):
             assert getattr(one.record, name) == getattr(other.record, name), name
+
+
+def test_taken_up_no_language_model_is_asked_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What its line meant is what was recorded, however the model would read it by now."""
+    pytest.importorskip("pydantic_ai")
+    limits = [{"constraint": "max_power_w", "figure": 10}]
+    said = {"kind": "allocate", "objective_words": "the crowd is uploading", "constraints": limits}
+    first, later = (meaning(**said, objective=aim) for aim in ("max_rate", "max_min_rate"))
+    monkeypatch.setenv("WIRELESSAGENT_STORE", "yes")
+    with StubLlm([first, *[later] * 9]) as stub:
+        for name, value in (("BASE_URL", stub.url), ("MODEL", "stub"), ("API_KEY", "none")):
+            monkeypatch.setenv(f"WIRELESSAGENT_LLM_{name}", value)
+        request = ChatRequest(seed=1, recogniser="llm", store=str(tmp_path / "store.sqlite3"))
+        talk = Hosted(request, "one", silent)
+        talk.say("the crowd is uploading, at most 10 W", silent)
+        talk.press("yes", silent)
+        asked = len(stub.requests)
+        again = Hosted(request, "one", silent)
+        assert (len(stub.requests), asked) == (1, 1)
+    assert talk.turns[0].record.intent["objective"] == "max_rate"
+    assert [turn.record.stage for turn in again.turns] == ["planned", "applied"]
+    for one, other in zip(talk.turns, again.turns, strict=True):
+        assert (one.in_effect, one.record.request) == (other.in_effect, other.record.request)
+        assert (one.record.recogniser, one.record.intent) == (other.record.recogniser, other.record.intent)
 
 
 def test_a_press_is_what_it_is_behind_any_line() -> None:

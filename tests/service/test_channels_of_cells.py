@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
-from servers import Server, started
+from servers import Server
 
 from wirelessagent.store.ledger import Ledger
 
@@ -20,13 +18,12 @@ def _observe(server: Server, gains: str, **more: str) -> str:
     return seen.json()["id"]
 
 
-def test_a_cell_whose_observation_is_gone(tmp_path: Path) -> None:
-    store = tmp_path / "store.sqlite3"
-    with started(store) as server, server.client as client:
+def test_a_cell_whose_observation_is_gone(server: Server) -> None:
+    with server.client as client:
         first = _observe(server, "-80,-90\n-85,-95\n", unit="db")
         cell = server.post("v1/cells", {"name": "north", "options": {"csi": first}}).json()
         server.say(cell["session"], "highest total rate")
-        ledger = Ledger.open(store)
+        ledger = Ledger.open(server.at)
         ledger.drop("observation", first)
         ledger.close()
         gone = server.post(f"v1/sessions/{cell['session']}/turns", {"text": "fair"})

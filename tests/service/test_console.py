@@ -171,6 +171,14 @@ def test_a_measured_file(browser: Browser, server: Server, tmp_path: Path) -> No
     page.click("#upload-make")
     page.wait_for_selector("#cell-name:has-text('hall')")
     assert "Mbit/s" in seen.say("highest total rate")
+    file.write_text("1e-9,2e-9,3e-9\n2e-9,1e-9,3e-9\n1e-9,1e-9,1e-9\n")
+    page.set_input_files("#upload-file", file)
+    page.wait_for_selector("#upload-use:not([disabled])")
+    assert page.inner_text("#upload-use") == "Use it in hall"
+    page.click("#upload-use")  # the same cell on another channel, in a new conversation
+    page.wait_for_selector("#cell-size:has-text('3 users × 3 sub')")
+    assert page.locator("article.turn").count() == 0
+    assert "Mbit/s" in seen.say("highest total rate")
     seen.is_sound()
 
 

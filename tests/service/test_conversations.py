@@ -10,7 +10,7 @@ from pathlib import Path
 
 import httpx2
 import pytest
-from servers import Server, started
+from servers import Server
 
 pytestmark = pytest.mark.machine_code
 
@@ -192,22 +192,3 @@ def test_a_file_becomes_a_cell_and_its_allocation_a_file(server: Server, tmp_pat
         assert client.delete(f"v1/observations/{seen['id']}").status_code == 409
         assert client.delete(f"v1/cells/{cell['id']}").status_code == 204
         assert client.delete(f"v1/observations/{seen['id']}").status_code == 204
-
-
-def test_killed_and_started_again_it_goes_on_where_it_was(tmp_path: Path) -> None:
-    store = tmp_path / "store.sqlite3"
-    with started(store) as server:
-        session = server.cell()["session"]
-        server.say(session, "Save power, at least 1 Mbit/s each")
-        server.post(f"v1/sessions/{session}/confirm", {"plan": server.plan(session)})
-        server.say(session, "and user 3 at least 2 Mbit/s")
-        before = server.get(f"v1/sessions/{session}")
-        server.kill()
-    with started(store) as server:
-        assert server.get(f"v1/sessions/{session}") == before
-        done = server.post(f"v1/sessions/{session}/confirm", {"plan": before["plan"]["id"]}).json()
-        assert done["stage"] == "applied"
-        assert done["request"]["constraints"]["min_rate_bps"] == {"all": 1e6, "3": 2e6}
-        history = server.get(f"v1/history?session={session}")["turns"]
-        assert [turn["text"] for turn in history][-1] == "yes"
-        assert history[-1]["by"] == "local"

@@ -32,6 +32,7 @@ LINE = "Save power, at least 1 Mbit/s each"
 UNCLEAR = "yesterday nobody asked to save power"
 OWN = {
     "cells", "say", "apply", "discard", "undo", "show_allocation", "observe", "repair_observation", "read_observation",
+    "move_cell",
 }  # fmt: skip
 
 
@@ -101,9 +102,9 @@ def test_tools_follow_from_the_catalogue(server: Server) -> None:
     tools = {one.name: one for one in done(over_http(server), lambda client: client.list_tools()).tools}
     operations = [one for one in map(load, OPERATIONS) if not one.local and can_be_filled(one)]
     assert set(tools) == OWN | {one.name.replace(" ", "_").replace("-", "_") for one in operations}
-    assert {name for name, tool in tools.items() if tool.annotations.destructive_hint} == {"apply"}
+    assert {name for name, tool in tools.items() if tool.annotations.destructive_hint} == {"apply", "move_cell"}
     changing = {name for name, tool in tools.items() if not tool.annotations.read_only_hint}
-    assert changing == {"ask", "say", "apply", "discard", "undo", "observe", "repair_observation"}
+    assert changing == {"ask", "say", "apply", "discard", "undo", "observe", "repair_observation", "move_cell"}
     assert tools["show_allocation"].meta == {"ui": {"resourceUri": "ui://wirelessagent/allocation.html"}}
     for tool in tools.values():
         for schema in (tool.input_schema, tool.output_schema):
@@ -127,6 +128,12 @@ def test_channels_go_by_name(server: Server) -> None:
             assert solved.structured_content["conclusion"] == "done", text_of(solved)
         read = await client.call_tool("read_observation", {"observation": observation["id"]})
         assert read.structured_content == observation
+        cell = server.cell()
+        moved = await client.call_tool("move_cell", {"cell": cell["id"], "observation": repaired["id"]})
+        assert not moved.is_error, text_of(moved)
+        assert moved.structured_content == server.get(f"v1/cells/{cell['id']}")
+        assert moved.structured_content["observation"] == repaired["id"]
+        assert (await client.call_tool("move_cell", {"cell": cell["id"], "observation": "nobody"})).is_error
         for wrong in ({}, {"observation": "nobody"}, {"observation": observation["id"], "path": "/etc/passwd"}):
             assert (await client.call_tool("solve", wrong)).is_error
 

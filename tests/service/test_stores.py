@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import sqlite3
 import subprocess
 import threading
 import time
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -15,6 +17,8 @@ import postgres
 import pytest
 from servers import Server, started
 
+from wirelessagent.service.limits import Budgets, Limits
+from wirelessagent.service.problems import TooMuchError
 from wirelessagent.store.ledger import ChangedError, Ledger
 from wirelessagent.store.store import Store
 
@@ -56,142 +60,158 @@ def test_items_are_found_by_how_their_names_begin(place: str) -> None:
     ledger.close()
 
 
-def test_two_servers_are_one(place: str, tmp_path: Path) -> None:
-    with started(tmp_path / "one", at=place) as one, started(tmp_path / "two", at=place) as two:
-        session = one.cell()["session"]
-        assert two.say(session, "Save power, at least 1 Mbit/s each")["number"] == 1
-        plan = one.plan(session)
-
-        def press(server: Server) -> int:
-            return server.post(f"v1/sessions/{session}/confirm", {"plan": plan}).status_code
-
-        with ThreadPoolExecutor(4) as pool:
-            answers = sorted(pool.map(press, [one, two, one, two]))
-        assert answers == [200, 409, 409, 409]
-        turn = one.say(session, "and user 3 at least 2 Mbit/s")
-        assert (turn["number"], turn["request"]["objective"]) == (3, "min_power")
-        stages = [turn["stage"] for turn in two.get(f"v1/sessions/{session}")["turns"]]
-        assert stages == ["planned", "applied", "planned"]
+@pytest.fixture(scope="module", params=["sqlite", "postgresql"])
+def pair(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Server, Server]]:
+    """Two servers on one store."""
+    folder = tmp_path_factory.mktemp("pair")
+    if request.param == "sqlite":
+        place = str(folder / "store.sqlite3")
+    else:
+        place = postgres.new_database(request.getfixturevalue("cluster"))
+    with started(folder / "one", at=place) as one, started(folder / "two", at=place) as two:
+        yield one, two
 
 
-def test_what_one_server_was_sent_the_other_works_on(place: str, tmp_path: Path) -> None:
-    gains = "1e-9,2e-9,,4e-9\n2e-9,1e-9,3e-9,1e-9\n"
-    with started(tmp_path / "one", at=place) as one, started(tmp_path / "two", at=place) as two:
-        seen = one.post(
-            "v1/observations?name=gains.csv", content=gains, headers={"Content-Type": "application/octet-stream"}
-        ).json()
-        assert two.get(f"v1/observations/{seen['id']}") == seen
-        cell = two.post("v1/cells", {"name": "measured", "options": {"csi": seen["id"]}}).json()
-        assert two.say(cell["session"], "highest total rate")["stage"] == "planned"
-        made = two.post("v1/operations/repair", {"observation": seen["id"]}).json()
-        assert one.post("v1/operations/repair", {"observation": seen["id"]}).json()["record"] == made["record"]
-        with one.client as client:
-            assert client.delete(f"v1/cells/{cell['id']}").status_code == 204
-            assert client.delete(f"v1/observations/{seen['id']}").status_code == 204
-        assert two.post("v1/operations/repair", {"observation": seen["id"]}).status_code == 404
+def test_two_servers_are_one(pair: tuple[Server, Server]) -> None:
+    one, two = pair
+    session = one.cell()["session"]
+    assert two.say(session, "Save power, at least 1 Mbit/s each")["number"] == 1
+    plan = one.plan(session)
+
+    def press(server: Server) -> int:
+        return server.post(f"v1/sessions/{session}/confirm", {"plan": plan}).status_code
+
+    with ThreadPoolExecutor(4) as pool:
+        answers = sorted(pool.map(press, [one, two, one, two]))
+    assert answers == [200, 409, 409, 409]
+    turn = one.say(session, "and user 3 at least 2 Mbit/s")
+    assert (turn["number"], turn["request"]["objective"]) == (3, "min_power")
+    stages = [turn["stage"] for turn in two.get(f"v1/sessions/{session}")["turns"]]
+    assert stages == ["planned", "applied", "planned"]
 
 
-def test_a_key_sent_to_two_servers_is_done_once(place: str, tmp_path: Path) -> None:
-    key = {"Idempotency-Key": "once"}
-    with started(tmp_path / "one", at=place) as one, started(tmp_path / "two", at=place) as two:
-        session = one.cell()["session"]
-
-        def say(server: Server) -> dict[str, object]:
-            return server.say(session, "highest total rate", headers=key)
-
-        with ThreadPoolExecutor(4) as pool:
-            found = list(pool.map(say, [one, two, one, two]))
-        assert all(turn == found[0] for turn in found)
-        assert len(one.get(f"v1/sessions/{session}")["turns"]) == 1
-        other = two.post(f"v1/sessions/{session}/turns", {"text": "undo"}, headers=key)
-        assert other.status_code == 409
-        one.kill()
-        assert say(two) == found[0]
+def test_what_one_server_was_sent_the_other_works_on(pair: tuple[Server, Server]) -> None:
+    one, two = pair
+    seen = _observed(one)
+    assert two.get(f"v1/observations/{seen['id']}") == seen
+    cell = two.post("v1/cells", {"name": "measured", "options": {"csi": seen["id"]}}).json()
+    assert two.say(cell["session"], "highest total rate")["stage"] == "planned"
+    made = two.post("v1/operations/repair", {"observation": seen["id"]}).json()
+    assert one.post("v1/operations/repair", {"observation": seen["id"]}).json()["record"] == made["record"]
+    with one.client as client:
+        assert client.delete(f"v1/cells/{cell['id']}").status_code == 204
+        assert client.delete(f"v1/observations/{seen['id']}").status_code == 204
+    assert two.post("v1/operations/repair", {"observation": seen["id"]}).status_code == 404
 
 
-def test_a_job_is_followed_and_ended_at_another_server(place: str, tmp_path: Path) -> None:
+def test_a_key_sent_to_two_servers_is_done_once(pair: tuple[Server, Server]) -> None:
+    one, two = pair
+    session, key = one.cell()["session"], {"Idempotency-Key": "sent to both"}
+
+    def say(server: Server) -> dict[str, object]:
+        return server.say(session, "highest total rate", headers=key)
+
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(say, [one, two, one, two]))
+    assert all(turn == found[0] for turn in found)
+    assert len(one.get(f"v1/sessions/{session}")["turns"]) == 1
+    assert two.post(f"v1/sessions/{session}/turns", {"text": "undo"}, headers=key).status_code == 409
+
+
+def test_a_job_is_followed_and_ended_at_another_server(pair: tuple[Server, Server]) -> None:
+    one, two = pair
     later = {"Prefer": "respond-async"}
-    with started(tmp_path / "one", at=place) as one, started(tmp_path / "two", at=place) as two:
-        session = one.cell()["session"]
-        said = one.post(f"v1/sessions/{session}/turns", {"text": "fair"}, headers=later).json()
-        endless = one.post("v1/operations/evaluate%20repair", {"draws": 100_000}, headers=later).json()
-        with one.client as here, two.client as client:
-            there, told = (
-                [line for line in asked.get(f"v1/jobs/{said['id']}/events").text.split("\n") if line[:3] == "id:"]
-                for asked in (here, client)
-            )
-            assert told == there
-            assert client.get(f"v1/jobs/{said['id']}").json()["result"]["stage"] == "planned"
-            assert client.get(f"v1/jobs/{endless['id']}").json()["state"] == "running"
-            until = time.monotonic() + 30
-            while client.get(f"v1/jobs/{endless['id']}").json()["state"] == "running" and time.monotonic() < until:
-                assert client.delete(f"v1/jobs/{endless['id']}").status_code == 204
-                time.sleep(0.2)
-            assert client.get(f"v1/jobs/{endless['id']}").json()["state"] == "cancelled"
-        assert one.get(f"v1/jobs/{endless['id']}")["state"] == "cancelled"
+    session = one.cell()["session"]
+    said = one.post(f"v1/sessions/{session}/turns", {"text": "fair"}, headers=later).json()
+    endless = one.post("v1/operations/evaluate%20repair", {"draws": 100_000}, headers=later).json()
+    with one.client as here, two.client as client:
+        there, told = (
+            [line for line in asked.get(f"v1/jobs/{said['id']}/events").text.split("\n") if line[:3] == "id:"]
+            for asked in (here, client)
+        )
+        assert told == there
+        assert client.get(f"v1/jobs/{said['id']}").json()["result"]["stage"] == "planned"
+        assert client.get(f"v1/jobs/{endless['id']}").json()["state"] == "running"
+        until = time.monotonic() + 30
+        while client.get(f"v1/jobs/{endless['id']}").json()["state"] == "running" and time.monotonic() < until:
+            assert client.delete(f"v1/jobs/{endless['id']}").status_code == 204
+            time.sleep(0.2)
+        assert client.get(f"v1/jobs/{endless['id']}").json()["state"] == "cancelled"
+    assert one.get(f"v1/jobs/{endless['id']}")["state"] == "cancelled"
 
 
-def test_a_limit_holds_for_all_servers_together(place: str, tmp_path: Path) -> None:
-    slowly = ("--requests-per-s", "1")
-    with started(tmp_path / "one", *slowly, at=place) as one, started(tmp_path / "two", *slowly, at=place) as two:
-        began = time.monotonic()
-        with one.client as first, two.client as second:
-            found = [client.get("v1/cells").status_code for _ in range(90) for client in (first, second)]
-        lasted_s = time.monotonic() - began
-    assert found[:100] == [200] * 100
-    assert set(found) == {200, 429}
-    assert found.count(200) <= 121 + lasted_s
-
-
-def test_a_copy_of_a_store_in_use_is_a_store(tmp_path: Path) -> None:
+def test_a_copy_of_a_store_in_use_is_a_store(pair: tuple[Server, Server], tmp_path: Path) -> None:
     """As docs/serve.md says: a backup while servers go on, and a server on it."""
-    place, copy, over = tmp_path / "store.sqlite3", tmp_path / "copy.sqlite3", threading.Event()
-    with started(place) as server:
-        cell = server.cell()
-        octets = {"Content-Type": "application/octet-stream"}
-        seen = server.post("v1/observations?name=gains.csv", content="1e-9,2e-9\n2e-9,1e-9\n", headers=octets).json()
+    server, over = pair[0], threading.Event()
+    session, seen = server.cell()["session"], _observed(server)
 
-        def talk() -> None:
-            for watts in range(1, 200):
-                if over.is_set():
-                    return
-                server.say(cell["session"], f"highest rate, at most {watts} W")
+    def talk() -> None:
+        for watts in range(1, 200):
+            if over.is_set():
+                return
+            server.say(session, f"highest rate, at most {watts} W")
 
-        talking = threading.Thread(target=talk)
-        talking.start()
-        until = time.monotonic() + 60
-        while len(server.get(f"v1/sessions/{cell['session']}")["turns"]) < 3 and time.monotonic() < until:
-            time.sleep(0.1)
+    talking = threading.Thread(target=talk)
+    talking.start()
+    until = time.monotonic() + 60
+    while len(server.get(f"v1/sessions/{session}")["turns"]) < 3 and time.monotonic() < until:
+        time.sleep(0.1)
+    copy = _copied(server.at, tmp_path)
+    over.set()
+    talking.join()
+    with Store.open(copy) as store:
+        turns = list(store.turns(session))
+        assert len(turns) >= 2
+        assert store.faults() == []
+        assert store.replay(turns[0].number).verdict in ("identical", "close")
+    with started(tmp_path / "on_it", at=copy) as again:
+        assert again.get(f"v1/observations/{seen['id']}") == seen
+        assert again.say(session, "at most 2 W")["number"] == len(turns) + 1
+        assert again.post("v1/operations/repair", {"observation": seen["id"]}).status_code == 200
+
+
+def _observed(server: Server) -> dict[str, object]:
+    octets, gains = {"Content-Type": "application/octet-stream"}, "1e-9,2e-9,,4e-9\n2e-9,1e-9,3e-9,1e-9\n"
+    return server.post("v1/observations?name=gains.csv", content=gains, headers=octets).json()
+
+
+def _copied(place: str, folder: Path) -> str:
+    """A store's place, copied with the means of its database."""
+    if "://" not in place:
+        copy = str(folder / "copy.sqlite3")
         with contextlib.closing(sqlite3.connect(place)) as source, contextlib.closing(sqlite3.connect(copy)) as target:
             source.backup(target)
-        over.set()
-        talking.join()
-    with Store.open(copy) as store:
-        turns = len(list(store.turns(cell["session"])))
-        assert turns >= 2
-        assert store.faults() == []
-    with started(copy) as server:
-        assert server.get(f"v1/observations/{seen['id']}") == seen
-        assert server.say(cell["session"], "at most 2 W")["number"] == turns + 1
-        assert server.post("v1/operations/repair", {"observation": seen["id"]}).status_code == 200
+        return copy
+    copy = postgres.new_database(place)
+    for program, *options in (
+        ("pg_dump", "--format=custom", f"--file={folder / 'dump'}", f"--dbname={postgres.plain(place)}"),
+        ("pg_restore", "--no-owner", f"--dbname={postgres.plain(copy)}", str(folder / "dump")),
+    ):
+        subprocess.run([str(postgres.program(program)), *options], check=True, capture_output=True)
+    return copy
 
 
-def test_a_dump_of_postgresql_is_a_store(tmp_path: Path) -> None:
-    with postgres.running_or_skipped(tmp_path / "cluster") as url:
-        with started(tmp_path / "one", at=url) as server:
-            session = server.cell()["session"]
-            server.say(session, "highest total rate")
-        plain = url.replace("+psycopg", "")
-        dump = [postgres.program("pg_dump"), "--format=custom", f"--file={tmp_path / 'dump'}", f"--dbname={plain}"]
-        restore = [postgres.program("pg_restore"), "--no-owner", f"--dbname={plain}_too", str(tmp_path / "dump")]
-        create = [postgres.program("psql"), plain, "-c", "CREATE DATABASE postgres_too"]
-        for command in (dump, create, restore):
-            subprocess.run([str(part) for part in command], check=True, capture_output=True)
-        with Store.open(f"{url}_too") as store:
-            assert store.faults() == []
-            assert store.replay(1).verdict in ("identical", "close")
-        with started(tmp_path / "two", at=f"{url}_too") as server:
-            assert server.say(session, "at most 2 W")["number"] == 2
+def test_a_limit_holds_for_all_servers_together(place: str) -> None:
+    async def spend() -> tuple[list[bool], float]:
+        ledgers = [Ledger.open(place) for _ in range(2)]
+        servers = [Budgets(Limits(requests_per_s=1.0), ledger) for ledger in ledgers]
+        began, taken = time.monotonic(), list[bool]()
+        for _ in range(90):
+            for budgets in servers:
+                try:
+                    await budgets.spend("somebody")
+                except TooMuchError:
+                    taken.append(False)
+                else:
+                    taken.append(True)
+        for ledger in ledgers:
+            ledger.close()
+        return taken, time.monotonic() - began
+
+    taken, lasted_s = asyncio.run(spend())
+    assert all(taken[:100])
+    assert not all(taken)
+    assert sum(taken) <= 121 + lasted_s
 
 
 def test_killed_under_load_every_answered_turn_is_kept_and_nothing_applied_twice(place: str, tmp_path: Path) -> None:
@@ -213,6 +233,11 @@ def test_killed_under_load_every_answered_turn_is_kept_and_nothing_applied_twice
                         answered.append((session, done.json()["number"]))
 
     with started(tmp_path / "one", at=place) as server:
+        quiet, sent = server.cell()["session"], {"Idempotency-Key": "sent before and after"}
+        first = server.say(quiet, "Save power, at least 1 Mbit/s each", headers=sent)
+        server.post(f"v1/sessions/{quiet}/confirm", {"plan": server.plan(quiet)})
+        server.say(quiet, "and user 3 at least 2 Mbit/s")
+        before = server.get(f"v1/sessions/{quiet}")
         sessions = [server.cell()["session"] for _ in range(3)]
         talking = [threading.Thread(target=talk, args=(server, session)) for session in sessions]
         for one in talking:
@@ -231,10 +256,15 @@ def test_killed_under_load_every_answered_turn_is_kept_and_nothing_applied_twice
     assert set(answered) <= set(kept)
     assert len(set(applied)) == len(applied)
     with started(tmp_path / "two", at=place) as server:
+        assert server.get(f"v1/sessions/{quiet}") == before
+        assert server.say(quiet, "Save power, at least 1 Mbit/s each", headers=sent) == first
+        done = server.post(f"v1/sessions/{quiet}/confirm", {"plan": before["plan"]["id"]}).json()
+        assert (done["number"], done["stage"], done["by"]) == (4, "applied", "local")
+        assert done["request"]["constraints"]["min_rate_bps"] == {"all": 1e6, "3": 2e6}
         for session in sessions:
             turn = server.say(session, "how sure is this?")
-            before = max((number for of, number in kept if of == session), default=0)
-            since = server.get(f"v1/sessions/{session}")["turns"][before:]
+            last = max((number for of, number in kept if of == session), default=0)
+            since = server.get(f"v1/sessions/{session}")["turns"][last:]
             told = [one["lines"]["changed"] for one in since[:-1]]
             assert since[-1] == turn
             assert all("what is in effect there is not known" in one for one in told)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import pwd
+import secrets
 import shutil
 import socket
 import subprocess
@@ -53,6 +54,21 @@ def running_or_skipped(folder: Path) -> Iterator[str]:
         pytest.skip("there is no PostgreSQL here")
     with running(folder) as url:
         yield url
+
+
+def new_database(cluster: str) -> str:
+    """The URL of an empty database in a cluster."""
+    import psycopg
+
+    name = f"test_{secrets.token_hex(4)}"
+    with psycopg.connect(plain(cluster), autocommit=True) as connection:
+        connection.execute(f"CREATE DATABASE {name}".encode())
+    return f"{cluster.rsplit('/', 1)[0]}/{name}"
+
+
+def plain(url: str) -> str:
+    """A database's URL as PostgreSQL's own programs take it."""
+    return url.replace("+psycopg", "")
 
 
 def _user() -> pwd.struct_passwd | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import json
 import os
 import re
@@ -17,6 +18,8 @@ from typing import Any
 import httpx2
 import platformdirs
 
+from wirelessagent.interfaces.cli import run
+
 _URL = re.compile(r"http://[^\s]+/")
 
 
@@ -28,6 +31,7 @@ class Server:
     store: Path
     process: subprocess.Popen[str]
     token: str = ""
+    at: str = ""
 
     @property
     def client(self) -> httpx2.Client:
@@ -61,6 +65,12 @@ class Server:
         """The plan that waits."""
         return self.get(f"v1/sessions/{session}")["plan"]["id"]
 
+    def end_workers(self) -> None:
+        """End what works for it without a word."""
+        found = subprocess.run(["pgrep", "-P", str(self.process.pid)], capture_output=True, text=True, check=True)
+        for number in found.stdout.split():
+            os.kill(int(number), signal.SIGKILL)
+
     def kill(self) -> None:
         """End it without a word, with its workers."""
         os.killpg(self.process.pid, signal.SIGKILL)
@@ -84,7 +94,7 @@ def started(store: Path, *options: str, token: str = "", at: str = "") -> Iterat
     try:
         found = next(filter(None, map(_URL.search, process.stdout)), None)
         assert found is not None, store.with_suffix(".log").read_text()
-        yield Server(found[0], store, process, token)
+        yield Server(found[0], store, process, token, at or str(store))
     finally:
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
@@ -104,9 +114,9 @@ def _cache(folder: Path) -> Path:
 
 def token_for(store: Path, name: str, role: str) -> str:
     """A token, made as an administrator makes it."""
-    command = [sys.executable, "-m", "wirelessagent", "token", name, "--role", role, "--store", str(store), "--json"]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    return json.loads(said)["token"]
+    with contextlib.redirect_stdout(io.StringIO()) as said:
+        assert run(["token", name, "--role", role, "--store", str(store), "--json"]) == 0
+    return json.loads(said.getvalue())["token"]
 
 
 @dataclass
@@ -119,10 +129,10 @@ class Signed:
 
     @classmethod
     @contextlib.contextmanager
-    def started(cls, store: Path) -> Iterator[Signed]:
+    def started(cls, store: Path, *options: str) -> Iterator[Signed]:
         """Such a server, until the end of the context."""
         tokens = {name: token_for(store, name, name) for name in ("operator", "viewer")}
-        with started(store) as server:
+        with started(store, *options) as server:
             yield cls(
                 Server(server.url, store, server.process, tokens["operator"]),
                 Server(server.url, store, server.process, tokens["viewer"]),

@@ -256,9 +256,8 @@ def _in_effect(say: Callable[..., Said], key: str, run: Run, **names: str) -> Sa
 
 def _question(good: Run, state: State, language: str) -> Said:
     """Whether to put an earlier allocation back."""
-    request = "–" if state.request is None else restated(state.request, language)
     power = human(good.decision.total_power_w, "W")
-    return message(language, "ask_back.put_it_back", power=power, request=request)
+    return message(language, "ask_back.put_it_back", power=power, request=plan_named(state.request, language))
 
 
 def _whole(language: str, line: str) -> Said:

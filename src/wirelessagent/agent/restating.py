@@ -59,7 +59,7 @@ def changes_in_words(diff: Diff, shift: Shift | None, language: str) -> str:
     >>> from wirelessagent.agent.dialogue import difference
     >>> old, new = (Request(objective="max_rate", constraints={"max_power_w": watts}) for watts in (10.0, 5.0))
     >>> changes_in_words(difference(old, new), None, "en")
-    'Changed: at most 5 W of radiated power (before: 10 W).'
+    'Now: at most 5 W of radiated power (before: 10 W).'
     """
     if diff.objective[0] is None:
         return ""

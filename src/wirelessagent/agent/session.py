@@ -16,7 +16,7 @@ import re
 import uuid
 from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
-from typing import Any, Protocol, cast
+from typing import Any, Protocol, TypeAlias, cast
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
@@ -68,6 +68,10 @@ _LONGEST_NAME = 100
 """Characters of a line that may be such an answer."""
 
 
+Understand: TypeAlias = Callable[[str, Context, Recogniser], Intent]
+"""What says what a line means."""
+
+
 class TurnStore(Protocol):
     """What keeps turns for good."""
 
@@ -94,6 +98,7 @@ class Session:
         raises: raise what goes wrong instead of telling it; questions back are told all the same.
         station_of: finds the base station for tools and a scene, where none is given.
         decide: makes the decisions.
+        understand: says what a line means in its conversation, with the recogniser's help.
     """
 
     def __init__(
@@ -111,12 +116,13 @@ class Session:
         raises: bool = False,
         station_of: Callable[[Tools, Scene], BaseStation | None] = station_of,
         decide: Decide = decided,
+        understand: Understand = understood,
     ) -> None:
         self._site = Site(
             scene, losses, seed=seed, tools=tools or Tools(), base_station=base_station, confirm=confirm,
             tolerance=tolerance, progress=progress, station_of=station_of, decide=decide,
         )  # fmt: skip
-        self._recogniser = recogniser or OfflineRecogniser()
+        self._recogniser, self._understand = recogniser or OfflineRecogniser(), understand
         self._store, self._progress, self._raises = store, progress, raises
         self._state, self._past = State(), list[State]()
         self._turns, self._requests = list[Turn](), list[Request | None]()
@@ -156,7 +162,7 @@ class Session:
         self._by = by
         context = self._context()
         if pressed is None:
-            intent = self._taken(self._answered(text, context) or understood(text, context, self._recogniser))
+            intent = self._taken(self._answered(text, context) or self._understand(text, context, self._recogniser))
         else:
             intent = _meant(pressed, text, self.language)
         self._state = dataclasses.replace(self._state, supposed=None)

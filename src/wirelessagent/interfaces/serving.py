@@ -47,6 +47,7 @@ class ServeRequest(StoreOptions):
         None, description="file with a key, 16 characters or more, by which users are known by pseudonyms alone"
     )
     work_limit_s: Annotated[float, Advanced()] = Field(120.0, gt=0, description="time for one piece of work, s")
+    receive_limit_s: Annotated[float, Advanced()] = Field(20.0, gt=0, description="time for a request to arrive, s")
     requests_per_s: Annotated[float, Advanced()] = Field(20.0, gt=0, description="requests of one caller, 1/s")
 
 
@@ -64,7 +65,7 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
         import uvicorn
 
         from wirelessagent.interfaces.http.app import make_app
-        from wirelessagent.interfaces.http.deadline import DeadlineProtocol
+        from wirelessagent.interfaces.http.deadline import within
         from wirelessagent.interfaces.http.logs import log_as_json
         from wirelessagent.interfaces.http.shield import LOCAL_NAMES, Doors
         from wirelessagent.service.limits import Limits
@@ -73,7 +74,9 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
         raise InputError(
             f"serving needs packages that are not installed ({error.name}): pip install 'wirelessagent[serve]'"
         ) from error
-    limits = Limits(work_s=request.work_limit_s, requests_per_s=request.requests_per_s)
+    limits = Limits(
+        work_s=request.work_limit_s, receive_s=request.receive_limit_s, requests_per_s=request.requests_per_s
+    )
     key = _key_in(request.pseudonym_key_file)
     service = open_service(request.store, limits, workers=request.workers, pseudonym_key=key)
     only_local = request.host in LOCAL_NAMES and not request.trusted_proxy and not request.base_path
@@ -102,7 +105,7 @@ def serve(request: ServeRequest, progress: Progress) -> ServeRecord:
         webbrowser.open(url)
     proxies = request.trusted_proxy or []
     config = uvicorn.Config(
-        app, http=DeadlineProtocol, loop="asyncio", ws="none", log_level="warning", access_log=False,
+        app, http=within(limits.receive_s), loop="asyncio", ws="none", log_level="warning", access_log=False,
         server_header=False, proxy_headers=bool(proxies), forwarded_allow_ips=proxies, timeout_graceful_shutdown=5,
     )  # fmt: skip
     log_as_json()

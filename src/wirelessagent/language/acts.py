@@ -8,6 +8,7 @@ them. :func:`~wirelessagent.language.intent_acts.acts_of` gives those of an
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias, cast
 
@@ -361,9 +362,34 @@ def _with_another(value: Any, user: str, name: str) -> Any:
 
 
 def shown(act: Act) -> dict[str, Any]:
-    """An act as JSON has it: its name, its fields and its words."""
-    fields = {field.name: _shown(getattr(act, field.name)) for field in dataclasses.fields(act)}
-    return {"act": type(act).__name__, **{name: value for name, value in fields.items() if value not in ("", None, [])}}
+    """An act as JSON has it: its name, and its fields and words but for those that are empty unless said."""
+    fields = [(field, getattr(act, field.name)) for field in dataclasses.fields(act)]
+    said = {one.name: _shown(value) for one, value in fields if value not in ("", None, ()) or value != one.default}
+    return {"act": type(act).__name__, **said}
+
+
+def act_of(said: Mapping[str, Any]) -> Act:
+    """The act that :func:`shown` shows.
+
+    >>> act_of(shown(LeaveOut(whom=Named(("2", "9")))))
+    LeaveOut(words='', whom=Named(users=('2', '9')))
+    """
+    kinds = {kind.__name__: kind for kind in _kinds(Act)}
+    return kinds[said["act"]](**{name: _read(name, value) for name, value in said.items() if name != "act"})
+
+
+def _kinds(kind: type[Act]) -> Iterator[type[Act]]:
+    yield kind
+    for each in kind.__subclasses__():
+        yield from _kinds(each)
+
+
+def _read(name: str, value: Any) -> Any:
+    if name == "whom":
+        return {"everybody": Everybody(), "others": Others()}[value] if isinstance(value, str) else Named(tuple(value))
+    if isinstance(value, list):
+        return tuple(_read("", each) for each in cast("list[Any]", value))
+    return act_of(cast("Mapping[str, Any]", value)) if isinstance(value, Mapping) else value
 
 
 def _shown(value: Any) -> Any:

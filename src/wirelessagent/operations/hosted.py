@@ -1,10 +1,10 @@
 """A conversation that goes on for a caller elsewhere: its lines come one by one, and it can be taken up again.
 
 Nothing reaches the base station by a line: what is decided waits, and :meth:`Hosted.press` applies it or drops it. A
-conversation that was lost with its process is taken up by saying its recorded lines again. What was decided then is
-what was recorded, and what the base station did is what was read back of it, or that it failed: nothing is decided
-otherwise, and nobody is told anything twice. A press that broke off with its process is told as that
-(:meth:`Hosted.broke_off`).
+conversation that was lost with its process is taken up by saying its recorded lines again. What they meant and what was
+decided is what was recorded, and what the base station did is what was read back of it, or that it failed: nothing is
+understood or decided otherwise, and nobody is told anything twice. A press that broke off with its process is told as
+that (:meth:`Hosted.broke_off`).
 """
 
 from __future__ import annotations
@@ -22,6 +22,9 @@ from wirelessagent.agent.site import decided, station_of
 from wirelessagent.agent.turn import Tools, Turn
 from wirelessagent.chain import resolve
 from wirelessagent.language.acts import Press
+from wirelessagent.language.conversation import understood
+from wirelessagent.language.intent import Intent
+from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError, NothingRecordedError, StoreError
@@ -39,7 +42,7 @@ from wirelessagent.operations.trade_off import trade_off
 from wirelessagent.operations.turn_record import LinesAnswer, TurnRecord
 from wirelessagent.sensing.npz import write_npz
 from wirelessagent.store.plain import plain
-from wirelessagent.store.rebuilt import decision_of, outcome_of
+from wirelessagent.store.rebuilt import decision_of, intent_of, outcome_of
 from wirelessagent.store.record_of import problem_columns
 from wirelessagent.store.stored import StoredTurn
 from wirelessagent.telling.catalogue import message
@@ -99,7 +102,9 @@ class Hosted:
         self.turns = list[HostedTurn]()
         self._attempts: Attempts | None = []
         self._again: StoredTurn | None = None
-        self._session = request.session(self._tell, confirm=True, station_of=self._station, decide=self._decide)
+        self._session = request.session(
+            self._tell, confirm=True, station_of=self._station, decide=self._decide, understand=self._understand
+        )
         self._session.id = identity
         for text, pressed in recalled:
             self._attempts = None if pressed else []
@@ -233,13 +238,18 @@ class Hosted:
         ran = "interpreted" if again.platform.get("kernels") == "interpreted" else "compiled"
         return decision_of(again, names).knowing(estimate, ran)
 
+    def _understand(self, text: str, context: Context, recogniser: Recogniser) -> Intent:
+        """What a line was understood to mean where it is said again; else what it means."""
+        meant = None if self._again is None else intent_of(self._again)
+        return meant or understood(text, context, recogniser)
+
     def _check_same(self, said: Turn, stored: StoredTurn) -> None:
         """Refuse to go on where a line comes to something else by now: what is in effect could be told wrongly."""
         diff = stored.intent.get("diff")
         if said.stage != stored.stage or (diff is not None and plain(said.diff) != diff):
             raise StoreError(
-                f"turn {stored.turn} of the conversation {self._session.id}, {stored.text!r:.80}, is understood "
-                "otherwise than it was then: begin a new conversation"
+                f"turn {stored.turn} of the conversation {self._session.id}, {stored.text!r:.80}, comes to something "
+                "else than it did then: begin a new conversation"
             )
 
     def _stored(self) -> list[StoredTurn]:

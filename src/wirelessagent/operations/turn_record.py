@@ -97,7 +97,7 @@ class TurnRecord(Record):
         return cls(
             **{name: getattr(turn, name) for name in same},
             lines=LinesAnswer.of(turn.lines),
-            intent={**plain(turn.intent), **understood(turn)},
+            intent=understood(turn),
             request=None if request is None else RequestAnswer(**plain(request)),
             supposed=None if supposed is None else RequestAnswer(**plain(supposed)),
             awaits=session.state.awaits,

@@ -61,6 +61,10 @@ class Assistant:
         turn = await self._service.press(meant["session"], "undo", caller, tell)
         return await self._with_plan(meant["id"], turn)
 
+    async def move(self, cell: str | None, observation: str, tell: Tell) -> Json:
+        """The cell, on another observation and with a new conversation."""
+        return await self._service.move_cell((await self.cell(cell))["id"], observation, tell)
+
     async def turn(self, session: str, number: int) -> Json:
         """A turn of before, with the plan that waits now.
 

@@ -76,11 +76,11 @@ class Leases:
 
     Args:
         ledger: where they are known.
-        patience_s: how long one waits for another server.
+        patience_s: how long one waits for another server; longer than a lease lasts, in any case.
     """
 
     def __init__(self, ledger: Ledger, patience_s: float) -> None:
-        self._ledger, self._patience_s, self._server = ledger, patience_s, secrets.token_hex(6)
+        self._ledger, self._patience_s, self._server = ledger, max(patience_s, 2 * _LASTS_S), secrets.token_hex(6)
         self._locks: weakref.WeakValueDictionary[str, asyncio.Lock] = weakref.WeakValueDictionary()
 
     @contextlib.asynccontextmanager

@@ -43,7 +43,8 @@ class Workers:
     ) -> Any:  # fmt: skip
         """Have one thing done by the worker that conversation ``of`` belongs to, or by the least busy one.
 
-        Where the conversation has to be taken up first, each of its turns has the time that one thing has. A worker
+        Where the worker has to start, or the conversation to be taken up first, that and each of its turns have the
+        time that one thing has. A worker
         that turns out to be gone before it has begun is replaced once, so that who did nothing wrong notices nothing.
         ``called`` says what the paths that it is told are called in what it says.
 
@@ -81,10 +82,13 @@ class _Process:
 
                         def heard(event: dict[str, Any]) -> None:
                             if event["stage"] == TAKEN_UP:
-                                limit.reschedule(asyncio.get_running_loop().time() + time_limit_s)
+                                anew()
                             tell(event)
 
-                        return await self._done(told, heard, called)
+                        def anew() -> None:
+                            limit.reschedule(asyncio.get_running_loop().time() + time_limit_s)
+
+                        return await self._done(told, heard, called, anew)
                 except TimeoutError as error:
                     await self.end()
                     raise TimedOutError(
@@ -108,14 +112,16 @@ class _Process:
             await process.wait()
 
     async def _done(
-        self, told: Mapping[str, Any], tell: Callable[[dict[str, Any]], None], called: Mapping[str, str]
-    ) -> Any:
+        self, told: Mapping[str, Any], tell: Callable[[dict[str, Any]], None], called: Mapping[str, str],
+        begins: Callable[[], None],
+    ) -> Any:  # fmt: skip
         for _ in range(2):
             begun = False
             async with contextlib.aclosing(self._answers(told, called)) as answers:
                 async for answer in answers:
                     if "begun" in answer:
                         begun = True
+                        begins()
                     elif "event" in answer:
                         tell(answer["event"])
                     elif "failed" in answer:

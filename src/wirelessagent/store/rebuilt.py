@@ -1,14 +1,19 @@
-"""What a row says, as the chain's own types again: cell, problem, decision, outcome."""
+"""What a row says, as the chain's own types again: intent, cell, problem, decision, outcome."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from wirelessagent import plugins
+from wirelessagent.language.acts import act_of
+from wirelessagent.language.intent import Intent
+from wirelessagent.language.intent_acts import acts_of
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Bracket, Decision, Prices
 from wirelessagent.model.forecast import Forecast
@@ -19,6 +24,25 @@ from wirelessagent.store.record_of import CONSTRAINTS, FIGURES
 from wirelessagent.store.stored import StoredTurn
 
 _ARRAYS = ("weights", "min_rate_bps", "max_rate_bps", "subcarrier_max_power_w")
+
+
+def intent_of(turn: StoredTurn) -> Intent | None:
+    """What was understood, as it was; None of a row of before acts were written whole."""
+    return _intent(turn.intent) if turn.intent.get("schema", 0) >= 4 else None
+
+
+def _intent(said: Mapping[str, Any]) -> Intent:
+    found: dict[str, Any] = {field.name: _tuples(said[field.name]) for field in dataclasses.fields(Intent)}
+    guess, acts = said["guess"], tuple(map(act_of, said["acts"]))
+    found.update(acts=(), guess=guess and _intent(guess))
+    intent = Intent(**found)
+    return intent if acts == acts_of(intent) else dataclasses.replace(intent, acts=acts)
+
+
+def _tuples(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {name: _tuples(each) for name, each in cast("Mapping[str, Any]", value).items()}
+    return tuple(cast("list[Any]", value)) if isinstance(value, list) else value
 
 
 def cell_of(turn: StoredTurn) -> Cell:

@@ -19,6 +19,7 @@ import numpy as np
 from wirelessagent import plugins
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language.acts import shown
+from wirelessagent.language.intent import Intent
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.outcome import Outcome
@@ -50,7 +51,7 @@ def record_of(turn: Turn) -> tuple[dict[str, Any], tuple[Content, ...]]:
     row: dict[str, Any] = {
         **{name: getattr(turn, name) for name in ("session", "at_utc", "text", "recogniser", "reply", "stage")},
         "turn": turn.number,
-        "intent": {**plain(turn.intent), **understood(turn)},
+        "intent": understood(turn),
         "objective": turn.intent.objective,
         "restored": _outcome(turn.restored),
         "seed": turn.seed,
@@ -68,10 +69,14 @@ def record_of(turn: Turn) -> tuple[dict[str, Any], tuple[Content, ...]]:
 
 
 def understood(turn: Turn) -> dict[str, Any]:
-    """The acts of a turn, what they changed, and what was said; ``schema`` counts the forms that this has had."""
+    """What a turn was understood to mean, what it changed, and what was said.
+
+    ``schema`` counts the forms that this has had.
+    """
     lines = {field.name: getattr(turn.lines, field.name) for field in dataclasses.fields(turn.lines)}
     return {
-        "schema": 3,
+        **_meant(turn.intent),
+        "schema": 4,
         "acts": [shown(act) for act in turn.acts],
         "diff": plain(turn.diff),
         "shift": plain(turn.shift),
@@ -80,6 +85,11 @@ def understood(turn: Turn) -> dict[str, Any]:
         **({"by": turn.by} if turn.by else {}),
         **({"pressed": turn.pressed} if turn.pressed else {}),
     }
+
+
+def _meant(intent: Intent) -> dict[str, Any]:
+    guess = None if intent.guess is None else _meant(intent.guess)
+    return {**plain(intent), "acts": [shown(act) for act in intent.acts], "guess": guess}
 
 
 def _run_columns(run: Run) -> dict[str, Any]:

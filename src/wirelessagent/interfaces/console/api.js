@@ -17,20 +17,23 @@ const AWAY = new Set([502, 503, 504]);
 const ROOT = new URL("../", import.meta.url);
 
 /** The absolute address of a path of the interface: the console lies one folder below it. */
-export const address = (path) => new URL(path, ROOT).href;
+export const address = (at) => new URL(at, ROOT).href;
+
+/** A path of the interface with ids in it. */
+export const path = (parts, ...ids) => String.raw({ raw: parts }, ...ids.map(encodeURIComponent));
 
 /** What was got before by its path, with the tag by which the server knows whether it still holds. */
 const known = new Map();
 
-async function call(method, path, { body = null, type = null, later = false } = {}) {
+async function call(method, at, { body = null, type = null, later = false } = {}) {
   const headers = { Accept: "application/json" };
   if (type) headers["Content-Type"] = type;
   if (later) headers.Prefer = "respond-async";
-  const had = method === "GET" ? known.get(path) : null;
+  const had = method === "GET" ? known.get(at) : null;
   if (had) headers["If-None-Match"] = had.tag;
   let answer;
   try {
-    answer = await fetch(address(path), { method, headers, body, credentials: "same-origin" });
+    answer = await fetch(address(at), { method, headers, body, credentials: "same-origin" });
   } catch {
     throw new Disconnected("…");
   }
@@ -45,30 +48,33 @@ async function call(method, path, { body = null, type = null, later = false } = 
   }
   if (!answer.ok) throw new Problem({ status: answer.status, ...(found ?? { title: answer.statusText }) });
   const tag = answer.headers.get("ETag");
-  if (tag) known.set(path, { tag, found });
+  if (tag) known.set(at, { tag, found });
   return found;
 }
 
-/** What is there: the same object as before where it has not changed. @param {string} path */
-export const get = (path) => call("GET", path);
-/** @param {string} path */
-export const remove = (path) => call("DELETE", path);
+/** What is there: the same object as before where it has not changed. @param {string} at */
+export const get = (at) => call("GET", at);
+/** @param {string} at */
+export const remove = (at) => call("DELETE", at);
 
 /** Send JSON; with `later` long work is answered by a job. */
-export const post = (path, fields = {}, later = false) =>
-  call("POST", path, { body: JSON.stringify(fields), type: "application/json", later });
+export const post = (at, fields = {}, later = false) =>
+  call("POST", at, { body: JSON.stringify(fields), type: "application/json", later });
+
+/** Put something in the place of what is there. */
+export const put = (at, fields) => call("PUT", at, { body: JSON.stringify(fields), type: "application/json" });
 
 /** Send a file as it is. */
-export const upload = (path, file) => call("POST", path, { body: file, type: "application/octet-stream" });
+export const upload = (at, file) => call("POST", at, { body: file, type: "application/octet-stream" });
 
 /**
  * Have long work done and follow it to its end.
- * @param {string} path
+ * @param {string} at
  * @param {object|null} fields to be posted; null where it is only read
  * @param {(stage: object) => void} onStage
  */
-export async function worked(path, fields, onStage) {
-  const job = await (fields ? post(path, fields, true) : call("GET", path, { later: true }));
+export async function worked(at, fields, onStage) {
+  const job = await (fields ? post(at, fields, true) : call("GET", at, { later: true }));
   return job.state === "done" ? job.result : follow(job.id, onStage);
 }
 
@@ -81,7 +87,7 @@ export async function worked(path, fields, onStage) {
  */
 export function follow(id, onStage) {
   return new Promise((resolve, reject) => {
-    const events = new EventSource(address(`v1/jobs/${encodeURIComponent(id)}/events`));
+    const events = new EventSource(address(path`v1/jobs/${id}/events`));
     const end = (settle, value) => {
       events.close();
       settle(value);
@@ -98,7 +104,7 @@ export function follow(id, onStage) {
 
 async function poll(id) {
   for (;;) {
-    const job = await get(`v1/jobs/${encodeURIComponent(id)}`);
+    const job = await get(path`v1/jobs/${id}`);
     if (job.state === "done") return job.result;
     if (job.state === "cancelled") return null;
     if (job.state === "failed") throw new Problem(job.error);

@@ -1,22 +1,22 @@
 /** The cell that is looked at: picked from the list, with its facts; a new one simulated; one removed. */
 
 import { post } from "./api.js";
-import { byId, element, facts } from "./dom.js";
+import { button, byId, element, facts, fill } from "./dom.js";
 import { onSend } from "./forms.js";
 import { watts } from "./units.js";
 import { say } from "./words.js";
 
 /** A cell in one line. */
-export const cellLine = (cell) => say("console.cell_line", { users: cell.user_names.length, subcarriers: cell.num_subcarriers });
+const cellLine = (cell) => say("console.cell_line", { users: cell.user_names.length, subcarriers: cell.num_subcarriers });
 
 /** Draw the picker. */
 export function drawCells(cells, cell, canAct, actions) {
   byId("cell-name").textContent = cell.name;
   byId("cell-size").textContent = cellLine(cell);
-  byId("cell-list").replaceChildren(...cells.map((one) => element("li", {},
-    element("button", { type: "button", "aria-current": one.id === cell.id ? "true" : null, click: () => actions.pick(one.id) },
+  fill(byId("cell-list"), cells.map((one) => element("li", {},
+    button(() => actions.pick(one.id), { "aria-current": one.id === cell.id && "true" },
       element("b", {}, one.name), element("span", {}, cellLine(one))))));
-  byId("cell-facts").replaceChildren(facts([...Object.entries(cell.facts),
+  fill(byId("cell-facts"), facts([...Object.entries(cell.facts),
     [say("console.base_station"), cell.base_station ?? "–"], [say("console.budget"), watts(cell.max_power_w)],
     [say("console.recogniser"), cell.recogniser === "llm" ? "LLM" : say("console.offline")]]));
   byId("cell-remove").hidden = !canAct || cell.demonstration || cells.length < 2;

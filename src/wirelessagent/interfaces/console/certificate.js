@@ -1,6 +1,6 @@
 /** How good a decision is: one bar and one sentence; and what a little more would cost, in plain words. */
 
-import { byId, element, shape } from "./dom.js";
+import { byId, element, fill, nothing, row, shape } from "./dom.js";
 import { isUsable } from "./turns.js";
 import { human, percent, signed } from "./units.js";
 import { heading, say, userName } from "./words.js";
@@ -33,16 +33,17 @@ function bar({ value, bound, unit }) {
 /** Draw the certificate of the turn that is looked at. */
 export function drawCertificate(turn) {
   const place = byId("certificate");
-  if (!turn?.decision) return place.replaceChildren(element("p", { class: "empty" }, say("console.no_certificate")));
+  if (!turn?.decision) return fill(place, nothing(say("console.no_certificate")));
   const { decision } = turn;
   const drawable = isUsable(turn) && decision.value > 0 && decision.bound > 0 && Number.isFinite(decision.bound);
-  place.replaceChildren(...[drawable ? bar(decision) : null,
+  fill(place, drawable && bar(decision),
     element("p", { class: isUsable(turn) ? "note" : "note warn" }, sentence(decision)),
-    isUsable(turn) && decision.outage_probability ? element("p", { class: "note" }, say("console.kept_with", { sure: percent(1 - decision.outage_probability) })) : null].filter(Boolean));
+    isUsable(turn) && decision.outage_probability > 0
+      && element("p", { class: "note" }, say("console.kept_with", { sure: percent(1 - decision.outage_probability) })));
 }
 
 /** What one watt, and 100 kbit/s more for a user, would change at the margin; only what is not nothing. */
-export function pricesOf(turn) {
+function pricesOf(turn) {
   if (!isUsable(turn)) return [];
   const { price_of_power: power, price_of_rate: rates, user_names: names, unit, value, objective } = turn.decision;
   const worth = (change) => Number.isFinite(change) && Math.abs(change) > WORTH_TELLING * Math.abs(value) / 100;
@@ -57,5 +58,5 @@ export function pricesOf(turn) {
 export function drawPrices(turn) {
   const rows = turn ? pricesOf(turn) : [];
   byId("prices-card").hidden = rows.length === 0;
-  byId("prices").replaceChildren(...rows.map(([label, change]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", { class: "short" }, change))));
+  fill(byId("prices"), rows.map(([label, change]) => row(label, element("td", { class: "short" }, change))));
 }

@@ -7,7 +7,7 @@ const CIVIDIS = [[0, 34, 78], [67, 78, 108], [125, 124, 120], [188, 175, 111], [
 const STROKES = ["", "M0 6L6 0", "M0 0L6 6", "M0 3H6", "M3 0V6", "M0 3H6M3 0V6", "M0 0L6 6M0 6L6 0", "M2 3H4"];
 
 /** The colour of a user by its place. */
-export const hue = (user) => HUES[user % HUES.length];
+const hue = (user) => HUES[user % HUES.length];
 
 /**
  * What fills the shapes of a user: its hue, and a pattern on it from the ninth user on.

@@ -1,7 +1,7 @@
 /** Decisions side by side: their figures, their allocations on one scale, their rates on one scale. */
 
 import { allocationPicture, highestPower, userLegend } from "./allocation.js";
-import { byId, chart, element, scroller } from "./dom.js";
+import { byId, chart, element, fill, row, scroller } from "./dom.js";
 import { highestRate, ratesPicture } from "./rates.js";
 import { NONE, changedHands, inShort, isUsable, limitRows, saidFor, sum } from "./turns.js";
 import { clock, human, percent, rate, watts } from "./units.js";
@@ -24,8 +24,11 @@ function figures(turns) {
     ["label.users_served", ofAllocation((one) => `${one.rate_bps.filter((bps) => bps > 0).length}/${one.rate_bps.length}`)],
     ["console.subcarriers_moved", ofAllocation((one) => (one === first ? NONE : String(changedHands(first, one).length)))],
   ].map(([key, texts]) => ({ label: heading(say(key)), texts }));
-  return [...rows, ...limitRows(turns)].map(({ label, texts }) => element("tr", { class: new Set(texts).size > 1 ? "differs" : null },
-    element("th", { scope: "row" }, label), texts.map((text) => element("td", {}, text))));
+  return [...rows, ...limitRows(turns)].map(({ label, texts }) => {
+    const shown = row(label, ...texts);
+    shown.classList.toggle("differs", new Set(texts).size > 1);
+    return shown;
+  });
 }
 
 /**
@@ -45,9 +48,9 @@ export function openComparison(session, turns) {
       chart(say("console.allocation"), (width) => allocationPicture([turn.decision], { width, top: power, id: `ca${place}-`, moved })),
       chart(say("console.rates"), (width) => ratesPicture(turn, { width, top: most, id: `cr${place}-` })));
   }));
-  byId("compare-body").replaceChildren(
+  fill(byId("compare-body"),
     scroller(say("console.compared"), element("table", { class: "rows figures" },
       element("thead", {}, head), element("tbody", {}, figures(turns)))),
-    pictures, ...(usable.length ? [userLegend(usable.map((turn) => turn.decision), "c")] : []));
+    pictures, usable.length > 0 && userLegend(usable.map((turn) => turn.decision), "c"));
   dialog.showModal();
 }

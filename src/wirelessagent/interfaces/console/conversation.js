@@ -1,6 +1,6 @@
 /** The conversation: what was said, three lines for each answer with more behind a click, stages as they come, the input. */
 
-import { byId, element, fillIfNew, table } from "./dom.js";
+import { button, byId, element, fillIfNew, table } from "./dom.js";
 import { suggestions } from "./suggestions.js";
 import { clock } from "./units.js";
 import { say, stageName } from "./words.js";
@@ -14,10 +14,10 @@ let draftKey = "";
 function more(turn) {
   const parts = [
     ...turn.explanation.map((sentence) => element("p", {}, sentence)),
-    turn.notes.length ? element("ul", {}, turn.notes.map((note) => element("li", {}, note))) : null,
+    ...(turn.notes.length ? [element("ul", {}, turn.notes.map((note) => element("li", {}, note)))] : []),
     ...turn.tables.map(table),
-  ].filter(Boolean);
-  return parts.length ? element("details", {}, element("summary", {}, say("console.more")), element("div", { class: "more" }, parts)) : null;
+  ];
+  return parts.length > 0 && element("details", {}, element("summary", {}, say("console.more")), element("div", { class: "more" }, parts));
 }
 
 function answered(turn, people, actions) {
@@ -30,23 +30,23 @@ function answered(turn, people, actions) {
     element("p", { class: "said" }, turn.text),
     element("p", { class: "by" }, [people && turn.by, clock(turn.at_utc)].filter(Boolean).join(" · ")),
     element("div", { class: asks ? "answer asked" : "answer", lang: turn.language ?? null },
-      element("dl", {}, lines.flat()),
+      element("dl", {}, lines),
       element("div", { class: "foot" }, more(turn),
-        turn.decision ? element("button", { type: "button", class: "link", click: () => actions.look(turn.number) }, say("console.show_pictures")) : null,
+        turn.decision && button(() => actions.look(turn.number), { class: "link" }, say("console.show_pictures")),
         element("span", { class: `badge ${turn.stage}` }, stageName(turn.stage)))));
 }
 
 function working({ text, stages }, actions) {
   const counted = (stage) => (stage.total > 1 ? ` ${stage.done}/${stage.total}` : "");
-  return [text ? element("p", { class: "said" }, text) : null,
+  return [text && element("p", { class: "said" }, text),
     element("ul", { class: "stages" }, stages.map((stage) => element("li", {}, element("b", {}, stage.label), ` ${stage.message}${counted(stage)}`)),
       element("li", { class: "now" }, say("console.working"))),
-    element("button", { type: "button", class: "link", click: actions.cancel }, say("console.cancel"))].filter(Boolean);
+    button(actions.cancel, { class: "link" }, say("console.cancel"))];
 }
 
 function failure(problem, actions) {
   return element("div", { class: "problem", role: "alert" }, element("b", {}, problem.title ?? say("console.failed")), element("p", {}, problem.message),
-    element("button", { type: "button", class: "link", click: actions.dismiss }, say("console.dismiss")));
+    button(actions.dismiss, { class: "link" }, say("console.dismiss")));
 }
 
 function toEnd(log) {
@@ -117,11 +117,10 @@ export function drawConversation({ session, job, problem }, { effect, canAct, bu
   if (!drawnTurns && !log.childElementCount) {
     log.append(element("div", { class: "empty" }, element("b", {}, say("console.empty_title")), element("p", {}, say("console.empty_text"))));
   }
-  fillIfNew(byId("working"), [job, problem?.message, lang], () => [...(job ? working(job, actions) : []), ...(problem ? [failure(problem, actions)] : [])]);
+  fillIfNew(byId("working"), [job, problem?.message, lang], () => [job && working(job, actions), problem && failure(problem, actions)]);
   const asked = session.awaits === "clarification";
   const offered = canAct && !busy ? suggestions(session, effect) : [];
-  fillIfNew(byId("chips"), offered, () => offered.map((text) =>
-    element("button", { type: "button", class: "chip", click: () => actions.send(text) }, text)));
+  fillIfNew(byId("chips"), offered, () => offered.map((text) => button(() => actions.send(text), { class: "chip" }, text)));
   byId("say").hidden = !canAct;
   byId("viewer").hidden = canAct;
   byId("send").disabled = busy;

@@ -2,29 +2,31 @@
 
 const SVG = "http://www.w3.org/2000/svg";
 
-function fill(node, attributes, children) {
+const shown = (children) => children.flat(2).filter((child) => child !== null && child !== undefined && child !== false && child !== "");
+
+function made(node, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === null || value === undefined || value === false) continue;
     if (typeof value === "function") node.addEventListener(name, value);
     else node.setAttribute(name, value === true ? "" : value);
   }
-  node.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== ""));
+  node.append(...shown(children));
   return node;
 }
 
 /**
- * An HTML element. Attributes that hold a function are listeners; null and false leave an attribute out.
+ * An HTML element. Attributes that hold a function are listeners; null and false leave an attribute or a child out.
  * @param {string} name
  * @param {Object<string, unknown>} [attributes]
  * @param {...(Node|string|null|Array<Node|string|null>)} children
  */
 export function element(name, attributes = {}, ...children) {
-  return fill(document.createElement(name), attributes, children);
+  return made(document.createElement(name), attributes, children);
 }
 
 /** An SVG element, as {@link element}. */
 export function shape(name, attributes = {}, ...children) {
-  return fill(document.createElementNS(SVG, name), attributes, children);
+  return made(document.createElementNS(SVG, name), attributes, children);
 }
 
 /** A picture in SVG with what it says to those who do not see it. */
@@ -34,19 +36,30 @@ export const drawing = (width, height, label, ...children) =>
 /** The element of the page with this id. */
 export const byId = (id) => document.getElementById(id);
 
+/** Fill a place anew. */
+export const fill = (place, ...children) => place.replaceChildren(...shown(children));
+
 /** Fill a place anew, but only where what it shows has changed: focus and opened details stay. */
 export function fillIfNew(place, shown, make) {
   const key = JSON.stringify(shown);
   if (place.dataset.shown === key) return;
   place.dataset.shown = key;
-  place.replaceChildren(...make());
+  fill(place, make());
 }
+
+/** A button that does something. */
+export const button = (click, attributes, ...children) => element("button", { type: "button", click, ...attributes }, ...children);
+
+/** A row of a table with its heading; a cell is what stands in it, or the cell itself. */
+export const row = (label, ...cells) =>
+  element("tr", {}, element("th", { scope: "row" }, label), cells.map((cell) => (cell instanceof Node ? cell : element("td", {}, cell))));
+
+/** A table of such rows, as cards hold them. */
+export const rowsTable = (...rows) => element("table", { class: "rows" }, element("tbody", {}, ...rows));
 
 /** A heading and value list from pairs. */
 export function facts(pairs) {
-  return element("dl", { class: "facts" }, pairs.map(([label, value]) => [
-    element("dt", {}, label), element("dd", {}, value),
-  ]).flat());
+  return element("dl", { class: "facts" }, pairs.map(([label, value]) => [element("dt", {}, label), element("dd", {}, value)]));
 }
 
 /** A frame that scrolls sideways within itself, for the keyboard too. */

@@ -1,7 +1,7 @@
 /** What leaves the console: files of one allocation, the standards' documents, a printed report. */
 
 import { address, post } from "./api.js";
-import { byId, element } from "./dom.js";
+import { button, byId, element, fill } from "./dom.js";
 import { language, say } from "./words.js";
 
 const FILES = ["csv", "json", "npz", "png", "svg"];
@@ -28,9 +28,8 @@ export function drawExport(turn, failed) {
   const files = stored === null ? [] : FILES.map((format) => element("li", {},
     element("a", { href: address(`v1/allocations/${stored}?format=${format}`), download: `allocation-${stored}.${format}` }, format.toUpperCase())));
   const documents = stored === null ? [] : DOCUMENTS.map(([format, name]) => element("li", {},
-    element("button", { type: "button", click: () => standard(stored, format, failed) }, name)));
-  byId("export-list").replaceChildren(...files, ...documents,
-    element("li", {}, element("button", { type: "button", click: () => window.print() }, say("console.print"))));
+    button(() => standard(stored, format, failed), {}, name)));
+  fill(byId("export-list"), files, documents, element("li", {}, button(() => window.print(), {}, say("console.print"))));
 }
 
 /** A report, however it is printed: when that was, and each user's figures beside the picture. */

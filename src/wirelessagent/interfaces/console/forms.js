@@ -13,20 +13,21 @@ export function refuse(form, problem) {
 /**
  * Have something done when a form is sent.
  * @param {HTMLFormElement} form
- * @param {() => Promise<void>} act
+ * @param {(button: HTMLButtonElement|null) => Promise<void>} act gets the button that sent it
  */
 export function onSend(form, act) {
   form.onsubmit = async (event) => {
     event.preventDefault();
     refuse(form, null);
-    const button = form.querySelector("button.first");
-    button.disabled = true;
+    const buttons = form.querySelectorAll("button:not([type=button])");
+    const rest = (is) => buttons.forEach((button) => { button.disabled = is; });
+    rest(true);
     try {
-      await act();
+      await act(event.submitter);
     } catch (problem) {
       refuse(form, problem);
     } finally {
-      button.disabled = false;
+      rest(false);
     }
   };
 }

@@ -1,7 +1,7 @@
 /** The console: one state, drawn whole when it changes, refreshed quietly from the server. */
 
 import { drawAllocation } from "./allocation.js";
-import { Disconnected, Problem, follow, get, post, remove } from "./api.js";
+import { Disconnected, Problem, follow, get, path, post, remove } from "./api.js";
 import { drawCells, setUpNewCell } from "./cells.js";
 import { drawCertificate, drawPrices } from "./certificate.js";
 import { drawChannel } from "./channel.js";
@@ -65,12 +65,16 @@ function draw() {
   byId("return").hidden = !now.canAct || now.looked === now.effect;
 }
 
+/** Whether a problem leads to the sign-in page. */
+function signsIn(problem) {
+  const away = problem instanceof Problem && problem.status === 401;
+  if (away) location.href = "sign-in.html";
+  return away;
+}
+
 function fail(problem) {
   if (problem instanceof Disconnected) return connected(false);
-  if (problem instanceof Problem && problem.status === 401) {
-    location.href = "sign-in.html";
-    return;
-  }
+  if (signsIn(problem)) return;
   state.problem = problem;
   draw();
 }
@@ -92,13 +96,13 @@ async function refresh() {
   const cells = await get("v1/cells");
   const cell = cells.find((one) => one.id === state.cell.id);
   if (!cell) return reload(null);
-  const session = await get(`v1/sessions/${encodeURIComponent(cell.session)}`);
+  const session = await get(path`v1/sessions/${cell.session}`);
   if (session.cell !== state.cell.id) return;
   state.console.cells = cells;
   state.cell = cell;
   wait = session === before ? Math.min(LONGEST_MS, wait * CALMER) : EVERY_MS;
   const came = session.id !== before?.id || session.turns.length !== before.turns.length;
-  if (came) state.channel = await get(`v1/sessions/${encodeURIComponent(session.id)}/channel`);
+  if (came) state.channel = await get(path`v1/sessions/${session.id}/channel`);
   if (before && came && session.id === before.id && session.in_effect !== before.in_effect) {
     const applied = turnOf(session, session.in_effect);
     if (applied) announce(say("console.applied_by", { who: applied.by ?? "–", what: inShort(applied) }));
@@ -150,11 +154,11 @@ async function work(id, text) {
 }
 
 /** Begin something that a job answers; whether it was taken. */
-async function begin(path, fields, text) {
+async function begin(what, fields, text) {
   if (state.job) return false;
   state.problem = null;
   try {
-    const job = await post(`v1/sessions/${encodeURIComponent(state.session.id)}/${path}`, fields, true);
+    const job = await post(path`v1/sessions/${state.session.id}/${what}`, fields, true);
     connected(true);
     state.looking = null;
     work(job.id, text);
@@ -179,7 +183,7 @@ const actions = {
   send: (text) => toButton(text) || begin("turns", { text }, text),
   apply: () => begin("confirm", { plan: state.session.plan.id }, ""),
   discard: () => begin("discard", { plan: state.session.plan.id }, ""),
-  cancel: () => remove(`v1/jobs/${encodeURIComponent(state.job.id)}`).catch(fail),
+  cancel: () => remove(path`v1/jobs/${state.job.id}`).catch(fail),
   dismiss() {
     state.problem = null;
     draw();
@@ -214,7 +218,7 @@ async function choose(id) {
 async function takeUp() {
   const left = JSON.parse(sessionStorage.getItem(JOB) ?? "null");
   if (!left || left.session !== state.session?.id) return;
-  const job = await get(`v1/jobs/${encodeURIComponent(left.id)}`).catch(() => null);
+  const job = await get(path`v1/jobs/${left.id}`).catch(() => null);
   if (job?.state === "running") work(left.id, left.text);
   else sessionStorage.removeItem(JOB);
 }
@@ -248,22 +252,24 @@ function setUp() {
   setUpConversation(actions);
   setUpTheme(draw);
   setUpTools(() => ({ cell: state.cell, channel: state.channel, cells: state.console.cells }));
-  setUpUpload({ made: (cell) => reload(cell.id).catch(fail), allowed: () => state.console.role === "operator" });
+  setUpUpload({ made: (cell) => reload(cell.id).catch(fail), cell: () => state.cell, allowed: () => state.console.role === "operator" });
   setUpNewCell((cell) => {
     byId("settings").close();
     reload(cell.id).catch(fail);
   });
-  byId("now").addEventListener("click", () => actions.look(null));
-  byId("return").addEventListener("click", () => actions.send(say("console.say_back", { number: state.looking })));
-  byId("sign-out").addEventListener("click", () => signOut().catch(fail));
-  byId("retry").addEventListener("click", tick);
-  byId("cell-new-talk").addEventListener("click", () =>
-    post("v1/sessions", { cell: state.cell.id }).then(() => reload(state.cell.id)).catch(fail));
-  byId("trade-off-open").addEventListener("click", () => openTradeOff(state.session.id, scene().shown, state.cell.max_power_w));
-  byId("remove-yes").addEventListener("click", () => {
-    byId("remove").close();
-    remove(`v1/cells/${encodeURIComponent(state.cell.id)}`).then(() => reload(null)).catch(fail);
-  });
+  const clicks = {
+    now: () => actions.look(null),
+    return: () => actions.send(say("console.say_back", { number: state.looking })),
+    "sign-out": () => signOut().catch(fail),
+    retry: tick,
+    "cell-new-talk": () => post("v1/sessions", { cell: state.cell.id }).then(() => reload(state.cell.id)).catch(fail),
+    "trade-off-open": () => openTradeOff(state.session.id, scene().shown, state.cell.max_power_w),
+    "remove-yes"() {
+      byId("remove").close();
+      remove(path`v1/cells/${state.cell.id}`).then(() => reload(null)).catch(fail);
+    },
+  };
+  for (const [id, act] of Object.entries(clicks)) byId(id).addEventListener("click", act);
   document.addEventListener("visibilitychange", () => document.hidden || tick());
   window.addEventListener("online", tick);
 }
@@ -292,10 +298,7 @@ async function start() {
     setUp();
     await choose(localStorage.getItem(CELL));
   } catch (problem) {
-    if (problem instanceof Problem && problem.status === 401) {
-      location.href = "sign-in.html";
-      return;
-    }
+    if (signsIn(problem)) return;
     byId("broken").hidden = false;
     byId("broken-text").textContent = trouble(problem);
     setTimeout(start, EVERY_MS);

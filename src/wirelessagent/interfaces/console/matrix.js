@@ -5,7 +5,7 @@
  */
 
 import { cividis } from "./colours.js";
-import { element, onWidth } from "./dom.js";
+import { button, element, onWidth } from "./dom.js";
 import { say } from "./words.js";
 
 const LABELS = 68;
@@ -57,8 +57,8 @@ export function matrixView(root) {
   const mark = element("div", { class: "mark", hidden: true });
   const legend = element("span", { class: "legend" });
   const reading = element("output", { class: "reading", "aria-live": "polite" });
-  const closer = element("button", { type: "button", class: "icon", click: () => zoomed(1) }, "+");
-  const wider = element("button", { type: "button", class: "icon", click: () => zoomed(-1) }, "−");
+  const closer = button(() => zoomed(1), { class: "icon" }, "+");
+  const wider = button(() => zoomed(-1), { class: "icon" }, "−");
   root.replaceChildren(frame, element("div", { class: "under" }, legend, reading, element("span", { class: "zoom" }, wider, closer)));
   const redraw = onWidth(root, draw);
 

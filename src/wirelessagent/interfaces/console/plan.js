@@ -1,6 +1,6 @@
 /** The plan that waits, as what it changes against what is in effect, with one clear button. */
 
-import { byId, element } from "./dom.js";
+import { button, byId, element, fill, row, rowsTable } from "./dom.js";
 import { NONE, changedHands, limitRows, sum } from "./turns.js";
 import { clock, human, rate, watts } from "./units.js";
 import { aimName, heading, say, userName } from "./words.js";
@@ -9,9 +9,9 @@ const WORTH_SHOWING = 2e-3;
 const MOST_USERS = 5;
 const LONG = 24;
 
-function row({ label, before, after }) {
+function change({ label, before, after }) {
   const was = before && before !== NONE ? [element("del", {}, before), " "] : [];
-  return element("tr", {}, element("th", { scope: "row" }, label), element("td", { class: `${before}${after}`.length > LONG ? null : "short" }, was, element("ins", {}, after)));
+  return row(label, element("td", { class: `${before}${after}`.length <= LONG && "short" }, was, element("ins", {}, after)));
 }
 
 function rateRows(before, after) {
@@ -28,7 +28,7 @@ function rateRows(before, after) {
  * @param {object|null} effect the turn in effect
  * @param {object} plan the turn that waits
  */
-export function difference(effect, plan) {
+function difference(effect, plan) {
   const [before, after] = [effect?.decision ?? null, plan.decision];
   const limits = limitRows([effect, plan]).map(({ label, texts: [then, now] }) => ({ label, before: then, after: now, same: then === now }));
   const rates = rateRows(before, after);
@@ -68,23 +68,16 @@ export function drawPlan({ plan, planTurn, effect, canAct, busy, people }, actio
   if (card.hidden) return;
   const { rows, more, hands, moves, rest } = difference(effect, planTurn);
   byId("plan-note").textContent = say(people && plan.by ? "console.plan_note_by" : "console.plan_note", { time: clock(plan.made_utc), who: plan.by });
-  const moving = hands ? element("tr", {}, element("th", { scope: "row" }, say("console.subcarriers_moved")), element("td", {}, hands)) : null;
-  const details = moves.length || more.length ? element("details", {},
-    element("summary", {}, say("console.more")),
-    more.length ? element("table", { class: "rows" }, element("tbody", {}, more.map(row))) : null,
-    movesList(moves, planTurn.decision.user_names)) : null;
-  byId("plan").replaceChildren(...[
-    effect ? null : element("p", { class: "note" }, say("console.nothing_in_effect")),
-    element("table", { class: "rows" }, element("tbody", {}, rows.map(row), moving,
-      rest ? element("tr", {}, element("th", { scope: "row" }, say("console.everything_else")), element("td", {}, say("console.as_before"))) : null)),
-    details,
-    planTurn.decision.status === "optimal" || planTurn.decision.gap === null ? null
-      : element("p", { class: "note" }, say("console.plan_gap", {
-        value: human(planTurn.decision.value, planTurn.decision.unit),
-        bound: human(planTurn.decision.bound, planTurn.decision.unit),
-      })),
+  const { status, value, bound, gap, unit, user_names: names } = planTurn.decision;
+  const note = (text) => element("p", { class: "note" }, text);
+  fill(byId("plan"),
+    !effect && note(say("console.nothing_in_effect")),
+    rowsTable(rows.map(change), hands && row(say("console.subcarriers_moved"), hands),
+      rest && row(say("console.everything_else"), say("console.as_before"))),
+    moves.length + more.length > 0 && element("details", {}, element("summary", {}, say("console.more")),
+      more.length > 0 && rowsTable(more.map(change)), movesList(moves, names)),
+    status !== "optimal" && gap !== null && note(say("console.plan_gap", { value: human(value, unit), bound: human(bound, unit) })),
     canAct ? element("div", { class: "buttons" },
-      element("button", { type: "button", class: "first", disabled: busy, click: actions.apply }, say("console.apply")),
-      element("button", { type: "button", disabled: busy, click: actions.discard }, say("console.discard")))
-      : element("p", { class: "note" }, say("console.only_operators_apply"))].filter(Boolean));
+      button(actions.apply, { class: "first", disabled: busy }, say("console.apply")),
+      button(actions.discard, { disabled: busy }, say("console.discard"))) : note(say("console.only_operators_apply")));
 }

@@ -3,7 +3,7 @@
 import { axis } from "./axis.js";
 import { fillOf, patterns } from "./colours.js";
 import { byId, chart, drawing, element, nothing, shape, table } from "./dom.js";
-import { ratesOf, sum } from "./turns.js";
+import { NONE, ownedBy, ratesOf, spentOn } from "./turns.js";
 import { prefixed, rate, watts } from "./units.js";
 import { heading, say, userName } from "./words.js";
 
@@ -58,12 +58,10 @@ export function ratesPicture(turn, { width, top, id }) {
 
 /** What each user gets, as a table. */
 function figures(turn) {
-  const { user_names: names, owner, power_w: power } = turn.decision;
+  const { decision } = turn;
   const columns = ["label.user", "label.subcarriers", "label.power", "label.predicted_band", "console.promised"].map((key) => heading(say(key)));
-  const rows = ratesOf(turn).map((one, user) => {
-    const mine = owner.flatMap((who, place) => (who === user ? [place] : []));
-    return [userName(names[user]), mine.length, watts(sum(mine.map((place) => power[place]))), shownRate(one), one.promised ? rate(one.promised) : "–"];
-  });
+  const rows = ratesOf(turn).map((one, user) => [userName(decision.user_names[user]), ownedBy(decision, user).length,
+    watts(spentOn(decision, user)), shownRate(one), one.promised ? rate(one.promised) : NONE]);
   return { title: say("console.rates"), columns, rows };
 }
 

@@ -1,6 +1,6 @@
 /** What could be said next: sentences that the agent understands, offered as chips. */
 
-import { isUsable } from "./turns.js";
+import { isUsable, spentOn } from "./turns.js";
 import { human } from "./units.js";
 import { say } from "./words.js";
 
@@ -16,8 +16,8 @@ export function suggestions(session, effect) {
   if (last.decision && !isUsable(last)) return [say("console.say_why_not"), say("console.say_undo")];
   const shown = isUsable(last) ? last : effect;
   if (!shown) return [say("console.say_save"), say("console.say_rate")];
-  const { power_w: power, owner, max_power_w: budget } = shown.decision;
-  const spent = shown.decision.user_names.map((_, user) => power.reduce((total, one, place) => total + (owner[place] === user ? one : 0), 0));
+  const { user_names: names, max_power_w: budget } = shown.decision;
+  const spent = names.map((_, user) => spentOn(shown.decision, user));
   const thirsty = spent.indexOf(Math.max(...spent)) + 1;
   return [
     say("console.say_why_power", { number: thirsty }),

@@ -1,6 +1,6 @@
 /** The decisions in time: each can be opened, two can be compared. */
 
-import { byId, element } from "./dom.js";
+import { button, byId, element, fill } from "./dom.js";
 import { planOf, saidFor, worthOf } from "./turns.js";
 import { clock } from "./units.js";
 import { say, stageName } from "./words.js";
@@ -23,7 +23,7 @@ function entry(session, turn, scene, actions, redraw) {
   const [kind, text] = stateOf(turn, scene);
   const name = say("turn.column", { number: turn.number });
   return element("li", { class: `entry ${kind}` },
-    element("button", { type: "button", class: "open", "aria-current": scene.shown === turn ? "true" : null, click: () => actions.look(turn.number) },
+    button(() => actions.look(turn.number), { class: "open", "aria-current": scene.shown === turn && "true" },
       element("span", { class: "when" }, `${turn.number} · ${clock(turn.at_utc)}`, scene.people && turn.by ? ` · ${turn.by}` : ""),
       element("span", { class: "asked-for", title: saidFor(session, turn) }, saidFor(session, turn)),
       element("b", {}, worthOf(turn)), element("span", { class: `badge ${kind}` }, text)),
@@ -54,9 +54,8 @@ export function drawTimeline(session, scene, actions) {
 
 function drawButtons(session, whatIfs, { effect }, actions) {
   const chosen = decisionsOf(session).filter((turn) => marked.has(turn.number));
-  const button = (text, click, disabled = false) => element("button", { type: "button", class: "small", disabled, click }, text);
-  byId("timeline-buttons").replaceChildren(...[
-    chosen.length ? button(say("console.compare", { count: chosen.length }), () => actions.compare(chosen), chosen.length < 2) : null,
-    whatIfs.length ? button(say("console.what_ifs", { count: whatIfs.length }), () => actions.compare([...(effect ? [effect] : []), ...whatIfs.slice(-3)])) : null,
-  ].filter(Boolean));
+  const small = (text, turns) => button(() => actions.compare(turns), { class: "small", disabled: turns.length < 2 && turns === chosen }, text);
+  fill(byId("timeline-buttons"),
+    chosen.length > 0 && small(say("console.compare", { count: chosen.length }), chosen),
+    whatIfs.length > 0 && small(say("console.what_ifs", { count: whatIfs.length }), [...(effect ? [effect] : []), ...whatIfs.slice(-3)]));
 }

@@ -1,6 +1,6 @@
 /** Every operation of the server as a form of its own, with what comes of it: what is installed appears by itself. */
 
-import { get, remove, upload, worked } from "./api.js";
+import { get, path, remove, upload, worked } from "./api.js";
 import { byId, element, table } from "./dom.js";
 import { choices, onSend, refuse } from "./forms.js";
 import { say } from "./words.js";
@@ -108,7 +108,7 @@ export function setUpTools(there) {
       const told = (stage) => found.replaceChildren(element("p", { class: "note" }, stage.message));
       try {
         const result = await withChannel(channel?.read() ?? "", there().channel, (on) =>
-          worked(`v1/operations/${encodeURIComponent(operation.name)}`, { ...fields.read(), ...on, picture: true }, told));
+          worked(path`v1/operations/${operation.name}`, { ...fields.read(), ...on, picture: true }, told));
         found.replaceChildren(...(result?.blocks ?? []).map(shownBlock), ...(result?.picture ? [drawn(result.picture, operation.summary)] : []));
       } catch (problem) {
         found.replaceChildren();

@@ -1,8 +1,9 @@
 /** The curve that a decision lies on: what another budget would bring, or what other promises would take. */
 
 import { marks } from "./axis.js";
-import { worked } from "./api.js";
-import { byId, chart, drawing, element, shape, table } from "./dom.js";
+import { path, worked } from "./api.js";
+import { byId, chart, drawing, element, fill, shape, table } from "./dom.js";
+import { isUsable } from "./turns.js";
 import { digits, human, prefixed, rate, watts } from "./units.js";
 import { aimName, heading, say, trouble } from "./words.js";
 
@@ -16,7 +17,7 @@ const VARIES = {
 };
 const found = new Map();
 
-const isMet = ({ status }) => status === "optimal" || status === "feasible";
+const isMet = (decision) => isUsable({ decision });
 const isHere = (curve, { at }) => Math.abs(at - curve.here) < 1e-9 * curve.here;
 const atOf = ({ varies }, at) => (varies === "promises" ? `× ${digits(at)}` : watts(at));
 
@@ -81,15 +82,15 @@ function figures(curve) {
  */
 export async function openTradeOff(session, turn, budget) {
   const body = byId("trade-off-body");
-  const path = `v1/sessions/${encodeURIComponent(session)}/turns/${turn.number}/trade-off`;
+  const at = path`v1/sessions/${session}/turns/${turn.number}/trade-off`;
   body.replaceChildren(element("div", { class: "skeleton tall" }));
   byId("trade-off").showModal();
   try {
-    if (!found.has(path)) found.set(path, await worked(path, null, () => {}));
-    const curve = found.get(path);
+    if (!found.has(at)) found.set(at, await worked(at, null, () => {}));
+    const curve = found.get(at);
     const most = turn.decision.max_power_w ?? budget;
-    body.replaceChildren(element("p", {}, sentence(curve, most)),
-      curve.points.some(isMet) ? chart(say("console.trade_off"), (width) => curvePicture(curve, { width, budget: most })) : "",
+    fill(body, element("p", {}, sentence(curve, most)),
+      curve.points.some(isMet) && chart(say("console.trade_off"), (width) => curvePicture(curve, { width, budget: most })),
       element("p", { class: "note" }, say("console.trade_off_note")), element("div", { class: "more as-table" }, table(figures(curve))));
   } catch (problem) {
     body.replaceChildren(element("p", { class: "problem" }, trouble(problem)));

@@ -87,6 +87,12 @@ export function limitRows(turns) {
   });
 }
 
+/** The subcarriers, from 0, that a decision gives to a user. */
+export const ownedBy = ({ owner }, user) => owner.flatMap((who, place) => (who === user ? [place] : []));
+
+/** The power that a decision spends on a user, in W. */
+export const spentOn = (decision, user) => sum(ownedBy(decision, user).map((place) => decision.power_w[place]));
+
 /** The subcarriers, from 0, that two decisions give to different users. */
 export function changedHands(before, after) {
   if (!before || !after || before.owner.length !== after.owner.length) return [];

@@ -1,6 +1,6 @@
 /** A measured channel by drag and drop: what was understood is shown, with its holes, before it becomes a cell. */
 
-import { post, upload } from "./api.js";
+import { path, post, put, upload } from "./api.js";
 import { gainMatrix } from "./channel.js";
 import { byId, element, facts } from "./dom.js";
 import { choices, onSend, refuse } from "./forms.js";
@@ -12,10 +12,14 @@ const UNITS = { "": "console.unit_guess", linear: "console.unit_linear", db: "co
 let understood = null;
 let latest = 0;
 
+function usable(is) {
+  for (const button of ["upload-make", "upload-use"]) byId(button).disabled = !is;
+}
+
 async function read(file, unit) {
   const mine = ++latest;
   understood = null;
-  byId("upload-make").disabled = true;
+  usable(false);
   refuse(byId("upload-form"), null);
   byId("upload-preview").replaceChildren(element("div", { class: "skeleton tall" }));
   try {
@@ -38,10 +42,12 @@ function preview(found) {
     element("p", { class: found.missing ? "note warn" : "note" }, say("console.upload_missing", { missing: found.missing, total, share: percent(found.missing / total) })),
     place);
   matrixView(place).show(gainMatrix(found.gain, found.user_names));
-  byId("upload-make").disabled = false;
+  usable(true);
 }
 
-function open(file) {
+function open(file, cell) {
+  byId("upload-use").hidden = !cell;
+  byId("upload-use").textContent = say("console.use_here", { name: cell?.name });
   byId("upload-name").value = file.name.replace(/\.[^.]*$/, "");
   byId("upload-unit").value = "";
   byId("upload-unit").onchange = (event) => read(file, event.target.value);
@@ -51,9 +57,9 @@ function open(file) {
 
 /**
  * Take files that are dropped anywhere or chosen.
- * @param {{made: (cell: object) => void, allowed: () => boolean}} actions
+ * @param {{made: (cell: object) => void, cell: () => object|null, allowed: () => boolean}} actions `cell` is looked at
  */
-export function setUpUpload({ made, allowed }) {
+export function setUpUpload({ made, cell, allowed }) {
   const carries = (event) => allowed() && [...(event.dataTransfer?.types ?? [])].includes("Files");
   const mark = (on) => document.body.classList.toggle("dropping", on);
   document.addEventListener("dragover", (event) => {
@@ -66,16 +72,20 @@ export function setUpUpload({ made, allowed }) {
     mark(false);
     if (!carries(event)) return;
     event.preventDefault();
-    open(event.dataTransfer.files[0]);
+    open(event.dataTransfer.files[0], cell());
   });
   byId("upload-file").addEventListener("change", (event) => {
-    if (event.target.files[0]) open(event.target.files[0]);
+    if (event.target.files[0]) open(event.target.files[0], cell());
     event.target.value = "";
   });
-  onSend(byId("upload-form"), async () => {
+  const newCell = () => {
     const budget = Number(byId("upload-power").value);
     const options = { csi: understood.id, recogniser: byId("upload-recogniser").value, ...(budget > 0 ? { cell_max_power_w: budget } : {}) };
-    made(await post("v1/cells", { name: byId("upload-name").value, options }));
+    return post("v1/cells", { name: byId("upload-name").value, options });
+  };
+  onSend(byId("upload-form"), async (button) => {
+    const moved = () => put(path`v1/cells/${cell().id}/observation`, { observation: understood.id });
+    made(await (button === byId("upload-use") ? moved() : newCell()));
     byId("upload").close();
   });
 }

@@ -1,6 +1,6 @@
 /** What the console says: the catalogue of one language, fetched once, and what users, aims and stages are called. */
 
-import { Disconnected, get } from "./api.js";
+import { Disconnected, get, path } from "./api.js";
 
 let texts = {};
 let spoken = "en";
@@ -10,16 +10,11 @@ export const language = () => spoken;
 
 /** Fetch a language and set every text of the page that stands in the markup. */
 export async function speak(wanted) {
-  texts = await get(`v1/words/${encodeURIComponent(wanted)}`);
+  texts = await get(path`v1/words/${wanted}`);
   spoken = wanted;
   document.documentElement.lang = wanted;
   for (const node of document.querySelectorAll("[data-say]")) node.textContent = say(node.dataset.say);
-  for (const node of document.querySelectorAll("[data-say-label]")) {
-    node.setAttribute("aria-label", say(node.dataset.sayLabel));
-  }
-  for (const node of document.querySelectorAll("[data-say-placeholder]")) {
-    node.setAttribute("placeholder", say(node.dataset.sayPlaceholder));
-  }
+  for (const node of document.querySelectorAll("[data-say-label]")) node.setAttribute("aria-label", say(node.dataset.sayLabel));
 }
 
 /**

@@ -11,10 +11,15 @@ from typing import Any
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
 
-class DeadlineProtocol(HttpToolsProtocol):
-    """HTTP whose requests arrive in time."""
+def within(seconds: float) -> type[HttpToolsProtocol]:
+    """HTTP in which a request's head arrives within so much time."""
+    return type("WithinProtocol", (DeadlineProtocol,), {"head_s": seconds})
 
-    head_s = 15.0
+
+class DeadlineProtocol(HttpToolsProtocol):
+    """HTTP whose requests begin in time."""
+
+    head_s: float
     _deadline: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: Any) -> None:

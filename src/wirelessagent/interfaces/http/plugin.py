@@ -68,6 +68,9 @@ _SKINS = (
     _Skin("ask", "POST", "Try a request in plain words", "The whole chain from plain words on a channel of its own: "
           "understand, sense, repair, decide, explain. For trying something out: no cell changes. For a real cell use "
           "propose.", forms.AskForm, forms.DecisionTold, Desk.ask),
+    _Skin("move_cell", "POST", "Have a cell work on an observation", "Have a cell work on another observation from now "
+          "on. A new conversation begins with it: a plan that waits is dropped; what the base station does goes on.",
+          forms.MoveForm, forms.MovedTold, Desk.move_cell),
     _Skin("propose", "POST", "Plan a change of a cell", "Say in the user's own words what a cell should do. Nothing is "
           "applied: show the user what would change (said), and call apply with plan only after their yes. Follow-ups "
           "such as 'user 3 at least 2 Mbit/s' amend the last request; 'undo' takes it back.", forms.ProposeForm,

@@ -72,17 +72,22 @@ class Desk:
 
     async def cells(self, form: forms.CellsForm) -> Json:
         del form
-        found = await self.service.cells()
-        return {"cells": [
-            {"id": cell["id"], "name": cell["name"], "users": len(cell["user_names"]),
-             "subcarriers": cell["num_subcarriers"], "max_power_w": cell["max_power_w"],
-             "base_station": cell["base_station"] or "none"}
-            for cell in found
-        ]}  # fmt: skip
+        return {"cells": [_cell(cell) for cell in await self.service.cells()]}
+
+    async def move_cell(self, form: forms.MoveForm) -> Json:
+        return {"cell": _cell(await self._assistant.move(form.cell, form.observation, self.tell))}
 
     @property
     def _assistant(self) -> Assistant:
         return Assistant(self.service)
+
+
+def _cell(cell: Json) -> Json:
+    return {
+        "id": cell["id"], "name": cell["name"], "users": len(cell["user_names"]),
+        "subcarriers": cell["num_subcarriers"], "max_power_w": cell["max_power_w"],
+        "base_station": cell["base_station"] or "none",
+    }  # fmt: skip
 
 
 def _observation(done: Json) -> Json:

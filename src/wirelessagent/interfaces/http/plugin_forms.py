@@ -82,6 +82,10 @@ class ApplyForm(PluginForm):
     plan: str = Field(min_length=1, max_length=64, description="one-time id of the plan, as propose gave it")
 
 
+class MoveForm(CellForm, ObservationForm):
+    """A cell and an observation."""
+
+
 class HistoryForm(PluginForm):
     last: int = Field(10, ge=1, le=100, description="how many turns, the latest ones")
 
@@ -142,6 +146,10 @@ class CellTold(BaseModel):
 
 class CellsTold(Answer):
     cells: list[CellTold] | None = None
+
+
+class MovedTold(Answer):
+    cell: CellTold | None = None
 
 
 class HistoryLineTold(BaseModel):

@@ -58,6 +58,10 @@ class ObservationForm(Form):
     observation: str = Field(min_length=1, max_length=64, description="id of the observation")
 
 
+class MoveForm(CellForm, ObservationForm):
+    """A cell and an observation."""
+
+
 class ProposalAnswer(BaseModel):
     """A turn, and the plan that waits after it."""
 
@@ -119,6 +123,9 @@ def cell_tools(forms: Json) -> list[ServerTool]:
         _derived("repair_observation", by_name["repair"], "Repair an observation",
                  "Fill the holes of an observation and keep the result, with how sure each filled gain is, as a new "
                  "observation."),
+        _tool("move_cell", "Have a cell work on another observation", "Have a cell work on an observation from now on. "
+              "A new conversation begins with it: a plan that waits is dropped; what the base station does goes on.",
+              MoveForm, answered(CellAnswer.model_json_schema()), _move, annotated("Move cell", destroys=True)),
         _tool("read_observation", "Look at an observation", "What an observation holds: users, subcarriers, gains "
               "(linear power gains, null = missing).", ObservationForm,
               answered(ObservationAnswer.model_json_schema()), _read_observation,
@@ -172,12 +179,15 @@ def _derived(name: str, form: Json, title: str, description: str) -> ServerTool:
 async def _cells(call: Call, form: NoForm) -> Result:
     del form
     found = await call.service.cells()
-    lines = [
+    lines = "\n".join(map(_described, found))
+    return answer(lines or "There is no cell yet: make one in the console.", {"cells": found})
+
+
+def _described(cell: Json) -> str:
+    return (
         f"{cell['id']}: {cell['name']}, {len(cell['user_names'])} users, {cell['num_subcarriers']} subcarriers, at "
         f"most {cell['max_power_w']:g} W, base station {cell['base_station'] or 'none'}"
-        for cell in found
-    ]
-    return answer("\n".join(lines) or "There is no cell yet: make one in the console.", {"cells": found})
+    )
 
 
 async def _say(call: Call, form: SayForm) -> Result:
@@ -225,6 +235,11 @@ def _pressed(what: Any) -> Callable[[Call, PlanForm], Awaitable[Result]]:
 async def _undo(call: Call, form: CellForm) -> Result:
     done = await call.work(lambda tell: call.assistant.undo(form.cell, call.caller, tell))
     return answer(told(done), done)
+
+
+async def _move(call: Call, form: MoveForm) -> Result:
+    moved = await call.work(lambda tell: call.assistant.move(form.cell, form.observation, tell))
+    return answer(f"From now on, as a new conversation: {_described(moved)}.", moved)
 
 
 async def _show(call: Call, form: ShowForm) -> Result:
