@@ -300,7 +300,7 @@ def test_taken_up_no_language_model_is_asked_again(tmp_path: Path, monkeypatch: 
             monkeypatch.setenv(f"WIRELESSAGENT_LLM_{name}", value)
         request = ChatRequest(seed=1, recogniser="llm", store=str(tmp_path / "store.sqlite3"))
         talk = Hosted(request, "one", silent)
-        talk.say("the crowd is uploading, at most 10 W", silent)
+        talk.say("the crowd is uploading, keep it at most 10 W", silent)
         talk.press("yes", silent)
         asked = len(stub.requests)
         again = Hosted(request, "one", silent)
