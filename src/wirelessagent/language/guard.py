@@ -21,10 +21,10 @@ from wirelessagent.language.features import word_hashes
 from wirelessagent.language.followups import dropped_in
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.linear_model import shipped_model
-from wirelessagent.language.moods import Span, places, table_of
+from wirelessagent.language.moods import Span, places, standing, table_of
 from wirelessagent.language.reach import Doubt, Reach
 from wirelessagent.language.replies import Voice
-from wirelessagent.language.sentence import Sentence, labels_of, own_words, read_once
+from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import USER_NOUN, languages_of, normalise
 
 if TYPE_CHECKING:
@@ -90,21 +90,17 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
 
 
 def _sure(text: str, context: Context | None, intent: Intent) -> float:
-    """How sure the model is that a sentence orders something now.
+    """How sure the model is that a sentence orders something now; as sure as needed where it has no say.
 
-    A command says by itself that it does; of what only the talk gives a meaning ("yes") the words alone say nothing.
+    A command says by itself that it does; of what only the talk gives a meaning ("yes") the words alone say nothing,
+    nor do hardly any words.
     """
     if intent.kind == "command" or intent.recogniser == READ_IN_A_TALK:
         return _UNLIKELY
-    words, concepts, language = _sentence(text, context).for_model(moods=True)
+    words, concepts, language = read_once(text, own_words(), context).for_model(moods=True)
     if len(word_hashes(words)) < _FEWEST_WORDS:
         return _UNLIKELY
     return shipped_model().is_order(words, concepts, language)
-
-
-def _sentence(text: str, context: Context | None) -> Sentence:
-    names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
-    return read_once(text, own_words(), tuple(names), limit)
 
 
 def _moods_of(intent: Intent) -> Sequence[str]:
@@ -133,7 +129,7 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
             and any(places(table_of(language)["subject"]["finite"], plain))
         )
         if hits or told:
-            known = Reach(_sentence(text, context), dropped_in(plain, context)[1], intent, language)
+            known = Reach(read_once(text, own_words(), context), dropped_in(plain, context)[1], intent, language)
             reached = (hit for hit in hits if not known.accounts_for(hit) and known.touches(hit))
             first = min(reached, key=lambda hit: hit.start, default=None)
             first = first or (known.foreign_subject() if told else None)
@@ -143,11 +139,9 @@ def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[
 
 
 def _hits(plain: str, language: str, moods: Sequence[str]) -> Iterator[Doubt]:
-    """The words of these classes of a language in a text."""
-    for mood in moods:
-        for reach, words in table_of(language)[mood].items():
-            for start, end in places(words, plain):
-                yield Doubt(mood=mood, reach=reach, start=start, end=end)
+    """The words of these classes of a language in a text, and what stands between marks."""
+    for mood, reach, (start, end) in standing(plain, language, moods):
+        yield Doubt(mood=mood, reach=reach, start=start, end=end)
     if "quotation" in moods:
         for match in _QUOTED.finditer(plain):
             yield Doubt(mood="quotation", reach="inside", start=match.start(), end=match.end())
@@ -161,9 +155,7 @@ def tells_no_mere_fact(text: str) -> bool:
     """
     plain = normalise(text)
     moods = [mood for mood in MOODS if mood not in ("negation", "past", "elsewhere")]
-    found = (places(words, plain) for language in languages_of(text) for mood in moods
-             for words in table_of(language)[mood].values())  # fmt: skip
-    return any(any(spans) for spans in found)
+    return any(True for language in languages_of(text) for _ in standing(plain, language, moods))
 
 
 def stranger(plain: str, context: Context | None) -> Span | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from wirelessagent.language.clauses import clause_start
 from wirelessagent.language.text import languages_of
@@ -40,6 +40,15 @@ def places(words: Sequence[str], plain: str) -> Iterator[Span]:
             yield span
 
 
+def standing(plain: str, language: str, names: Iterable[str]) -> Iterator[tuple[str, str, Span]]:
+    """The words of some classes of a language in a text: the class, how far it reaches, and where the word stands."""
+    classes = table_of(language)
+    for name in names:
+        for reach, words in classes[name].items():
+            for span in places(words, plain):
+                yield name, reach, span
+
+
 def classes_in(plain: str) -> list[str]:
     """The classes whose words stand in a text, by how far they reach and by whether they begin or end it, in order.
 
@@ -48,12 +57,10 @@ def classes_in(plain: str) -> list[str]:
     """
     found: list[tuple[int, str]] = []
     for language in languages_of(plain):
-        for name, classes in table_of(language).items():
-            if name != "names":
-                for reach, words in classes.items():
-                    for start, end in places(words, plain):
-                        where = "<" if start < _EDGE else ">" if end > len(plain) - _EDGE else ""
-                        found.append((start, f"{name}:{reach}{where}"))
+        names = [name for name in table_of(language) if name != "names"]
+        for name, reach, (start, end) in standing(plain, language, names):
+            where = "<" if start < _EDGE else ">" if end > len(plain) - _EDGE else ""
+            found.append((start, f"{name}:{reach}{where}"))
     return [name for _, name in sorted(found)]
 
 

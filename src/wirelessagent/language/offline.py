@@ -89,8 +89,7 @@ class _Understanding:
         self, text: str, own: tuple[OwnWords, ...], voice: Voice, context: Context | None, language: str
     ) -> None:
         self._text, self._voice, self._answer, self._context = text, voice, Answer(voice, language, NAME), context
-        names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
-        self._sentence = read_once(text, own, tuple(names), limit)
+        self._sentence = read_once(text, own, context)
         self._reading, self._goal = self._sentence.reading, self._sentence.goal
         self._dropped, dropped_spans = dropped_in(self._sentence.plain, context)
         named = [(item.start, item.end) for item in self._sentence.found if item.term.concept != "domain"]

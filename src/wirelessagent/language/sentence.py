@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping, Sequence
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
@@ -20,6 +20,9 @@ from wirelessagent.language.text import language_of, normalise, replaced
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
 from wirelessagent.model.objective import Objective
+
+if TYPE_CHECKING:
+    from wirelessagent.language.recogniser import Context
 
 BUILT_IN = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
 _WORD = deferred(r"(?i)[\u3400-\u9fff]|[^\W\d_\u3400-\u9fff]{2,}|p[1-3](?!\d)")
@@ -64,9 +67,14 @@ class Sentence:
         )
 
 
+def read_once(text: str, own: tuple[OwnWords, ...], context: Context | None) -> Sentence:
+    """A sentence in its conversation, read once however many ask about it one after the other."""
+    names, limit = (context.user_names, context.max_power_w) if context is not None else ((), 20.0)
+    return _read(text, own, tuple(names), limit)
+
+
 @functools.lru_cache(maxsize=4)
-def read_once(text: str, own: tuple[OwnWords, ...], names: tuple[str, ...], max_power_w: float) -> Sentence:
-    """A sentence that several ask about one after the other."""
+def _read(text: str, own: tuple[OwnWords, ...], names: tuple[str, ...], max_power_w: float) -> Sentence:
     return Sentence(text, own, names=names, max_power_w=max_power_w)
 
 

@@ -20,7 +20,7 @@ from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Voice
-from wirelessagent.language.sentence import Sentence, labels_of, own_words
+from wirelessagent.language.sentence import Sentence, labels_of, own_words, read_once
 from wirelessagent.language.text import has_chinese, language_of, normalise, replaced
 from wirelessagent.language.word_tables import table, written
 
@@ -131,8 +131,7 @@ class Line:
     @property
     def sentence(self) -> Sentence:
         """The line as those who read sentences see it."""
-        context = self.context
-        return Sentence(self.text, own_words(), names=context.user_names, max_power_w=context.max_power_w)
+        return read_once(self.text, own_words(), self.context)
 
     def allocate(
         self, objective: str, constraints: Mapping[str, Constraint], *, amends: bool, dropped: tuple[str, ...] = (),

@@ -32,7 +32,7 @@ from wirelessagent.language.moods import places, table_of
 from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Voice
-from wirelessagent.language.sentence import Sentence, labels_of, own_words
+from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import languages_of, normalise
 from wirelessagent.language.vocabulary import OwnWords
 from wirelessagent.language.word_tables import table
@@ -60,7 +60,7 @@ class Case:
 
     def __init__(self, text: str, context: Context, offline: Intent, own: Sequence[OwnWords] = ()) -> None:
         self._text, self._context, self._offline, self._own = text, context, offline, tuple(own) or own_words()
-        self._sentence = Sentence(text, self._own, names=context.user_names, max_power_w=context.max_power_w)
+        self._sentence = read_once(text, self._own, context)
         self._reading, self._plain = self._sentence.reading, self._sentence.plain
         asks = offline.kind in ("allocate", "clarify")
         self.rules: Mapping[str, Constraint] = (
