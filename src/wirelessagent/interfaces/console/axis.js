@@ -8,7 +8,7 @@ export function marks(top) {
   if (!(top > 0)) return [];
   const rough = top / 4;
   const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((factor) => factor * power).find((size) => size >= rough);
+  const step = [1, 2, 2.5, 5, 10].map((factor) => factor * power).find((size) => size >= rough);
   const count = Math.floor(top / step + 1e-9);
   return Array.from({ length: count }, (_, place) => (place + 1) * step);
 }
