@@ -65,7 +65,7 @@ def test_the_report_shows_the_objectives_own_figure_predicted_and_achieved() -> 
     lowest = human(float(decision.rate_bps.min()), "bit/s")
     assert report.figures()[0] == ("Lowest rate", lowest, lowest)
     assert "Lowest rate" in str(report)
-    assert wa.report(decided("max_rate")).figures()[0][0] == "Sum rate"
+    assert wa.report(decided("max_rate")).figures()[0][0] == "Total rate"
 
 
 def test_weights_are_told() -> None:

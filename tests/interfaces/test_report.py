@@ -33,7 +33,7 @@ def test_regret_is_what_perfect_knowledge_would_have_had_more() -> None:
     assert report.regret == pytest.approx(1 - report.achieved.sum_rate_bps / best.value, rel=1e-12)
     assert report.goodput_regret == pytest.approx(1 - report.achieved.goodput_bps / best.value, rel=1e-12)
     assert 0 < report.regret < report.goodput_regret
-    assert ("Sum rate", 4) in [(row[0], len(row)) for row in report.figures()]
+    assert ("Total rate", 4) in [(row[0], len(row)) for row in report.figures()]
 
 
 def test_regret_of_promises_is_the_power_they_took_more() -> None:

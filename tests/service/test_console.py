@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
@@ -141,6 +142,39 @@ def test_what_ifs_the_curve_and_the_report(browser: Browser, server: Server) -> 
     page.pdf()
     assert page.locator("#rates-picture table").is_visible()
     assert page.text_content("#printed")
+
+
+def test_figures_agree_in_the_language_in_use(browser: Browser, server: Server) -> None:
+    options = {"seed": 1, "source_options": {"num_users": 3, "num_subcarriers": 6}}
+    cell = server.post("v1/cells", {"name": "agreeing", "options": options}).json()
+    seen = Seen(browser, server.url, cell=cell["id"], locale="zh-CN")
+    page = seen.opened()
+    seen.say("总速率最大,每个用户至少100 kbit/s")
+    assert "回答" not in page.inner_text("article.turn:last-child")
+    seen.press(0)
+    assert "回答" in seen.say("如果没有用户3会怎样?")  # it answers, it decides nothing
+    page.click("#timeline-buttons button")
+    rows = {row.split("\t")[0]: row.split("\t")[1:] for row in page.locator("#compare tbody tr").all_inner_texts()}
+    assert rows["排除的用户"] == ["–", "用户3"]
+    assert "0 bit/s" not in rows["最低速率"]  # of those who are served
+    page.click("#compare [data-close]")
+    seen.say("每个用户至少500 Mbit/s")
+    page.click("article.turn:last-child summary")
+    assert page.inner_text("#certificate") == page.inner_text("article.turn:last-child .more p >> nth=0")
+    seen.is_sound()
+
+
+def test_a_plan_that_waited_for_too_long_is_asked_for_again(browser: Browser, server: Server) -> None:
+    options = {"seed": 1, "source_options": {"num_users": 3, "num_subcarriers": 6}}
+    cell = server.post("v1/cells", {"name": "late", "options": options}).json()
+    server.say(cell["session"], "highest total rate")
+    seen = Seen(browser, server.url, cell=cell["id"])
+    seen.page.clock.set_fixed_time(datetime.now(UTC) + timedelta(minutes=16))
+    page = seen.opened()
+    assert "waited too long" in page.inner_text("#plan-note")
+    assert page.locator("#plan button >> text=Apply").count() == 0
+    seen.press(0)
+    assert "Apply it?" in page.inner_text("article.turn:last-child")
 
 
 def test_an_operation_with_its_tables_and_its_picture(browser: Browser, server: Server) -> None:

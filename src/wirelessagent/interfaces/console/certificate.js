@@ -9,8 +9,7 @@ const STEP_BPS = 1e5;
 const WORTH_TELLING = 1e-3;
 const DEAREST = 5;
 
-function sentence({ status, value, bound, gap, unit, objective, reason }) {
-  if (status === "infeasible" || status === "undecided") return `${heading(say(`status.${status}`))}${reason ? `: ${reason}` : ""}`;
+function sentence({ status, value, bound, gap, unit, objective }) {
   if (bound === null || gap === null || !Number.isFinite(gap)) return say("console.certificate_unknown", { value: human(value, unit) });
   const places = { value: human(value, unit), bound: human(bound, unit), gap: percent(gap) };
   if (status === "optimal" || gap <= 1e-9) return say("console.certificate_best", places);
@@ -37,7 +36,8 @@ export function drawCertificate(turn) {
   const { decision } = turn;
   const drawable = isUsable(turn) && decision.value > 0 && decision.bound > 0 && Number.isFinite(decision.bound);
   fill(place, drawable && bar(decision),
-    element("p", { class: isUsable(turn) ? "note" : "note warn" }, sentence(decision)),
+    isUsable(turn) ? element("p", { class: "note" }, sentence(decision))
+      : element("p", { class: "note warn", lang: turn.language }, turn.explanation[0] ?? heading(say(`status.${decision.status}`))),
     isUsable(turn) && decision.outage_probability > 0
       && element("p", { class: "note" }, say("console.kept_with", { sure: percent(1 - decision.outage_probability) })));
 }

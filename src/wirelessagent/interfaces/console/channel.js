@@ -3,7 +3,7 @@
 import { byId, nothing } from "./dom.js";
 import { matrixView } from "./matrix.js";
 import { tabs } from "./tabs.js";
-import { decibel, digits } from "./units.js";
+import { decibel, digits, level } from "./units.js";
 import { say, userName } from "./words.js";
 
 let chosen = "sensed";
@@ -21,7 +21,7 @@ function rangeOf(values) {
 }
 
 function coloured([low, high]) {
-  return { range: [low, high], scale: say("console.range", { low: digits(low, 4), high: `${digits(high, 4)} dB` }) };
+  return { range: [low, high], scale: say("console.range", { low: level(low), high: `${level(high)} dB` }) };
 }
 
 /**
@@ -33,7 +33,7 @@ export function gainMatrix(gains, userNames, repaired = null) {
   const values = gains.map((row) => row.map((gain) => (gain === null ? null : decibel(gain))));
   const read = (value, row, column) => say("console.reading", {
     who: userName(userNames[row]), place: column + 1,
-    value: value === null ? say("console.not_reported") : `${digits(value, 4)} dB`,
+    value: value === null ? say("console.not_reported") : `${level(value)} dB`,
   }) + (repaired?.[row][column] ? ` (${say("console.was_repaired")})` : "");
   return { names: userNames.map(userName), values, read, label: say("console.channel"), ...coloured(rangeOf(values)) };
 }

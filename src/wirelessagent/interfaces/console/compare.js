@@ -3,23 +3,23 @@
 import { allocationPicture, highestPower, userLegend } from "./allocation.js";
 import { byId, chart, element, fill, row, scroller } from "./dom.js";
 import { highestRate, ratesPicture } from "./rates.js";
-import { NONE, changedHands, inShort, isUsable, limitRows, saidFor, sum } from "./turns.js";
+import { NONE, changedHands, inShort, isUsable, limitRows, saidFor, servedRates, sum } from "./turns.js";
 import { clock, human, percent, rate, watts } from "./units.js";
 import { aimName, heading, say } from "./words.js";
 
 /** A row of the table for each figure and each limit; those in which the turns differ stand out. */
 function figures(turns) {
   const ofDecision = (read) => turns.map(({ decision }) => read(decision));
-  const ofAllocation = (read) => turns.map((turn) => (isUsable(turn) ? read(turn.decision) : NONE));
+  const ofAllocation = (read) => turns.map((turn) => (isUsable(turn) ? read(turn.decision, turn) : NONE));
   const first = turns[0].decision;
   const rows = [
     ["console.aim", ofDecision((one) => heading(aimName(one.objective)))],
     ["label.status", ofDecision((one) => say(`status.${one.status}`))],
     ["label.value", ofAllocation((one) => human(one.value, one.unit))],
-    ["label.bound", ofDecision((one) => human(one.bound, one.unit))],
+    ["console.proven", ofDecision((one) => human(one.bound, one.unit))],
     ["label.gap", ofAllocation((one) => (one.gap === null ? NONE : percent(one.gap)))],
     ["label.sum_rate_bps", ofAllocation((one) => rate(sum(one.rate_bps)))],
-    ["label.lowest_rate", ofAllocation((one) => rate(Math.min(...one.rate_bps)))],
+    ["label.lowest_rate", ofAllocation((_, turn) => rate(Math.min(...servedRates(turn))))],
     ["label.power_w", ofAllocation((one) => watts(one.total_power_w))],
     ["label.users_served", ofAllocation((one) => `${one.rate_bps.filter((bps) => bps > 0).length}/${one.rate_bps.length}`)],
     ["console.subcarriers_moved", ofAllocation((one) => (one === first ? NONE : String(changedHands(first, one).length)))],

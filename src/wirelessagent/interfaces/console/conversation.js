@@ -23,7 +23,7 @@ function more(turn) {
 function answered(turn, people, actions) {
   const asks = turn.stage === "asked";
   const lines = Object.keys(LINES).filter((name) => turn.lines[name]).map((name) => [
-    element("dt", {}, say(LINES[name])),
+    element("dt", {}, say(name === "decided" && turn.stage === "answered" ? "console.answer" : LINES[name])),
     element("dd", { class: name === "needs" && asks ? "asks" : name }, turn.lines[name]),
   ]);
   return element("article", { class: "turn", id: `turn-${turn.number}`, "aria-label": say("turn.column", { number: turn.number }) },

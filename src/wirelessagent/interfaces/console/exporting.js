@@ -22,14 +22,15 @@ async function standard(number, format, failed) {
   }
 }
 
-/** Draw the menu for the turn that is looked at; files are of turns that are in the history. */
+/** Draw the menu for the turn that is looked at; files are of turns that are in the history, as a recorded one is not. */
 export function drawExport(turn, failed) {
   const stored = turn?.stored ?? null;
+  const title = stored === null ? say("console.export_none") : say("turn.column", { number: turn.number });
   const files = stored === null ? [] : FILES.map((format) => element("li", {},
     element("a", { href: address(`v1/allocations/${stored}?format=${format}`), download: `allocation-${stored}.${format}` }, format.toUpperCase())));
   const documents = stored === null ? [] : DOCUMENTS.map(([format, name]) => element("li", {},
     button(() => standard(stored, format, failed), {}, name)));
-  fill(byId("export-list"), files, documents, element("li", {}, button(() => window.print(), {}, say("console.print"))));
+  fill(byId("export-list"), element("li", { class: "note" }, title), files, documents, element("li", {}, button(() => window.print(), {}, say("console.print"))));
 }
 
 /** A report, however it is printed: when that was, and each user's figures beside the picture. */

@@ -45,7 +45,7 @@ function draw() {
   if (now.looked) byId("looking-text").textContent = say("console.looking", { number: now.looked.number, text: saidFor(state.session, now.looked) });
   drawConversation(state, now, actions);
   const { lang, dataset } = document.documentElement;
-  const asIs = [state.session, state.channel, state.looking, now.busy, state.cell, lang, dataset.theme];
+  const asIs = [state.session, state.channel, state.looking, now.busy, now.stale, state.cell, lang, dataset.theme];
   if (asIs.every((one, place) => one === drawn[place])) return;
   drawn = asIs;
   drawPlan(now, actions);
@@ -183,6 +183,7 @@ const actions = {
   send: (text) => toButton(text) || begin("turns", { text }, text),
   apply: () => begin("confirm", { plan: state.session.plan.id }, ""),
   discard: () => begin("discard", { plan: state.session.plan.id }, ""),
+  back: (number) => actions.send(say("console.say_back", { number })),
   cancel: () => remove(path`v1/jobs/${state.job.id}`).catch(fail),
   dismiss() {
     state.problem = null;
@@ -259,7 +260,7 @@ function setUp() {
   });
   const clicks = {
     now: () => actions.look(null),
-    return: () => actions.send(say("console.say_back", { number: state.looking })),
+    return: () => actions.back(state.looking),
     "sign-out": () => signOut().catch(fail),
     retry: tick,
     "cell-new-talk": () => post("v1/sessions", { cell: state.cell.id }).then(() => reload(state.cell.id)).catch(fail),

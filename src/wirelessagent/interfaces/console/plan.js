@@ -2,7 +2,7 @@
 
 import { button, byId, element, fill, row, rowsTable } from "./dom.js";
 import { NONE, changedHands, limitRows, sum } from "./turns.js";
-import { clock, human, rate, watts } from "./units.js";
+import { clock, rate, watts } from "./units.js";
 import { aimName, heading, say, userName } from "./words.js";
 
 const WORTH_SHOWING = 2e-3;
@@ -19,8 +19,8 @@ function rateRows(before, after) {
   return after.rate_bps.flatMap((now, user) => {
     const then = before.rate_bps[user];
     if (Math.abs(now - then) <= WORTH_SHOWING * Math.max(now, then)) return [];
-    return [{ label: say("console.rate_of", { who: userName(after.user_names[user]) }), before: rate(then), after: rate(now) }];
-  });
+    return [{ size: Math.abs(now - then), label: say("console.rate_of", { who: userName(after.user_names[user]) }), before: rate(then), after: rate(now) }];
+  }).sort((one, other) => other.size - one.size);
 }
 
 /**
@@ -59,25 +59,25 @@ function movesList(moves, names) {
 
 /**
  * Draw the card; it goes where nothing waits.
- * @param {{plan: object|null, planTurn: object|null, effect: object|null, canAct: boolean, busy: boolean, people: boolean}} scene
- * @param {{apply: () => void, discard: () => void}} actions
+ * @param {{plan: object|null, planTurn: object|null, effect: object|null, canAct: boolean, busy: boolean, people: boolean, stale: boolean}} scene
+ * @param {{apply: () => void, discard: () => void, back: (number: number) => void}} actions
  */
-export function drawPlan({ plan, planTurn, effect, canAct, busy, people }, actions) {
+export function drawPlan({ plan, planTurn, effect, canAct, busy, people, stale }, actions) {
   const card = byId("plan-card");
   card.hidden = !plan || !planTurn?.decision;
   if (card.hidden) return;
   const { rows, more, hands, moves, rest } = difference(effect, planTurn);
-  byId("plan-note").textContent = say(people && plan.by ? "console.plan_note_by" : "console.plan_note", { time: clock(plan.made_utc), who: plan.by });
-  const { status, value, bound, gap, unit, user_names: names } = planTurn.decision;
+  const waits = stale ? say("console.plan_stale") : say("console.plan_note", { time: clock(plan.until_utc) });
+  byId("plan-note").textContent = [people && plan.by, waits].filter(Boolean).join(" · ");
   const note = (text) => element("p", { class: "note" }, text);
   fill(byId("plan"),
     !effect && note(say("console.nothing_in_effect")),
     rowsTable(rows.map(change), hands && row(say("console.subcarriers_moved"), hands),
       rest && row(say("console.everything_else"), say("console.as_before"))),
     moves.length + more.length > 0 && element("details", {}, element("summary", {}, say("console.more")),
-      more.length > 0 && rowsTable(more.map(change)), movesList(moves, names)),
-    status !== "optimal" && gap !== null && note(say("console.plan_gap", { value: human(value, unit), bound: human(bound, unit) })),
+      more.length > 0 && rowsTable(more.map(change)), movesList(moves, planTurn.decision.user_names)),
     canAct ? element("div", { class: "buttons" },
-      button(actions.apply, { class: "first", disabled: busy }, say("console.apply")),
+      stale ? button(() => actions.back(planTurn.number), { class: "first", disabled: busy }, say("console.ask_again"))
+        : button(actions.apply, { class: "first", disabled: busy }, say("console.apply")),
       button(actions.discard, { disabled: busy }, say("console.discard"))) : note(say("console.only_operators_apply")));
 }

@@ -16,8 +16,11 @@ let opened = false;
 export const highestRate = (turns) => Math.max(0, ...turns.flatMap(ratesOf)
   .flatMap(({ mean, high, promised }) => [mean, high ?? 0, promised ?? 0]));
 
-const shownRate = ({ mean, low, high }) =>
-  low === null ? rate(mean) : say("console.rate_band", { mean: rate(mean), low: rate(low), high: rate(high) });
+/** A rate with its band, where that is wide enough to be written. */
+function shownRate({ mean, low, high }) {
+  const places = { mean: rate(mean), low: rate(low), high: rate(high) };
+  return low === null || places.low === places.high ? places.mean : say("console.rate_band", places);
+}
 
 function told(name, one) {
   const { promised } = one;

@@ -23,5 +23,6 @@ export function scene() {
   return {
     plan: session.plan, planTurn, effect, shown, looked,
     canAct: state.console.role === "operator", busy: Boolean(state.job), people: state.console.signed_in,
+    stale: Boolean(session.plan) && Date.parse(session.plan.until_utc) < Date.now(),
   };
 }

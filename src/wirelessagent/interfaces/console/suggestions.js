@@ -14,7 +14,7 @@ export function suggestions(session, effect) {
   if (!last) return [say("console.say_save"), say("console.say_rate"), say("console.say_fair")];
   if (session.awaits === "clarification") return [];
   if (last.decision && !isUsable(last)) return [say("console.say_why_not"), say("console.say_undo")];
-  const shown = isUsable(last) ? last : effect;
+  const shown = isUsable(last) && last.stage !== "answered" ? last : effect;
   if (!shown) return [say("console.say_save"), say("console.say_rate")];
   const { user_names: names, max_power_w: budget } = shown.decision;
   const spent = names.map((_, user) => spentOn(shown.decision, user));

@@ -49,14 +49,14 @@ function limitText(kind, value) {
   if (kind === "outage_probability") return percent(1 - value);
   if (kind.endsWith("_bps")) return rate(value);
   if (kind.endsWith("_w")) return watts(value);
-  if (LIMITS[kind] === LIMITS.users) return [value].flat().map((user) => who(String(user))).join(", ");
+  if (kind === "users" || kind === "leave_out") return [value].flat().map((user) => who(String(user))).join(", ");
   return Array.isArray(value) ? value.join(", ") : typeof value === "object" ? JSON.stringify(value) : String(value);
 }
 
 const LIMITS = {
   min_rate_bps: "console.limit_min_rate", max_rate_bps: "console.limit_max_rate", max_power_w: "console.limit_power",
   outage_probability: "console.limit_kept", subcarrier_max_power_w: "limit.subcarrier_max_power_w",
-  forbidden: "limit.forbidden", users: "limit.users", leave_out: "limit.users", weights: "limit.weights",
+  forbidden: "limit.forbidden", users: "dropped.users", leave_out: "dropped.leave_out", weights: "limit.weights",
   resource_block_group_size: "limit.resource_block_group_size",
 };
 
@@ -85,6 +85,13 @@ export function limitRows(turns) {
       };
     });
   });
+}
+
+/** The rates of those whom a turn's request serves, in bit/s. */
+export function servedRates(turn) {
+  const { users, leave_out: left } = limitsOf(turn) ?? {};
+  const among = (list, user) => [list].flat().some((one) => [String(user + 1), turn.decision.user_names[user]].includes(String(one)));
+  return turn.decision.rate_bps.filter((_, user) => (!users || among(users, user)) && !(left && among(left, user)));
 }
 
 /** The subcarriers, from 0, that a decision gives to a user. */

@@ -37,13 +37,18 @@ export function percent(share) {
 /** A gain in dB; minus infinity for none. */
 export const decibel = (gain) => 10 * Math.log10(gain);
 
+/** A level in dB as it is written, without its unit. */
+export const level = (db) => db.toFixed(1).replace("-", "−");
+
 /** What to divide figures up to `largest` by for an axis, and the unit with its prefix. */
 export function prefixed(largest, unit) {
   const [scale, prefix] = PREFIXES.find(([least]) => largest >= least) ?? [1, ""];
   return { scale, unit: prefix + unit };
 }
 
-/** The time of day of an ISO time, in the reader's zone. */
+/** An ISO time as the time of day in the reader's zone, with its day where that is not today. */
 export function clock(isoTime) {
-  return new Date(isoTime).toLocaleTimeString(language(), { hour: "2-digit", minute: "2-digit", hourCycle: "h23" });
+  const time = new Date(isoTime);
+  const day = time.toDateString() === new Date().toDateString() ? {} : { day: "numeric", month: "short" };
+  return time.toLocaleString(language(), { ...day, hour: "2-digit", minute: "2-digit", hourCycle: "h23" });
 }

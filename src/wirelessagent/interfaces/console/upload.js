@@ -5,7 +5,6 @@ import { gainMatrix } from "./channel.js";
 import { byId, element, facts } from "./dom.js";
 import { choices, onSend, refuse } from "./forms.js";
 import { matrixView } from "./matrix.js";
-import { percent } from "./units.js";
 import { say } from "./words.js";
 
 const UNITS = { "": "console.unit_guess", linear: "console.unit_linear", db: "console.unit_db" };
@@ -39,7 +38,7 @@ function preview(found) {
   const place = element("div");
   byId("upload-preview").replaceChildren(
     facts(Object.entries(found.facts)),
-    element("p", { class: found.missing ? "note warn" : "note" }, say("console.upload_missing", { missing: found.missing, total, share: percent(found.missing / total) })),
+    element("p", { class: found.missing ? "note warn" : "note" }, say("console.upload_missing", { missing: found.missing, total })),
     place);
   matrixView(place).show(gainMatrix(found.gain, found.user_names));
   usable(true);
