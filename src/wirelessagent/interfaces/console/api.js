@@ -35,7 +35,7 @@ async function call(method, at, { body = null, type = null, later = false } = {}
   try {
     answer = await fetch(address(at), { method, headers, body, credentials: "same-origin" });
   } catch {
-    throw new Disconnected("…");
+    throw new Disconnected(`✕ ${location.host}`);
   }
   if (AWAY.has(answer.status)) throw new Disconnected(`${answer.status} ${answer.statusText}`);
   if (answer.status === 304) return had.found;

@@ -11,13 +11,8 @@ let view = null;
 
 /** Lowest and highest finite value of a matrix. */
 function rangeOf(values) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of values.flat()) {
-    if (value === null || !Number.isFinite(value)) continue;
-    low = Math.min(low, value);
-    high = Math.max(high, value);
-  }
-  return low <= high ? [low, high] : [0, 0];
+  const known = values.flat().filter(Number.isFinite).sort((one, other) => one - other);
+  return [known[0] ?? 0, known.at(-1) ?? 0];
 }
 
 function coloured([low, high]) {

@@ -49,10 +49,6 @@ function failure(problem, actions) {
     button(actions.dismiss, { class: "link" }, say("console.dismiss")));
 }
 
-function toEnd(log) {
-  log.scrollTo({ top: log.scrollHeight });
-}
-
 /**
  * Set up the input once.
  * @param {{send: (text: string) => Promise<boolean>}} actions `send` answers whether the line was taken
@@ -126,6 +122,6 @@ export function drawConversation({ session, job, problem }, { effect, canAct, bu
   byId("send").disabled = busy;
   byId("say").classList.toggle("asked", asked);
   input.placeholder = say(asked ? "console.answer_here" : "console.say_what");
-  if (added.length || job || problem) toEnd(log);
+  if (added.length || job || problem) log.scrollTo({ top: log.scrollHeight });
   if (asked && added.length && !first && canAct) input.focus();
 }

@@ -26,11 +26,11 @@ async function standard(number, format, failed) {
 export function drawExport(turn, failed) {
   const stored = turn?.stored ?? null;
   const title = stored === null ? say("console.export_none") : say("turn.column", { number: turn.number });
-  const files = stored === null ? [] : FILES.map((format) => element("li", {},
-    element("a", { href: address(`v1/allocations/${stored}?format=${format}`), download: `allocation-${stored}.${format}` }, format.toUpperCase())));
-  const documents = stored === null ? [] : DOCUMENTS.map(([format, name]) => element("li", {},
-    button(() => standard(stored, format, failed), {}, name)));
-  fill(byId("export-list"), element("li", { class: "note" }, title), files, documents, element("li", {}, button(() => window.print(), {}, say("console.print"))));
+  const files = FILES.map((format) =>
+    element("a", { href: address(`v1/allocations/${stored}?format=${format}`), download: `allocation-${stored}.${format}` }, format.toUpperCase()));
+  const documents = DOCUMENTS.map(([format, name]) => button(() => standard(stored, format, failed), {}, name));
+  const offered = [...(stored === null ? [] : [...files, ...documents]), button(() => window.print(), {}, say("console.print"))];
+  fill(byId("export-list"), element("li", { class: "note" }, title), offered.map((one) => element("li", {}, one)));
 }
 
 /** A report, however it is printed: when that was, and each user's figures beside the picture. */

@@ -13,7 +13,7 @@ import { nameRecognisers } from "./forms.js";
 import { drawPlan } from "./plan.js";
 import { drawRates } from "./rates.js";
 import { setUpTools } from "./tools.js";
-import { setUpLanguages, setUpTheme, signOut, wantedLanguage } from "./settings.js";
+import { setUpLanguages, setUpTheme, wantedLanguage } from "./settings.js";
 import { scene, state } from "./state.js";
 import { drawTimeline } from "./timeline.js";
 import { openTradeOff } from "./trade-off.js";
@@ -86,9 +86,7 @@ function connected(is) {
 }
 
 /** Tell those who listen to the page something that shows elsewhere. */
-function announce(text) {
-  byId("announced").textContent = text;
-}
+const announce = (text) => { byId("announced").textContent = text; };
 
 /** Fetch the session, and the channel where turns came, and draw what changed. */
 async function refresh() {
@@ -151,6 +149,7 @@ async function work(id, text) {
   await tick();
   state.job = null;
   draw();
+  if (document.activeElement === document.body) byId("log").focus({ preventScroll: true }); // its button went
 }
 
 /** Begin something that a job answers; whether it was taken. */
@@ -261,7 +260,7 @@ function setUp() {
   const clicks = {
     now: () => actions.look(null),
     return: () => actions.back(state.looking),
-    "sign-out": () => signOut().catch(fail),
+    "sign-out": () => post("sign-out").then(() => { location.href = "sign-in.html"; }).catch(fail),
     retry: tick,
     "cell-new-talk": () => post("v1/sessions", { cell: state.cell.id }).then(() => reload(state.cell.id)).catch(fail),
     "trade-off-open": () => openTradeOff(state.session.id, scene().shown, state.cell.max_power_w),

@@ -1,6 +1,5 @@
-/** Language, theme and sign-out; what is chosen stays in this browser. */
+/** Language and theme; what is chosen stays in this browser. */
 
-import { post } from "./api.js";
 import { byId } from "./dom.js";
 import { choices } from "./forms.js";
 
@@ -32,10 +31,4 @@ export function setUpTheme(changed) {
     localStorage.setItem(THEME, page.dataset.theme);
     changed();
   });
-}
-
-/** Leave: the cookie goes, the sign-in page comes. */
-export async function signOut() {
-  await post("sign-out");
-  location.href = "sign-in.html";
 }

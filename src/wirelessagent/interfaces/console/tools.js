@@ -39,7 +39,7 @@ function fieldsOf(schema, definitions) {
       const read = () => (Object.keys(inner.read()).length ? { [name]: inner.read() } : {});
       return { node, read };
     }
-    return { ...inputOf(name, kind, must, help, raw.default) };
+    return inputOf(name, kind, must, help, raw.default);
   });
   return { nodes: parts.map((part) => part.node), read: () => Object.assign({}, ...parts.map((part) => part.read())) };
 }

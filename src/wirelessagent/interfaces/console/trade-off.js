@@ -1,6 +1,6 @@
 /** The curve that a decision lies on: what another budget would bring, or what other promises would take. */
 
-import { marks } from "./axis.js";
+import { axis, marks } from "./axis.js";
 import { path, worked } from "./api.js";
 import { byId, chart, drawing, element, fill, shape, table } from "./dom.js";
 import { isUsable } from "./turns.js";
@@ -47,12 +47,12 @@ function curvePicture(curve, { width, budget }) {
   const { scale, unit: shownUnit } = prefixed(top, unit);
   const line = (of, read, cls) => shape("path", { class: cls, d: of.map((point, place) => `${place ? "L" : "M"}${x(point.at)} ${y(read(point))}`).join("") });
   const level = (at, text, cls) => [shape("line", { class: cls, x1: LEFT, x2: right, y1: y(at), y2: y(at) }),
-    text ? shape("text", { x: LEFT + 8, y: y(at) - 6 }, text) : ""];
+    shape("text", { x: LEFT + 8, y: y(at) - 6 }, text)];
   const proven = points.filter(({ bound }) => Number.isFinite(bound) && bound !== null && bound <= top);
   const met = points.filter(isMet);
+  const here = met.find((point) => isHere(curve, point));
   return drawing(width, base + LABELS, sentence(curve, budget),
-    shape("g", { class: "axis" }, level(0, "", ""), marks(top / scale).map((value) => [...level(value * scale, "", ""),
-      shape("text", { x: LEFT - 6, y: y(value * scale) + 4, "text-anchor": "end" }, digits(value))]).flat()),
+    axis({ left: LEFT, right, base, height: TALL, top: top / scale }),
     shape("text", { x: LEFT, y: 12 }, `${heading(aimName(curve.objective))}, ${shownUnit}`),
     marks(most).map((at) => shape("text", { x: x(at), y: base + 18, "text-anchor": "middle" }, digits(at))),
     shape("text", { x: right, y: base + 38, "text-anchor": "end" }, say(VARIES[varies].label)),
@@ -60,8 +60,7 @@ function curvePicture(curve, { width, budget }) {
     line(proven, ({ bound }) => bound, "proven"), line(met, ({ value }) => value, "curve"),
     met.map((point) => shape("circle", { class: isHere(curve, point) ? "point here" : "point", cx: x(point.at), cy: y(point.value), r: isHere(curve, point) ? 6 : 4 },
       shape("title", {}, `${atOf(curve, point.at)}: ${human(point.value, unit)}`))),
-    met.filter((point) => isHere(curve, point)).map((point) => shape("text", { class: "strong", x: x(point.at) - 10, y: y(point.value) - 10, "text-anchor": "end" },
-      `${say("console.this_one")} ${human(point.value, unit)}`)));
+    here && shape("text", { class: "strong", x: x(here.at) - 10, y: y(here.value) - 10, "text-anchor": "end" }, `${say("console.this_one")} ${human(here.value, unit)}`));
 }
 
 function figures(curve) {
