@@ -64,6 +64,13 @@ def test_a_change_says_what_was_before_and_what_became_of_the_allocation() -> No
     assert "Radiated power 10 W → 5 W" in changed or "radiated power 10 W → 5 W" in changed
 
 
+def test_a_way_back_to_what_is_in_effect_moves_nothing() -> None:
+    turns = said("Highest total rate, at most 10 W", "yes", "at most 5 W", "at most 10 W", confirm=True)
+    assert "→" in turns[2].lines.changed
+    assert "Nothing to change" in turns[3].lines.changed
+    assert "→" not in turns[3].lines.changed  # 5 W was never in effect
+
+
 def test_what_is_dropped_is_named() -> None:
     turns = said("Highest total rate, at most 10 W, 200 kbit/s each", "without the power limit")
     assert "No longer: at most 10 W of radiated power." in turns[-1].lines.changed

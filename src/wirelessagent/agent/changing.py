@@ -38,7 +38,9 @@ def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
     assert request is not None  # an intent that allocates names an aim
     run = site.plan(talk.intent, request)
     new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good, stated=state.stated)
-    shift = shift_between(None if state.run is None else state.run.decision, run.decision)
+    on_air = state.on_air
+    same = on_air if on_air is not None and same_allocation(run.decision, on_air.decision) else None
+    shift = None if same or state.run is None else shift_between(state.run.decision, run.decision)
     line = _whole(language, certificate_line(run.decision, language))
     idle = without_anything(run.decision, language)
     turn = talk.intent.details.get("turn")
@@ -52,8 +54,8 @@ def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
     if not run.decision.is_usable:
         needs = joined(language, [talk.say("ask_back.unmet"), talk.say("ask_back.or_undo") if state.request else ""])
         return _changing(reply, language, talk.say("plan.not_applied"), stage="nothing", needs=needs)
-    if state.on_air is not None and same_allocation(run.decision, state.on_air.decision):
-        kept = run.with_outcome(state.on_air.outcome)
+    if same is not None:
+        kept = run.with_outcome(same.outcome)
         reply = dataclasses.replace(reply, run=kept, state=dataclasses.replace(new, run=kept, on_air=kept))
         return _changing(reply, language, talk.say("plan.no_change"), stage="nothing")
     return _carry_or_ask(talk, reply, run)
