@@ -200,6 +200,18 @@ class TestBodies:
         headers = {"Content-Type": "application/json"}
         _problem(server.post(f"v1/sessions/{session}/turns", content=body, headers=headers), 422)
 
+    @pytest.mark.parametrize("value", ['"\\ud800"', '"x\\udc00"', "1e400", "-1e999"])
+    @pytest.mark.parametrize(
+        ("path", "body"),
+        [
+            ("v1/operations/repair", '{"observation": %s}'), ("v1/operations/history", '{"session": %s}'),
+            ("v1/cells", '{"name": "x", "options": {"csi": %s}}'), ("v1/intents?cell=demonstration", '{"name": %s}'),
+        ],
+    )  # fmt: skip
+    def test_of_values_that_cannot_be_told_on(self, server: Server, path: str, body: str, value: str) -> None:
+        answer = server.post(path, content=(body % value).encode(), headers={"Content-Type": "application/json"})
+        assert ("half of a character" if "u" in value else "larger than any number") in _problem(answer, 422)
+
     def test_of_other_types(self, server: Server) -> None:
         for media_type in ("text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x"):
             answer = server.post("v1/operations/simulate", content=b"{}", headers={"Content-Type": media_type})

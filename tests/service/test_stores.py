@@ -17,6 +17,7 @@ import postgres
 import pytest
 from servers import Server, started
 
+from wirelessagent.operations.operation import InputError
 from wirelessagent.service.limits import Budgets, Limits
 from wirelessagent.service.problems import TooMuchError
 from wirelessagent.store.ledger import ChangedError, Ledger
@@ -57,6 +58,16 @@ def test_items_are_found_by_how_their_names_begin(place: str) -> None:
         ledger.put("turn", id, {"id": id})
     assert [item.id for item in ledger.all("turn", start="a/")] == ["a/1", "a/2"]
     assert [item.id for item in ledger.all("turn", start="a%")] == ["a%/1"]
+    ledger.close()
+
+
+@pytest.mark.parametrize("id", ["a\x00b", "\ud800"])
+def test_a_name_that_no_store_can_keep(place: str, id: str) -> None:
+    ledger = Ledger.open(place)
+    if place.startswith("postgresql") or id != "a\x00b":  # which SQLite keeps
+        with pytest.raises(InputError, match="no audit store can keep"):
+            ledger.find("cell", id)
+    assert ledger.find("cell", "ab") is None
     ledger.close()
 
 

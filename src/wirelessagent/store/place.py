@@ -20,7 +20,7 @@ from urllib.parse import quote
 
 import platformdirs
 from sqlalchemy import URL, Connection, Engine, Table, create_engine, event, inspect, make_url, select
-from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError, OperationalError, SQLAlchemyError
+from sqlalchemy.exc import ArgumentError, DataError, DBAPIError, NoSuchModuleError, OperationalError, SQLAlchemyError
 from sqlalchemy.pool import NullPool
 
 from wirelessagent import __version__
@@ -123,6 +123,9 @@ def told(url: URL) -> Generator[None]:
     except OSError as error:
         said = f"{error.strerror or error}: {error.filename or ''}".strip(": ")
         raise StoreError(f"the audit store at {shown(url)} cannot be used: {said}") from error
+    except (DataError, UnicodeEncodeError) as error:
+        said = " ".join(str(error.orig if isinstance(error, DataError) else error).split())
+        raise InputError(f"a text or number here is one that no audit store can keep: {said}; leave it out") from error
     except SQLAlchemyError as error:
         said = " ".join(str(error.orig if isinstance(error, DBAPIError) else error).split())
         damaged = any(sign in said for sign in ("malformed", "not a database", "disk image"))

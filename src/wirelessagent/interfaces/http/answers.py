@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import hashlib
 import json
+import math
 from collections.abc import AsyncGenerator, Awaitable, Callable
 from typing import Any, NoReturn
 
@@ -28,7 +29,7 @@ _KEEP_ALIVE_S = 15.0
 
 
 class StrictRequest(Request):
-    """A request whose JSON is JSON: no NaN, no infinity, and not nested without end."""
+    """A request whose JSON is JSON: whole characters, finite numbers, and not nested without end."""
 
     async def json(self) -> Any:
         if not hasattr(self, "_json"):
@@ -55,13 +56,24 @@ def strict_json(body: bytes) -> Any:
         UnusableError: it is not JSON.
     """
     try:
-        return json.loads(body, parse_constant=_refuse, object_pairs_hook=_unique)
+        found = json.loads(body, parse_constant=_refuse, parse_float=_finite, object_pairs_hook=_unique)
+        json.dumps(found, ensure_ascii=False).encode()  # fails at half a character, which nothing could keep or tell
+        return found
+    except UnicodeEncodeError as error:
+        half = error.object[error.start]
+        raise UnusableError(f"a text in the body holds {half!r}, half of a character: leave it out") from error
     except (ValueError, RecursionError) as error:
         raise UnusableError(f"the body is not JSON that can be used: {error}") from error
 
 
 def _refuse(constant: str) -> NoReturn:
     raise ValueError(f"{constant} is no number of JSON's")
+
+
+def _finite(number: str) -> float:
+    if math.isinf(found := float(number)):
+        raise ValueError(f"{number[:50]} is larger than any number here can be")
+    return found
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -281,7 +281,7 @@ def _known(scope: Scope) -> Caller | None:
 
 async def _answer(problem: ProblemError, told: Body | None, send: Send) -> None:
     """Send a problem, or what is told in its place to a platform that was let in."""
-    body = json.dumps(told or problem.body, ensure_ascii=False).encode()
+    body = json.dumps(told or problem.body).encode()
     media_type = "application/json" if told else "application/problem+json"
     headers = {"content-type": media_type, "content-length": str(len(body)), **problem.headers}
     pairs = [(name.lower().encode(), value.encode()) for name, value in headers.items()]
