@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import os
 import signal
+import sqlite3
 import subprocess
 import threading
 import time
@@ -212,6 +213,20 @@ def test_a_server_that_dies_while_it_applies(talking: tuple[Server, str], radio:
     again.say(session, "at most 8 W")
     assert _press(again, session)["stage"] == "applied"
     assert radio.told == told + 2
+
+
+def test_a_store_that_fails_once_the_base_station_was_told(talking: tuple[Server, str], radio: Radio) -> None:
+    (server, session), told = talking, radio.told
+    with contextlib.closing(sqlite3.connect(server.store, isolation_level=None)) as store:
+        store.execute("CREATE TRIGGER full BEFORE INSERT ON audit_turn BEGIN SELECT RAISE(ABORT, 'disk full'); END")
+        done = server.post(f"v1/sessions/{session}/confirm", {"plan": server.plan(session)})
+        store.execute("DROP TRIGGER full")
+    assert (done.status_code, radio.told) == (500, told + 1)
+    assert server.get(f"v1/sessions/{session}")["in_effect"] is None
+    server.say(session, "how sure is this?")
+    held = server.get(f"v1/sessions/{session}")
+    assert (held["in_effect"], held["plan"], len(held["turns"])) == (None, None, 5)
+    assert "not known" in held["turns"][3]["lines"]["changed"]
 
 
 def test_a_worker_that_died_idle_is_replaced_and_nobody_notices(talking: tuple[Server, str]) -> None:

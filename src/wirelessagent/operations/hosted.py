@@ -175,7 +175,11 @@ class Hosted:
             self._attempts = []
 
     def _take(self, text: str, progress: Progress, by: str, *, pressed: Press | None = None) -> None:
-        """Have a turn and record it; one that was broken off after the base station was told is a turn, too."""
+        """Have a turn and record it; one that was broken off after the base station was told is a turn, too.
+
+        Raises:
+            WirelessAgentError: it could not be taken, or not be recorded: then nobody is told of it as a turn.
+        """
         self._progress, before = progress, self.number
         try:
             self._session.say(text, by=by, pressed=pressed)
@@ -184,7 +188,7 @@ class Hosted:
                 raise
         finally:
             for turn in self._session.turns[before:]:
-                self._keep(turn, self._request.remember(turn))
+                self._keep(turn, self._request.recorded(turn))
 
     def trade_off(self, number: int, progress: Progress) -> TradeOffAnswer:
         """The curve that the decision of a turn lies on.

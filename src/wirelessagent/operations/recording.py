@@ -51,18 +51,24 @@ class RecordingOptions(StoreOptions):
 
     def remember(self, turn: Turn) -> int | None:
         """The turn's number in the store; None where it was not to be recorded, or could not be."""
-        if self.no_store:
-            return None
-        from wirelessagent.settings import Settings
-
         try:
-            if not Settings.read().store:
-                return None
-            with opened(self, create=True) as store:
-                return store.append(turn)
+            return self.recorded(turn)
         except WirelessAgentError as error:
             _log.warning("this turn is not recorded: %s", error)
             return None
+
+    def recorded(self, turn: Turn) -> int | None:
+        """The turn's number in the store; None where it was not to be recorded.
+
+        Raises:
+            WirelessAgentError: it could not be.
+        """
+        from wirelessagent.settings import Settings
+
+        if self.no_store or not Settings.read().store:
+            return None
+        with opened(self, create=True) as store:
+            return store.append(turn)
 
 
 def opened(options: StoreOptions, *, create: bool = False, archive: Path | None = None) -> Store:

@@ -27,11 +27,9 @@ from wirelessagent.service.limits import Limits
 from wirelessagent.service.metrics import Metrics
 from wirelessagent.service.observations import Observations
 from wirelessagent.service.problems import (
-    BrokeOffError,
     ConflictError,
     NotFoundError,
     ProblemError,
-    TimedOutError,
     TooMuchError,
     UnusableError,
 )
@@ -236,11 +234,11 @@ class Service:
                 await lease.keep({"session": session, "turns": turns, "by": caller.name})
                 try:
                     done = await self._turn(session, caller.name, tell, "press", button=what)
-                except (BrokeOffError, TimedOutError):
+                except ProblemError as problem:
+                    if problem.status < 500:  # from a worker that goes on: the base station was told nothing
+                        await lease.keep(None)
+                        raise
                     done = await self._turn(session, caller.name, tell, "broke_off", button=what)
-                except ProblemError:  # from a worker that goes on: the base station was told nothing
-                    await lease.keep(None)
-                    raise
                 await lease.keep(None)
                 return done
 
