@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import gzip
 import io
 import json
@@ -316,6 +317,44 @@ class TestTimeAndNumbers:
             while time.monotonic() - began < 10 and _still_open(line):
                 time.sleep(0.1)
         assert 1.0 < time.monotonic() - began < 8.0
+
+    @pytest.mark.parametrize(
+        ("begin", "more"),
+        [
+            ("GET /", "a" * 4096),
+            ("GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\nX-A: ", "a" * 4096),
+            ("GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\n", "X-A: b\r\n" * 512),
+            (
+                "POST /sign-in HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n",
+                "X-A: b\r\n" * 512,
+            ),
+        ],
+        ids=["address", "value", "lines", "trailers"],
+    )
+    def test_a_head_without_end(self, server: Server, begin: str, more: str) -> None:
+        host, port = server.url.removeprefix("http://").rstrip("/").split(":")
+        sent = 0
+        with socket.create_connection((host, int(port)), timeout=10) as line, contextlib.suppress(ConnectionError):
+            line.sendall(begin.encode())
+            while sent < 8 << 20:
+                line.sendall(more.encode())
+                sent += len(more)
+        assert sent < 8 << 20
+
+    def test_work_behind_another_request_has_its_time(self, hasty: Signed) -> None:
+        """It came before the answer to the one before it, so nobody waits for its head."""
+        host, port = hasty.nobody.url.removeprefix("http://").rstrip("/").split(":")
+        head, body = f"Host: {host}\r\nAuthorization: Bearer {hasty.operator.token}\r\n", '{"draws": 100000}'
+        told = f"Content-Type: application/json\r\nContent-Length: {len(body)}\r\nConnection: close\r\n\r\n{body}"
+        got = b""
+        with socket.create_connection((host, int(port)), timeout=40) as line:
+            line.sendall(
+                f"GET /healthz HTTP/1.1\r\n{head}\r\nPOST /v1/operations/evaluate%20repair HTTP/1.1\r\n".encode()
+            )
+            line.sendall(f"{head}{told}".encode())
+            while more := line.recv(65536):
+                got += more
+        assert [got[at : at + 3] for at in (9, got.rindex(b"HTTP/1.1") + 9)] == [b"200", b"504"]
 
     def test_work_without_end(self, hasty: Signed) -> None:
         form = {"draws": 100_000}
