@@ -106,6 +106,12 @@ class TestWhoMayWhat:
         with guarded.viewer.client as client:
             _problem(client.get(f"v1/jobs/{job['id']}"), 404)
 
+    def test_another_servers_cookie(self, server: Server) -> None:
+        """Browsers send it to each port of a machine."""
+        with server.client as client:
+            assert client.get("v1/cells", headers={"Cookie": "wirelessagent=of-another-server"}).status_code == 200
+            _problem(client.get("v1/cells", headers={"Authorization": "Bearer of-another-server"}), 401)
+
     def test_behind_a_proxy_nobody_is_local(self, tmp_path: Path) -> None:
         with started(tmp_path / "t.db", "--allowed-host", "cell.example.com") as server, server.client as client:
             assert client.get("v1/cells").status_code == 200
@@ -187,6 +193,22 @@ class TestBodies:
         _problem(server.post("v1/operations/simulate", content=b" " * 300_000, headers=OCTETS), 413)
         chunks = (b" " * 65536 for _ in range(8))
         _problem(server.post("v1/operations/simulate", content=chunks, headers=OCTETS), 413)
+        with server.client as client:
+            for path in ("v1/history", "v1/operations"):
+                answer = client.request("GET", path, content=(b" " * 65536 for _ in range(8)))
+                assert answer.status_code in (200, 413), answer.text
+
+    def test_that_end_before_they_are_whole(self, server: Server) -> None:
+        host, port = server.url.removeprefix("http://").rstrip("/").split(":")
+        head = "POST /v1/operations/simulate HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
+        with socket.create_connection((host, int(port))) as line:
+            line.sendall(f"{head}Content-Length: 20\r\n\r\n{{".encode())
+            time.sleep(0.3)
+        until = time.monotonic() + 10
+        while '"status": 499' not in (log := server.store.with_suffix(".log").read_text()) and time.monotonic() < until:
+            time.sleep(0.1)
+        assert '"status": 499' in log
+        assert "ClientDisconnect" not in log
 
     @pytest.mark.parametrize(
         "body",

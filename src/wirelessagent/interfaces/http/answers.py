@@ -150,7 +150,7 @@ async def worked(request: Request, work: Callable[[Tell], Awaitable[Any]], *, st
 
 
 async def finished(request: Request, job: Job) -> Any:
-    """What comes of a job, which ends when its caller hangs up.
+    """What comes of a job, which ends when its caller hangs up, or sends what is not taken.
 
     Raises:
         ProblemError: it failed, or was cancelled.
@@ -161,6 +161,7 @@ async def finished(request: Request, job: Job) -> Any:
         await asyncio.wait({gone, done}, return_when=asyncio.FIRST_COMPLETED)
         if not done.done():
             job.cancel()
+            await gone
         return await done
     finally:
         gone.cancel()

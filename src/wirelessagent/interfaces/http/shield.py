@@ -16,6 +16,7 @@ from http.cookies import CookieError, SimpleCookie
 from typing import Any, TypeAlias
 
 from starlette.datastructures import Headers
+from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from wirelessagent.interfaces.http.logs import REQUESTS
@@ -49,6 +50,9 @@ _MCP = "/mcp"
 
 _PLUGIN = "/plugin/"
 _UPLOADS = "/v1/observations"
+_HUNG_UP = 499
+"""The status that is counted and logged where a caller hung up while sending, whom nothing can be answered."""
+
 _CALLERS_S = 1.0
 """For how long it is taken that nobody has a token, so that not each request asks the store."""
 
@@ -117,6 +121,8 @@ class Shield:
             if scope["method"] not in _SAFE:
                 self._check_content(Headers(scope=scope), path)
             await self._app(scope, self._limited(path, receive), sent)
+        except ClientDisconnect:
+            status = _HUNG_UP
         except Exception as error:
             if started:  # what was said cannot be taken back
                 raise
@@ -209,13 +215,13 @@ class Shield:
         token = headers.get("x-api-key", "") or (token.strip() if kind.lower() == "bearer" else "")
         if token:
             return await asyncio.to_thread(access.by_token, token)
-        cookie = cookie_of(headers)
-        if cookie:
-            return await asyncio.to_thread(access.by_cookie, cookie)
         here = self._doors.only_local and _host_of(headers.get("host", "")) in LOCAL_NAMES
-        if here and not await self._has_callers():
+        if here and not await self._has_callers():  # a cookie is another server's, since they know no ports
             return LOCAL
-        raise NotSignedInError
+        cookie = cookie_of(headers)
+        if not cookie:
+            raise NotSignedInError
+        return await asyncio.to_thread(access.by_cookie, cookie)
 
     async def _has_callers(self) -> bool:
         """Whether anybody has a token, as of a moment ago."""
