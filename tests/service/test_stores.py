@@ -18,6 +18,8 @@ import pytest
 from servers import Server, started
 
 from wirelessagent.operations.operation import InputError
+from wirelessagent.service import leases
+from wirelessagent.service.leases import Leases
 from wirelessagent.service.limits import Budgets, Limits
 from wirelessagent.service.problems import TooMuchError
 from wirelessagent.store.ledger import ChangedError, Ledger
@@ -223,6 +225,48 @@ def test_a_limit_holds_for_all_servers_together(place: str) -> None:
     assert all(taken[:100])
     assert not all(taken)
     assert sum(taken) <= 121 + lasted_s
+
+
+def test_no_servers_clock_says_whose_turn_it_is(place: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(leases, "_LASTS_S", 1.0)
+    monkeypatch.setattr(leases, "_RENEWED_S", 0.2)
+    clock, real = {"ahead_s": 0.0}, time.time
+    monkeypatch.setattr(time, "time", lambda: real() + clock["ahead_s"])
+
+    async def take_turns() -> None:
+        ledgers = [Ledger.open(place) for _ in range(2)]
+        one, two = (Leases(ledger, 5.0) for ledger in ledgers)
+        async with one.of("cell"):
+            clock["ahead_s"] = 3600.0  # at the other server
+            with pytest.raises(TimeoutError):
+                async with asyncio.timeout(2.0), two.of("cell"):
+                    pass
+        gone = {"server": "another", "until": time.time(), "telling": {"by": "somebody"}}
+        clock["ahead_s"] = 0.0
+        ledgers[0].put("going", "cell", gone)
+        async with asyncio.timeout(4.0), two.of("cell") as lease:
+            assert lease.telling == gone["telling"]
+        for ledger in ledgers:
+            ledger.close()
+
+    asyncio.run(take_turns())
+
+
+def test_a_clock_that_is_set_back_locks_nobody_out(place: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    ledger, real = Ledger.open(place), time.time
+
+    async def spend() -> None:
+        budgets = Budgets(Limits(requests_per_s=20.0, burst=3), ledger)
+        for _ in range(3):
+            await budgets.spend("somebody")
+        with pytest.raises(TooMuchError):
+            await budgets.spend("somebody")
+        monkeypatch.setattr(time, "time", lambda: real() - 3600.0)
+        await asyncio.sleep(0.2)
+        await budgets.spend("somebody")
+
+    asyncio.run(spend())
+    ledger.close()
 
 
 def test_killed_under_load_every_answered_turn_is_kept_and_nothing_applied_twice(place: str, tmp_path: Path) -> None:

@@ -1,8 +1,9 @@
 """One turn of a cell at a time, whatever server it comes to, and what became of one whose server ended.
 
-In a server turns wait for each other; among servers the ledger says who has a turn, and until when unless its server
-says again that it goes on. A turn in which the base station is told something is marked as that before it is, so that
-whoever comes next after its server or its worker ended knows that what is in effect is not known.
+In a server turns wait for each other; among servers the ledger says who has a turn. Its server says again and again
+that it goes on; whoever waits and has not heard of it for a while, by a clock of their own, takes it to be gone, since
+the clocks of servers differ and are set. A turn in which the base station is told something is marked as that before it
+is, so that whoever comes next after its server or its worker ended knows that what is in effect is not known.
 """
 
 from __future__ import annotations
@@ -17,11 +18,14 @@ from typing import Any
 
 from wirelessagent.operations.operation import WirelessAgentError
 from wirelessagent.service.problems import ConflictError
-from wirelessagent.store.ledger import ChangedError, Ledger
+from wirelessagent.store.ledger import ChangedError, Item, Ledger
 
 _KIND = "going"
 _LASTS_S, _RENEWED_S, _ASKED_S = 10.0, 3.0, 0.2
-"""How long a lease is good for, how often it is renewed, and how often one that somebody else has is looked at."""
+"""How long a lease is good for without a word, how often it is renewed, and how often one that somebody else has is
+looked at."""
+
+_NOBODY = ""
 
 
 class Lease:
@@ -36,15 +40,15 @@ class Lease:
         self._writing, self._over = asyncio.Lock(), asyncio.Event()
         self.telling = telling
 
-    async def keep(self, telling: Mapping[str, Any] | None, *, lasts_s: float = _LASTS_S) -> None:
-        """Have it known what is told in it, and that it goes on.
+    async def keep(self, telling: Mapping[str, Any] | None, *, by: str | None = None) -> None:
+        """Have it known what is told in it, and that it goes on at this server, or at nobody's.
 
         Raises:
             ConflictError: somebody else has the cell by now.
         """
         async with self._writing:
             self.telling = telling
-            held = {"server": self._server, "until": time.time() + lasts_s, "telling": telling}
+            held = {"server": self._server if by is None else by, "telling": telling}
             put = asyncio.to_thread(self._ledger.put, _KIND, self._cell, held, seen=self._version)
             try:
                 self._version = await put
@@ -65,7 +69,7 @@ class Lease:
         self._over.set()
         await renewing
         if self.telling is not None:
-            await self.keep(self.telling, lasts_s=0)
+            await self.keep(self.telling, by=_NOBODY)
         else:
             async with self._writing:
                 await asyncio.to_thread(self._ledger.drop, _KIND, self._cell, seen=self._version)
@@ -111,12 +115,14 @@ class Leases:
                 return lease
 
     async def _free(self, cell: str) -> Lease:
-        until = time.monotonic() + self._patience_s
+        until, last, heard = time.monotonic() + self._patience_s, None, 0.0
         while True:
-            item = await asyncio.to_thread(self._ledger.find, _KIND, cell)
+            item: Item | None = await asyncio.to_thread(self._ledger.find, _KIND, cell)
             if item is None:
                 return Lease(self._ledger, cell, self._server, 0, None)
-            if item.data["server"] == self._server or item.data["until"] < time.time():
+            if item != last:
+                last, heard = item, time.monotonic()
+            if item.data["server"] in (self._server, _NOBODY) or time.monotonic() > heard + _LASTS_S:
                 return Lease(self._ledger, cell, self._server, item.version, item.data["telling"])
             if time.monotonic() > until:
                 raise ConflictError("somebody has a turn of this cell just now: try again in a while")

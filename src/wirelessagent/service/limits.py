@@ -93,7 +93,7 @@ class Budgets:
             item, now = self._ledger.find("budget", id), time.time()
             left = float(burst)
             if item is not None:
-                left = min(left, item.data["left"] + max(now - item.data["at"], 0.0) * rate)
+                left = min(left, item.data["left"] + abs(now - item.data["at"]) * rate)  # clocks are set back, too
             if left < 1.0:
                 return 0, (1.0 - left) / rate
             taken = min(max(int(max(burst, rate)) // _SHARES, 1), int(left))
