@@ -269,6 +269,21 @@ def test_a_clock_that_is_set_back_locks_nobody_out(place: str, monkeypatch: pyte
     ledger.close()
 
 
+def test_a_database_that_was_started_again_is_found_again(cluster: str) -> None:
+    import psycopg
+
+    place = postgres.new_database(cluster)
+    ledger = Ledger.open(place)
+    ledger.put("cell", "demo", {})
+    with psycopg.connect(postgres.plain(place)) as connection:
+        connection.execute(
+            "SELECT pg_terminate_backend(pid) FROM pg_stat_activity "
+            "WHERE datname = current_database() AND pid <> pg_backend_pid()"
+        )
+    assert ledger.find("cell", "demo") is not None
+    ledger.close()
+
+
 def test_killed_under_load_every_answered_turn_is_kept_and_nothing_applied_twice(place: str, tmp_path: Path) -> None:
     answered, applied, over = list[tuple[str, int]](), list[str](), threading.Event()
 
