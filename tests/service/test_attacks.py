@@ -23,6 +23,9 @@ from servers import Server, Signed, started, token_for
 from wirelessagent.interfaces import serving
 from wirelessagent.interfaces.serving import ServeRequest, serve
 from wirelessagent.operations.operation import InputError, silent
+from wirelessagent.service.access import Access, Caller
+from wirelessagent.service.problems import NotSignedInError
+from wirelessagent.store.ledger import Ledger
 
 pytestmark = pytest.mark.machine_code
 
@@ -105,6 +108,27 @@ class TestWhoMayWhat:
         job = guarded.operator.post("v1/operations/simulate", body, headers=prefer).json()
         with guarded.viewer.client as client:
             _problem(client.get(f"v1/jobs/{job['id']}"), 404)
+
+    def test_a_token_that_is_taken_back_while_somebody_signs_in_with_it(self, tmp_path: Path) -> None:
+        class Slow(Access):
+            def by_token(self, token: str) -> Caller:
+                caller = super().by_token(token)
+                self.revoke(caller.name)
+                return caller
+
+        ledger = Ledger.open(tmp_path / "store.sqlite3")
+        slow = Slow(ledger)
+        _, cookie = slow.sign_in(slow.grant("somebody", "operator"))
+        with pytest.raises(NotSignedInError):
+            slow.by_cookie(cookie)
+        access = Access(ledger)
+        token = access.grant("somebody", "viewer")
+        caller, cookie = access.sign_in(token)
+        assert access.by_cookie(cookie) == caller
+        access.grant("somebody", "operator")
+        with pytest.raises(NotSignedInError):
+            access.by_cookie(cookie)
+        ledger.close()
 
     def test_another_servers_cookie(self, server: Server) -> None:
         """Browsers send it to each port of a machine."""

@@ -63,8 +63,8 @@ def test_a_store_that_fails_is_told_of_in_the_log(tmp_path: Path) -> None:
             broken.execute("ALTER TABLE service_item RENAME TO gone")
         for answer in (client.get("v1/cells"), client.get("readyz"), client.post("v1/operations/simulate", json={})):
             assert str(tmp_path) not in answer.text
-        failed = client.get("v1/cells")
-        assert (failed.status_code, failed.headers["content-type"]) == (500, "application/problem+json")
+        failed = client.get("readyz")
+        assert (failed.status_code, failed.headers["content-type"]) == (503, "application/problem+json")
         assert "gone" not in failed.text
     assert "service_item" in store.with_suffix(".log").read_text()
 

@@ -11,7 +11,8 @@ import pytest
 
 from wirelessagent.service.limits import Limits
 from wirelessagent.service.observations import Observations
-from wirelessagent.service.problems import ConflictError, TooMuchError, UnusableError
+from wirelessagent.service.problems import ConflictError, NotFoundError, TooMuchError, UnusableError
+from wirelessagent.service.service import Service
 from wirelessagent.service.workers import Workers
 from wirelessagent.store.ledger import Ledger
 
@@ -82,6 +83,27 @@ def test_a_cell_that_is_made_while_its_observation_is_removed(
     with pytest.raises(ConflictError, match="'c' works on this observation"):
         asyncio.run(kept.drop(sent))
     assert ledger.find("observation", sent) is not None
+
+
+def test_a_cell_that_moves_to_an_observation_while_that_is_removed(ledger: Ledger, tmp_path: Path) -> None:
+    workers: Any = _Worker()
+    service = Service(ledger, tmp_path / "files", workers, Limits())
+    sent, put = _add(service.observations), ledger.put
+    held = {"name": "c", "observation": None, "options": {}, "session": "s", "demonstration": False}
+    ledger.put("cell", "c", held)
+
+    def removed(kind: str, id: str, data: Any, **more: Any) -> int:
+        if kind == "cell":
+            ledger.drop("observation", sent)
+        return put(kind, id, data, **more)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ledger, "put", removed)
+        with pytest.raises(NotFoundError):
+            asyncio.run(service.move_cell("c", sent, lambda _: None))
+    item = ledger.find("cell", "c")
+    assert item is not None
+    assert (item.data["observation"], item.data["session"]) == (None, "s")
 
 
 def test_many_files_at_once(ledger: Ledger, tmp_path: Path) -> None:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import hmac
-import math
 import secrets
 import time
 from dataclasses import dataclass
 from typing import Literal, TypeAlias, cast, get_args
 
 from wirelessagent.service.problems import NotSignedInError
-from wirelessagent.store.ledger import Ledger
+from wirelessagent.store.ledger import Item, Ledger
 
 Role: TypeAlias = Literal["viewer", "operator"]
 """A viewer sees everything and changes nothing."""
@@ -63,15 +62,12 @@ class Access:
         found = [item for item in self._ledger.all(_TOKEN) if item.data["name"] == name]
         for item in found:
             self._ledger.drop(_TOKEN, item.id)
-        for item in self._ledger.all(_SIGNED_IN):
-            if item.data["name"] == name:
-                self._ledger.drop(_SIGNED_IN, item.id)
         return bool(found)
 
     @property
     def callers(self) -> list[Caller]:
         """Who has a token."""
-        return [Caller(item.data["name"], cast("Role", item.data["role"])) for item in self._ledger.all(_TOKEN)]
+        return [_caller(item) for item in self._ledger.all(_TOKEN)]
 
     def by_token(self, token: str) -> Caller:
         """Who a token belongs to.
@@ -79,7 +75,7 @@ class Access:
         Raises:
             NotSignedInError: nobody.
         """
-        return self._found(_TOKEN, token, "this token is not known: ask whoever runs the server for one")
+        return _caller(self._found(_TOKEN, token, "this token is not known: ask whoever runs the server for one"))
 
     def by_cookie(self, cookie: str) -> Caller:
         """Who a browser session belongs to.
@@ -87,7 +83,12 @@ class Access:
         Raises:
             NotSignedInError: nobody, or it is over.
         """
-        return self._found(_SIGNED_IN, cookie, "this session is over: sign in again")
+        otherwise = "this session is over: sign in again"
+        held = self._found(_SIGNED_IN, cookie, otherwise).data
+        token = None if held["until"] < time.time() else self._ledger.find(_TOKEN, held.get("token", ""))
+        if token is None:
+            raise NotSignedInError(otherwise)
+        return _caller(token)
 
     def sign_in(self, token: str) -> tuple[Caller, str]:
         """A new browser session for a token, as the value of its cookie; sessions that are over are swept away."""
@@ -95,7 +96,7 @@ class Access:
         for item in self._ledger.all(_SIGNED_IN):
             if item.data["until"] < now:
                 self._ledger.drop(_SIGNED_IN, item.id)
-        kept = {"name": caller.name, "role": caller.role, "until": now + SIGNED_IN_S}
+        kept = {"token": _hash(token), "until": now + SIGNED_IN_S}
         self._ledger.put(_SIGNED_IN, _hash(cookie), kept, seen=0)
         return caller, cookie
 
@@ -103,13 +104,16 @@ class Access:
         """End a browser session."""
         self._ledger.drop(_SIGNED_IN, _hash(cookie))
 
-    def _found(self, kind: str, secret: str, otherwise: str) -> Caller:
+    def _found(self, kind: str, secret: str, otherwise: str) -> Item:
         item = self._ledger.find(kind, _hash(secret))
         if item is None or not hmac.compare_digest(item.id, _hash(secret)):
             raise NotSignedInError(otherwise)
-        if item.data.get("until", math.inf) < time.time():
-            raise NotSignedInError(otherwise)
-        return Caller(item.data["name"], cast("Role", item.data["role"]))
+        return item
+
+
+def _caller(token: Item) -> Caller:
+    """Who a token belongs to."""
+    return Caller(token.data["name"], cast("Role", token.data["role"]))
 
 
 def _hash(secret: str) -> str:

@@ -16,7 +16,14 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
 from wirelessagent.service.kept import kept
-from wirelessagent.service.problems import ConflictError, NotFoundError, ProblemError, TooMuchError, problem_of
+from wirelessagent.service.problems import (
+    ConflictError,
+    NotFoundError,
+    ProblemError,
+    TooMuchError,
+    UnavailableError,
+    problem_of,
+)
 from wirelessagent.store.ledger import ChangedError, Item, Ledger
 
 State: TypeAlias = Literal["running", "done", "failed", "cancelled"]
@@ -140,7 +147,7 @@ class Job:
     def lose(self) -> None:
         """Be over, since whoever did it is gone."""
         detail = "the server that did this is gone, and what came of it is not known: look at what holds now"
-        self.problem = ProblemError(detail, status=503, title="The work broke off")
+        self.problem = UnavailableError(detail, title="The work broke off")
         self._end("failed", self.problem.body)
 
     def _end(self, state: State, said: Any) -> None:

@@ -91,6 +91,12 @@ class BrokeOffError(ProblemError):
         super().__init__(detail)
 
 
+class UnavailableError(ProblemError):
+    """What is needed is not there for now; the caller may try again."""
+
+    status, title = 503, "This cannot be done just now"
+
+
 class TimedOutError(ProblemError):
     """The work took longer than it may."""
 
@@ -108,6 +114,5 @@ def problem_of(error: Exception) -> ProblemError:
         return UnusableError(str(error))
     _log.error("a request failed", exc_info=error)
     if isinstance(error, WirelessAgentError):
-        detail = "what this server keeps cannot be read or written just now; its log says more"
-        return ProblemError(detail, status=500, title="This failed")
+        return UnavailableError("what this server keeps cannot be read or written just now; its log says more")
     return ProblemError("the server's log says more", status=500, title="Internal error")

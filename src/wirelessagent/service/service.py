@@ -115,7 +115,11 @@ class Service:
             data |= await self.workers.do("facts", tell, **await self._site(data))
             await self._kept(self.ledger.drop, "plan", id)
             await self._changed("cell", item, **{**data, "session": await self._new_session(id)})
-            await self._site(data)
+            try:
+                await self._site(data)  # whoever removed the observation meanwhile had not seen that it is used
+            except NotFoundError:
+                await self._changed("cell", await self._item("cell", id), **item.data)
+                raise
         return await self.cell(id)
 
     async def _site(self, cell: Mapping[str, Any]) -> Json:

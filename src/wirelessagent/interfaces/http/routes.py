@@ -32,7 +32,8 @@ PROBLEMS: dict[int | str, dict[str, Any]] = {
     for status, said in {
         400: "This cannot be done", 401: "Sign in first", 403: "Not allowed", 404: "There is no such thing",
         408: "Too slow", 409: "Things have changed", 413: "Too large", 421: "Misdirected",
-        422: "This cannot be used", 429: "Too many requests", 500: "This failed", 504: "This took too long",
+        422: "This cannot be used", 429: "Too many requests", 500: "This failed", 503: "Not just now",
+        504: "This took too long",
     }.items()
 }  # fmt: skip
 """What any request may be answered by instead."""
