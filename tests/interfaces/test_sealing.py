@@ -14,6 +14,7 @@ from wirelessagent.agent.turn import Turn
 from wirelessagent.interfaces.cli import run
 from wirelessagent.model.errors import FileFormatError, InputError, SealedError
 from wirelessagent.model.problem import Problem
+from wirelessagent.operations import history_seal
 from wirelessagent.sensing import loss
 from wirelessagent.store.ledger import Ledger
 from wirelessagent.store.sealing import old_sessions, seal
@@ -132,3 +133,23 @@ def test_by_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["history", "export", str(tmp_path / "all.jsonl"), *at]) == 0
     assert run(["history", "seal", str(out), "--before", "2999-01-01", *at]) == 2
     assert "is there already" in capsys.readouterr().err
+
+
+def test_of_two_who_seal_into_one_file_one_does(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    place, out = tmp_path / "store.sqlite3", tmp_path / "old.jsonl"
+    scene = chain.simulate("rayleigh", num_users=2, num_subcarriers=6, seed=1)
+    with Store.open(place, create=True) as store:
+        store.append(decided_turn(scene, Problem("max_rate"), loss.random(0.2)))
+    opened = history_seal.opened
+
+    def sealed_meanwhile(request: history_seal.SealRequest) -> Store:
+        out.write_text("what somebody else has sealed")
+        return opened(request)
+
+    monkeypatch.setattr(history_seal, "opened", sealed_meanwhile)
+    assert run(["history", "seal", str(out), "--before", "2999-01-01", "--store", str(place)]) == 2
+    assert out.read_text() == "what somebody else has sealed"
+    monkeypatch.undo()
+    out.unlink()
+    assert run(["history", "seal", str(out), "--before", "1999-01-01", "--store", str(place)]) == 2
+    assert not out.exists()

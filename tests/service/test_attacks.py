@@ -21,6 +21,7 @@ import pytest
 from servers import Server, Signed, started, token_for
 
 from wirelessagent.interfaces import serving
+from wirelessagent.interfaces.cli import run
 from wirelessagent.interfaces.serving import ServeRequest, serve
 from wirelessagent.operations.operation import InputError, silent
 from wirelessagent.service.access import Access, Caller
@@ -129,6 +130,16 @@ class TestWhoMayWhat:
         with pytest.raises(NotSignedInError):
             access.by_cookie(cookie)
         ledger.close()
+
+    def test_the_last_token_that_is_taken_back_opens_nothing(self, tmp_path: Path) -> None:
+        store = tmp_path / "store.sqlite3"
+        with Signed.started(store) as signed:
+            assert signed.operator.post("v1/operations/plugins", {}).status_code == 200
+            for name in ("operator", "viewer"):
+                assert run(["token", name, "--revoke", "--store", str(store)]) == 0
+            time.sleep(1.5)  # for as long as a server takes it that nobody has a token
+            for caller in (signed.nobody, signed.operator):
+                _problem(caller.post("v1/operations/plugins", {}), 401)
 
     def test_another_servers_cookie(self, server: Server) -> None:
         """Browsers send it to each port of a machine."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import datetime
+from collections.abc import Generator
 from pathlib import Path
 from typing import Annotated
 
@@ -51,10 +53,8 @@ def seal_sessions(request: SealRequest, progress: Progress) -> SealRecord:
     del progress
     if (request.session is None) == (request.before is None):
         raise InputError("what is to be sealed? Give --session NAME or --before DAY, one of them")
-    if request.out.exists():
-        raise InputError(f"{request.out} is there already: a sealed session lives in its file, so name a new one")
     writable_target(request.out)
-    with opened(request) as store:
+    with opened(request) as store, _new_file(request.out):
         ledger = Ledger.there(request.store)
         used = set[str]() if ledger is None else {cell.data["session"] for cell in ledger.all("cell")}
         if request.session in used:
@@ -75,6 +75,25 @@ def seal_sessions(request: SealRequest, progress: Progress) -> SealRecord:
     return SealRecord(
         out=request.out, sha256=done.archive, sessions=list(done.sessions), turns=done.turns, contents=done.contents
     )
+
+
+@contextlib.contextmanager
+def _new_file(path: Path) -> Generator[None]:
+    """A file that was not there, also where somebody else seals at the same time; gone again if nothing was written.
+
+    Raises:
+        InputError: it was there.
+    """
+    try:
+        path.open("xb").close()
+    except FileExistsError:
+        told = f"{path} is there already: a sealed session lives in its file, so name a new one"
+        raise InputError(told) from None
+    try:
+        yield
+    finally:
+        if not path.stat().st_size:
+            path.unlink()
 
 
 HISTORY_SEAL = Operation(

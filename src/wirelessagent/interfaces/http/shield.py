@@ -95,7 +95,7 @@ class Shield:
     def __init__(self, app: ASGIApp, *, service: Service, doors: Doors) -> None:
         self._app, self._service, self._doors = app, service, doors
         self._budgets = Budgets(service.limits, service.ledger)
-        self._callers, self._callers_until = False, 0.0
+        self._callers, self._callers_until = bool(service.access.callers), 0.0
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
@@ -224,8 +224,8 @@ class Shield:
         return await asyncio.to_thread(access.by_cookie, cookie)
 
     async def _has_callers(self) -> bool:
-        """Whether anybody has a token, as of a moment ago."""
-        if time.monotonic() > self._callers_until:
+        """Whether anybody has a token, or had one: the last one that is taken back opens nothing."""
+        if not self._callers and time.monotonic() > self._callers_until:
             self._callers = bool(await asyncio.to_thread(lambda: self._service.access.callers))
             self._callers_until = time.monotonic() + _CALLERS_S
         return self._callers
