@@ -36,7 +36,7 @@ class Assistant:
         found = await self._service.cells()
         if len(found) == 1:
             return found[0]
-        known = ", ".join(f"{cell['id']} ({cell['name']})" for cell in found) or "none yet"
+        known = ", ".join(f"{cell['id']} ({cell['name']!r})" for cell in found) or "none yet"
         raise UnusableError(f"cell: say which one; there are {known}")
 
     async def conversation(self, cell: str | None) -> Json:

@@ -185,7 +185,7 @@ async def _cells(call: Call, form: NoForm) -> Result:
 
 def _described(cell: Json) -> str:
     return (
-        f"{cell['id']}: {cell['name']}, {len(cell['user_names'])} users, {cell['num_subcarriers']} subcarriers, at "
+        f"{cell['id']}: {cell['name']!r}, {len(cell['user_names'])} users, {cell['num_subcarriers']} subcarriers, at "
         f"most {cell['max_power_w']:g} W, base station {cell['base_station'] or 'none'}"
     )
 
