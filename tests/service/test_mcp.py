@@ -354,3 +354,22 @@ def test_the_app_shows_an_allocation(server: Server, tmp_path: Path) -> None:
     assert "ui/notifications/size-changed" in told
     assert wrong == []
     assert [url for url in asked if url.startswith("http")] == []
+
+
+def test_sessions_are_a_callers_own_and_so_is_their_number(tmp_path: Path) -> None:
+    hello = {"protocolVersion": "2025-06-18", "capabilities": {}, "clientInfo": {"name": "x", "version": "1"}}
+    begin = {"jsonrpc": "2.0", "id": 0, "method": "initialize", "params": hello}
+    accepted = {"Accept": "application/json, text/event-stream"}
+    with Signed.started(tmp_path / "store.sqlite3") as guarded:
+        with guarded.viewer.client as client:
+            opened = [client.post("mcp", json=begin, headers=accepted) for _ in range(600)]
+        assert {answer.status_code for answer in opened} == {200, 503}
+        assert guarded.operator.post("mcp", begin, headers=accepted).status_code == 200
+        somebodys = {**accepted, "Mcp-Session-Id": opened[0].headers["mcp-session-id"]}
+        ping = {"jsonrpc": "2.0", "id": 1, "method": "ping"}
+        assert guarded.viewer.post("mcp", ping, headers=somebodys).status_code == 200
+        assert guarded.operator.post("mcp", ping, headers=somebodys).status_code == 404
+    log = (tmp_path / "store.log").read_text().splitlines()
+    refused = [line for line in log if "are already open" in line]
+    assert refused
+    assert all(json.loads(line)["level"] == "warning" for line in refused)

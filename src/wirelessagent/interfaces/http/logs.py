@@ -26,7 +26,7 @@ def log_as_json() -> None:
     """Have all that this process logs written to stderr as lines of JSON."""
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(_AsJson())
-    for name in ("wirelessagent", "uvicorn", "asyncio"):
+    for name in ("", "wirelessagent", "uvicorn", "asyncio"):
         logger = logging.getLogger(name)
         logger.handlers, logger.propagate = [handler], False
     REQUESTS.setLevel(logging.INFO)

@@ -18,38 +18,38 @@ if TYPE_CHECKING:
     from mcp.server.context import ServerRequestContext
     from mcp.server.streamable_http_manager import StreamableHTTPSessionManager
 
-_MOST_SESSIONS = 500
+_MOST_SESSIONS = 100
+"""Of one caller."""
 
 
 class Door:
-    """Streamable HTTP as an ASGI application."""
+    """Streamable HTTP as an ASGI application; sessions are a caller's own, and nobody can use up those of others."""
 
     def __init__(self, service: Service) -> None:
         self._service = service
         self._opening = asyncio.Lock()
         self._closing = asyncio.Event()
-        self._manager: StreamableHTTPSessionManager | None = None
-        self._running: asyncio.Task[None] | None = None
+        self._managers: dict[str, StreamableHTTPSessionManager] = {}
+        self._running: list[asyncio.Task[None]] = []
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        manager = await self._open()
-        scope["user"] = _user(scope["state"]["caller"])
+        manager = await self._open(scope["state"]["caller"])
         await manager.handle_request(scope, receive, send)
 
     async def close(self) -> None:
         """End all sessions."""
         self._closing.set()
-        if self._running is not None:
-            await self._running
+        await asyncio.gather(*self._running)
 
-    async def _open(self) -> StreamableHTTPSessionManager:
+    async def _open(self, caller: Caller) -> StreamableHTTPSessionManager:
         async with self._opening:
-            if self._manager is None:
-                self._manager = await asyncio.to_thread(_manager, self._service)
+            if caller.name not in self._managers:
+                manager = await asyncio.to_thread(_manager, self._service)
                 opened = asyncio.Event()
-                self._running = asyncio.create_task(self._run(self._manager, opened))
+                self._running.append(asyncio.create_task(self._run(manager, opened)))
                 await opened.wait()
-            return self._manager
+                self._managers[caller.name] = manager
+            return self._managers[caller.name]
 
     async def _run(self, manager: StreamableHTTPSessionManager, opened: asyncio.Event) -> None:
         """Keep the sessions, in a task of their own as they outlive the request that opened the door."""
@@ -63,25 +63,17 @@ def _manager(service: Service) -> StreamableHTTPSessionManager:
 
     from wirelessagent.interfaces.mcp.server import make_server
 
-    server = make_server(service, _caller_of)
-    limits = service.limits
     return StreamableHTTPSessionManager(
-        app=server, max_request_body_size=limits.body_bytes, max_sessions=_MOST_SESSIONS
+        app=make_server(service, _caller_of),
+        max_request_body_size=service.limits.body_bytes,
+        max_sessions=_MOST_SESSIONS,
     )
 
 
 def _caller_of(context: ServerRequestContext[Any, Any]) -> Caller:
-    """Who the shield found a request to come from; it belongs to each request, not to its session."""
+    """Who the shield found a request to come from, with the role that they have now."""
     request = context.request
     assert isinstance(request, Request)
     caller = request.scope["state"]["caller"]
     assert isinstance(caller, Caller)
     return caller
-
-
-def _user(caller: Caller) -> Any:
-    """A caller as the owner of a session, which nobody else can go on with."""
-    from mcp.server.auth.middleware.bearer_auth import AuthenticatedUser
-    from mcp.server.auth.provider import AccessToken
-
-    return AuthenticatedUser(AccessToken(token="", client_id=caller.name, scopes=[]))
