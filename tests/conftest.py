@@ -37,9 +37,9 @@ def _own_store(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
-def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def cluster() -> Iterator[str]:
     """The URL of a PostgreSQL."""
-    with postgres.running_or_skipped(tmp_path_factory.mktemp("postgresql") / "cluster") as url:
+    with postgres.running_or_skipped() as url:
         yield url
 
 

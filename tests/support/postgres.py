@@ -7,10 +7,14 @@ import os
 import pwd
 import secrets
 import shutil
+import signal
 import socket
 import subprocess
+import tempfile
+import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import IO
 
 import pytest
 
@@ -23,36 +27,50 @@ def program(name: str) -> str | None:
 
 
 @contextlib.contextmanager
-def running(folder: Path) -> Iterator[str]:
-    """The URL of a database in a new cluster, until the end of the context."""
-    user = _user()
-    folder.mkdir(parents=True)
+def running() -> Iterator[str]:
+    """The URL of a database in a new cluster, until the end of the context.
+
+    Its folder is none of pytest's, which are closed to other users and swept by other runs.
+    """
+    user, folder = _user(), Path(tempfile.mkdtemp(prefix="wirelessagent-postgresql-"))
     data = folder / "data"
     if user is not None:
-        for above in (folder, *folder.parents):
-            if above.is_relative_to("/tmp") and above != Path("/tmp"):
-                above.chmod(0o755)
         os.chown(folder, user.pw_uid, user.pw_gid)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    _do(user, program("initdb"), "-D", str(data), "-U", "agent", "-A", "trust", "-E", "UTF8", "--no-sync")
-    options = f"-p {port} -c listen_addresses=127.0.0.1 -c unix_socket_directories= -c fsync=off"
-    _do(user, program("pg_ctl"), "-D", str(data), "-w", "-o", options, "-l", str(folder / "log"), "start")
+    url, said = f"postgresql+psycopg://agent@127.0.0.1:{port}/postgres", folder / "said"
+    options = ("listen_addresses=127.0.0.1", "unix_socket_directories=", "fsync=off")
     try:
-        yield f"postgresql+psycopg://agent@127.0.0.1:{port}/postgres"
+        with said.open("wb") as log:
+            made = _started(
+                log, user, "initdb", "-D", str(data), "-U", "agent", "-A", "trust", "-E", "UTF8", "--no-sync"
+            )
+            assert made.wait(120) == 0
+            server = _started(
+                log, user, "postgres", "-D", str(data), "-p", str(port), *(f"-c{option}" for option in options)
+            )
+        try:
+            _wait(url, server)
+            yield url
+            assert server.poll() is None  # it did not end by itself
+        finally:
+            server.send_signal(signal.SIGQUIT)  # end at once
+            server.wait(120)
+    except BaseException as error:
+        error.add_note(said.read_text())
+        raise
     finally:
-        with contextlib.suppress(subprocess.CalledProcessError):  # it may have ended, or be slow to: it is nobody's
-            _do(user, program("pg_ctl"), "-D", str(data), "-m", "immediate", "stop")
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 @contextlib.contextmanager
-def running_or_skipped(folder: Path) -> Iterator[str]:
+def running_or_skipped() -> Iterator[str]:
     """The same, or a skip where PostgreSQL or its driver is not here."""
     pytest.importorskip("psycopg")
     if program("initdb") is None:
         pytest.skip("there is no PostgreSQL here")
-    with running(folder) as url:
+    with running() as url:
         yield url
 
 
@@ -79,10 +97,25 @@ def _user() -> pwd.struct_passwd | None:
     return known.get("postgres") or known["nobody"]
 
 
-def _do(user: pwd.struct_passwd | None, command: str | None, *arguments: str) -> None:
+def _started(log: IO[bytes], user: pwd.struct_passwd | None, name: str, *arguments: str) -> subprocess.Popen[bytes]:
+    command = program(name)
     assert command is not None
     who = {} if user is None else {"user": user.pw_uid, "group": user.pw_gid, "extra_groups": []}
-    subprocess.run(
-        [command, *arguments], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=120, cwd="/",
+    return subprocess.Popen(
+        [command, *arguments], stdout=log, stderr=subprocess.STDOUT, cwd="/",
         env={"PATH": os.environ["PATH"], "LANG": "C.UTF-8", "HOME": "/tmp"}, **who,  # type: ignore[arg-type]
     )  # fmt: skip
+
+
+def _wait(url: str, server: subprocess.Popen[bytes]) -> None:
+    """Until it answers."""
+    import psycopg
+
+    until = time.monotonic() + 120
+    while True:
+        try:
+            return psycopg.connect(plain(url)).close()
+        except psycopg.OperationalError:
+            if server.poll() is not None or time.monotonic() > until:
+                raise
+            time.sleep(0.1)
