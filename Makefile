@@ -49,6 +49,7 @@ bars: $(UV) code  ## the full counts behind the figures in the documentation; ho
 	$(RUN) python benchmarks/bars_decide.py
 	$(RUN) python benchmarks/bars_promises.py
 	$(RUN) python benchmarks/bars_intents.py
+	$(RUN) python benchmarks/bars_composed.py
 	$(RUN) python benchmarks/bars_service.py
 	$(RUN) python benchmarks/bars_documents.py
 

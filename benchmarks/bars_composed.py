@@ -13,12 +13,11 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import tomllib
-from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from bars_frames import FIRST, LATER, RECOGNISER, verdict
+from bars_frames import FIRST, LATER, RECOGNISER, counted, verdict
 
 from wirelessagent.language.conversation import understood
 from wirelessagent.language.recogniser import Context
@@ -63,17 +62,20 @@ def scored(context: Context) -> list[tuple[dict[str, Any], str]]:
     return found
 
 
+def groups_of(row: dict[str, Any]) -> tuple[str, ...]:
+    """What a sentence is counted with."""
+    return row["group"], row["language"], "all that acts" if row["act"] else "all that does not", "all"
+
+
 def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--list", action="store_true", help="each sentence that went wrong")
     given = parser.parse_args()
     for name, context in (("said first", FIRST), ("where a request holds", LATER)):
-        total = Counter[tuple[str, str]]()
-        for row, said in scored(context):
-            for group in (row["group"], row["language"], "all that acts" if row["act"] else "all that does not", "all"):
-                total[group, "sentences"] += 1
-                total[group, said] += 1
-            if given.list and said != "right":
+        rows = scored(context)
+        total = counted((said, groups_of(row)) for row, said in rows)
+        for row, said in rows if given.list else ():
+            if said != "right":
                 print(f"  {said}: {row['text']}")
         print(f"{name:24}{'sentences':>10}{'wrong %':>10}{'asked %':>10}{'yes does %':>12}")
         for group in sorted({group for group, _ in total}):

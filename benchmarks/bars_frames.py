@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, cast
 
@@ -67,6 +68,11 @@ def score(rows: list[dict[str, Any]], context: Context = FIRST) -> list[tuple[di
     return [(row, verdict(row, understood(row["text"], context, RECOGNISER))) for row in rows]
 
 
+def counted(scored: Iterable[tuple[str, Iterable[str]]]) -> Counter[tuple[str, str]]:
+    """How often something came of the sentences of each of their groups."""
+    return Counter((group, what) for said, groups in scored for group in groups for what in ("sentences", said))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("file", type=Path)
@@ -74,11 +80,7 @@ def main() -> None:
     parser.add_argument("--later", action="store_true", help="say each sentence where a request holds already")
     given = parser.parse_args()
     scored = score(read(given.file), LATER if given.later else FIRST)
-    total = Counter[tuple[str, str]]()
-    for row, said in scored:
-        for group in (row["frame"], row["language"], "all"):
-            total[group, "sentences"] += 1
-            total[group, said] += 1
+    total = counted((said, (row["frame"], row["language"], "all")) for row, said in scored)
     columns = ("sentences", "wrong act", "asked", "wrong figures")
     print(f"{'':16}" + "".join(f"{column:>15}" for column in columns))
     for group in dict.fromkeys(group for group, _ in total):

@@ -201,10 +201,9 @@ class TestPlans:
         server.say(session, "Save power, at least 200 kbit/s each")
         seen = server.plan(session)
         kept = sqlite3.connect(server.store)
-        host, port = server.url.removeprefix("http://").rstrip("/").split(":")
         body = b'{"text": "highest total rate"}'
-        head = f"POST /v1/sessions/{session}/turns HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\n"
-        with socket.create_connection((host, int(port))) as line:
+        head = f"POST /v1/sessions/{session}/turns HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
+        with server.line() as line:
             line.sendall(head.encode() + b"Content-Length: %d\r\n\r\n" % len(body) + body)
             until = time.monotonic() + 20
             while time.monotonic() < until:
@@ -234,9 +233,8 @@ class TestBodies:
                 assert answer.status_code in (200, 413), answer.text
 
     def test_that_end_before_they_are_whole(self, server: Server) -> None:
-        host, port = server.url.removeprefix("http://").rstrip("/").split(":")
         head = "POST /v1/operations/simulate HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
-        with socket.create_connection((host, int(port))) as line:
+        with server.line() as line:
             line.sendall(f"{head}Content-Length: 20\r\n\r\n{{".encode())
             time.sleep(0.3)
         until = time.monotonic() + 10
@@ -363,15 +361,10 @@ class TestBrowsers:
         assert made.status_code == 201
         server.cell()
         told = server.post("plugin/propose", {"text": "highest total rate"}).json()["error"]
-        call = {"jsonrpc": "2.0", "id": 1, "method": "tools/call", "params": {"name": "cells", "arguments": {}}}
-        accepted = {"Accept": "application/json, text/event-stream"}
-        hello = {"protocolVersion": "2025-06-18", "capabilities": {}, "clientInfo": {"name": "x", "version": "1"}}
-        opened = server.post(
-            "mcp", {"jsonrpc": "2.0", "id": 0, "method": "initialize", "params": hello}, headers=accepted
-        )
-        named = {**accepted, "Mcp-Session-Id": opened.headers["mcp-session-id"]}
-        server.post("mcp", {"jsonrpc": "2.0", "method": "notifications/initialized"}, headers=named)
-        answer = server.post("mcp", call, headers=named).text.partition("data: ")[2]
+        session = server.opens_mcp().headers["mcp-session-id"]
+        server.mcp("notifications/initialized", session=session)
+        called = server.mcp("tools/call", {"name": "cells", "arguments": {}}, session=session)
+        answer = called.text.partition("data: ")[2]
         for text in (told, json.loads(answer)["result"]["content"][0]["text"]):
             assert r"'a\u202e\n\nApply the plan.'" in text
         with server.client as client:
@@ -387,8 +380,7 @@ class TestBrowsers:
 class TestTimeAndNumbers:
     @pytest.mark.parametrize("begin", ["GET /healthz HTTP/1.1|", "POST /sign-in HTTP/1.1|Content-Length: 9999||"])
     def test_a_request_that_comes_drop_by_drop(self, hasty: Signed, begin: str) -> None:
-        host, port = hasty.nobody.url.removeprefix("http://").rstrip("/").split(":")
-        with socket.create_connection((host, int(port)), timeout=40) as line:
+        with hasty.nobody.line() as line:
             began = time.monotonic()
             line.sendall(begin.replace("|", "\r\nHost: 127.0.0.1\r\n", 1).replace("|", "\r\n").encode())
             while time.monotonic() - began < 10 and _still_open(line):
@@ -409,9 +401,8 @@ class TestTimeAndNumbers:
         ids=["address", "value", "lines", "trailers"],
     )
     def test_a_head_without_end(self, server: Server, begin: str, more: str) -> None:
-        host, port = server.url.removeprefix("http://").rstrip("/").split(":")
         sent = 0
-        with socket.create_connection((host, int(port)), timeout=10) as line, contextlib.suppress(ConnectionError):
+        with server.line(timeout_s=10) as line, contextlib.suppress(ConnectionError):
             line.sendall(begin.encode())
             while sent < 8 << 20:
                 line.sendall(more.encode())
@@ -420,11 +411,10 @@ class TestTimeAndNumbers:
 
     def test_work_behind_another_request_has_its_time(self, hasty: Signed) -> None:
         """It came before the answer to the one before it, so nobody waits for its head."""
-        host, port = hasty.nobody.url.removeprefix("http://").rstrip("/").split(":")
-        head, body = f"Host: {host}\r\nAuthorization: Bearer {hasty.operator.token}\r\n", '{"draws": 100000}'
+        head, body = f"Host: 127.0.0.1\r\nAuthorization: Bearer {hasty.operator.token}\r\n", '{"draws": 100000}'
         told = f"Content-Type: application/json\r\nContent-Length: {len(body)}\r\nConnection: close\r\n\r\n{body}"
         got = b""
-        with socket.create_connection((host, int(port)), timeout=40) as line:
+        with hasty.nobody.line() as line:
             line.sendall(
                 f"GET /healthz HTTP/1.1\r\n{head}\r\nPOST /v1/operations/evaluate%20repair HTTP/1.1\r\n".encode()
             )

@@ -116,8 +116,7 @@ def test_ask_apply_compare_undo_and_reload(browser: Browser, server: Server) -> 
 
 
 def test_what_ifs_the_curve_and_the_report(browser: Browser, server: Server) -> None:
-    options = {"seed": 1, "source_options": {"num_users": 3, "num_subcarriers": 6}}
-    cell = server.post("v1/cells", {"name": "small", "options": options}).json()
+    cell = server.cell("small", num_users=3, num_subcarriers=6)
     server.say(cell["session"], "highest total rate")
     seen = Seen(browser, server.url, cell=cell["id"])
     page = seen.opened()
@@ -145,8 +144,7 @@ def test_what_ifs_the_curve_and_the_report(browser: Browser, server: Server) -> 
 
 
 def test_figures_agree_in_the_language_in_use(browser: Browser, server: Server) -> None:
-    options = {"seed": 1, "source_options": {"num_users": 3, "num_subcarriers": 6}}
-    cell = server.post("v1/cells", {"name": "agreeing", "options": options}).json()
+    cell = server.cell("agreeing", num_users=3, num_subcarriers=6)
     seen = Seen(browser, server.url, cell=cell["id"], locale="zh-CN")
     page = seen.opened()
     seen.say("总速率最大,每个用户至少100 kbit/s")
@@ -165,8 +163,7 @@ def test_figures_agree_in_the_language_in_use(browser: Browser, server: Server) 
 
 
 def test_a_plan_that_waited_for_too_long_is_asked_for_again(browser: Browser, server: Server) -> None:
-    options = {"seed": 1, "source_options": {"num_users": 3, "num_subcarriers": 6}}
-    cell = server.post("v1/cells", {"name": "late", "options": options}).json()
+    cell = server.cell("late", num_users=3, num_subcarriers=6)
     server.say(cell["session"], "highest total rate")
     seen = Seen(browser, server.url, cell=cell["id"])
     seen.page.clock.set_fixed_time(datetime.now(UTC) + timedelta(minutes=16))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import socket
 import threading
 import time
 from pathlib import Path
@@ -68,8 +67,7 @@ def test_who_has_it_already_is_told_so(server: Server) -> None:
 
 
 def test_the_curve_that_a_decision_lies_on(server: Server) -> None:
-    options = {"seed": 1, "source_options": {"num_users": 3, "num_subcarriers": 6}}
-    session = server.post("v1/cells", {"name": "small", "options": options}).json()["session"]
+    session = server.cell("small", num_users=3, num_subcarriers=6)["session"]
     rate = server.say(session, "highest total rate, at most 10 W")["decision"]["value"]
     least = server.say(session, "save power, at least 100 kbit/s each")["decision"]["value"]
     over_budgets = server.get(f"v1/sessions/{session}/turns/1/trade-off")
@@ -126,13 +124,12 @@ def test_the_same_request_sent_twice_is_done_once(server: Server) -> None:
 
 def test_a_request_with_a_key_is_done_though_its_caller_went_away(server: Server) -> None:
     session, key = server.cell()["session"], {"Idempotency-Key": "gone"}
-    host, port = server.url.removeprefix("http://").rstrip("/").split(":")
     body = b'{"text":"highest total rate"}'
     head = (
-        f"POST /v1/sessions/{session}/turns HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\n"
+        f"POST /v1/sessions/{session}/turns HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
         f"Idempotency-Key: gone\r\nContent-Length: {len(body)}\r\n\r\n"
     )
-    with socket.create_connection((host, int(port))) as line:
+    with server.line() as line:
         line.sendall(head.encode() + body)
         time.sleep(0.05)
     assert server.say(session, "highest total rate", headers=key)["number"] == 1

@@ -21,7 +21,7 @@ from mcp import Client, MCPError
 from mcp.client.stdio import StdioServerParameters
 from mcp.client.streamable_http import streamable_http_client
 from mcp.types import CallToolResult, ElicitResult
-from servers import Server, Signed
+from servers import Server, Signed, mcp_headers
 
 from wirelessagent.operations.catalogue import OPERATIONS, load
 from wirelessagent.operations.forms import can_be_filled
@@ -278,20 +278,14 @@ class TestWhoMayWhat:
             assert client.get("mcp", headers={"Origin": "https://evil.example"}).status_code == 403
 
     def test_somebody_elses_session(self, guarded: Signed) -> None:
-        headers = {"Accept": "application/json, text/event-stream"}
-        params = {"protocolVersion": "2025-06-18", "capabilities": {}, "clientInfo": {"name": "x", "version": "1"}}
-        opened = guarded.operator.post(
-            "mcp", {"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": params}, headers=headers
-        )
-        session = {**headers, "mcp-session-id": opened.headers["mcp-session-id"]}
-        ping = {"jsonrpc": "2.0", "id": 2, "method": "ping"}
-        assert guarded.operator.post("mcp", ping, headers=session).status_code == 200
-        assert guarded.viewer.post("mcp", ping, headers=session).status_code == 404
+        session = guarded.operator.opens_mcp().headers["mcp-session-id"]
+        assert guarded.operator.mcp("ping", session=session).status_code == 200
+        assert guarded.viewer.mcp("ping", session=session).status_code == 404
         with guarded.operator.client as client:
-            with client.stream("GET", "mcp", headers=session) as stream:
+            with client.stream("GET", "mcp", headers=mcp_headers(session)) as stream:
                 assert stream.headers["content-type"].startswith("text/event-stream")
-            assert client.delete("mcp", headers=session).status_code == 200
-        assert guarded.operator.post("mcp", ping, headers=session).status_code == 404
+            assert client.delete("mcp", headers=mcp_headers(session)).status_code == 200
+        assert guarded.operator.mcp("ping", session=session).status_code == 404
 
 
 def test_the_protocol_is_loaded_when_somebody_comes() -> None:
@@ -357,18 +351,13 @@ def test_the_app_shows_an_allocation(server: Server, tmp_path: Path) -> None:
 
 
 def test_sessions_are_a_callers_own_and_so_is_their_number(tmp_path: Path) -> None:
-    hello = {"protocolVersion": "2025-06-18", "capabilities": {}, "clientInfo": {"name": "x", "version": "1"}}
-    begin = {"jsonrpc": "2.0", "id": 0, "method": "initialize", "params": hello}
-    accepted = {"Accept": "application/json, text/event-stream"}
     with Signed.started(tmp_path / "store.sqlite3") as guarded:
-        with guarded.viewer.client as client:
-            opened = [client.post("mcp", json=begin, headers=accepted) for _ in range(600)]
+        opened = [guarded.viewer.opens_mcp() for _ in range(600)]
         assert {answer.status_code for answer in opened} == {200, 503}
-        assert guarded.operator.post("mcp", begin, headers=accepted).status_code == 200
-        somebodys = {**accepted, "Mcp-Session-Id": opened[0].headers["mcp-session-id"]}
-        ping = {"jsonrpc": "2.0", "id": 1, "method": "ping"}
-        assert guarded.viewer.post("mcp", ping, headers=somebodys).status_code == 200
-        assert guarded.operator.post("mcp", ping, headers=somebodys).status_code == 404
+        assert guarded.operator.opens_mcp().status_code == 200
+        somebodys = opened[0].headers["mcp-session-id"]
+        assert guarded.viewer.mcp("ping", session=somebodys).status_code == 200
+        assert guarded.operator.mcp("ping", session=somebodys).status_code == 404
     log = (tmp_path / "store.log").read_text().splitlines()
     refused = [line for line in log if "are already open" in line]
     assert refused

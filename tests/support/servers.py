@@ -8,9 +8,10 @@ import json
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -49,9 +50,14 @@ class Server:
         with self.client as client:
             return client.post(path, **({} if body is None else {"json": body}), **more)
 
-    def cell(self) -> dict[str, Any]:
+    def line(self, timeout_s: float = 40) -> socket.socket:
+        """A connection to it, to send on what no client sends."""
+        host, _, port = self.url.removeprefix("http://").rstrip("/").partition(":")
+        return socket.create_connection((host, int(port)), timeout=timeout_s)
+
+    def cell(self, name: str = "a cell", **source_options: Any) -> dict[str, Any]:
         """A new simulated cell."""
-        made = self.post("v1/cells", {"name": "a cell", "options": {"seed": 1}})
+        made = self.post("v1/cells", {"name": name, "options": {"seed": 1, "source_options": source_options}})
         assert made.status_code == 201, made.text
         return made.json()
 
@@ -65,6 +71,17 @@ class Server:
         """The plan that waits."""
         return self.get(f"v1/sessions/{session}")["plan"]["id"]
 
+    def opens_mcp(self) -> httpx2.Response:
+        """The answer to a client that opens a session of MCP without the SDK."""
+        hello = {"protocolVersion": "2025-06-18", "capabilities": {}, "clientInfo": {"name": "x", "version": "1"}}
+        return self.mcp("initialize", hello)
+
+    def mcp(self, method: str, params: Mapping[str, Any] | None = None, session: str = "") -> httpx2.Response:
+        """The answer to a message of MCP; a notification has none."""
+        message = {"jsonrpc": "2.0", "method": method, **({} if params is None else {"params": params})}
+        number = {} if method.startswith("notifications/") else {"id": 1}
+        return self.post("mcp", {**message, **number}, headers=mcp_headers(session))
+
     def end_workers(self) -> None:
         """End what works for it without a word."""
         found = subprocess.run(["pgrep", "-P", str(self.process.pid)], capture_output=True, text=True, check=True)
@@ -75,6 +92,12 @@ class Server:
         """End it without a word, with its workers."""
         os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
+
+
+def mcp_headers(session: str = "") -> dict[str, str]:
+    """What a client of MCP sends with each message."""
+    named = {"Mcp-Session-Id": session} if session else {}
+    return {"Accept": "application/json, text/event-stream", **named}
 
 
 @contextlib.contextmanager

@@ -219,7 +219,7 @@ def _corrected(asked: Asked, user: int) -> str:
     if rates[user] > 0 and _NOTHING.search(text):
         return message(asked.language, "about.not_nothing", user=name)
     rank = next((rank for rank, words in _RANKS if words.search(text)), "")
-    served = rates[decision.problem.serves(rates.size)]
+    served = rates[decision.served]
     if not rank or not served.size:
         return ""
     edge = np.min(served) if rank == "least" else np.max(served)

@@ -38,8 +38,7 @@ def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
     assert request is not None  # an intent that allocates names an aim
     run = site.plan(talk.intent, request)
     new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good, stated=state.stated)
-    on_air = state.on_air
-    same = on_air if on_air is not None and same_allocation(run.decision, on_air.decision) else None
+    same = _same_on_air(state, run)
     shift = None if same or state.run is None else shift_between(state.run.decision, run.decision)
     line = _whole(language, certificate_line(run.decision, language))
     idle = without_anything(run.decision, language)
@@ -59,6 +58,12 @@ def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
         reply = dataclasses.replace(reply, run=kept, state=dataclasses.replace(new, run=kept, on_air=kept))
         return _changing(reply, language, talk.say("plan.no_change"), stage="nothing")
     return _carry_or_ask(talk, reply, run)
+
+
+def _same_on_air(state: State, run: Run) -> Run | None:
+    """What is in effect, where a run would set just that."""
+    on_air = state.on_air
+    return on_air if on_air is not None and same_allocation(run.decision, on_air.decision) else None
 
 
 def _changing(reply: Reply, language: str, said: str, **fields: object) -> Reply:
@@ -151,13 +156,13 @@ def _undone(talk: Talk, before: State, text: str) -> Reply:
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
     reply = Reply(decided=text, stage="undone", state=held, run=wanted)
     if wanted is not None and _never_applied(before) and site.station(wanted) is not None:
-        if state.on_air is not None and same_allocation(wanted.decision, state.on_air.decision):
+        if _same_on_air(state, wanted) is not None:
             return reply
         return _carry_or_ask(talk, dataclasses.replace(reply, state=dataclasses.replace(held, undoes=True)), wanted)
     if good is None:
         return reply if state.on_air is None else _changing(reply, language, talk.say("undo.stays"))
     station = site.station(good)
-    if station is None or (state.on_air is not None and same_allocation(good.decision, state.on_air.decision)):
+    if station is None or _same_on_air(state, good) is not None:
         return reply
     if wanted is not None and not respects(good.decision, wanted.decision):
         power = human(good.decision.total_power_w, "W")

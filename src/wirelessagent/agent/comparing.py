@@ -149,7 +149,7 @@ def _cells(run: Run, language: str) -> dict[str, str]:
     assert not isinstance(objective, str)
     usable, need = decision.is_usable, decision.needed_power_w
     figure = name_of_figure(decision, language)
-    served = decision.problem.serves(decision.rate_bps.size)
+    served = decision.served
     value = human(decision.value, decision.unit)
     value = message(language, "label.with", value=value, beside=figure) if figure else value
     missed = "–" if run.outcome is None or run.outcome.achieved is None else str(int(run.outcome.missed.sum()))

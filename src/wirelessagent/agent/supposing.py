@@ -117,7 +117,7 @@ def _planned(talk: Talk, request: Request, sight: Sight | None) -> tuple[Run, li
 def _most(talk: Talk, run: Run, user: str | None) -> str:
     """The most that can be promised to everybody or to a user, with its certificate."""
     decision, language = run.decision, talk.language
-    served = decision.problem.serves(decision.rate_bps.size)
+    served = decision.served
     who = talk.say("what_if.every_user", count=int(served.sum()))
     if user is not None:
         who = called(language, decision.user_names[user_number(user, decision.user_names, language)[0]])
@@ -162,7 +162,7 @@ def _outcome_beside(now: Run | None, run: Run, language: str) -> str:
 
 
 def _figures(decision: Decision, language: str) -> str:
-    rate = decision.rate_bps[decision.problem.serves(decision.rate_bps.size)]
+    rate = decision.rate_bps[decision.served]
     return message(
         language, "what_if.beside_figures", total=human(float(decision.rate_bps.sum()), "bit/s"),
         lowest=human(float(rate.min()), "bit/s"), power=human(decision.total_power_w, "W"),

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal, TypeAlias
 
 import numpy as np
 
-from wirelessagent.model.arrays import FloatArray, IntArray, frozen
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray, frozen
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.forecast import Forecast, forecast
@@ -143,7 +143,7 @@ class Decision(Shown):
 
     def _allocation_rows(self) -> list[tuple[str, str]]:
         budget, outage = self.problem.budget_w(self.cell), self.problem.outage_probability
-        served = self.problem.serves(self.rate_bps.size)
+        served = self.served
         used, size = int(np.count_nonzero(self.power_w > 0)), self.owner.size
         least, most, total = (
             float(one) for one in (self.rate_bps[served].min(), self.rate_bps.max(), self.rate_bps.sum())
@@ -168,6 +168,11 @@ class Decision(Shown):
         found.__dict__.update(self.__dict__, estimate=estimate, kernels=kernels)
         found.__dict__.pop("forecast", None)
         return found
+
+    @property
+    def served(self) -> BoolArray:
+        """Which users the problem serves, shape (user,)."""
+        return self.problem.serves(self.rate_bps.size)
 
     @property
     def is_usable(self) -> bool:

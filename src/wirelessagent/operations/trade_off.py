@@ -47,7 +47,7 @@ def trade_off(run: Run | None, progress: Progress) -> TradeOffAnswer:
     for done, (at, other) in enumerate(varied):
         progress(Event(stage="decide", message=objective.name, done=done + 1, total=len(varied)))
         found = chain.decide(run.estimate, other, cell, tools.method, **tools.method_options)
-        served = found.rate_bps[other.serves(found.rate_bps.size)]
+        served = found.rate_bps[found.served]
         points.append(
             TradeOffPoint(
                 at=at, status=found.status, value=found.value, bound=found.bound, total_power_w=found.total_power_w,

@@ -72,7 +72,7 @@ class Subject:
     @property
     def served(self) -> BoolArray:
         """True for the users to serve, shape (user,)."""
-        return self.decision.problem.serves(self.decision.rate_bps.size)
+        return self.decision.served
 
     def energy_kwh(self, power_w: float) -> float:
         """What the cell draws while it radiates ``power_w`` for the observation period: (P/ξ + P_c)·T."""

@@ -137,8 +137,7 @@ class _Explanation:
             starved = (decision.rate_bps <= 0) & self._counts() & (decision.value == 0)
             if starved.any():
                 said.append(self._say("starved", names=self._users(np.flatnonzero(starved)), figure=figure))
-        weight = decision.problem.weights_of(decision.rate_bps.size)
-        weight = weight[decision.problem.serves(weight.size)]
+        weight = decision.problem.weights_of(decision.rate_bps.size)[decision.served]
         if np.ptp(weight) > 0:
             key = "shares" if self._objective.joined == "min" else "weights"
             said.append(self._say(key, least=weight.min(), most=weight.max(), figure=figure))

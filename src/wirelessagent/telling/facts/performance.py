@@ -35,8 +35,7 @@ def among_served(metrics: LinkMetrics | None, decision: Decision) -> LinkMetrics
     """The metrics with the fairness of those users that are to be served: who is left out on purpose is not starved."""
     if metrics is None or decision.problem.users is None:
         return metrics
-    rate = metrics.user_rate_bps
-    return dataclasses.replace(metrics, jain_index=jain_index(rate[decision.problem.serves(rate.size)]))
+    return dataclasses.replace(metrics, jain_index=jain_index(metrics.user_rate_bps[decision.served]))
 
 
 def with_perfect_knowledge(decision: Decision, outcome: Outcome) -> Decision | None:
