@@ -10,7 +10,7 @@ import sqlite3
 import subprocess
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -26,8 +26,11 @@ from wirelessagent.operations import hosted
 from wirelessagent.operations.chat import ChatRequest
 from wirelessagent.operations.hosted import Hosted
 from wirelessagent.operations.operation import silent
+from wirelessagent.service.jobs import Jobs
 from wirelessagent.service.names import PublicNames
+from wirelessagent.service.problems import TooMuchError
 from wirelessagent.service.workers import Workers
+from wirelessagent.store.ledger import Ledger
 
 pytestmark = pytest.mark.machine_code
 
@@ -347,6 +350,26 @@ def test_a_worker_that_is_gone_before_it_has_begun_is_replaced_once() -> None:
             os.kill(int(number), signal.SIGKILL)  # which the event loop has not heard of yet
         assert await workers.do("forms", _unheard) == first
         await workers.close()
+
+    asyncio.run(work())
+
+
+def test_no_caller_takes_all_the_room_for_jobs(tmp_path: Path) -> None:
+    async def endless(tell: Callable[[dict[str, Any]], None]) -> None:
+        del tell
+        await asyncio.Event().wait()
+
+    async def work() -> None:
+        with contextlib.closing(Ledger.open(str(tmp_path / "store.sqlite3"))) as ledger:
+            jobs = Jobs(ledger, 4)
+            going = [jobs.start("viewer", endless) for _ in range(3)]
+            with pytest.raises(TooMuchError, match="3 jobs of yours"):
+                jobs.start("viewer", endless)
+            going.append(jobs.start("operator", endless))
+            with pytest.raises(TooMuchError, match="4 jobs go on"):
+                jobs.start("operator", endless)
+            for job in going:
+                job.cancel()
 
     asyncio.run(work())
 

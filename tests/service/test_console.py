@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
@@ -226,6 +227,19 @@ def test_the_server_is_lost_and_comes_back(browser: Browser, tmp_path: Path) -> 
     with started(store, "--port", port):
         page.wait_for_selector("#disconnected", state="hidden", timeout=60_000)
         assert page.input_value("#line") == "what if we had 10 W?"
+
+
+def test_a_server_that_says_why_it_cannot_is_not_lost(browser: Browser, server: Server) -> None:
+    seen = Seen(browser, server.url)
+    page = seen.opened()
+    why = {"title": "The store cannot be reached", "status": 503, "detail": "the audit store does not answer"}
+    kind = "application/problem+json"
+    page.route("**/turns", lambda route: route.fulfill(status=503, content_type=kind, body=json.dumps(why)))
+    page.fill("#line", "what if we had 10 W?")
+    page.keyboard.press("Enter")
+    page.wait_for_selector(f"text={why['detail']}")
+    assert page.locator("#disconnected").is_hidden()
+    assert page.input_value("#line") == "what if we had 10 W?"
 
 
 def test_signing_in(browser: Browser, guarded: Signed) -> None:

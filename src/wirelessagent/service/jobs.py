@@ -165,7 +165,7 @@ class Jobs:
 
     Args:
         ledger: where they are told of.
-        most_running: at one time.
+        most_running: at one time; one caller leaves a quarter of them to others.
     """
 
     def __init__(self, ledger: Ledger, most_running: int) -> None:
@@ -180,7 +180,7 @@ class Jobs:
         Raises:
             TooMuchError: too much goes on already.
         """
-        self._check_room()
+        self._check_room(owner)
         job = Job(owner)
         self._remember(job)
         job.start(work)
@@ -207,7 +207,7 @@ class Jobs:
                     job = await self.find(item.data["job"], owner)
                     if job.worth_keeping:
                         return job
-            self._check_room()
+            self._check_room(owner)
             job = Job(owner)
             await self.share(job)
             named = {"request": request, "job": job.id}
@@ -256,14 +256,13 @@ class Jobs:
             with contextlib.suppress(ChangedError):  # a beat or its end came first: whoever wants it asks again
                 await kept(self._ledger.put, "job", id, item.data, seen=item.version)
 
-    @property
-    def running(self) -> int:
-        """How many go on here."""
-        return sum(job.state == "running" and not job.elsewhere for job in self._jobs.values())
-
-    def _check_room(self) -> None:
-        if self.running >= self._most_running:
+    def _check_room(self, owner: str) -> None:
+        going = [job for job in self._jobs.values() if job.state == "running" and not job.elsewhere]
+        share = self._most_running * 3 // 4
+        if len(going) >= self._most_running:
             raise TooMuchError(f"{self._most_running} jobs go on already; try again in a while", Retry_After="5")
+        if sum(job.owner == owner for job in going) >= share:
+            raise TooMuchError(f"{share} jobs of yours go on already; wait for one, or cancel it", Retry_After="5")
 
     def _remember(self, job: Job) -> None:
         self._jobs[job.id] = job

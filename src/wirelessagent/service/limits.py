@@ -24,7 +24,7 @@ class Limits:
         receive_s: for a request to arrive whole.
         work_s: for one piece of work.
         requests_per_s, burst: of one caller.
-        running_jobs: at one time, of all callers.
+        running_jobs: at one time, of all callers; three quarters of them for one.
         plan_s: how long a plan may wait before it has to be made again.
         cells, observations: kept at one time.
         gains: of an observation, users times subcarriers.

@@ -12,6 +12,7 @@ export class Problem extends Error {
 /** The server cannot be reached. */
 export class Disconnected extends Error {}
 
+/** How a proxy says that there is no server behind it; the server itself says so by a problem document. */
 const AWAY = new Set([502, 503, 504]);
 
 const ROOT = new URL("../", import.meta.url);
@@ -37,7 +38,8 @@ async function call(method, at, { body = null, type = null, later = false } = {}
   } catch {
     throw new Disconnected(`✕ ${location.host}`);
   }
-  if (AWAY.has(answer.status)) throw new Disconnected(`${answer.status} ${answer.statusText}`);
+  const told = (answer.headers.get("Content-Type") ?? "").startsWith("application/problem+json");
+  if (AWAY.has(answer.status) && !told) throw new Disconnected(`${answer.status} ${answer.statusText}`);
   if (answer.status === 304) return had.found;
   const text = await answer.text();
   let found = null;
