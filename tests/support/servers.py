@@ -104,7 +104,7 @@ def mcp_headers(session: str = "") -> dict[str, str]:
 def started(store: Path, *options: str, token: str = "", at: str = "") -> Iterator[Server]:
     """A server on a store (in that file, or ``at`` a URL), until the end of the context."""
     environment = {
-        **os.environ, "WIRELESSAGENT_COMPILE": "never", "PYTHONUNBUFFERED": "1",
+        **os.environ, "WIRELESSAGENT_COMPILE": "never", "PYTHONUNBUFFERED": "",
         "XDG_CACHE_HOME": str(_cache(store.with_suffix(".cache"))),
     }  # fmt: skip
     log = store.with_suffix(".log").open("a")

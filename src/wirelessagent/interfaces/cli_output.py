@@ -106,7 +106,8 @@ def take_over(*, notes: bool) -> None:
     codecs.register_error("written_out", _written_out)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="written_out")  # a terminal without Chinese must not stop the work
+            # a terminal without Chinese must not stop the work, and who reads a pipe wants to know how far it is
+            stream.reconfigure(errors="written_out", line_buffering=True)
     wanted = ("wirelessagent.kernels.compiling", notes, logging.DEBUG), ("wirelessagent.store", True, logging.INFO)
     for name, shown, level in wanted:
         log = logging.getLogger(name)
