@@ -12,7 +12,7 @@ from llm_stub import StubLlm, meaning
 import wirelessagent as wa
 from wirelessagent.agent.session import Session
 from wirelessagent.language.conversation import understood
-from wirelessagent.language.guard import MOODS, doubted, stranger
+from wirelessagent.language.guard import doubted, stranger
 from wirelessagent.language.llm.endpoint import LlmSettings
 from wirelessagent.language.llm.reader import LlmRecogniser
 from wirelessagent.language.moods import LANGUAGES, table_of
@@ -185,11 +185,15 @@ def test_a_command_is_no_part_of_the_story_beside_it(said: str) -> None:
     assert recognise("The boss wants us to start over").kind != "command"
 
 
-@pytest.mark.parametrize("mood", MOODS)
-def test_each_class_finds_its_words_by_itself(mood: str) -> None:
-    intent = asks("max_rate")
-    assert any(doubted(said, None, intent, [mood]) for said in NOT_ASKED[mood])
-    assert doubted("max total rate, now", None, intent, [mood]) is None
+@pytest.mark.parametrize(
+    ("said", "against"),
+    [("Yesterday we had max total rate", "Yesterday"), ("If the crowd comes, max total rate", "If"),
+     ("明天九点，总速率最大", "明天"), ("Il paraît que, maximise le débit total", "paraît")],
+)  # fmt: skip
+def test_the_words_that_speak_against_it_are_told(said: str, against: str) -> None:
+    doubt = doubted(said, None, asks("max_rate"))
+    assert doubt is not None
+    assert against in said[slice(*doubt)]
 
 
 def test_every_language_has_the_same_classes() -> None:
@@ -198,11 +202,8 @@ def test_every_language_has_the_same_classes() -> None:
     tables = {language: table_of(language) for language in LANGUAGES}
     assert all(list(table) == list(tables["en"]) for table in tables.values())
     for table in tables.values():
-        assert set(MOODS) < set(table)
-        for mood in MOODS:
-            assert set(table[mood]) <= {"clause", "ahead", "sentence", "text", "here", "first"}
-            assert all(word and word == word.strip() for words in table[mood].values() for word in words)
-            assert any(table[mood].values())
+        for words in (words for classes in table.values() for words in classes.values()):
+            assert all(word and word == word.strip() for word in words)
 
 
 def test_a_yes_takes_the_guess_up_and_a_no_drops_it() -> None:
@@ -354,9 +355,7 @@ def test_what_has_no_listed_word_is_asked_about_where_it_is_hardly_an_order(said
     assert recognise("run it at 5 W", now).kind == "allocate"
 
 
-def test_a_word_of_condition_asks_nothing_in_what_is_surely_an_order() -> None:
+def test_a_word_of_condition_asks_nothing_in_what_is_an_order() -> None:
     said = "Would you, if that fits, please keep it below 7 W"
     now = Context(user_names=("user 1", "user 2"), objective="max_rate", language="en")
-    read = OfflineRecogniser().read(said, now)
-    assert doubted(said, now, read) is not None
     assert recognise(said, now).constraints == {"max_power_w": 7.0}

@@ -15,12 +15,13 @@ import pytest
 from wirelessagent.language import training
 from wirelessagent.language.base_words import FOLDER as FOLDER_OF_BASE_WORDS
 from wirelessagent.language.base_words import based
-from wirelessagent.language.features import BUCKETS, buckets
+from wirelessagent.language.features import BUCKETS, buckets, word_hashes
 from wirelessagent.language.intent import COMMANDS, QUESTIONS, checked_constraints
 from wirelessagent.language.linear_model import MODEL_FILE, shipped_model
-from wirelessagent.language.sentence import BUILT_IN
+from wirelessagent.language.order_model import LIKELY, Frame, OrderModel, frame_of
+from wirelessagent.language.sentence import BUILT_IN, Sentence, own_words
 from wirelessagent.language.spelling import nearest, respelt
-from wirelessagent.language.training import roles
+from wirelessagent.language.training import orders, roles
 from wirelessagent.language.training.compose import LANGUAGES, SLOTS, SURROUNDINGS, sentences
 from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save
 from wirelessagent.language.training.grammar import Grammar
@@ -28,6 +29,7 @@ from wirelessagent.language.training.spoken import spoken
 from wirelessagent.model.errors import InputError
 
 FOLDER = Path(training.__file__).parent
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module")
@@ -137,7 +139,7 @@ def test_base_words_are_forms_as_the_features_see_them(language: str) -> None:
 def test_the_shipped_model_knows_the_labels_of_the_templates(drawn: list[tuple[str, str]]) -> None:
     model = shipped_model()
     assert set(model.labels) == {label for _, label in drawn}
-    assert model.weights.shape == (BUCKETS, len(model.labels) + 1)
+    assert model.weights.shape == (BUCKETS, len(model.labels))
     assert MODEL_FILE.stat().st_size < 2_000_000
     shares = model.probabilities(*read_by_rules(["maximise the total rate"])[0])
     assert sum(shares.values()) == pytest.approx(1.0)
@@ -150,18 +152,56 @@ def test_a_fit_tells_its_sentences_apart(tmp_path: Path) -> None:
     texts = ["save power", "less power please", "max rate", "highest rate now"]
     labels = ["min_power", "min_power", "max_rate", "max_rate"]
     read = read_by_rules(texts)
-    rows = matrix_of(read)
+    rows = matrix_of([buckets(*each) for each in read], BUCKETS)
     weights, intercepts = fit(rows, labels, ["max_rate", "min_power"], np.ones(len(labels)))
     told = np.asarray(rows @ weights + intercepts).argmax(axis=1)
     assert told.tolist() == [1, 1, 0, 0]
-    orders = fit(rows, ["no", "no", "yes", "yes"], ["no", "yes"], np.ones(len(labels)))
-    save(tmp_path / "model.npz", ["max_rate", "min_power"], (weights, intercepts), orders, known_words(read))
+    known = known_words(word_hashes(text) for text, *_ in read)
+    save(tmp_path / "model.npz", ["max_rate", "min_power"], weights, intercepts, known)
     with np.load(tmp_path / "model.npz") as arrays:
         assert arrays["weights"].dtype == np.int8
-        kept = arrays["weights"] * arrays["scales"]
-        assert np.allclose(kept[:, :-1], weights, atol=arrays["scales"].max())
-        ordered = np.asarray(rows @ kept[:, -1]) + arrays["intercepts"][-1]
-        assert (ordered > 0).tolist() == [False, False, True, True]
+        assert np.allclose(arrays["weights"] * arrays["scales"], weights, atol=arrays["scales"].max())
+
+
+def test_the_judge_of_orders_sees_the_frame_and_not_the_wish(tmp_path: Path) -> None:
+    frames = {"Yesterday {}": "no", "He said {}": "no", "Please {}": "yes", "Now {}": "yes"}
+    wishes = ("max total rate", "save power, 5 W at most", "user 3 at least 2 Mbit/s")
+
+    def frame(text: str) -> Frame:
+        return frame_of(Sentence(text, own_words()))
+
+    said = [frame(form.format(wish)) for form in frames for wish in wishes[:2]]
+    labels = [label for label in frames.values() for _ in wishes[:2]]
+    orders.made(said, labels, np.ones(len(labels))).save(tmp_path / "orders.npz")
+    model = OrderModel.load(tmp_path / "orders.npz")
+    told = {form: model.probability(frame(form.format(wishes[2]))) >= LIKELY for form in frames}
+    assert told == {form: label == "yes" for form, label in frames.items()}
+    assert frame("Please max total rate").tokens == frame("Please save power").tokens == ("please", "@")
+
+
+def test_the_frames_for_training_have_one_place_and_are_no_sentence_of_a_test(tested: set[str]) -> None:
+    lines = [line.split("\t") for path in sorted(orders.FRAMES.glob("*.tsv")) for line in _lines(path)]
+    assert {label for label, _ in lines} == {"order", "none"}
+    assert all(frame.count("{}") <= 1 for _, frame in lines)
+    assert not {letters(text) for text, _ in orders.framed()} & tested
+
+
+def test_the_composed_bench_has_no_frame_of_the_training() -> None:
+    """So that it measures what was not learned: the words around its wishes are its own."""
+    trained = {letters(frame) for path in orders.FRAMES.glob("*.tsv") for _, frame in map(_parted, _lines(path))}
+    bench = [tomllib.loads(path.read_text("utf-8")) for path in (ROOT / "benchmarks" / "composed").glob("*.toml")]
+    forms = [form for parts in bench for kind in ("acts", "asks") for each in parts[kind].values() for form in each]
+    assert len(forms) > 200
+    assert {form for form in forms if letters(form.replace("{wish}", "{}")) in trained} == {"{wish}"}
+
+
+def _lines(path: Path) -> list[str]:
+    return path.read_text("utf-8").splitlines()
+
+
+def _parted(line: str) -> tuple[str, str]:
+    label, _, frame = line.partition("\t")
+    return label, frame
 
 
 def test_features_are_the_same_everywhere() -> None:

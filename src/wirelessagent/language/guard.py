@@ -1,12 +1,9 @@
 """The guard behind every recogniser: what is not clearly asked for now is asked about, and never done.
 
 A sentence may name an act without asking for it: it refuses, reports, quotes, remembers, plans, supposes, jests, tells
-a wish of somebody else's, speaks of another system, or of a user whom the cell does not have. The words that say so
-are closed classes, as data by language (``moods/<language>.toml``). A word of such a class that the act accounts for
-says nothing: "no more than 10 W" is a limit, "without user 3" leaves one out, "from now on" is now. Any other word
-whose reach (its clause, its sentence or the whole text) touches the act makes a question of it, with the act for a
-plain yes. Beside them the model judges the sentence as a whole: it asks where no listed word stands and an order is
-unlikely all the same, and passes over some classes where a sentence is surely one.
+a wish of somebody else's, speaks of another system, or of a user whom the cell does not have. Whether it orders
+something is judged by its frame, all that stands around the wish (:mod:`.order_model`); where an order is unlikely, the
+agent asks, with the words that speak against it and with the act for a plain yes.
 """
 
 from __future__ import annotations
@@ -14,15 +11,12 @@ from __future__ import annotations
 import dataclasses
 import functools
 import re
-from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from wirelessagent.language.features import word_hashes
-from wirelessagent.language.followups import dropped_in
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.linear_model import shipped_model
-from wirelessagent.language.moods import Span, places, standing, table_of
-from wirelessagent.language.reach import Doubt, Reach
+from wirelessagent.language.moods import Span, standing, table_of
+from wirelessagent.language.order_model import LIKELY, frame_of, shipped_order_model
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import USER_NOUN, languages_of, normalise
@@ -30,29 +24,18 @@ from wirelessagent.language.text import USER_NOUN, languages_of, normalise
 if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Context
 
-MOODS = (
-    "negation", "refusal", "report", "quotation", "past", "time", "condition", "irony", "others", "elsewhere",
-)  # fmt: skip
-"""The classes whose words make a question of an act."""
-_PASSED_OVER = ("refusal", "condition", "irony", "others")
-"""The classes that say nothing in a sentence that is surely an order; what denies, tells of what was said or done,
-quotes, or names another system or a time to come is asked about all the same."""
 CHANGING = ("undo", "reset")
 """Commands that change something; to apply a plan has a closed grammar of its own (``conversation.assent``)."""
 READ_IN_A_TALK = "conversation"
 """Who reads what a line is because of its conversation."""
 
 _NAMES_SHOWN = 12
-_UNLIKELY, _SURELY = 0.2, 0.9
-"""Below the one a sentence without a word of a mood is asked about, from the other on some classes are passed over; by
-sentences that were kept from the training."""
-
 _FEWEST_WORDS = 3
-"""Of a sentence that the model can judge."""
+"""And signs, of a sentence that can be judged."""
 
-_QUOTED = re.compile(
-    r"\"[^\"]+\"|“[^”]+[”\"]|„[^“”]+[“”]|«[^»]+»|‹[^›]+›|「[^」]+」|『[^』]+』|《[^》]+》|(?<!\w)'[^']+'(?!\w)"
-)
+_NO_FACT = ("refusal", "report", "quotation", "time", "condition", "irony", "others")
+"""Classes of mood whose words say more than that something is so."""
+
 _IS_A_USER = re.compile(  # "Uncle Bob is on user 8", "Brenda (user 3)"
     rf"(?i)[\s,(]*(?:(?:is|uses|on|at|ist|an|est|sur|es|está|en)\s+)*(?:{USER_NOUN}\s*\d|[是在用的]*(?:用户\s*\d|\d+\s*号))"
 )
@@ -74,41 +57,27 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
         return _asking(intent, voice.say(key, text=text[slice(*name)], users=users))
     if not acts:
         return intent
-    sure, moods = _sure(text, context, intent), _moods_of(intent)
-    if sure >= _SURELY:
-        moods = [mood for mood in moods if mood not in _PASSED_OVER]
-    doubt = doubted(text, context, intent, moods)
-    if doubt is None and (
-        sure >= _UNLIKELY or any(any(_hits(plain, language, MOODS)) for language in languages_of(text))
-    ):
+    doubt = doubted(text, context, intent)
+    if doubt is None:
         return intent
     guess = intent.reply.rstrip(" .。")
     guess = guess[:1].lower() + guess[1:]
-    said = "" if doubt is None else text[doubt.start : doubt.end].strip()
+    said = text[slice(*doubt)].strip()
     reply = voice.say("mood", text=said, guess=guess) if said else voice.say("no_order", guess=guess)
     return dataclasses.replace(_asking(intent, reply), guess=intent)
 
 
-def _sure(text: str, context: Context | None, intent: Intent) -> float:
-    """How sure the model is that a sentence orders something now; as sure as needed where it has no say.
+def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
+    """The words that speak against an order, empty where no few of them do; None where it is likely one.
 
-    A command says by itself that it does; of what only the talk gives a meaning ("yes") the words alone say nothing,
-    nor do hardly any words.
+    Of what only the talk gives a meaning ("yes") the words alone say nothing, nor do hardly any words.
     """
-    if intent.kind == "command" or intent.recogniser == READ_IN_A_TALK:
-        return _UNLIKELY
-    words, concepts, language = read_once(text, own_words(), context).for_model(moods=True)
-    if len(word_hashes(words)) < _FEWEST_WORDS:
-        return _UNLIKELY
-    return shipped_model().is_order(words, concepts, language)
-
-
-def _moods_of(intent: Intent) -> Sequence[str]:
-    """The moods that nothing but the guard has looked for: patterns of whole lines read their own denials."""
-    whole = intent.recogniser == READ_IN_A_TALK
-    if intent.kind == "command":  # "no, as it was before" undoes
-        return () if whole else [mood for mood in MOODS if mood not in ("negation", "past")]
-    return [mood for mood in MOODS if mood not in ("negation", "refusal")] if whole else MOODS
+    if intent.recogniser == READ_IN_A_TALK:
+        return None
+    frame = frame_of(read_once(text, own_words(), context))
+    if len(frame.tokens) < _FEWEST_WORDS or shipped_order_model().probability(frame) >= LIKELY:
+        return None
+    return shipped_order_model().against(frame) or (0, 0)
 
 
 def _asking(intent: Intent, reply: str) -> Intent:
@@ -118,35 +87,6 @@ def _asking(intent: Intent, reply: str) -> Intent:
     )  # fmt: skip
 
 
-def doubted(text: str, context: Context | None, intent: Intent, moods: Sequence[str] = MOODS) -> Doubt | None:
-    """The first word of a mood that reaches the act of an intent and that nothing accounts for."""
-    plain = normalise(text)
-    for language in languages_of(text):
-        hits = list(_hits(plain, language, moods))
-        told = (
-            "others" in moods
-            and intent.kind == "allocate"
-            and any(places(table_of(language)["subject"]["finite"], plain))
-        )
-        if hits or told:
-            known = Reach(read_once(text, own_words(), context), dropped_in(plain, context)[1], intent, language)
-            reached = (hit for hit in hits if not known.accounts_for(hit) and known.touches(hit))
-            first = min(reached, key=lambda hit: hit.start, default=None)
-            first = first or (known.foreign_subject() if told else None)
-            if first is not None:
-                return first
-    return None
-
-
-def _hits(plain: str, language: str, moods: Sequence[str]) -> Iterator[Doubt]:
-    """The words of these classes of a language in a text, and what stands between marks."""
-    for mood, reach, (start, end) in standing(plain, language, moods):
-        yield Doubt(mood=mood, reach=reach, start=start, end=end)
-    if "quotation" in moods:
-        for match in _QUOTED.finditer(plain):
-            yield Doubt(mood="quotation", reach="inside", start=match.start(), end=match.end())
-
-
 def tells_no_mere_fact(text: str) -> bool:
     """Whether a clause that is no order has a word of a mood in it, but of what was or what is denied.
 
@@ -154,8 +94,7 @@ def tells_no_mere_fact(text: str) -> bool:
     (False, True)
     """
     plain = normalise(text)
-    moods = [mood for mood in MOODS if mood not in ("negation", "past", "elsewhere")]
-    return any(True for language in languages_of(text) for _ in standing(plain, language, moods))
+    return any(True for language in languages_of(text) for _ in standing(plain, language, _NO_FACT))
 
 
 def stranger(plain: str, context: Context | None) -> Span | None:

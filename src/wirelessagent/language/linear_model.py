@@ -21,10 +21,7 @@ MODEL_FILE = Path(__file__).with_name("model.npz")
 
 @dataclass(frozen=True, kw_only=True)
 class LinearModel:
-    """Weights (bucket, label) as int8, a scale and an intercept per label, and the words that are known.
-
-    The last column is no label's: it says whether a sentence orders something now.
-    """
+    """Weights (bucket, label) as int8, a scale and an intercept per label, and the words that are known."""
 
     labels: tuple[str, ...]
     weights: npt.NDArray[np.int8]
@@ -39,21 +36,11 @@ class LinearModel:
 
     def probabilities(self, text: str, concepts: Sequence[str] = (), language: str = "en") -> Mapping[str, float]:
         """How likely each label is for a sentence whose figures are placeholders."""
-        score = self._scores(text, concepts, language)[:-1]
+        found = buckets(text, concepts, language)
+        score = self.intercepts + self.scales * self.weights[found].sum(axis=0, dtype=np.int32) / np.sqrt(len(found))
         likely = np.exp(score - score.max())
         likely /= likely.sum()
         return dict(zip(self.labels, likely.tolist(), strict=True))
-
-    def is_order(self, text: str, concepts: Sequence[str] = (), language: str = "en") -> float:
-        """How likely a sentence orders something now, and does not only tell, ask or wonder.
-
-        Its concepts have the classes of mood among them (:func:`.moods.classes_in`).
-        """
-        return float(1 / (1 + np.exp(-self._scores(text, concepts, language)[-1])))
-
-    def _scores(self, text: str, concepts: Sequence[str], language: str) -> npt.NDArray[np.float64]:
-        found = buckets(text, concepts, language)
-        return self.intercepts + self.scales * self.weights[found].sum(axis=0, dtype=np.int32) / np.sqrt(len(found))
 
 
 @functools.cache

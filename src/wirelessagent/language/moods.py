@@ -15,8 +15,6 @@ LANGUAGES = ("en", "zh", "es", "fr", "de")
 Span = tuple[int, int]
 
 _LETTER = r"[0-9A-Za-zÀ-ɏ]"
-_EDGE = 3
-"""Characters from where a text begins or ends."""
 
 
 def table_of(language: str) -> Mapping[str, Mapping[str, Sequence[str]]]:
@@ -49,19 +47,20 @@ def standing(plain: str, language: str, names: Iterable[str]) -> Iterator[tuple[
                 yield name, reach, span
 
 
-def classes_in(plain: str) -> list[str]:
-    """The classes whose words stand in a text, by how far they reach and by whether they begin or end it, in order.
+def classes_in(plain: str) -> list[tuple[str, Span]]:
+    """The classes whose words stand in a text, with how far they reach, and where they stand, from left to right.
 
     >>> classes_in("if only it were 5 W")[0]
-    'condition:sentence<'
+    ('condition:sentence', (0, 7))
     """
-    found: list[tuple[int, str]] = []
-    for language in languages_of(plain):
-        names = [name for name in table_of(language) if name != "names"]
-        for name, reach, (start, end) in standing(plain, language, names):
-            where = "<" if start < _EDGE else ">" if end > len(plain) - _EDGE else ""
-            found.append((start, f"{name}:{reach}{where}"))
-    return [name for _, name in sorted(found)]
+    return sorted(
+        (
+            (f"{name}:{reach}", span)
+            for language in languages_of(plain)
+            for name, reach, span in standing(plain, language, (one for one in table_of(language) if one != "names"))
+        ),
+        key=lambda found: (found[1][0], -found[1][1]),
+    )
 
 
 def is_ordered(plain: str) -> bool:

@@ -12,7 +12,7 @@ from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
-from wirelessagent.language.moods import classes_in
+from wirelessagent.language.moods import Span
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.spelling import respelt
 from wirelessagent.language.stated import Reading
@@ -26,6 +26,11 @@ if TYPE_CHECKING:
 
 BUILT_IN = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
 _WORD = deferred(r"(?i)[\u3400-\u9fff]|[^\W\d_\u3400-\u9fff]{2,}|p[1-3](?!\d)")
+_OF_AIMS = (
+    "direct", "up", "down", "rate", "power", "efficiency", "worst", "fair", "fairly", "same", "balance", "performance",
+    "waste", "share",
+)  # fmt: skip
+"""Concepts whose words say what is wanted, and not whether."""
 _PLACEHOLDERS = {"power": " @power ", "rate": " @rate ", "ratio": " @ratio ", "bare": " @number ", "other": " @number "}
 
 
@@ -53,18 +58,26 @@ class Sentence:
         words = (word for word in _WORD.finditer(self.plain) if not any(a <= word.start() < b for a, b in spans))
         return any(not (unit := unit_at(self.plain, word.start())) or unit.end < word.end() for word in words)
 
-    def for_model(self, *, moods: bool = False) -> tuple[str, list[str], str]:
-        """The words with placeholders for figures and users, the concepts (and moods) in order, and the language."""
+    @property
+    def wished(self) -> list[Span]:
+        """Where figures, users and words of an aim stand, from left to right; what complains is no aim."""
+        figures = [(q.phrase_start, q.phrase_end) for q in self.quantities]
+        users = [(m.start, m.end) for m in mentions(self.plain, (), figures) if m.role == "named"]
+        complaints = [(item.start, item.end) for item in self.found if item.term.complaint]
+        aims = [(item.start, item.end) for item in self.found if item.term.concept in _OF_AIMS]
+        aims = [
+            span for span in (*aims, *self.goal.spans) if not any(a < span[1] and span[0] < b for a, b in complaints)
+        ]
+        return sorted({*figures, *users, *aims, *self.reading.masked})
+
+    def for_model(self) -> tuple[str, list[str], str]:
+        """The words with placeholders for figures and users, the concepts in order, and the language."""
         spans = [(q.phrase_start, q.phrase_end, _PLACEHOLDERS[q.kind]) for q in self.quantities]
         taken = [(start, end) for start, end, _ in spans]
         spans += [(m.start, m.end, " @user ") for m in mentions(self.plain, (), taken) if m.role == "named"]
         terms = [item.term.objective or item.term.concept for item in self.found]
         goal = f"goal:{self.goal.verdict}:{self.goal.objective}"
-        return (
-            replaced(self._spelt, sorted(spans)),
-            [*terms, goal, *(classes_in(self.plain) if moods else ())],
-            self.language,
-        )
+        return replaced(self._spelt, sorted(spans)), [*terms, goal], self.language
 
 
 def read_once(text: str, own: tuple[OwnWords, ...], context: Context | None) -> Sentence:

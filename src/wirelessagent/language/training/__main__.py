@@ -8,8 +8,8 @@ import time
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
+from wirelessagent.language.features import BUCKETS, buckets, word_hashes
 from wirelessagent.language.linear_model import MODEL_FILE
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.training.compose import sentences
@@ -18,9 +18,6 @@ from wirelessagent.language.training.spoken import Spoken, spoken
 
 SPOKEN_WEIGHT = 30.0
 """What a spoken sentence counts beside one that was drawn."""
-
-MILD = 0.1
-"""What a sentence counts for being an order or none, beside those that were written to be mistaken."""
 
 
 def main(path: Path) -> None:
@@ -36,24 +33,16 @@ def main(path: Path) -> None:
     weight = np.array([1.0] * len(drawn) + [SPOKEN_WEIGHT] * len(said))
     log.info("%d sentences, %d labels (%.0f s)", len(texts), len(names), time.perf_counter() - start)
     read = read_by_rules(texts)
-    rows = matrix_of(read)
+    rows = matrix_of([buckets(*each) for each in read], BUCKETS)
     log.info("%d n-grams (%.0f s)", rows.nnz, time.perf_counter() - start)
     weights, intercepts = fit(rows, labels, names, weight)
     told: list[int] = np.argmax(np.asarray(rows @ weights) + intercepts, axis=1).tolist()
     right = sum(
         names[guess].partition(".")[0] == label.partition(".")[0] for guess, label in zip(told, labels, strict=True)
     ) / len(labels)
-    save(path, names, (weights, intercepts), orders(), known_words(read))
+    save(path, names, weights, intercepts, known_words(word_hashes(text) for text, *_ in read))
     log.info("%.1f %% of them told apart; %s: %d kB (%.0f s)", 100 * right, path.name, path.stat().st_size // 1000,
              time.perf_counter() - start)  # fmt: skip
-
-
-def orders() -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
-    """Weights (bucket, 2) and intercepts (2,) that tell what orders nothing now from what does."""
-    said = [each for each in spoken() if each.is_order is not None]
-    rows = matrix_of(read_by_rules([each.text for each in said], moods=True))
-    labels = ["yes" if each.is_order else "no" for each in said]
-    return fit(rows, labels, ("no", "yes"), np.array([1.0 if each.near else MILD for each in said]))
 
 
 def _asked_about_anyway(each: Spoken) -> bool:

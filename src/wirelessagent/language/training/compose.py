@@ -18,6 +18,7 @@ _NOUNS: dict[str, str] = dict(
 )
 _RIVALS = (("max_rate", "min_power"), ("max_rate", "max_min_rate"), ("proportional_fairness", "max_min_rate"))
 _TYPOS, _BARE = 0.1, 0.25
+_GOES_BACK, _LIMIT_ALONE, _AIM_ALONE = 0.06, 0.25, 0.6
 _PER_WISH, _PER_SITUATION, _PER_WORDS = 9.0, 4.0, 12.0
 
 
@@ -82,6 +83,13 @@ def sentences(folder: Path, seed: int = 1) -> Iterator[tuple[str, str]]:
             yield (_mistyped(text, chance) if chance.random() < _TYPOS else text), label
 
 
+def wishes(folder: Path, language: str, chance: random.Random) -> Iterator[str]:
+    """What somebody may want of a cell, without end: aims, limits, both, and now and then to go back."""
+    maker = _Maker(Grammar.read(folder / f"{language}.txt"), chance)
+    while True:
+        yield maker.wish()
+
+
 def _mistyped(text: str, chance: random.Random) -> str:
     """A sentence with one slip: a letter lost, doubled, or swapped with its neighbour."""
     if len(text) < 6:
@@ -101,6 +109,14 @@ class _Maker:
         self._slots: Mapping[str, Slot] = SLOTS[grammar.language]
         self._gap = "" if grammar.language == "zh" else " "
         self._comma = "\uff0c" if grammar.language == "zh" else ", "
+
+    def wish(self) -> str:
+        """An aim, a limit, both, or a command that goes back."""
+        draw, language = self._chance.random(), self._grammar.language
+        if draw < _GOES_BACK:
+            return self._pick(self._chance.choice(("command.undo", "command.reset")))
+        aim, limit = self._plain(self._chance.choice(OBJECTIVES)), self._pick("constraint")
+        return limit if draw < _LIMIT_ALONE else aim if draw < _AIM_ALONE else aim + _AND[language][0] + limit
 
     def all(self) -> Iterator[tuple[str, str]]:
         for label, templates in self._grammar.templates.items():

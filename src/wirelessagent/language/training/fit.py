@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TypeAlias
 
@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 from scipy import optimize, sparse
 
-from wirelessagent.language.features import BUCKETS, buckets, word_hashes
 from wirelessagent.language.sentence import Sentence, own_words
 
 ForModel: TypeAlias = tuple[str, list[str], str]
@@ -18,35 +17,35 @@ _RIDGE = 5e-7
 _STEPS = 120
 
 
-def matrix_of(read: Sequence[ForModel]) -> sparse.csr_matrix:
-    """(sentence, bucket) of sentences as the model sees them: every row has length one."""
-    columns = [buckets(*each) for each in read]
+def matrix_of(columns: Sequence[npt.NDArray[np.int64]], width: int) -> sparse.csr_matrix:
+    """(sentence, bucket) of the buckets that sentences fall into: every row has length one."""
     sizes = np.array([len(each) for each in columns])
     values = np.repeat(1 / np.sqrt(sizes), sizes)
     starts = np.concatenate([[0], np.cumsum(sizes)])
-    return sparse.csr_matrix((values.astype(np.float32), np.concatenate(columns), starts), shape=(len(read), BUCKETS))
+    return sparse.csr_matrix((values.astype(np.float32), np.concatenate(columns), starts), shape=(len(columns), width))
 
 
-def read_by_rules(texts: Sequence[str], *, moods: bool = False) -> list[ForModel]:
+def read_by_rules(texts: Sequence[str]) -> list[ForModel]:
     """What the parsers and the lexicon make of each sentence, as the model gets it at run time."""
     own = own_words()
-    return [Sentence(text, own).for_model(moods=moods) for text in texts]
+    return [Sentence(text, own).for_model() for text in texts]
 
 
-def known_words(read: Sequence[ForModel]) -> npt.NDArray[np.uint32]:
+def known_words(said: Iterable[Iterable[int]]) -> npt.NDArray[np.uint32]:
     """The hashes of the words that stand in at least two sentences, ascending."""
-    words, counts = np.unique([word for text, *_ in read for word in set(word_hashes(text))], return_counts=True)
+    words, counts = np.unique([word for words in said for word in set(words)], return_counts=True)
     return np.asarray(words[counts > 1], dtype=np.uint32)
 
 
 def fit(
-    rows: sparse.csr_matrix, labels: Sequence[str], names: Sequence[str], weight: npt.NDArray[np.float64]
-) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+    rows: sparse.csr_matrix, labels: Sequence[str], names: Sequence[str], weight: npt.NDArray[np.float64],
+    ridge: float = _RIDGE,
+) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:  # fmt: skip
     """Weights (bucket, label) and intercepts (label,) that make the labels likeliest, with a ridge.
 
     A label such as "question" stands for all that begin with it. ``weight`` (sentence,) says how much each counts.
     """
-    classes = len(names)
+    classes, width = len(names), rows.shape[1]
     meant = {label: [name == label or name.startswith(label + ".") for name in names] for label in set(labels)}
     target = np.array([meant[label] for label in labels], dtype=np.float64)
     even = target / target.sum(axis=1, keepdims=True)
@@ -56,8 +55,8 @@ def fit(
     columns = rows.T.tocsr()
 
     def loss(flat: npt.NDArray[np.float64]) -> tuple[float, npt.NDArray[np.float64]]:
-        weights = flat[: BUCKETS * classes].reshape(BUCKETS, classes)
-        score = np.asarray(rows @ weights.astype(np.float32), dtype=np.float64) + flat[BUCKETS * classes :]
+        weights = flat[: width * classes].reshape(width, classes)
+        score = np.asarray(rows @ weights.astype(np.float32), dtype=np.float64) + flat[width * classes :]
         score -= score.max(axis=1, keepdims=True)
         likely = np.exp(score)
         likely /= likely.sum(axis=1, keepdims=True)
@@ -66,25 +65,20 @@ def fit(
         value = -float(importance @ np.log(total[:, 0]))
         likely -= right / total
         likely *= importance[:, None]
-        slope = np.asarray(columns @ likely.astype(np.float32), dtype=np.float64) + 2 * _RIDGE * weights
-        return value + _RIDGE * float((weights**2).sum()), np.concatenate([slope.ravel(), likely.sum(axis=0)])
+        slope = np.asarray(columns @ likely.astype(np.float32), dtype=np.float64) + 2 * ridge * weights
+        return value + ridge * float((weights**2).sum()), np.concatenate([slope.ravel(), likely.sum(axis=0)])
 
-    start = np.zeros((BUCKETS + 1) * classes)
+    start = np.zeros((width + 1) * classes)
     found = optimize.minimize(loss, start, jac=True, method="L-BFGS-B", options={"maxiter": _STEPS, "maxcor": 5})
     flat = np.asarray(found.x, dtype=np.float32)
-    return flat[: BUCKETS * classes].reshape(BUCKETS, classes), flat[BUCKETS * classes :]
+    return flat[: width * classes].reshape(width, classes), flat[width * classes :]
 
 
 def save(
-    path: Path,
-    names: Sequence[str],
-    kinds: tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]],
-    orders: tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]],
+    path: Path, names: Sequence[str], weights: npt.NDArray[np.float32], intercepts: npt.NDArray[np.float32],
     known: npt.NDArray[np.uint32],
-) -> None:
-    """Write the model, the weights as int8 with a scale per label; ``orders`` was fitted to "no" and "yes"."""
-    weights = np.column_stack([kinds[0], orders[0][:, 1] - orders[0][:, 0]])
-    intercepts = np.append(kinds[1], orders[1][1] - orders[1][0])
+) -> None:  # fmt: skip
+    """Write the model, the weights as int8 with a scale per label."""
     scales = np.asarray(np.abs(weights).max(axis=0) / 127, dtype=np.float32)
     rounded = np.asarray(np.rint(weights / scales), dtype=np.int8)
     np.savez_compressed(

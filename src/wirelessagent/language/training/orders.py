@@ -1,0 +1,108 @@
+"""Make the judge of orders anew: ``python -m wirelessagent.language.training.orders [FILE]``; about a minute.
+
+It learns from the sentences of :mod:`.spoken` that are known to order something or nothing, and from frames: lines of
+``frames/<language>.tsv``, "order" or "none" and a sentence with ``{}`` in the place of its wish, which is filled with
+wishes of all kinds. Those that were written to be mistaken for each other count most.
+"""
+
+from __future__ import annotations
+
+import logging
+import random
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from wirelessagent.language.order_model import (
+    BUCKETS,
+    LIKELY,
+    ORDER_FILE,
+    Frame,
+    OrderModel,
+    features,
+    frame_of,
+    word_hashes,
+)  # fmt: skip
+from wirelessagent.language.sentence import Sentence, own_words
+from wirelessagent.language.training.compose import OBJECTIVES, sentences, wishes
+from wirelessagent.language.training.fit import fit, known_words, matrix_of
+from wirelessagent.language.training.spoken import spoken
+from wirelessagent.model.errors import InputError
+
+FRAMES = Path(__file__).with_name("frames")
+ORDERS, NONE = (*OBJECTIVES, "command.undo", "command.reset"), ("question", "clarify.negated")
+"""Labels of the templates' sentences that order something, and how those begin that order nothing."""
+
+FILLED, _LONGEST = 8, 60
+"""How often each frame is filled, in turns with what people said, in so many letters, and with what is drawn."""
+
+DRAWN, MILD, FRAME = 0.03, 0.2, 3.0
+"""What a drawn sentence counts, one that was not written to be mistaken, and a frame, beside a sentence that was."""
+
+_RIDGE = 1e-6
+
+
+def framed(folder: Path = FRAMES, seed: int = 1) -> Iterator[tuple[str, bool]]:
+    """Each frame, filled with wishes, and whether it orders something.
+
+    Raises:
+        InputError: there are no frames; an installed package leaves them out.
+    """
+    chance, paths = random.Random(seed), sorted(folder.glob("*.tsv"))
+    if not paths:
+        raise InputError(f"no frames in {folder}: train from a checkout of the sources, which has them")
+    spoken_ones = [each for each in spoken() if each.label in OBJECTIVES and len(each.text) <= _LONGEST]
+    for path in paths:
+        drawn_ones = wishes(path.parent.parent, path.stem, chance)
+        by_people = [each.text for each in spoken_ones if each.language == path.stem]
+        for line in path.read_text(encoding="utf-8").splitlines():
+            label, frame = line.split("\t")
+            for turn in range(FILLED):
+                wish = next(drawn_ones) if turn % 2 else chance.choice(by_people).rstrip(".!。！")
+                yield frame.replace("{}", wish[:1].lower() + wish[1:]), label == "order"
+
+
+def drawn() -> list[tuple[str, str]]:
+    """The sentences of the templates, with their labels."""
+    return sorted(set(sentences(FRAMES.parent)))
+
+
+def main(path: Path) -> None:
+    """Read, fit, write, and say how well the sentences are told apart that were written to be mistaken."""
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    log, start, own = logging.getLogger(__name__), time.perf_counter(), own_words()
+    said = [(each.text, each.is_order, 1.0 if each.near else MILD) for each in spoken() if each.is_order is not None]
+    said += [(text, label in ORDERS, DRAWN) for text, label in drawn() if label in ORDERS or label.startswith(NONE)]
+    said += [(text, orders, FRAME / FILLED) for text, orders in framed()]
+    frames = [frame_of(Sentence(text, own)) for text, *_ in said]
+    log.info("%d sentences (%.0f s)", len(said), time.perf_counter() - start)
+    labels, weight = ["yes" if orders else "no" for _, orders, _ in said], np.array([each[2] for each in said])
+    model = made(frames, labels, weight)
+    model.save(path)
+    right = [
+        (model.probability(each) >= LIKELY) == (label == "yes") for each, label in zip(frames, labels, strict=True)
+    ]
+    log.info("%.1f %% of them told apart; %s: %d kB (%.0f s)", 100 * np.average(right, weights=weight), path.name,
+             path.stat().st_size // 1000, time.perf_counter() - start)  # fmt: skip
+
+
+def made(frames: Sequence[Frame], labels: Sequence[str], weight: npt.NDArray[np.float64]) -> OrderModel:
+    """A model of what orders something ("yes") and what does not ("no")."""
+    words = known_words(map(word_hashes, frames))
+    known = frozenset(words.tolist())
+    rows = matrix_of([features(frame, known) for frame in frames], BUCKETS)
+    found, intercepts = fit(rows, labels, ("no", "yes"), weight, _RIDGE)
+    weights = found[:, 1] - found[:, 0]
+    scale = float(np.abs(weights).max()) / 127
+    return OrderModel(
+        weights=np.asarray(np.rint(weights / scale), dtype=np.int8), scale=scale,
+        intercept=float(intercepts[1] - intercepts[0]), known=known,
+    )  # fmt: skip
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else ORDER_FILE)
