@@ -1,62 +1,66 @@
-"""The guard without each of its classes: how many sentences are then acted upon wrongly, how many needlessly asked.
+"""The guard without each of its parts: how many sentences are then acted upon wrongly, how many needlessly asked.
 
-Run with ``python benchmarks/ablation.py FILE.jsonl…`` (files as ``bars_frames.py`` reads them); each sentence is said
-first and where a request holds. A class whose absence changes no figure earns nothing on these files.
+Run with ``python benchmarks/ablation.py [FILE.jsonl…]`` (files as ``bars_frames.py`` reads them; without one, the
+sentences of ``bars_composed.py``); each sentence is said first and where a request holds. Parts are the views that the
+judge of orders has of a frame, the classes of mood, and the names of strangers. A part whose absence changes no figure
+earns nothing on these sentences. The judge is not trained anew for each, so what a view is worth is rather overstated.
 """
 
 from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 from unittest import mock
 
+from bars_composed import composed
 from bars_frames import FIRST, LATER, read, score
 
-from wirelessagent.language import guard
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.recogniser import Context
+from wirelessagent.language import guard, order_model
+from wirelessagent.language.moods import table_of
+from wirelessagent.language.order_model import Frame
 
-CLASSES = (*guard.MOODS, "names")
+VIEWS = {"words": "w", "base words": "b", "classes, in place": "c", "classes, alone": "e", "classes, each": "MNPQ"}
+CLASSES = tuple(name for name in table_of("en") if name != "names")
 
 
-def figures(paths: Sequence[Path]) -> tuple[int, int]:
+def figures(rows: list[dict[str, Any]]) -> tuple[int, int]:
     """Sentences acted upon wrongly, and plain ones asked about, first and later together."""
-    said = [word for path in paths for context in (FIRST, LATER) for _, word in score(read(path), context)]
+    said = [word for context in (FIRST, LATER) for _, word in score(rows, context)]
     return said.count("wrong act"), said.count("asked")
 
 
-def without(name: str, paths: Sequence[Path]) -> tuple[int, int]:
-    """The figures with a class switched off."""
-    with switched_off(name):
-        return figures(paths)
-
-
 @contextlib.contextmanager
-def switched_off(*names: str) -> Iterator[None]:
-    """The guard without these classes."""
-    doubted, stranger = guard.doubted, guard.stranger
+def without(part: str) -> Iterator[None]:
+    """The guard without a part."""
+    grams, classes_in = order_model._grams, order_model.classes_in
 
-    def fewer(text: str, context: Context | None, intent: Intent, moods: Sequence[str]) -> guard.Doubt | None:
-        return doubted(text, context, intent, [mood for mood in moods if mood not in names])
+    def fewer(frame: Frame, known: frozenset[int]) -> Iterator[str]:
+        return (gram for gram in grams(frame, known) if gram[0] not in VIEWS[part])
 
-    with contextlib.ExitStack() as stack:
-        stack.enter_context(mock.patch.object(guard, "doubted", fewer))
-        stack.enter_context(mock.patch.object(guard, "stranger", (lambda *_: None) if "names" in names else stranger))
+    if part in VIEWS:
+        patch = mock.patch.object(order_model, "_grams", fewer)
+    elif part == "names":
+        patch = mock.patch.object(guard, "stranger", return_value=None)
+    else:
+        patch = mock.patch.object(
+            order_model, "classes_in", lambda plain: [one for one in classes_in(plain) if one[0].split(":")[0] != part]
+        )
+    with patch:
         yield
 
 
 def main() -> None:
-    paths = [Path(argument) for argument in sys.argv[1:]]
-    if not paths:
-        raise SystemExit("say which files: python benchmarks/ablation.py FILE.jsonl…")
-    print(f"{'without':16}{'wrong act':>12}{'asked':>12}")
-    print("{:16}{:12}{:12}".format("(nothing)", *figures(paths)))
-    for name in CLASSES:
-        print("{:16}{:12}{:12}".format(name, *without(name, paths)))
-    with switched_off(*CLASSES):
-        print("{:16}{:12}{:12}".format("the whole guard", *figures(paths)))
+    rows = [row for argument in sys.argv[1:] for row in read(Path(argument))] or list(composed())
+    print(f"{'without':20}{'wrong act':>12}{'asked':>12}")
+    print("{:20}{:12}{:12}".format("(nothing)", *figures(rows)))
+    for part in (*VIEWS, *CLASSES, "names"):
+        with without(part):
+            print("{:20}{:12}{:12}".format(part, *figures(rows)))
+    with without("names"), mock.patch.object(guard, "doubted", return_value=None):
+        print("{:20}{:12}{:12}".format("the whole guard", *figures(rows)))
 
 
 if __name__ == "__main__":
