@@ -40,13 +40,3 @@ def is_unsure(topic: str, plain: str, certainty: float) -> bool:
     cue = _CUES.get(topic)
     said = cue is None or cue.search(plain) is not None
     return topic in CHANGING and not (said and certainty >= _SURE_OF_A_COMMAND)
-
-
-def cues_in(topic: str, plain: str) -> list[tuple[int, int]]:
-    """Where the words of a command stand that changes something; none for any other.
-
-    >>> cues_in("undo", "hm, undo that")
-    [(4, 8)]
-    """
-    cue = _CUES.get(topic)
-    return [match.span() for match in cue.finditer(plain)] if cue is not None else []

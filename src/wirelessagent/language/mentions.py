@@ -27,7 +27,6 @@ _NUMBER_WORDS = {word: str(value) for word, value in cardinals(1, 20).items() if
 _NOUN = f"(?:{'|'.join(words_of('figures', 'users', 'nouns', 'things'))})"
 _EACH = f"(?:{'|'.join(words_of('figures', 'users', 'each'))})"
 _WORD_NUMBER = "(?:" + "|".join(sorted(_NUMBER_WORDS, key=len, reverse=True)) + ")"
-_NUMBER = rf"(?:[0-9]{{1,4}}(?![0-9.,]*[0-9%])|{_WORD_NUMBER}\b)"
 _AND = (
     r"(?:\s*(?:,|&|\+|/)\s*(?:and\s+|y\s+|et\s+|und\s+|or\s+)?|\s+(?:and|or|plus|nor|as\s+well\s+as|y|e|o|ni|así\s+como|"
     r"et|ou|ainsi\s+que|und|oder|noch|sowie)\s+(?:(?:the|el|al|del|le|au|du|die|den|der)\s+)?)"
