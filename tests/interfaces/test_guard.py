@@ -204,6 +204,9 @@ def test_every_language_has_the_same_classes() -> None:
     for table in tables.values():
         for words in (words for classes in table.values() for words in classes.values()):
             assert all(word and word == word.strip() for word in words)
+        for mood in NOT_ASKED:
+            assert set(table[mood]) <= {"clause", "ahead", "sentence", "text", "here", "first"}
+            assert any(table[mood].values())
 
 
 def test_a_yes_takes_the_guess_up_and_a_no_drops_it() -> None:
