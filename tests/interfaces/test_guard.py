@@ -349,13 +349,13 @@ def test_courtesy_and_a_story_beside_a_wish_ask_nothing(said: str) -> None:
 @pytest.mark.parametrize(
     "said", ["the night shift ran 5 W", "My cousin's shop makes do with 5 W", "Eight watts melted the old amplifier"]
 )
-def test_what_has_no_listed_word_is_asked_about_where_it_is_hardly_an_order(said: str) -> None:
+def test_a_figure_that_is_only_told_changes_nothing(said: str) -> None:
     now = Context(user_names=("user 1", "user 2"), objective="max_rate", language="en")
     asked = recognise(said, now)
     assert asked.kind == "clarify"
-    assert asked.guess is not None
-    assert asked.guess.constraints
-    assert recognise("run it at 5 W", now).kind == "allocate"
+    assert not asked.pending
+    assert not (asked.guess and asked.guess.constraints)
+    assert recognise("run it at 5 W", now).constraints == {"max_power_w": 5.0}
 
 
 def test_a_word_of_condition_asks_nothing_in_what_is_an_order() -> None:

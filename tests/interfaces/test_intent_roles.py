@@ -12,6 +12,7 @@ from wirelessagent.experiments.evaluate_intents import same_constraints
 from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.figure_roles import LABELS, likely, shipped_roles
 from wirelessagent.language.leftovers import loose_numbers, unread
+from wirelessagent.language.offline import recognise
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.role_features import BUCKETS, Span, around, hashed, tokens_of
 from wirelessagent.language.stated import Reading
@@ -145,11 +146,39 @@ def test_a_meaning_shows_what_its_figures_are() -> None:
     meaning = {"circuit_power_w": 3, "max_power_w": 10, "max_rate_bps": {"4": 1e6}, "leave_out": [5]}
     assert sorted(shown(text, meaning), key=str) == sorted(
         [
-            ("number", {"harmless"}), ("user", {"none"}), ("user", {"leave_out"}), ("power", {"circuit_power_w"}),
+            ("number", {"harmless"}), ("user", {"given"}), ("user", {"leave_out"}), ("power", {"circuit_power_w"}),
             ("power", {"max_power_w"}), ("rate", {"max_rate_bps"}),
         ],
         key=str,
     )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Leave user 3 out and maximise the rate", "Leave user 3 out"),
+        ("max rate, 不要用户3", "不要用户3"), ("save power without user 3", "without user 3"),
+    ],
+)  # fmt: skip
+def test_the_words_that_say_what_somebody_is_there_for_are_evidence_and_wish_nothing(text: str, words: str) -> None:
+    intent = recognise(text)
+    assert (intent.kind, intent.constraints["leave_out"]) == ("allocate", ("3",))
+    assert intent.evidence["leave_out"] == words
+
+
+def test_marks_show_what_no_constraint_can() -> None:
+    line = "drop [user 2]{stale}, no, [user 4]{leave_out}, half of [8 W]{part} or [3]{limit} in room 7"
+    shown_by = [
+        (
+            example.question,
+            {label for label, right in zip(LABELS[example.question], example.right, strict=True) if right},
+        )
+        for example in training.shown_by(line)
+    ]
+    assert shown_by == [
+        ("number", {"harmless"}), ("number", {"power"}), ("number", {"harmless"}), ("user", {"stale"}),
+        ("user", {"leave_out"}), ("power", {"part"}), ("power", {"max_power_w"}),
+    ]  # fmt: skip
 
 
 def test_a_meaning_whose_figure_was_not_read_shows_nothing_of_its_kind() -> None:

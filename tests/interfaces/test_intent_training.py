@@ -16,6 +16,7 @@ from wirelessagent.language import training
 from wirelessagent.language.base_words import FOLDER as FOLDER_OF_BASE_WORDS
 from wirelessagent.language.base_words import based
 from wirelessagent.language.features import BUCKETS, buckets, word_hashes
+from wirelessagent.language.figure_roles import LABELS
 from wirelessagent.language.intent import COMMANDS, QUESTIONS, checked_constraints
 from wirelessagent.language.linear_model import MODEL_FILE, shipped_model
 from wirelessagent.language.order_model import LIKELY, Frame, OrderModel, frame_of
@@ -25,6 +26,7 @@ from wirelessagent.language.training import orders, roles
 from wirelessagent.language.training.compose import LANGUAGES, SLOTS, SURROUNDINGS, sentences
 from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save
 from wirelessagent.language.training.grammar import Grammar
+from wirelessagent.language.training.marked import marked, unmarked
 from wirelessagent.language.training.spoken import spoken
 from wirelessagent.model.errors import InputError
 
@@ -184,6 +186,14 @@ def test_the_frames_for_training_have_one_place_and_are_no_sentence_of_a_test(te
     assert {label for label, _ in lines} == {"order", "none"}
     assert all(frame.count("{}") <= 1 for _, frame in lines)
     assert not {letters(text) for text, _ in orders.framed()} & tested
+
+
+def test_marked_sentences_have_known_roles_and_are_no_sentence_of_a_test(tested: set[str]) -> None:
+    lines = [unmarked(line) for line in marked()]
+    known = {role for labels in LABELS.values() for role in labels}
+    assert {role for _, marks in lines for *_, role in marks} - {""} <= known
+    assert not [text for text, _ in lines if set(text) & set("[]{}<>|")]
+    assert not [text for text, _ in lines if letters(text) in tested]
 
 
 def test_the_composed_bench_has_no_frame_of_the_training() -> None:

@@ -2,13 +2,12 @@
 
 The layers, each knowing only those before it: ``text``, ``spelling`` (the same length) → ``number_words``, ``units``,
 ``numerals`` (digits, number words, multiples) → ``comparators`` (at least, at most) → ``quantities`` (all of these, the
-only source of figures) → ``mentions`` (who is spoken of), ``ratios`` and ``leftovers`` (the other numbers),
-``standings`` and ``surroundings`` (what words beside a user or a figure make of it) → ``role_features``,
-``figure_roles``, ``looks``, ``judged`` (what each is there for, by a small model) → ``allotments`` (who gets which
-figure), ``powers``, ``rates``, ``whole_cell`` → ``constraints`` (which field a figure means) and ``vocabulary``,
-``goals`` (which objective the words mean) → ``sentence`` (all of that, once) → ``features``, ``linear_model``,
-``forms`` → ``judgement`` (what the sentence wants) → ``topics``, ``followups`` (details, changes of a request),
-``nobody_starves`` (a wish beside the wish) → ``offline`` (the recogniser).
+only source of figures) → ``mentions`` (who is spoken of), ``ratios`` and ``leftovers`` (the other numbers) →
+``role_features``, ``figure_roles``, ``looks``, ``judged`` (what each figure and user is there for, and the words that
+say so, by a small model) → ``allotments`` (who gets which figure), ``whole_cell`` → ``constraints`` (which field a
+figure means) and ``vocabulary``, ``goals`` (which objective the words mean) → ``sentence`` (all of that, once) →
+``features``, ``linear_model``, ``forms`` → ``judgement`` (what the sentence wants) → ``topics``, ``followups``
+(details, changes of a request), ``nobody_starves`` (a wish beside the wish) → ``offline`` (the recogniser).
 ``figures`` holds the words beside figures and users, ``lexicon`` those of wishes and ``replies`` the sentences, as
 data; ``training`` makes the models.
 """

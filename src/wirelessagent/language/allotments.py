@@ -2,46 +2,18 @@
 
 from __future__ import annotations
 
-import itertools
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from wirelessagent.language.clauses import clause_end, clause_start, cuts_between
-from wirelessagent.language.deferred import deferred
+from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.intent import EVERYBODY, Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import Mention, Role
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.standings import (
-    Standing,
-    UserRole,
-    exception_of,
-    is_something_of,
-    promised_nothing,
-    role_of,
-)
-from wirelessagent.language.surroundings import CORRECTION
 
 _SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.5, 0.45
-_AT_ODDS = 0.15
 _SAID = 0.4
-_NEAR = 30
-
-_SERVED = deferred(r"(?i)\b(?:serv(?:e|es|ing)|sirv\w*|atiend\w*|bedien\w*)\b|服务")
-_COMPARED = deferred(
-    r"(?i)\s*(?:(?:is|be|must|should|may|gets?|goes|go|no|not|never|stays?)\s+)*(?:(?:faster|slower|more|less|better|higher|lower)\s+"
-    r"than|above|below|over|under|ahead\s+of|behind)\s+|\s*(?:也|都|要|得)?(?:不|别|不能|不得|不许)?(?:能|得|要)?(?:超过|高于|低于|"
-    r"快于|慢于|大于|小于|多于|少于|快过|比)\s*"
-)
-_LEADING = deferred(r"(?i)\s*(?:以外|之外|除外|外|aside|excepted|ausgenommen)?\s*")
-_INSERTED = deferred(r"\s*[,(\uff0c][^,;()\uff0c]{0,24}")
-_COLLECTIVE = ("everybody", "others")
-_AT_ONCE = deferred(  # what may stand between an exception that leads and what all get
-    r"(?i)\s*(?:(?:please|give|grant|guarantee|promise|ensure|keep|let|hold|with|and|there|is|a|must|should|da|dales|"
-    r"garantiza|donne|donnez|garantis|gib|gebt|garantiere)\s+)*(?:给|让|保证|确保|保障|保|请|都|要|得|满足)*\s*"
-)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +34,6 @@ class Target:
 class _Given:
     value: float
     text: str
-    end: int
 
 
 class Allotments:
@@ -74,14 +45,11 @@ class Allotments:
         self._lists: dict[str, dict[str, str]] = {"users": {}, "leave_out": {}, "back": {}}
         self._used: set[Mention] = set()
         self._unsure: list[Mention] = []
-        self._excepted: dict[Mention, Standing] = {}
+        self._excepted: set[Mention] = set()
         self.exact: set[str] = set()
         self._of_others = False
-        named = [mention for mention in self._found if mention.role == "named"]
-        pairs = [pair for pair in itertools.pairwise(named) if _COMPARED.fullmatch(plain, pair[0].end, pair[1].start)]
-        self._compared = {mention for pair in pairs for mention in pair}
         self.spans: list[tuple[int, int]] = []
-        self._roles: dict[Mention, UserRole] = {}
+        self._roles: dict[Mention, str] = {}
         for mention in self._found:
             if mention.role in ("named", "pronoun"):
                 self._assign(mention)
@@ -91,122 +59,61 @@ class Allotments:
             self._weigh(number)
 
     def _assign(self, mention: Mention) -> None:
-        if mention in self._compared:  # "3号不超过2号"
+        role = self._likeliest(mention)
+        users = self._meant_by(mention).users if mention.role == "pronoun" else mention.users
+        if role == "given" or not users:
+            return
+        if role in ("exempt", "unclear"):
             self._unsure.append(mention)
+            if role == "exempt":
+                self._excepted.add(mention)
+                self._mask_a_clause(mention)
             return
-        standing = exception_of(self._plain, mention.start, mention.end) if mention.role == "named" else ""
-        if self._is_settled(mention, standing):
-            return
-        role, start, end = role_of(self._plain, mention.start, mention.end)
-        users = mention.users
-        if mention.role == "pronoun":
-            users = self._meant_by(mention).users
-        if standing in ("leaves", "alone"):
-            role = "leave_out" if standing == "leaves" else "users"
-        elif role != "back":
-            likeliest = self._likeliest(mention)
-            if standing == "excepted" and likeliest == "users" != role:
-                likeliest = "leave_out"  # "everyone but 4 and 5"
-            role, start, end = (role, start, end) if likeliest == role else (likeliest, mention.start, mention.end)
-        if role == "none" or not users:
-            return
-        self._roles[mention] = role
         self._used.add(mention)
         self._used.update([self._meant_by(mention).mention or mention] if mention.role == "pronoun" else [])
+        start, end = self._judged.telling(mention, role)
         self.spans.append((start, end))
-        for user in self._corrected_users(mention, role):
-            self._lists[role].pop(user, None)
+        if role in ("kept", "stale"):
+            return
+        self._roles[mention] = role
         for user in users:
-            self._lists[role][user] = self._text[start:end].strip()
+            self._lists[role][user] = self._text[start:end]
 
-    def _corrected_users(self, mention: Mention, role: UserRole) -> tuple[str, ...]:
-        """Those named just before whom somebody replaces: "leave user 5 out, no, user 6"."""
-        last = max((m for m in self._found if m.end <= mention.start), key=lambda m: m.end, default=None)
-        if last is None or self._roles.get(last) != role or mention.start - last.end > _NEAR:
-            return ()
-        corrected = CORRECTION.search(self._plain, last.end, mention.start)
-        return last.users if corrected is not None else ()
-
-    def _is_settled(self, mention: Mention, standing: Standing) -> bool:
-        """Whether somebody is an exception: kept, who needs nothing, or excepted from a rate, of which more is said."""
-        if standing == "kept":
-            for user in mention.users:
-                self._lists["leave_out"].pop(user, None)
-            self._used.add(mention)
-            self.spans.append((mention.start, mention.end))
-            return True
-        rated = any(figure.kind == "rate" for figure in self._judged.figures)
-        if (rated and standing in ("exempt", "uncapped")) or (
-            standing == "excepted" and self._is_excepted_from_a_rate(mention)
-        ):
-            self._unsure.append(mention)
-            self._excepted[mention] = standing
-            return True
-        return False
-
-    def _is_excepted_from_a_rate(self, mention: Mention) -> bool:
-        """Whether an exception is one from a rate beside it, which may stand before: "1 Mbit/s each, not user 3".
-
-        With a rate on either side it has one of its own: "1 Mbit/s each but users 2 and 3 should have 3".
-        """
-        rates = [figure for figure in self._judged.figures if figure.kind == "rate"]
-        first = clause_start(self._plain, mention.start)
-        if _SERVED.search(self._plain, first, mention.start):
-            return False  # "serve everyone but user 3": an exception from service
-        of_all = any(m.role in _COLLECTIVE and first <= m.start < mention.start for m in self._found)
-        before = [cuts_between(self._plain, f.end, mention.start) for f in rates if f.end <= mention.start]
-        after = [f for f in rates if f.start >= mention.end and not cuts_between(self._plain, mention.end, f.start)]
-        stated = 0 in before or (1 in before and not of_all)
-        return stated != (bool(after) or self._leads_to_a_rate(mention))
-
-    def _leads_to_a_rate(self, mention: Mention) -> bool:
-        """Whether the clause after an exception says at once what all get: "except for user 3, each gets 1 Mbit/s"."""
-        cut = clause_end(self._plain, mention.end)
-        if cut == len(self._plain) or not _LEADING.fullmatch(self._plain, mention.end, cut):
-            return False
-        first, end = cut + 1, clause_end(self._plain, cut + 1)
-        rates = [f for f in self._judged.figures if f.kind == "rate" and first <= f.start < end]
-        of_all = [m.start for m in self._found if m.role in _COLLECTIVE and first <= m.start < end]
-        begins = min([f.phrase_start for f in rates] + of_all, default=end)
-        inserted = any(  # "everyone, except user 3, gets"
-            _INSERTED.fullmatch(self._plain, m.end, mention.start) for m in self._found if m.role in _COLLECTIVE
-        )
-        return bool(rates) and (inserted or _AT_ONCE.fullmatch(self._plain, first, begins) is not None)
+    def _mask_a_clause(self, mention: Mention) -> None:
+        """A clause that only says to whom nothing is promised wishes nothing: "user 7 has no least rate"."""
+        start, end = clause_start(self._plain, mention.start), clause_end(self._plain, mention.end)
+        if not any(start <= figure.start < end for figure in self._judged.figures):
+            self.spans.append((start, end))
 
     def _exempt_from_that_of_the_others(self) -> None:
         """Whoever has a cap alone where "the others" have a floor has none."""
         floors, caps = self._rates["min_rate_bps"], self._rates["max_rate_bps"]
         if self._of_others and EVERYBODY in floors and EVERYBODY not in caps:
             for user in set(caps) - set(floors):
-                floors[user] = _Given(value=0.0, text=caps[user].text, end=caps[user].end)
+                floors[user] = _Given(value=0.0, text=caps[user].text)
 
     def _exempt(self) -> None:
         """Whoever is excepted has a floor of zero where all others have one, and nothing else may be meant."""
         floors, caps = self._rates["min_rate_bps"], self._rates["max_rate_bps"]
-        for mention, standing in self._excepted.items():
-            clear = EVERYBODY in floors and (standing == "exempt" or not (caps or standing == "uncapped"))
-            if not clear or any(
-                user in rates for user in mention.users for rates in (floors, *([caps] if caps else []))
-            ):
-                continue
-            self._used.add(mention)
-            self._unsure.remove(mention)
-            self.spans += filter(None, [promised_nothing(self._plain, mention.start, mention.end)])
-            text = self._text[mention.start : mention.end]
-            for user in mention.users:
-                floors[user] = _Given(value=0.0, text=text, end=mention.end)
+        if EVERYBODY not in floors or EVERYBODY in caps:
+            return
+        for mention in self._excepted:
+            if not any(user in rates for user in mention.users for rates in (floors, caps)):
+                self._used.add(mention)
+                self._unsure.remove(mention)
+                text = self._text[mention.start : mention.end]
+                for user in mention.users:
+                    floors[user] = _Given(value=0.0, text=text)
 
-    def _likeliest(self, mention: Mention) -> UserRole:
-        """What the model says of somebody named; without certainty nobody is left out or served alone."""
-        chances = self._judged.user(mention)
-        roles: tuple[UserRole, ...] = ("leave_out", "users")
-        role = max(roles, key=lambda each: chances[each])
-        said = self._judged.said_of(mention)[role] > _SAID
-        if said and chances[role] > _SURE_OF_A_ROLE and not is_something_of(self._plain, mention.end):
+    def _likeliest(self, mention: Mention) -> str:
+        """What somebody is there for; without certainty it is unclear."""
+        chances, said = self._judged.user(mention), self._judged.said_of(mention)
+        if said["exempt"] > _SURE_OF_A_ROLE:  # whatever rate stands beside it is that of all others
+            return "exempt"
+        role = max(chances, key=lambda each: chances[each])
+        if role == "given" or (chances[role] > _SURE_OF_A_ROLE and said[role] > _SAID):
             return role
-        if chances["none"] < _SURE_OF_NO_ROLE and mention.role == "named":
-            self._unsure.append(mention)
-        return "none"
+        return "unclear" if mention.role == "named" and chances["given"] < _SURE_OF_NO_ROLE else "given"
 
     def _meant_by(self, pronoun: Mention) -> Target:
         named = [other for other in self._found if other.role == "named" and other.end <= pronoun.start]
@@ -267,7 +174,7 @@ class Allotments:
         users = [user for mention in self._found if mention.role == "named" for user in mention.users]
         return tuple(dict.fromkeys(users))
 
-    def give(self, name: str, target: Target, figure: Quantity, corrects: re.Pattern[str]) -> str | None:
+    def give(self, name: str, target: Target, figure: Quantity) -> str | None:
         """Note a rate for its users; the words of an earlier one that contradicts it, or None."""
         if figure.comparator == "exactly":
             self.exact.add(name)
@@ -278,13 +185,10 @@ class Allotments:
         self._of_others = self._of_others or (name == "min_rate_bps" and target.role == "others")
         for key in target.keys:
             earlier = self._rates[name].get(key)
-            if earlier is not None and earlier.value != figure.value and not self._corrected(corrects, earlier, figure):
+            if earlier is not None and earlier.value != figure.value:
                 return earlier.text
-            self._rates[name][key] = _Given(value=figure.value, text=figure.text, end=figure.end)
+            self._rates[name][key] = _Given(value=figure.value, text=figure.text)
         return None
-
-    def _corrected(self, corrects: re.Pattern[str], earlier: _Given, figure: Quantity) -> bool:
-        return corrects.search(self._plain, earlier.end, figure.start) is not None
 
     def take_users(self) -> Iterator[tuple[int, int]]:
         """The named users of whom nothing was said, or nothing certain, as spans."""
@@ -300,11 +204,9 @@ class Allotments:
                 yield mention.start, mention.end
 
     def _is_at_odds(self, mention: Mention) -> bool:
-        """Whether somebody has a rate elsewhere and gets nothing here: "user 3 needs 1 Mbit/s but drop user 3"."""
+        """Whether somebody has a rate elsewhere and is left out here: "user 3 needs 1 Mbit/s but drop user 3"."""
         rated = {user for given in self._rates.values() for user, each in given.items() if each.value > 0}
-        dropped = self._judged.said_of(mention)["leave_out"] > _AT_ODDS
-        corrected = CORRECTION.search(self._plain, mention.end) is not None
-        return dropped and not corrected and mention not in self._used and rated.issuperset(mention.users)
+        return self._roles.get(mention) == "leave_out" and not rated.isdisjoint(mention.users)
 
     def _said_elsewhere(self, mention: Mention) -> bool:
         """Whether everybody of a mention is settled by another, or by a weight."""

@@ -38,18 +38,6 @@ def clause_end(plain: str, place: int, to: int | None = None) -> int:
     return to - 1 if to > place and plain[to - 1] == "." else to
 
 
-def cuts_between(plain: str, start: int, end: int) -> int:
-    """How many clauses end between two places.
-
-    >>> cuts_between("1 Mbit/s each, 10 W", 0, 15)
-    1
-    """
-    cuts = _cuts(plain)
-    first, last = bisect.bisect_left(cuts, start), bisect.bisect_left(cuts, end)
-    stop = end > start and plain[end - 1] == "." and (last == first or cuts[last - 1] != end - 1)
-    return max(last - first, 0) + stop
-
-
 @functools.lru_cache(maxsize=64)
 def _cuts(plain: str) -> tuple[int, ...]:
     return tuple(cut.start() for cut in _CUT.finditer(plain))

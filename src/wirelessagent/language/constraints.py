@@ -7,7 +7,6 @@ no unit, zero watts), a doubt is raised instead of dropping or bending the figur
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 
@@ -15,26 +14,35 @@ from wirelessagent.language.allotments import Allotments
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.judged import Judged
-from wirelessagent.language.powers import Powers
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.rates import Rates
-from wirelessagent.language.ratios import nines
 from wirelessagent.language.stated import Notes, Reading
-from wirelessagent.language.surroundings import Neighbours, is_calculated, is_change, is_refused
 from wirelessagent.language.text import Phrases
 from wirelessagent.language.whole_cell import doubt_parts, take_blocks, take_counts, take_share
 
-_MISSING = deferred(
-    r"(?ia)\b(?:missing|lost|loss|unknown|holes?|absent|gone|faltar\w*|falta\w*|perd\w*|manqu\w*|fehl\w*|"
-    r"verloren)\b|缺失|丢失|缺少|丢包|未知|缺|丢"
-)
 _STEP = Phrases(
     r"\b(?:one|an?|another)\s+(?:more\s+)?watt(?:\s+more)?\b|(?:再?多|再加|加)一瓦|"
     r"\bun vatio más\b|\bun watt de plus\b|\bein watt mehr\b",
     marks="watt vatio 一瓦",
 )
 
-_SURE = 0.6
+_SET_TO = deferred(  # what sets a limit is no wish for the highest rate or the least power
+    r"(?i)(?:\b(?:reduce|lower|cut|drop|bring|decrease|turn|raise|increase|set|limit|lift|boost|push)\s+(?:down\s+|up\s+)?"
+    r"(?:(?:the|each|every|their|total|max\w*|min\w*|transmit|tx|radiated|data|bit|user\w*)\s+)*"
+    r"(?:power|budget|rates?|speeds?|throughput)(?:\s+budget)?\s+(?:down\s+|up\s+)?(?:to|at)|"
+    r"总?发?射?功率(?:降低?|减[小少]?|调|提高|升|增加?|设)(?:到|至|为)|(?:降低?|减[小少]?|提高)总?发?射?功率[到至])\s*$"
+)
+_LIMITS = (
+    "min_rate_bps", "max_rate_bps", "both", "max_power_w", "circuit_power_w", "subcarrier_max_power_w", "outage",
+    "reliability",
+)  # fmt: skip
+_ASKED = {
+    "change": "change", "part": "calculated", "total": "total_rate", "floor": "power_floor",
+    "per_user": "power_per_user",
+}  # fmt: skip
+_UNSURE = {"rate": "status", "power": "whose_power", "ratio": "share"}
+_NEAR = 60
+_HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
+_SURE, _SURE_OF_A_LIMIT = 0.6, 0.75  # most figures are limits, so that the model takes a strange one for one too easily
 
 
 def read_constraints(
@@ -61,9 +69,6 @@ class _Reader:
         self._notes = notes
         self._judged = Judged(notes.plain, notes.quantities, names, notes.spoken_for)
         self._allotments = Allotments(notes.text, notes.plain, self._judged)
-        self._neighbours = Neighbours(notes.plain, self._judged.figures, self._judged.mentions)
-        self._powers = Powers(notes, self._judged, self._neighbours)
-        self._rates = Rates(notes, self._judged, self._neighbours, self._allotments)
 
     def result(self) -> Reading:
         notes, allotted = self._notes, self._allotments
@@ -98,59 +103,82 @@ class _Reader:
         """Powers, rates and percentages, from left to right."""
         for index, figure in enumerate(self._judged.figures):
             self._notes.masked.append((figure.phrase_start, figure.phrase_end))
-            doubt = self._doubt_about(figure, *self._neighbours.beside(index))
+            doubt = self._taken(index, figure)
             if doubt:
                 self._notes.doubt(doubt, text=figure.text)
-            elif is_refused(*self._neighbours.beside(index)):
-                self._refuse(figure)
-            elif figure.kind == "ratio":
-                self._take_ratio(index)
-            elif figure.kind == "power":
-                self._powers.take(index)
-            elif self._neighbours.is_replaced(index):
-                self._notes.counted.append((figure.start, figure.end))
-            else:
-                self._rates.take(index)
-        for one, other in itertools.pairwise(self._judged.figures):
-            self._rates.doubt_a_choice(one, other)
 
-    def _doubt_about(self, figure: Quantity, before: str, after: str) -> str:
-        """The key of the question that a figure raises in whatever role; "" for none."""
+    def _taken(self, index: int, figure: Quantity) -> str:
+        """Take a figure for what it is there for; the key of the question that it raises, "" for none."""
         if figure.kind == "other":
             return "not_understood"
         if figure.doubtful:
             return "bits_or_bytes"
-        if is_calculated(before, after):
-            return "calculated"
-        return "" if figure.kind == "ratio" or 0 < figure.value < math.inf else "impossible"
+        if figure.kind != "ratio" and not 0 < figure.value < math.inf:
+            return "impossible"
+        notes, chances = self._notes, self._judged.figure(index)
+        role = self._judged.role(index)
+        limits = sum(chances.get(name, 0.0) for name in _LIMITS)
+        if role in _ASKED:
+            if role == "change":
+                notes.steps["power_w" if figure.kind == "power" else "rate_bps"] = figure.value
+            return _ASKED[role]
+        if role == "unclear":
+            return self._asked_which(index, figure)
+        if role not in _LIMITS:
+            if 1 - limits < _SURE:
+                return _UNSURE[figure.kind]
+            alike = [other for other in self._judged.figures if other.kind == figure.kind]
+            if role == "refused" and len(alike) == 1:
+                return "refused"
+            if role == "stale":
+                self._mask_a_correction(index, figure)
+            if role == "missing":
+                notes.missing = figure.value
+                notes.not_used.append(figure.text)
+            else:
+                notes.counted.append((figure.start, figure.end))
+            return ""
+        if limits < _SURE_OF_A_LIMIT or chances[role] < _SURE * limits:
+            return _UNSURE[figure.kind]
+        if figure.kind == "ratio" and not 0 < figure.value < 1:
+            return "impossible"
+        return self._limited(role, figure)
 
-    def _refuse(self, figure: Quantity) -> None:
-        """A figure that is not wanted describes what another one mends; without one it is asked for."""
-        if any(other.kind == figure.kind and other is not figure for other in self._judged.figures):
-            self._notes.counted.append((figure.start, figure.end))
-        else:
-            self._notes.doubt("refused", text=figure.text)
+    def _mask_a_correction(self, index: int, figure: Quantity) -> None:
+        """The words by which a figure takes the place of the one before it wish and deny nothing."""
+        for other in self._judged.figures[index + 1 : index + 2]:
+            if other.kind == figure.kind and other.start - figure.end < _NEAR:
+                self._notes.masked.append((figure.end, other.start))
 
-    def _take_ratio(self, index: int) -> None:
-        """A share of the channel that is missing, an outage or a reliability."""
-        notes, figure, (before, after) = self._notes, self._judged.figures[index], self._neighbours.beside(index)
-        if _MISSING.search(before + " " + after):
-            notes.missing = figure.value
-            notes.not_used.append(figure.text)
-            return
-        certain = any(figure.start == each.start for each in nines(notes.plain))
-        chances = {"reliability": 1.0} if certain else self._judged.figure(index)
-        role = max(chances, key=lambda name: chances[name])
-        changes = is_change(before, after)
-        if role == "none" and chances[role] > _SURE and not changes:
-            notes.counted.append((figure.start, figure.end))
-        elif role == "none" or chances[role] < _SURE or changes:
-            notes.doubt("share", text=figure.text)
-        elif not 0 < figure.value < 1:
-            notes.doubt("impossible", text=figure.text)
-        else:
+    def _asked_which(self, index: int, figure: Quantity) -> str:
+        """What to ask about a figure of which nobody could say what it is; of two, which holds: "10 W or 12 W"."""
+        following = self._judged.figures[index + 1 : index + 2]
+        if following and following[0].kind == figure.kind:
+            self._notes.doubt("conflict", one=figure.text, other=following[0].text)
+            return ""
+        return _UNSURE[figure.kind]
+
+    def _limited(self, role: str, figure: Quantity) -> str:
+        """Take a figure as a limit, or say what is to be asked."""
+        setting = _SET_TO.search(self._notes.plain, max(0, figure.start - _NEAR), figure.start)
+        if setting is not None:
+            self._notes.masked.append((setting.start(), figure.end))
+        if figure.kind == "ratio":
             outage = figure.value if role == "outage" else round(1 - figure.value, 15)
-            notes.take("outage_probability", outage, figure)
+            self._notes.take("outage_probability", outage, figure)
+        elif figure.kind == "power":
+            if figure.value > _HUGE_POWER_W:
+                return "huge"
+            self._notes.take(role, figure.value, figure)
+        else:
+            target = self._allotments.target_of(figure.start)
+            if not target.sure:
+                return "whose_rate"
+            for name in ("min_rate_bps", "max_rate_bps") if role == "both" else (role,):
+                earlier = self._allotments.give(name, target, figure)
+                if earlier is not None:
+                    self._notes.doubt("conflict", one=earlier, other=figure.text)
+        return ""
 
     def take_users(self) -> None:
         """Users who are counted, some of them, and those named who get nothing, of whom each raises a doubt."""

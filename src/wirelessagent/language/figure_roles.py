@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -17,33 +17,53 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.hints import HINTS, hints
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.role_features import Span, Token, around, around_base, hashed, in_base_words, tokens_of
-from wirelessagent.language.standings import role_of
-from wirelessagent.language.surroundings import CORRECTION, beside, signs
-from wirelessagent.language.text import language_of
+from wirelessagent.language.text import CJK, language_of
 
 ROLES_FILE = Path(__file__).with_name("roles.npz")
 LABELS: Mapping[str, tuple[str, ...]] = {
-    "power": ("max_power_w", "circuit_power_w", "none"),
-    "rate": ("min_rate_bps", "max_rate_bps", "both", "none"),
-    "ratio": ("outage", "reliability", "none"),
+    "power": (
+        "max_power_w",
+        "circuit_power_w",
+        "subcarrier_max_power_w",
+        "none",
+        "stale",
+        "refused",
+        "change",
+        "part",
+        "floor",
+        "per_user",
+        "unclear",
+    ),
+    "rate": ("min_rate_bps", "max_rate_bps", "both", "none", "stale", "refused", "change", "part", "total", "unclear"),
+    "ratio": ("outage", "reliability", "missing", "none", "change"),
     "number": ("user", "weight", "rate", "power", "multiple", "outage", "reliability", "harmless", "limit"),
-    "user": ("leave_out", "users", "none"),
+    "user": ("leave_out", "users", "back", "exempt", "kept", "given", "stale", "unclear"),
     "link": ("link",),
 }
+"""What each may be there for.
+
+A figure that is "none" is told and limits nothing, one that is "stale" is corrected by the next, "refused" is called
+too much or too little; "change" is an amount to add or to save, "part" is calculated with, "unclear" is one of two, a
+reserve or another device's. Whoever is "exempt" is promised nothing of what all get, "kept" is only spoken of, "given"
+has a figure of their own, "back" is taken in again.
+"""
+
 _PLACEHOLDERS = {"named": "@user", "others": "@others", "everybody": "@all", "pronoun": "@them"}
 _EACH = deferred(r"(?i)(?:each|apiece|je|jeweils|cada un[oa]|chacune?|各)(?!\w)")  # of all, or of those just named
-_PEOPLE = (*_PLACEHOLDERS.values(), "@each", "@weighed")
+_NOBODY = deferred(r"(?i)no|nadie|ning|personne|aucun|niemand|kein|[谁没无]")
+_PEOPLE = (*_PLACEHOLDERS.values(), "@each", "@nobody", "@weighed")
 Answer = TypeVar("Answer")
 _MOST_USERS = 20
 SCALED = deferred(r"\s?[kKMG](?![^\W\d_])")
 _FAR = 8
+_MOST_TELLING, _TELLS, _NEARLY, _TINY = 3, 1.0, 0.85, 1e-6
+_CUT = deferred(r"(?i)[,;:.!?\uff0c。；：！？、]|\b(?:and|then|y|et|und)\b")
+_WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[\w'’-])+")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,7 +108,7 @@ class View:
         spans = [Span(start=q.start, end=q.end, placeholder=f"@{q.kind}") for q in figures]
         spans += [Span(start=m.start, end=m.end, placeholder=_placeholder(plain, m)) for m in found]
         spans += [Span(start=n.start, end=n.end, placeholder="@number") for n in loose]
-        self._plain, self._figures = plain, figures
+        self._plain, self._figures, self._mentions, self._loose, self._ones = plain, figures, found, loose, ones
         self._spans = [span for span in spans if span.placeholder != _PLACEHOLDERS["pronoun"]]
         self._tokens = tokens_of(plain, spans)
         starts = {number.start for number in ones}
@@ -100,7 +120,6 @@ class View:
             if token.word[0] == "@" or token.start in starts
         }
         self._kinds = [token.word for token in self._tokens]
-        self._known: dict[Mention, list[str]] = {}
         self._users = {user for mention in found for user in mention.users}
         self._held = {f"has:{kind}" for kind in self._kinds if kind[0] == "@"}
 
@@ -111,13 +130,11 @@ class View:
         alike = [place for place, kind in enumerate(self._kinds) if kind == f"@{figure.kind}"]
         unit = figure.text.lstrip("0123456789.,'’ -").lower()
         size = math.floor(2 * math.log10(figure.value)) if 0 < figure.value < math.inf else 0
-        sides = beside(self._plain, self._figures, index)
         known = [
             f"is:{figure.comparator}", f"unit:{unit}", f"size:{size}", f"of:{len(alike)}", f"nth:{alike.index(place)}",
-            f"begins:{figure.text.split()[0][:4].lower()}", *signs(figure, *sides),
             *self._beside_alike(index),
         ]  # fmt: skip
-        found = around(self._tokens, place, known) | self._held | self._hinted(figure.kind, figure.start, figure.end)
+        found = around(self._tokens, place, known) | self._held
         return found | self._based(figure.start)
 
     def _based(self, start: int) -> set[str]:
@@ -125,34 +142,43 @@ class View:
         return set() if place is None else around_base(self._base, place)
 
     def _beside_alike(self, index: int) -> list[str]:
-        """How the figures of the same kind right before and after are bounded, and whether one corrects the other."""
+        """How the figures of the same kind right before and after are bounded."""
         found: list[str] = []
         figure = self._figures[index]
         for name, other in (("previous", index - 1), ("next", index + 1)):
             if 0 <= other < len(self._figures) and self._figures[other].kind == figure.kind:
-                low, high = sorted((figure, self._figures[other]), key=lambda each: each.start)
-                corrected = CORRECTION.search(self._plain, low.end, high.start) is not None
-                found.append(f"{name}:{self._figures[other].comparator}:{corrected}")
+                found.append(f"{name}:{self._figures[other].comparator}")
         return found
 
     def user(self, mention: Mention) -> set[str]:
         """The features of somebody named."""
         words = self._plain[mention.start : mention.end].lower()
-        role, _, _ = role_of(self._plain, mention.start, mention.end)
-        known = [f"first:{words.split()[0][:8]}", f"last:{words[-1:]}", f"of:{min(len(mention.users), 3)}", role]
+        known = [f"first:{words.split()[0][:8]}", f"last:{words[-1:]}", f"of:{min(len(mention.users), 3)}"]
         found = around(self._tokens, self._places[mention.start], known) | self._held
-        return found | self._hinted("user", mention.start, mention.end) | self._based(mention.start)
+        return found | self._based(mention.start)
 
-    def _hinted(self, kind: str, start: int, end: int) -> set[str]:
-        """The hints beside something, within its clause and beyond, up to the next figures and users."""
-        names = HINTS.get(kind, ())
-        low = max((span.end for span in self._spans if span.end <= start), default=0)
-        high = min((span.start for span in self._spans if span.start >= end), default=len(self._plain))
-        first, last = clause_start(self._plain, start, low), clause_end(self._plain, end, high)
-        near = hints(names, self._plain[first:start], self._plain[end:last])
-        far = {*near, *hints(names, self._plain[low:first], self._plain[last:high])}
-        found = {f"hint {each}" for each in near} | {f"hint far {each}" for each in far}
-        return found | {f"hint {one}+{other}" for one in near for other in near if one < other}
+    def telling(self, mention: Mention, role: str) -> tuple[int, int]:
+        """The span of somebody named with the words right beside that speak for ``role``, on either side a few."""
+        cuts = [mark.start() for mark in _CUT.finditer(self._plain)]
+        ends = [span.end for span in self._spans if span.end <= mention.start]
+        starts = [span.start for span in self._spans if span.start >= mention.end]
+        low = max([0, *ends, *(place + 1 for place in cuts if place < mention.start)])
+        high = min([len(self._plain), *starts, *(place for place in cuts if place >= mention.end)])
+        before = [word.start() for word in _WORD.finditer(self._plain, low, mention.start)]
+        after = [word.end() for word in _WORD.finditer(self._plain, mention.end, high)][:_MOST_TELLING]
+        end = _first(mention.end, after, lambda place: self._speaks_for(role, mention, mention.start, place))
+        latest = before[: -_MOST_TELLING - 1 : -1]
+        return _first(mention.start, latest, lambda place: self._speaks_for(role, mention, place, end)), end
+
+    def _speaks_for(self, role: str, mention: Mention, start: int, end: int) -> float:
+        """How strongly a sentence without the words from ``start`` to ``end`` beside somebody speaks for a role."""
+        plain, blank = self._plain, " " * len(self._plain)
+        left = plain[:start] + blank[start : mention.start] + plain[mention.start : mention.end]
+        view = View(
+            left + blank[mention.end : end] + plain[end:], self._figures, self._mentions, self._loose, self._ones
+        )
+        chance = answers("user", view.user(mention))[role]
+        return math.log((chance + _TINY) / (1 - chance + _TINY))
 
     def number(self, number: Number, bound: str = "") -> set[str]:
         """The features of a number without a unit; ``bound`` is how it is bounded, "" where it is not."""
@@ -165,7 +191,7 @@ class View:
         known = [f"form:{number.form}", f"{size}:{whole}", f"exact:{words}", f"scaled:{scaled}", f"bound:{bound}"]
         known.append(f"named:{user}:{bool(self._users)}")
         found = around(self._tokens, self._places[number.start], known) | self._held
-        return found | self._hinted("number", number.start, number.end) | self._based(number.start)
+        return found | self._based(number.start)
 
     def owners(self, start: int, candidates: Sequence[Mention | None]) -> list[set[str]]:
         """The features of each mention, or of nobody in particular, as the one whom the figure at ``start`` is for."""
@@ -173,32 +199,32 @@ class View:
         mentioned = [kind for kind in self._kinds if kind in _PEOPLE]
         nobody = {"bias", "nobody", f"nobody:{len(mentioned)}", *(f"nobody:{kind}" for kind in mentioned)}
         return [
-            nobody
-            if mention is None
-            else _between(self._tokens, place, self._places[mention.start], self._who(mention))
+            nobody if mention is None else _between(self._tokens, place, self._places[mention.start])
             for mention in candidates
         ]
 
-    def _who(self, mention: Mention) -> list[str]:
-        """What the words beside a mention say of it."""
-        if mention.role not in ("named", "pronoun"):
-            return []
-        if mention not in self._known:
-            hinted = self._hinted("user", mention.start, mention.end)
-            role, _, _ = role_of(self._plain, mention.start, mention.end)
-            self._known[mention] = [f"who:{each}" for each in (role, *hinted)]
-        return self._known[mention]
+
+def _first(none: int, places: Sequence[int], speaks: Callable[[int], float]) -> int:
+    """The first place up to which nearly all has to be left out that tells at all; ``none`` if that is little."""
+    said = speaks(none)
+    lost = [said - speaks(place) for place in places]
+    most = max(lost, default=0.0)
+    if most < _TELLS:
+        return none
+    return next(place for place, each in zip(places, lost, strict=True) if each >= _NEARLY * most)
 
 
 def _placeholder(plain: str, mention: Mention) -> str:
     if mention.role == "named" and plain[mention.start] in "wW":
         return "@weighed"  # w3 = 2
+    if mention.role == "everybody" and _NOBODY.match(plain, mention.start) is not None:
+        return "@nobody"
     each = mention.role == "everybody" and _EACH.fullmatch(plain, mention.start, mention.end) is not None
     return "@each" if each else _PLACEHOLDERS[mention.role]
 
 
-def _between(tokens: Sequence[Token], figure: int, mention: int, who: Sequence[str]) -> set[str]:
-    """The features of a figure and a mention as a pair; ``who`` is what the words beside the mention say of it."""
+def _between(tokens: Sequence[Token], figure: int, mention: int) -> set[str]:
+    """The features of a figure and a mention as a pair."""
     low, high = min(figure, mention), max(figure, mention)
     inside = [token.word for token in tokens[low + 1 : high]]
     side = "behind" if mention > figure else "before"
@@ -224,7 +250,6 @@ def _between(tokens: Sequence[Token], figure: int, mention: int, who: Sequence[s
     after = tokens[figure + 1].word if figure + 1 < len(tokens) else "end"
     before = tokens[figure - 1].word if figure else "end"
     found |= {f"{kind}:after {after}", f"{kind}:ahead {before}", f"{kind}:{alike}:{people}:after {after}"}
-    found |= {*who, *(f"{kind}:{each}" for each in who)}
     for name, place in (("m", mention), ("f", figure)):
         for step in (-3, -2, -1, 1, 2, 3):
             if 0 <= place + step < len(tokens):

@@ -7,6 +7,7 @@ them in sight.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from typing import TypeVar
@@ -20,7 +21,9 @@ from wirelessagent.language.quantities import Quantity
 
 _Answer = TypeVar("_Answer")
 # The share of those who have a rate or a weight, among all users named and among those of each role.
-_OWN, _OWNS = 0.7, {"leave_out": 0.02, "users": 0.4, "none": 0.95}
+_OWN, _OWNS = 0.7, {"users": 0.4, "given": 0.95, "unclear": 0.2}
+_OWNS_ELSE = 0.02
+_ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w"), 4, 0.01
 
 
 class Judged:
@@ -54,10 +57,9 @@ class Judged:
             *_lists(plain, [number for number in self.weights if number.form != "times"]),
         ]
         self._said: dict[Mention, Mapping[str, float]] = {}
-        self._means: dict[int, Mapping[str, float]] = {}
-        self._places = {figure.start: place for place, figure in enumerate(look.figures)}
         self._owners = {figure.start: self._owners_of(figure.start) for figure in look.figures if figure.kind == "rate"}
         self._owners |= {number.start: self._owners_of(number.start) for number in self.weights}
+        self._means = self._meanings()
         self._owned = [(chances, 1.0) for chances in self._owners.values()]
         self._owned += [
             (self._owners_of(number.start), numbers.chances[number]["weight"])
@@ -72,14 +74,26 @@ class Judged:
         return likely(scores, everyone)
 
     def figure(self, index: int) -> Mapping[str, float]:
-        """How likely a power, a rate or a ratio has each role; all figures of one list have the same."""
-        figure = self.figures[index]
-        if figure.start not in self._means:
-            together = next((each for each in self.lists if figure.start in each), [figure.start])
-            each = [answers(figure.kind, self._view.figure(self._places[start])) for start in together]
-            joint = {role: math.prod(chances[role] for chances in each) ** (1 / len(each)) for role in each[0]}
-            self._means |= dict.fromkeys(together, _shares(joint))
-        return self._means[figure.start]
+        """How likely a power, a rate or a ratio has each role."""
+        return self._means[self.figures[index].start]
+
+    def role(self, index: int) -> str:
+        """The likeliest role of a power, a rate or a ratio."""
+        chances = self.figure(index)
+        return max(chances, key=lambda role: chances[role])
+
+    def _meanings(self) -> dict[int, Mapping[str, float]]:
+        """The same of each figure by its place: those of one list have the same, and a cell has one limit."""
+        means: dict[int, Mapping[str, float]] = {}
+        for place, figure in enumerate(self._look.figures):
+            means[figure.start] = answers(figure.kind, self._view.figure(place))
+        for starts in self.lists:
+            each = [means[start] for start in starts if start in means]
+            if each:
+                joint = {role: math.prod(chances[role] for chances in each) ** (1 / len(each)) for role in each[0]}
+                means |= dict.fromkeys(starts, _shares(joint))
+        powers = [figure.start for figure in self._look.figures if figure.kind == "power"][:_MOST_POWERS]
+        return means | dict(zip(powers, _each_once([means[start] for start in powers]), strict=True))
 
     def said_of(self, mention: Mention) -> Mapping[str, float]:
         """The same by the words alone."""
@@ -93,10 +107,15 @@ class Judged:
         if self._look.unread:  # a figure that may be theirs
             return by_words
         joint = {
-            role: chance * (_OWNS[role] * owning / _OWN + (1 - _OWNS[role]) * (1 - owning) / (1 - _OWN))
+            role: chance * (owns * owning / _OWN + (1 - owns) * (1 - owning) / (1 - _OWN))
             for role, chance in by_words.items()
+            for owns in [_OWNS.get(role, _OWNS_ELSE)]
         }
         return _shares(joint)
+
+    def telling(self, mention: Mention, role: str) -> tuple[int, int]:
+        """The span of somebody named and of the words beside that say what they are there for."""
+        return self._view.telling(mention, role)
 
     def _owning(self, mention: Mention) -> float:
         """How likely some rate or weight is meant for somebody mentioned."""
@@ -107,6 +126,18 @@ class Judged:
         """How likely the figure at ``start`` is for each of the candidates, or, as None, for everybody."""
         chances = self._owners[start]
         return _shares({mention: chances[mention] for mention in (*candidates, None)})
+
+
+def _each_once(chances: Sequence[Mapping[str, float]]) -> list[Mapping[str, float]]:
+    """How likely each power has each role where none of ``_ONCE`` is had twice."""
+    able = [[role for role, chance in each.items() if chance > _HARDLY] for each in chances]
+    found = [dict.fromkeys(each, 0.0) for each in chances]
+    for roles in itertools.product(*able):
+        if all(roles.count(role) < 2 for role in _ONCE):
+            share = math.prod(each[role] for each, role in zip(chances, roles, strict=True))
+            for each, role in zip(found, roles, strict=True):
+                each[role] += share
+    return [_shares(each) if sum(each.values()) else one for each, one in zip(found, chances, strict=True)]
 
 
 def _shares(chances: Mapping[_Answer, float]) -> dict[_Answer, float]:

@@ -19,12 +19,14 @@ from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity, QuantityKind
 from wirelessagent.language.ratios import nines, odds
 from wirelessagent.language.readings import Reading, readings
+from wirelessagent.language.units import unit_at
 
 Span = tuple[int, int]
 BORROWING: Mapping[str, QuantityKind] = {
     "rate": "rate", "power": "power", "multiple": "rate", "outage": "ratio", "reliability": "ratio",
 }  # fmt: skip
 _SCALES = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
+_DECLARED = deferred(r"(?i)\b(?:in|en)\s+")
 _FAR = 200  # no two rates of one sentence are farther apart: another unit is meant
 _PARTS = {"half": "0.5", "medi": "0.5", "demi": "0.5", "halb": "0.5", "quar": "0.25", "cuar": "0.25", "vier": "0.25"}
 _ONE = deferred(  # "the others only one", against "one user"
@@ -129,6 +131,7 @@ def figures_of(
     if not roles:
         return {}
     units = [reading for reading in readings(plain) if reading.unit is not None and reading.number.value is not None]
+    units = units or list(_declared(plain))
     found: dict[Number, Quantity] = {}
     for number, role in roles.items():
         value = _value(plain, number, role, units, [*stated, *found.values()])
@@ -142,6 +145,15 @@ def figures_of(
             phrase_end=max(number.end, end),
         )  # fmt: skip
     return found
+
+
+def _declared(plain: str) -> Iterator[Reading]:
+    """The unit that is said before all figures, as that of one: "en megas: 6 para el usuario 2"."""
+    for match in _DECLARED.finditer(plain):
+        unit = unit_at(plain, match.end())
+        if unit is not None:
+            number = Number(value=Decimal(1), start=match.end(), end=match.end(), form="words")
+            yield Reading(number=number, unit=unit, start=match.end(), end=unit.end)
 
 
 def _value(plain: str, number: Number, role: str, units: Sequence[Reading], stated: Sequence[Quantity]) -> float | None:
@@ -163,6 +175,6 @@ def _value(plain: str, number: Number, role: str, units: Sequence[Reading], stat
     alike = [figure.value for figure in stated if figure.kind == kind]
     for reading in (*before, *after):
         value = reading.unit.value(number.value) if reading.unit is not None else 0.0
-        if any(1 / _FAR <= value / other <= _FAR for other in alike if other > 0):
+        if not alike or any(1 / _FAR <= value / other <= _FAR for other in alike if other > 0):
             return value
     return None

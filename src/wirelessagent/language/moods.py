@@ -83,15 +83,6 @@ def is_supposed(plain: str) -> bool:
     return any(any(True for _ in places(listed, plain)) for listed in words)
 
 
-def is_taken_up(plain: str, place: int) -> bool:
-    """Whether a clause behind a place begins with an order to carry out what was told before.
-
-    >>> is_taken_up("she pays for 2 Mbit/s, so give it that", 21), is_taken_up("she pays for 2 Mbit/s, he says", 21)
-    (True, False)
-    """
-    return _begins_a_clause(plain, "taken_up", place)
-
-
 def _begins_a_clause(plain: str, name: str, place: int) -> bool:
     """Whether a clause behind a place begins with a word of a class, perhaps behind words that lead up to it."""
     for language in languages_of(plain):

@@ -14,9 +14,15 @@ from wirelessagent.language.leftovers import FOREIGN_UNIT, idioms, may_be_a_limi
 from wirelessagent.language.looks import BORROWING, Look
 from wirelessagent.language.mentions import JOINT, LISTED
 from wirelessagent.language.numerals import Number
-from wirelessagent.language.surroundings import CORRECTION
 from wirelessagent.language.whole_cell import COUNTED_USERS
 
+_CORRECTION = deferred(
+    r"(?ia)\b(?:no|nope|wait|sorry|i mean|i meant|make (?:that|it)|scratch that|rather|correction|oops|actually|"
+    r"better|pardon|er|"
+    r"non|nein|perdón|pardon|mejor|plutôt|lieber|besser|doch|digo|ich meine|je veux dire|quiero decir|strike that|"
+    r"let's say)\b|"
+    r"[,\uff0c。]\s*不\s*[,\uff0c]|不对|不是|应该是|改成|改为|算了|错了|说错|还是|哦不|不不|口误|更正|纠正"
+)
 _ONE_OF_A_LIST, _NEAR = 0.3, 24
 _MOST_WEIGHT = 10**6
 ITEMS = deferred(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
@@ -126,10 +132,6 @@ def _is_a_figure(look: Look, number: Number, chances: Mapping[str, float], role:
         return sure > _SURE_OF_ONE
     if SCALED.match(look.plain, number.end):
         return role == "rate" and sure > _LIKELY
-    if look.bound(number) not in ("", "None"):  # nobody bounds a user or a description
-        sure /= sure + sum(
-            chances[each] for each in ("rate", "power", "weight", "limit") if BORROWING.get(each) != BORROWING[role]
-        )
     return sure > (_LIKELY if BORROWING[role] == "ratio" else _SURE_OF_A_FIGURE)
 
 
@@ -192,7 +194,7 @@ def _users(plain: str, numbers: Sequence[Number], chances: Mapping[Number, float
 def _is_a_limit(plain: str, number: Number, bounded: Sequence[tuple[int, int]]) -> bool:
     """Whether a number can be no mere description: it is bounded, scaled ("2M"), a part of one, or has a unit."""
     within = any(start <= number.end and number.start < end for start, end in bounded)
-    corrects = CORRECTION.search(plain, max(0, number.start - _NEAR), number.start) is not None
+    corrects = _CORRECTION.search(plain, max(0, number.start - _NEAR), number.start) is not None
     part = number.value is not None and 0 < number.value < 1
     return within or part or corrects or may_be_a_limit(plain, number)
 
@@ -203,5 +205,5 @@ def _superseded(plain: str, look: Look) -> list[tuple[int, int]]:
         (number.start, number.end)
         for number in look.loose
         for figure in look.figures
-        if 0 < figure.start - number.end <= _NEAR and CORRECTION.search(plain, number.end, figure.start) is not None
+        if 0 < figure.start - number.end <= _NEAR and _CORRECTION.search(plain, number.end, figure.start) is not None
     ]

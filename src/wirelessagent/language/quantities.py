@@ -7,7 +7,6 @@ reported with the kind "other", as is a share for each user ("1 MB each"), so th
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -51,15 +50,6 @@ _PRICE_AFTER = deferred(
 _OWN_NOUN = deferred(  # "each user's rate no lower than" bounds the rate, and wishes for none
     r"(?:用户|每人|人均|每个|每户|各|UE|终端|大家|的)的?(?P<noun>(?:下行|数据)?(?:速率|速度|网速|吞吐量?))(?:都|"
     r"也)?(?:要|得|必须|应|须)?$"
-)
-_FOR_EACH = deferred(
-    rf"(?i)\s*(?:for|on|para|pour|für)\s+(?:el\s+|l'|the\s+|den\s+)?(?:{USER_NOUN}\s*[0-9]{{1,2}}|[0-9]{{1,2}})"
-    r"\s*(?:,|,?\s*(?:and|y|et|und))\s*"
-)
-_LAST_WORD = deferred(r"([A-Za-zÀ-ÿ]+)\s+$")
-_SAME_FORM = deferred(
-    rf"(?i)(?:\s+\w+)?\s*(?:,|,?\s*(?:and|y|et|und))\s+(?:al?\s+|el\s+|l'|à\s+l'|the\s+)?(?:{USER_NOUN}\s*"
-    r"[0-9]{1,2}|everyone(?:\s+else)?|the\s+(?:others?|rest))\s+(to|at|a|en|à|auf|bei)\s+"
 )
 _STEP_AFTER = deferred(
     r"(?i)\s*(?:more|less|faster|extra|too\s+much|de\s+m[aá]s|m[aá]s|de\s+plus|mehr|zu\s+viel|zuviel)\b"
@@ -107,7 +97,7 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
     [('rate', 1000000.0, 'at_least'), ('power', 0.1, 'at_most')]
     """
     plain = normalise(text)
-    readings = _with_units(plain, read_numbers(plain))
+    readings = read_numbers(plain)
     found: list[Quantity] = []
     after = 0
     for index, reading in enumerate(readings):
@@ -123,35 +113,9 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
             quantity = _bounded(text, plain, reading, after=after, until=until)
             if quantity is None:
                 continue
-            found.append(_like_the_last(plain, found, quantity))
+            found.append(quantity)
         after = found[-1].phrase_end
     return tuple(found)
-
-
-def _with_units(plain: str, found: list[Reading]) -> list[Reading]:
-    """The readings with units for the numbers that lean on another's; a sentence without any need not load them."""
-    if all(reading.unit is not None for reading in found):
-        return found
-    from wirelessagent.language.leaning import with_units
-
-    return with_units(plain, found)
-
-
-def _like_the_last(plain: str, found: list[Quantity], quantity: Quantity) -> Quantity:
-    """A figure without a bound takes that of the one before it where both stand in the same form.
-
-    "Limits: 9 Mbps for user 1, 4 Mbps for the others", "cap user 1 at 2 Mbps and user 2 at 4".
-    """
-    last = found[-1] if found else None
-    if last is None or quantity.comparator is not None or quantity.kind != "rate" or last.kind not in ("rate", "power"):
-        return quantity
-    gap = plain[last.end : quantity.start]
-    of_one_kind = last.kind == quantity.kind and _FOR_EACH.fullmatch(gap) is not None
-    lead, same = _LAST_WORD.search(plain, 0, last.start), _SAME_FORM.fullmatch(gap)
-    same_form = lead is not None and same is not None and lead[1].lower() == same[1].lower()
-    if last.comparator != "at_most" or not (of_one_kind or same_form):
-        return quantity
-    return dataclasses.replace(quantity, comparator="at_most")
 
 
 def _joined(plain: str, lower: Reading, upper: Reading) -> bool:

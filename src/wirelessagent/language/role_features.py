@@ -7,6 +7,7 @@ apart from what is near; letters within words catch compounds such as "Ruheverbr
 from __future__ import annotations
 
 import functools
+import itertools
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -19,8 +20,9 @@ from wirelessagent.language.base_words import based
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.text import CJK, unaccented
 
-BUCKETS = 1 << 14
+BUCKETS = 1 << 16
 _REACH = 12
+_PAIRED = 5
 _BASE_REACH, _BASE_NEAR = 8, 3
 _TOKEN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W\d_])+(?:'(?=[^\W\d_]))?|[0-9]+|\S")
 _CLAUSE_ENDS = frozenset(",;!?.。，；！？…—\n")
@@ -84,7 +86,10 @@ def in_base_words(tokens: Sequence[Token], language: str) -> list[Token]:
 def around_base(tokens: Sequence[Token], place: int) -> set[str]:
     """The features of the base words about the token at ``place``."""
     found: set[str] = set()
+    near: list[str] = []
     for side, words in _sides(tokens, place, _BASE_REACH):
+        clause = list(itertools.takewhile(lambda word: word not in _CLAUSE_ENDS, words))
+        near += [f"{side}{word}" for word in clause[:_PAIRED]]
         where, previous = f"base {side}0", ""
         for distance, word in enumerate(words, start=1):
             found |= {f"{where}{word}", f"{where}{previous} {word}"}
@@ -93,6 +98,7 @@ def around_base(tokens: Sequence[Token], place: int) -> set[str]:
             if word in _CLAUSE_ENDS:
                 where = f"base {side}1"
             previous = word
+    found.update(f"pair {one} {other}" for one, other in itertools.combinations(sorted(set(near)), 2))
     return found
 
 

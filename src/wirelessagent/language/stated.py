@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.surroundings import CORRECTION
 
 Span = tuple[int, int]
 
@@ -62,7 +61,6 @@ class Notes:
         self.steps: dict[str, float] = {}
         self.missing: float | None = None
         self.spoken_for: list[Span] = []
-        self._last_end: dict[str, int] = {}
 
     def doubt(self, key: str, **names: str) -> None:
         """Note a question."""
@@ -70,17 +68,13 @@ class Notes:
 
     def put(self, name: str, value: float, span: Span) -> None:
         """Take a value that nothing else may state."""
-        self.values[name], self.evidence[name], self._last_end[name] = value, self.text[slice(*span)], span[1]
+        self.values[name], self.evidence[name] = value, self.text[slice(*span)]
 
     def take(self, name: str, value: float, figure: Quantity) -> None:
-        """Take a value, the later one after words of correction; two values without them are a doubt."""
+        """Take a value; two of them are a doubt."""
         if name in self.values and self.values[name] != value:
-            start = self._last_end[name]
-            correction = CORRECTION.search(self.plain[start : figure.start])
-            if correction is None:
-                self.doubt("conflict", one=self.evidence[name], other=figure.text)
-                return
-            self.masked.append((start + correction.start(), start + correction.end()))
+            self.doubt("conflict", one=self.evidence[name], other=figure.text)
+            return
         if figure.comparator == "exactly":
             self.exact.add(name)
-        self.values[name], self.evidence[name], self._last_end[name] = value, figure.text, figure.end
+        self.values[name], self.evidence[name] = value, figure.text

@@ -13,9 +13,25 @@ from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.stated import Notes, Span
-from wirelessagent.language.surroundings import CARRIER, CHANGE_BEFORE, describes_all
 from wirelessagent.language.text import Phrases
 
+_CARRIER = (
+    r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|(?:unter|sub)träger[ns]?)"
+)
+_CHANGE_BEFORE = deferred(
+    r"(?i)(?:\b(?:by|save|saves|saving|cut|another|extra|additional|reduce|(?<!au )plus|increase)\s*(?:about|"
+    r"around|roughly)?|"
+    r"(?:减少|降低|节省|省下?|增加|提高|再加|(?<![最至])多给|下降|提升|升高|(?<=[功速]率)[降减升增加])了?)\s*$"
+)
+_ALL = deferred(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
+_DESCRIBED_BEFORE = deferred(
+    r"(?i)(?:^|\b(?:the|our|these|those|my|with|have|has|of|are|serve|serving|and|among|between|total|per|over|"
+    r"across|into)|[有共])\s*$"
+)
+_DESCRIBED_AFTER = deferred(
+    r"(?i)\s*(?:$|(?:in|on|and|at|within|under|with|each|per|over|connected|total|online|active|now|max|min|maximum|"
+    r"minimum|or|share|sharing)\b|[每都共同])"
+)
 _COUNT = rf"(?:[0-9]+|{'|'.join(cardinals(2, 10))})"
 COUNTED_USERS = deferred(
     rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:of them|of the users|"
@@ -82,13 +98,13 @@ _SHARES = {
 _SIZE = r"[0-9]{1,3}|[a-zäéöûü]{3,8}"
 _GROUP = r"(?:groups?|blocks?|bundles?|chunks?|clusters?|packs?|rbgs?|grupos|bloques|groupes?|blocs|paquets|paquetes)"
 _BLOCKS = Phrases(
-    rf"(?:\b{_GROUP}\s+(?:of|de)\s+(?P<of>{_SIZE})\b(?:\s+(?:adjacent\s+|neighbouring\s+)?{CARRIER}(?!\w))?"
+    rf"(?:\b{_GROUP}\s+(?:of|de)\s+(?P<of>{_SIZE})\b(?:\s+(?:adjacent\s+|neighbouring\s+)?{_CARRIER}(?!\w))?"
     rf"|\b(?:gruppen|blöcken?)\s+(?:von|zu|à|aus)\s+(?:je\s+)?(?P<zu>{_SIZE})\b"
-    rf"|\b(?P<per>{_SIZE})\s+(?:adjacent\s+|neighbouring\s+)?{CARRIER}\s+(?:per|in (?:a|each|every)|to a|each)\s+"
+    rf"|\b(?P<per>{_SIZE})\s+(?:adjacent\s+|neighbouring\s+)?{_CARRIER}\s+(?:per|in (?:a|each|every)|to a|each)\s+"
     r"(?:group|block|bundle|rbg)"
     r"|\b(?:rbg|resource[- ]block[- ]group|block|group)\s?(?:size|大小)\s*(?:of|=|:|is|为|是)?\s*(?P<size>[0-9]{1,3})"
-    rf"|{CARRIER}(?:\s+\w+){{0,3}}\s+(?:in|par)\s+(?P<in>pairs|deux|trois|quatre|six|huit|[0-9]{{1,3}})\b"
-    rf"|{CARRIER}(?:\s+\w+){{0,2}}\s+(?P<by>[a-z]{{3,6}}) by (?P=by)\b"
+    rf"|{_CARRIER}(?:\s+\w+){{0,3}}\s+(?:in|par)\s+(?P<in>pairs|deux|trois|quatre|six|huit|[0-9]{{1,3}})\b"
+    rf"|{_CARRIER}(?:\s+\w+){{0,2}}\s+(?P<by>[a-z]{{3,6}}) by (?P=by)\b"
     r"|\b(?P<fold>zweier|dreier|vierer|fünfer|sechser|achter|zehner|zwölfer)(?:gruppen|blöcken?|päckchen)\b"
     r"|(?:每|按)?(?P<zh>[0-9]{1,3}|[二两三四五六八十]{1,2})个?子载波(?:一组|为一组|一块|为一块|捆绑|绑定|分组|一个组|成组)"
     r"|子载波(?:按|以|每)?(?P<apart>[0-9]{1,3}|[二两三四五六八十]{1,2})个?(?:为|分)?(?:一|成)?[组块](?:来?分(?:配)?)?)",
@@ -119,7 +135,7 @@ def take_share(notes: Notes, max_power_w: float) -> None:
     """A share of the power, of the cell's limit: "with half the power"."""
     match = _SHARE.search(notes.plain)
     before = notes.plain[: match.start()] if match is not None else ""
-    if match is None or CHANGE_BEFORE.search(before):
+    if match is None or _CHANGE_BEFORE.search(before):
         return
     if any(each.start < match.start() < each.end for each in notes.quantities):  # "two and a half watts"
         return
@@ -146,7 +162,7 @@ def take_counts(notes: Notes, recounted: Sequence[Span], allotted: Sequence[Span
             continue
         words = notes.text[slice(*match.span())]
         notes.counted.append(match.span())
-        if describes_all(*_clause_around(notes, *match.span())):
+        if _describes_all(*_clause_around(notes, *match.span())):
             notes.not_used.append(words)
         else:
             notes.doubt("some_users", text=words)
@@ -177,3 +193,10 @@ def _clause_around(notes: Notes, start: int, end: int) -> tuple[str, str]:
     from_ = max([0, *(figure.phrase_end for figure in notes.quantities if figure.phrase_end <= start)])
     to = min([len(plain), *(figure.phrase_start for figure in notes.quantities if figure.phrase_start >= end)])
     return plain[clause_start(plain, start, from_) : start], plain[end : clause_end(plain, end, to)]
+
+
+def _describes_all(before: str, after: str) -> bool:
+    """Whether a count of users tells how many there are, rather than picking some: "for 3 users" picks."""
+    if _ALL.search(before):
+        return True
+    return _DESCRIBED_BEFORE.search(before) is not None and _DESCRIBED_AFTER.match(after) is not None
