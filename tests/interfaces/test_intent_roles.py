@@ -158,6 +158,9 @@ def test_a_meaning_shows_what_its_figures_are() -> None:
     [
         ("Leave user 3 out and maximise the rate", "Leave user 3 out"),
         ("max rate, 不要用户3", "不要用户3"), ("save power without user 3", "without user 3"),
+        ("max rate without user 3", "without user 3"), ("maximale Rate ohne Nutzer 3", "ohne Nutzer 3"),
+        ("máxima tasa sin el usuario 3", "sin el usuario 3"), ("max rate, skip user 3", "skip user 3"),
+        ("Without user 3 and with 150 kbit/s for all others, save power", "Without user 3"),
     ],
 )  # fmt: skip
 def test_the_words_that_say_what_somebody_is_there_for_are_evidence_and_wish_nothing(text: str, words: str) -> None:

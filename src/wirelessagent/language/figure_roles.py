@@ -205,13 +205,16 @@ class View:
 
 
 def _first(none: int, places: Sequence[int], speaks: Callable[[int], float]) -> int:
-    """The first place up to which nearly all has to be left out that tells at all; ``none`` if that is little."""
+    """The first place up to which so much is left out that the rest speaks against it, or that nearly all is lost.
+
+    It is ``none`` where little is lost anywhere.
+    """
     said = speaks(none)
     lost = [said - speaks(place) for place in places]
     most = max(lost, default=0.0)
     if most < _TELLS:
         return none
-    return next(place for place, each in zip(places, lost, strict=True) if each >= _NEARLY * most)
+    return next(place for place, each in zip(places, lost, strict=True) if each >= min(said + _TELLS, _NEARLY * most))
 
 
 def _placeholder(plain: str, mention: Mention) -> str:
