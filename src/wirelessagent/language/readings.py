@@ -9,11 +9,27 @@ from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
 from wirelessagent.language.text import USER_NOUN, has_chinese
 from wirelessagent.language.units import Unit, unit_at
+from wirelessagent.language.word_tables import words_of
 
-_SUFFIX = deferred(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9]|/(?!\s?(?:users?|ue|person|head)\b))")
+_SUFFIX = deferred(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9]|/(?!\s?(?:users?|ue|person|head)\b))|m(?![A-Za-z0-9/])")
 _CHINESE_SUFFIX = deferred(
     r"\s?(?P<suffix>[kKM])(?!\s*[A-Za-z0-9/瓦赫焦伏安米克])"
 )  # "每人2M": so are rates written there
+_WHO = f"(?:{'|'.join(words_of('figures', 'users', 'each'))}|people|one)"
+_APIECE_AFTER = deferred(  # what is given to each with a mere "k" or "M" is a rate
+    rf"(?i)\s*(?:each|apiece|a\s+(?:head|piece)|(?:for|to)\s+(?:everyone|everybody|all|each|every)|(?:per|a|/)\s*{_WHO}|"
+    rf"para\s+(?:todos|cada)|cada\s+uno|por\s+{_WHO}|pour\s+(?:tous|chacun|chaque|tout\s+le\s+monde)|chacun|par\s+{_WHO}|"
+    rf"für\s+(?:alle|jeden?)|(?:pro|je)\s+{_WHO})(?![\w-])"
+)
+_APIECE_BEFORE = deferred(
+    r"(?i)\b(?:everyone|everybody|each(?:\s+(?:user|one|of\s+them))?|all\s+users|every\s+user|per\s+user|todos|cada\s+usuario|"
+    r"tous|chacun|chaque\s+utilisateur|alle|jede[rnm]?(?:\s+nutzer)?)\s*(?:(?:should|must|to|has|have|had|get|gets|got|getting|"
+    r"needs?|receives?|with|wants?|at|least|most|a|minimum|min|of|tenga|tienen?|recib\w+|al|menos|au|moins|reçoit|reçoivent|ait|"
+    r"avoir|bekommt|bekommen|mindestens|soll|sollen|:)\s*)*$|"
+    rf"\b(?:cap|limit|throttle|hold|keep|give|grant|guarantee|promise)\s+{USER_NOUN}\s*[0-9]{{1,3}}\s+(?:at|to|below|under|"
+    r"above|over|a|at\s+least|at\s+most)?\s*$|\br_?(?:min|max)\s*(?:[:=]|of|is|≥|≤|<=|>=)?\s*$"
+)
+_PRICE = deferred(r"[€$£¥]\s?$")
 _SUFFIXES = {"k": Decimal(10**3), "K": Decimal(10**3), "M": Decimal(10**6), "G": Decimal(10**9)}
 GENERATION = deferred(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
 _PICTURE = deferred(r"[248]K")
@@ -76,9 +92,19 @@ def _read(plain: str, number: Number) -> Reading:
         unit = Unit(kind="rate", end=chinese.end(), factor=_SUFFIXES[chinese["suffix"]])
         return Reading(number=number, unit=unit, start=number.start, end=chinese.end())
     if suffix is not None and not GENERATION.match(plain, number.start):
-        factor = _SUFFIXES[suffix["suffix"]]
-        return Reading(number=number, unit=None, start=number.start, end=suffix.end(), factor=factor)
+        end, factor = suffix.end(), _SUFFIXES[suffix["suffix"] or "M"]
+        if suffix["suffix"] != "G" and _is_apiece(plain, number.start, end):
+            unit = Unit(kind="rate", end=end, factor=factor)
+            return Reading(number=number, unit=unit, start=number.start, end=end)
+        if suffix["suffix"]:
+            return Reading(number=number, unit=None, start=number.start, end=end, factor=factor)
     return Reading(number=number, unit=None, start=number.start, end=number.end)
+
+
+def _is_apiece(plain: str, start: int, end: int) -> bool:
+    """Whether a number with a "k" or an "M" is said of each user: "500k each", "everyone gets at least 2M"."""
+    each = _APIECE_AFTER.match(plain, end) or _APIECE_BEFORE.search(plain, max(0, start - 60), start)
+    return each is not None and _PRICE.search(plain, 0, start) is None
 
 
 def _with_half(plain: str, number: Number, unit: Unit) -> Reading:
