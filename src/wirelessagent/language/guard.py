@@ -13,6 +13,7 @@ import functools
 import re
 from typing import TYPE_CHECKING
 
+from wirelessagent.language.followups import dropped_in
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.moods import Span, standing, table_of
@@ -74,7 +75,8 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
     """
     if intent.recogniser == READ_IN_A_TALK:
         return None
-    frame = frame_of(read_once(text, own_words(), context))
+    sentence = read_once(text, own_words(), context)
+    frame = frame_of(sentence, dropped_in(sentence.plain, context)[1])
     if len(frame.tokens) < _FEWEST_WORDS or shipped_order_model().probability(frame) >= LIKELY:
         return None
     return shipped_order_model().against(frame) or (0, 0)

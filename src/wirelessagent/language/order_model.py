@@ -31,7 +31,7 @@ LIKELY = 0.5
 """From where on a sentence is taken for an order."""
 
 _MOST_TOKENS, _MOST_QUOTED = 80, 4
-_TOKEN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s]")
+_TOKEN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
 _COMMON = ("subject:ours", "subject:adverbial", "subject:speaker")
 """Classes that tell least of a word that has another, too."""
 _CUT = frozenset(",;:.!?…—–-\n，。；：！？、")
@@ -66,14 +66,14 @@ class Frame:
         )  # fmt: skip
 
 
-def frame_of(sentence: Sentence) -> Frame:
-    """What is judged of a sentence.
+def frame_of(sentence: Sentence, explained: Sequence[Span] = ()) -> Frame:
+    """What is judged of a sentence; what is ``explained`` is part of its wish, too.
 
     >>> from wirelessagent.language.sentence import own_words
     >>> frame_of(Sentence("If it rains, at most 5 W for user 3", own_words())).tokens
     ('if', 'it', 'rains', ',', '@', 'for', '@')
     """
-    found, wished = list[tuple[str, Span]](), sentence.wished
+    found, wished = list[tuple[str, Span]](), [*sentence.wished, *explained]
     for match in _TOKEN.finditer(sentence.plain):
         start, end = match.span()
         if any(first <= start < last for first, last in wished):
