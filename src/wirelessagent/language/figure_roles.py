@@ -27,24 +27,15 @@ from wirelessagent.language.text import CJK, language_of
 ROLES_FILE = Path(__file__).with_name("roles.npz")
 LABELS: Mapping[str, tuple[str, ...]] = {
     "power": (
-        "max_power_w",
-        "circuit_power_w",
-        "subcarrier_max_power_w",
-        "none",
-        "stale",
-        "refused",
-        "change",
-        "part",
-        "floor",
-        "per_user",
-        "unclear",
+        "max_power_w", "circuit_power_w", "subcarrier_max_power_w", "none", "stale", "refused", "change", "part",
+        "floor", "per_user", "unclear",
     ),
     "rate": ("min_rate_bps", "max_rate_bps", "both", "none", "stale", "refused", "change", "part", "total", "unclear"),
     "ratio": ("outage", "reliability", "missing", "none", "change"),
     "number": ("user", "weight", "rate", "power", "multiple", "outage", "reliability", "harmless", "limit"),
     "user": ("leave_out", "users", "back", "exempt", "kept", "given", "stale", "unclear"),
     "link": ("link",),
-}
+}  # fmt: skip
 """What each may be there for.
 
 A figure that is "none" is told and limits nothing, one that is "stale" is corrected by the next, "refused" is called

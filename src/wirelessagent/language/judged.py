@@ -83,7 +83,7 @@ class Judged:
         return max(chances, key=lambda role: chances[role])
 
     def _meanings(self) -> dict[int, Mapping[str, float]]:
-        """The same of each figure by its place: those of one list have the same, and a cell has one limit."""
+        """By place, how likely each figure has each role: those of a list have the same, and a cell has one limit."""
         means: dict[int, Mapping[str, float]] = {}
         for place, figure in enumerate(self._look.figures):
             means[figure.start] = answers(figure.kind, self._view.figure(place))
@@ -96,13 +96,13 @@ class Judged:
         return means | dict(zip(powers, _each_once([means[start] for start in powers]), strict=True))
 
     def said_of(self, mention: Mention) -> Mapping[str, float]:
-        """The same by the words alone."""
+        """How likely somebody named has each role, by the words alone."""
         if mention not in self._said:
             self._said[mention] = answers("user", self._view.user(mention))
         return self._said[mention]
 
     def user(self, mention: Mention) -> Mapping[str, float]:
-        """How likely somebody named is left out, served alone, or neither: by the words, and by what is theirs."""
+        """The same by the words, and by what is theirs."""
         owning, by_words = self._owning(mention), self.said_of(mention)
         if self._look.unread:  # a figure that may be theirs
             return by_words

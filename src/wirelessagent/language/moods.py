@@ -64,12 +64,20 @@ def classes_in(plain: str) -> list[tuple[str, Span]]:
 
 
 def is_ordered(plain: str) -> bool:
-    """Whether a clause begins with a word of order.
+    """Whether a clause begins with a word of order, perhaps behind words that lead up to it.
 
     >>> is_ordered("he is only testing, so leave user 3 out"), is_ordered("user 3 is left out")
     (True, False)
     """
-    return _begins_a_clause(plain, "imperative", 0)
+    for language in languages_of(plain):
+        classes = table_of(language)
+        for start, _ in places(classes["imperative"]["words"], plain):
+            first = clause_start(plain, start)
+            lead = list(places(classes["lead"]["words"], plain[first:start]))
+            said = "".join(sign for at, sign in enumerate(plain[first:start]) if not any(a <= at < b for a, b in lead))
+            if not any(map(str.isalnum, said)):
+                return True
+    return False
 
 
 def is_supposed(plain: str) -> bool:
@@ -81,19 +89,6 @@ def is_supposed(plain: str) -> bool:
     reaches = (table_of(language)["condition"].items() for language in languages_of(plain))
     words = (listed for classes in reaches for reach, listed in classes if reach != "first")
     return any(any(True for _ in places(listed, plain)) for listed in words)
-
-
-def _begins_a_clause(plain: str, name: str, place: int) -> bool:
-    """Whether a clause behind a place begins with a word of a class, perhaps behind words that lead up to it."""
-    for language in languages_of(plain):
-        classes = table_of(language)
-        for start, _ in places(classes[name]["words"], plain):
-            first = clause_start(plain, start)
-            lead = list(places(classes["lead"]["words"], plain[first:start]))
-            said = "".join(sign for at, sign in enumerate(plain[first:start]) if not any(a <= at < b for a, b in lead))
-            if start >= place and not any(map(str.isalnum, said)):
-                return True
-    return False
 
 
 _GAP = (  # between words of an expression: "he'd also like"

@@ -192,11 +192,13 @@ class OrderModel:
         They stand side by side, as few of them as make it likelier than not, and none is cut in two.
         """
         for size in range(1, _MOST_QUOTED + 1):
-            places = [
-                place for place in range(len(frame.tokens) - size + 1) if WISH not in frame.tokens[place : place + size]
-            ]
-            best = max(places, key=lambda place: self.probability(frame.without(place, size)), default=None)
-            if best is not None and self.probability(frame.without(best, size)) >= LIKELY:
+            without = {
+                place: self.probability(frame.without(place, size))
+                for place in range(len(frame.tokens) - size + 1)
+                if WISH not in frame.tokens[place : place + size]
+            }
+            best = max(without, key=lambda place: without[place], default=None)
+            if best is not None and without[best] >= LIKELY:
                 words = [(first, last) for _, first, last in frame.moods if first < best + size and best <= last]
                 first, last = min([best, *(a for a, _ in words)]), max([best + size - 1, *(b for _, b in words)])
                 return frame.spans[first][0], frame.spans[last][1]

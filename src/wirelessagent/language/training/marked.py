@@ -9,9 +9,13 @@ mark describe. They hold what a meaning cannot show: figures to ask about, and u
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from wirelessagent.language.figure_roles import LABELS
+from wirelessagent.language.mentions import Mention
+from wirelessagent.language.numerals import Number
+from wirelessagent.language.quantities import Quantity
 from wirelessagent.model.errors import InputError
 
 MARKED = Path(__file__).with_name("marked")
@@ -59,3 +63,37 @@ def unmarked(line: str) -> tuple[str, list[tuple[int, int, str]]]:
         spans.append((len(text), len(text) + len(match[1]), _MEANS.get(match[2], match[2])))
         text, place = text + match[1], match.end()
     return text + line[place:], spans
+
+
+class Marked:
+    """A marked sentence, asked what its figures and users are there for, as one with its meaning is."""
+
+    def __init__(self, line: str) -> None:
+        self.text, self._marks = unmarked(line)
+
+    def _roles(self, start: int, end: int) -> set[str]:
+        return {role for first, last, role in self._marks if start < last and first < end}
+
+    def of_number(self, number: Number) -> set[str]:
+        """A user, or a figure that borrows a unit; it describes where it is not marked."""
+        roles = self._roles(number.start, number.end)
+        if roles == {"unclear"}:
+            return {"limit"}
+        means = (means for means in ("user", "rate", "power") if roles and roles <= set(LABELS[means]))
+        return {next(means, "harmless")}
+
+    def of_user(self, mention: Mention, _: Sequence[Mention]) -> set[str]:
+        return self._roles(mention.start, mention.end)
+
+    def of_pronoun(self, _: Mention, __: Sequence[Mention]) -> set[str]:
+        return set()
+
+    def of_figure(self, figure: Quantity) -> set[str]:
+        return self._roles(figure.start, figure.end)
+
+    def owners(self, _: Quantity) -> set[str]:
+        """Whose a rate is, marks do not say."""
+        return set()
+
+    def weighed(self, _: float) -> set[str]:
+        return set()

@@ -30,7 +30,8 @@ from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.role_features import BUCKETS, hashed
 from wirelessagent.language.text import normalise
-from wirelessagent.language.training.marked import marked, unmarked
+from wirelessagent.language.training.compose import OBJECTIVES
+from wirelessagent.language.training.marked import Marked, marked
 from wirelessagent.language.training.shortened import shortened
 from wirelessagent.language.training.spoken import spoken
 
@@ -40,7 +41,7 @@ _BALANCE = 0.3
 _CLOSE = 1e-6
 _ENDS = re.compile(r"\s*(?:$|[,.;:!?)\uff0c。；、])")
 _SHORTENED = ("number", "user", "link")  # what is learned from sentences said shorter
-MARKED_COUNTS = 2
+_MARKED_COUNT = 2
 """How often a marked sentence counts, beside one with its meaning."""
 
 _FAINT = 3
@@ -48,7 +49,6 @@ _FAINT = 3
 
 _NOTHING = {"none", "stale", "refused"}
 MEANINGS = Path(__file__).with_name("meanings")
-OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,9 +65,17 @@ class Example:
 
 def examples(text: str, constraints: Mapping[str, Any]) -> Iterator[Example]:
     """What a sentence with its meaning shows."""
-    plain = normalise(text)
-    look = first_look(plain, parse_quantities(text))
-    wanted = _Wanted(constraints, look)
+    look = first_look(normalise(text), parse_quantities(text))
+    yield from _shown(look, _Wanted(constraints, look))
+
+
+def shown_by(line: str) -> Iterator[Example]:
+    """What a sentence shows whose figures and users are marked."""
+    marked_one = Marked(line)
+    yield from _shown(first_look(normalise(marked_one.text), parse_quantities(marked_one.text)), marked_one)
+
+
+def _shown(look: Look, wanted: _Wanted | Marked) -> Iterator[Example]:
     numbers = [(number, wanted.of_number(number)) for number in (*look.loose, *look.ones)]
     view = look.view()
     for number, roles in numbers:
@@ -91,43 +99,9 @@ def examples(text: str, constraints: Mapping[str, Any]) -> Iterator[Example]:
             yield from _link(view, number.start, found, wanted.weighed(float(number.value)))
 
 
-def shown_by(line: str) -> Iterator[Example]:
-    """What a sentence shows whose figures and users are marked."""
-    text, marks = unmarked(line)
-    plain = normalise(text)
-    look = first_look(plain, parse_quantities(text))
-
-    def role(start: int, end: int) -> set[str]:
-        return {name for first, last, name in marks if start < last and first < end}
-
-    users, borrowing, view = list[Number](), dict[Number, str](), look.view()
-    for number in (*look.loose, *look.ones):
-        means = _meant(role(number.start, number.end))
-        yield from _example("number", view.number(number, look.bound(number)), {means})
-        users.extend([number] if means == "user" else [])
-        borrowing |= {number: means} if means in BORROWING else {}
-    look = second_look(look, users, borrowing)
-    view = look.view()
-    for mention in look.mentions:
-        if mention.role == "named":
-            yield from _example("user", view.user(mention), role(mention.start, mention.end))
-    for index, figure in enumerate(look.figures):
-        yield from _example(figure.kind, view.figure(index), role(figure.start, figure.end))
-
-
-def _meant(marked_as: set[str]) -> str:
-    """What a number without a unit is that is marked so; it describes where it is not marked."""
-    if marked_as == {"unclear"}:
-        return "limit"
-    for means, labels in (("user", LABELS["user"]), ("rate", LABELS["rate"]), ("power", LABELS["power"])):
-        if marked_as and marked_as <= set(labels):
-            return means
-    return "harmless"
-
-
 def _example(question: str, features: set[str], roles: set[str]) -> Iterator[Example]:
-    if roles:
-        right = tuple(label in roles for label in LABELS[question])
+    right = tuple(label in roles for label in LABELS[question])
+    if any(right):
         yield Example(question=question, rows=(hashed(question, features),), right=right)
 
 
@@ -383,8 +357,7 @@ def trained(sentences: Iterable[tuple[str, Mapping[str, Any]]]) -> dict[str, npt
                     shown[example.question].append(example)
     for line in marked():
         for example in shown_by(line):
-            if any(example.right):
-                shown[example.question] += [example] * MARKED_COUNTS
+            shown[example.question] += [example] * _MARKED_COUNT
     return {question: fit(question, each) for question, each in shown.items()}
 
 
