@@ -17,6 +17,7 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
@@ -53,7 +54,7 @@ _MOST_USERS = 20
 SCALED = deferred(r"\s?[kKMG](?![^\W\d_])")
 _FAR = 8
 _MOST_TELLING, _TELLS, _NEARLY, _TINY = 3, 1.0, 0.85, 1e-6
-_CUT = deferred(r"(?i)[,;:.!?\uff0c。；：！？、]|\b(?:and|then|y|et|und)\b")
+_JOINT = deferred(r"(?i)\b(?:and|then|y|et|und)\b")
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[\w'’-])+")
 
 
@@ -150,11 +151,12 @@ class View:
 
     def telling(self, mention: Mention, role: str) -> tuple[int, int]:
         """The span of somebody named with the words right beside that speak for ``role``, on either side a few."""
-        cuts = [mark.start() for mark in _CUT.finditer(self._plain)]
-        ends = [span.end for span in self._spans if span.end <= mention.start]
-        starts = [span.start for span in self._spans if span.start >= mention.end]
-        low = max([0, *ends, *(place + 1 for place in cuts if place < mention.start)])
-        high = min([len(self._plain), *starts, *(place for place in cuts if place >= mention.end)])
+        joints = list(_JOINT.finditer(self._plain))
+        ahead = [span.end for span in self._spans if span.end <= mention.start]
+        behind = [span.start for span in self._spans if span.start >= mention.end]
+        low = max([0, *ahead, *(joint.start() + 1 for joint in joints if joint.start() < mention.start)])
+        high = min([len(self._plain), *behind, *(joint.start() for joint in joints if joint.start() >= mention.end)])
+        low, high = clause_start(self._plain, mention.start, low), clause_end(self._plain, mention.end, high)
         before = [word.start() for word in _WORD.finditer(self._plain, low, mention.start)]
         after = [word.end() for word in _WORD.finditer(self._plain, mention.end, high)][:_MOST_TELLING]
         end = _first(mention.end, after, lambda place: self._speaks_for(role, mention, mention.start, place))
