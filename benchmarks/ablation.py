@@ -19,11 +19,12 @@ from bars_composed import composed
 from bars_frames import FIRST, LATER, read, score
 
 from wirelessagent.language import guard, order_model
+from wirelessagent.language.figure_roles import View
 from wirelessagent.language.moods import table_of
 from wirelessagent.language.order_model import Frame
 
 VIEWS = {"words": "w", "base words": "b", "classes, in place": "c", "classes, alone": "e", "classes, each": "MNPQ"}
-CLASSES = tuple(name for name in table_of("en") if name != "names")
+CLASSES = tuple(table_of("en"))
 
 
 def figures(rows: list[dict[str, Any]]) -> tuple[int, int]:
@@ -43,7 +44,7 @@ def without(part: str) -> Iterator[None]:
     if part in VIEWS:
         patch = mock.patch.object(order_model, "_grams", fewer)
     elif part == "names":
-        patch = mock.patch.object(guard, "stranger", return_value=None)
+        patch = mock.patch.object(View, "strangers", return_value=[])
     else:
         patch = mock.patch.object(
             order_model, "classes_in", lambda plain: [one for one in classes_in(plain) if one[0].split(":")[0] != part]

@@ -261,10 +261,44 @@ def test_somebody_who_is_no_user_never_becomes_everybody(said: str, who: str) ->
     assert recognise(said).kind == "clarify"
 
 
+@pytest.mark.parametrize(
+    ("said", "answer", "held"),
+    [
+        ("max rate without the scanner", "user 3", {"leave_out": ("3",)}),
+        ("fair shares, 500 kbit/s for the fire truck", "I mean user 4", {"min_rate_bps": {"4": 5e5}}),
+        ("höchste Summenrate ohne den Lautsprecher", "Nutzer 2", {"leave_out": ("2",)}),
+    ],
+)  # fmt: skip
+def test_who_a_stranger_is_is_asked_and_the_request_goes_on(said: str, answer: str, held: dict[str, object]) -> None:
+    talk = session()
+    assert talk.say(said).stage == "asked"
+    assert talk.request is None
+    assert talk.say(answer).stage == "applied"
+    assert talk.request is not None
+    assert dict(talk.request.constraints) == held
+
+
+def test_two_strangers_are_asked_about_one_after_the_other() -> None:
+    talk = session()
+    assert "tractor" in talk.say("serve only the tractor and the harvester, max rate").reply
+    assert "harvester" in talk.say("user 1").reply
+    talk.say("user 2")
+    assert talk.request is not None
+    assert dict(talk.request.constraints) == {"users": ("1", "2")}
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["save power for sensors", "the hall is dark, least power", "more speed for video calls", "max rate, says my boss"],
+)
+def test_a_noun_that_is_nobodys_name_asks_for_nobody(said: str) -> None:
+    assert stranger(said, None) == ""
+
+
 def test_a_user_of_the_cell_is_no_stranger() -> None:
-    assert stranger("at least 1 Mbit/s for Brenda", Context(user_names=("Ada", "Brenda"))) is None
-    assert stranger("at least 1 Mbit/s for Brenda", Context(user_names=("Ada", "Bob"))) is not None
-    assert stranger("minimum power for everyone, please", None) is None
+    assert stranger("at least 1 Mbit/s for Brenda", Context(user_names=("Ada", "Brenda"))) == ""
+    assert stranger("at least 1 Mbit/s for Brenda", Context(user_names=("Ada", "Bob"))) == "Brenda"
+    assert stranger("minimum power for everyone, please", None) == ""
 
 
 def test_the_guard_stands_behind_a_language_model_too() -> None:

@@ -81,7 +81,7 @@ class _Reader:
             values=values, evidence=notes.evidence | allotted.evidence(), doubts=notes.doubts, not_used=notes.not_used,
             masked=[*notes.masked, *allotted.spans], counted=notes.counted,
             exact=frozenset(notes.exact | allotted.exact), missing=notes.missing, steps=notes.steps,
-            back=allotted.back, named=allotted.named,
+            back=allotted.back, named=allotted.named, strangers=self._judged.strangers,
         )  # fmt: skip
 
     def take_numbers(self) -> None:

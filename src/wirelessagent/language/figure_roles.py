@@ -1,7 +1,8 @@
 """What each figure, number and user of a sentence is there for, as a small linear model judges by the words beside it.
 
-Six questions, each with its own labels: what a power, a rate, a ratio, a bare number and a named user are, and whose a
-rate or a weight is. The model says how likely each answer is; what is done with it is decided in ``constraints``.
+Seven questions, each with its own labels: what a power, a rate, a ratio, a bare number and a named user are, whose a
+rate or a weight is, and whether a word calls somebody by a name that no user has. The model says how likely each
+answer is; what is done with it is decided in ``constraints``.
 Trained by :mod:`wirelessagent.language.training.roles` on sentences with their meanings.
 """
 
@@ -17,13 +18,15 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from wirelessagent.language.base_words import based
 from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.role_features import Span, Token, around, around_base, hashed, in_base_words, tokens_of
-from wirelessagent.language.text import CJK, language_of
+from wirelessagent.language.text import CJK, is_chinese, language_of
 
 ROLES_FILE = Path(__file__).with_name("roles.npz")
 LABELS: Mapping[str, tuple[str, ...]] = {
@@ -36,6 +39,7 @@ LABELS: Mapping[str, tuple[str, ...]] = {
     "number": ("user", "weight", "rate", "power", "multiple", "outage", "reliability", "harmless", "limit"),
     "user": ("leave_out", "users", "back", "exempt", "kept", "given", "stale", "unclear"),
     "link": ("link",),
+    "word": ("somebody", "nobody"),
 }  # fmt: skip
 """What each may be there for.
 
@@ -53,6 +57,7 @@ Answer = TypeVar("Answer")
 _MOST_USERS = 20
 SCALED = deferred(r"\s?[kKMG](?![^\W\d_])")
 _FAR = 8
+_SURE_OF_A_NAME, _PART_OF_A_NAME, _SHORTEST_NAME = 0.5, 0.2, 2
 _MOST_TELLING, _TELLS, _NEARLY, _TINY = 3, 1.0, 0.85, 1e-6
 _JOINT = deferred(r"(?i)\b(?:and|then|y|et|und)\b")
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[\w'’-])+")
@@ -104,7 +109,8 @@ class View:
         self._spans = [span for span in spans if span.placeholder != _PLACEHOLDERS["pronoun"]]
         self._tokens = tokens_of(plain, spans)
         starts = {number.start for number in ones}
-        self._base = in_base_words(self._tokens, language_of(plain))
+        self._language = language_of(plain)
+        self._base = in_base_words(self._tokens, self._language)
         self._base_places = {token.start: place for place, token in enumerate(self._base) if token.start >= 0}
         self._places = {
             token.start: place
@@ -185,6 +191,50 @@ class View:
         known.append(f"named:{user}:{bool(self._users)}")
         found = around(self._tokens, self._places[number.start], known) | self._held
         return found | self._based(number.start)
+
+    @property
+    def words(self) -> list[int]:
+        """The places of the tokens that may be a name, or a part of one; the smallest words are not."""
+        return [
+            place
+            for place, kind in enumerate(self._kinds)
+            if kind.isalpha() and (len(kind) > 1 or is_chinese(kind)) and based([kind], self._language)
+        ]
+
+    def word(self, place: int) -> set[str]:
+        """The features of a word that may be somebody's name."""
+        word, start = self._kinds[place], self._tokens[place].start
+        known = [f"is:{word}", f"new:{not shipped_model().familiarity(word)}"]
+        if is_chinese(word):
+            around_it = self._kinds[max(0, place - 1) : place + 2]
+            known += [f"with:{word}{''.join(around_it[-1:])}", f"behind:{''.join(around_it[:1])}{word}"]
+        else:
+            first = place == 0 or not self._kinds[place - 1].isalpha()
+            known += [f"large:{self._plain[start].isupper()}:{first}:{self._language}", f"ends:{word[-3:]}"]
+        return around(self._tokens, place, known)
+
+    def strangers(self) -> list[tuple[int, int]]:
+        """The spans of what somebody is called who is none of those mentioned; words beside may be a part of it."""
+        found: list[tuple[int, int]] = []
+        sure = False
+        for place in self.words:
+            chance = answers("word", self.word(place))["somebody"]
+            start, end = self.span(place)
+            beside = bool(found) and not self._plain[found[-1][1] : start].strip(" .-")
+            if chance > _PART_OF_A_NAME:
+                if beside:
+                    found[-1], sure = (found[-1][0], end), sure or chance > _SURE_OF_A_NAME
+                else:
+                    found[len(found) - (bool(found) and not sure) :] = [(start, end)]
+                    sure = chance > _SURE_OF_A_NAME
+        found = found if sure else found[:-1]
+        return [(start, max(end, start + _SHORTEST_NAME)) for start, end in found]
+
+    def span(self, place: int) -> tuple[int, int]:
+        """Where the word of a token stands."""
+        word = _WORD.match(self._plain, self._tokens[place].start)
+        assert word is not None
+        return word.span()
 
     def owners(self, start: int, candidates: Sequence[Mention | None]) -> list[set[str]]:
         """The features of each mention, or of nobody in particular, as the one whom the figure at ``start`` is for."""

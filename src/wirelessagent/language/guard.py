@@ -9,18 +9,17 @@ agent asks, with the words that speak against it and with the act for a plain ye
 from __future__ import annotations
 
 import dataclasses
-import functools
 import re
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.followups import dropped_in
 from wirelessagent.language.intent import Intent
-from wirelessagent.language.linear_model import shipped_model
-from wirelessagent.language.moods import Span, standing, table_of
+from wirelessagent.language.moods import Span, standing
 from wirelessagent.language.order_model import LIKELY, frame_of, shipped_order_model
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
-from wirelessagent.language.text import USER_NOUN, languages_of, normalise
+from wirelessagent.language.text import languages_of, normalise
 
 if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Context
@@ -37,10 +36,6 @@ _FEWEST_WORDS = 3
 _NO_FACT = ("refusal", "report", "quotation", "time", "condition", "irony", "others")
 """Classes of mood whose words say more than that something is so."""
 
-_IS_A_USER = re.compile(  # "Uncle Bob is on user 8", "Brenda (user 3)"
-    rf"(?i)[\s,(]*(?:(?:is|uses|on|at|ist|an|est|sur|es|está|en)\s+)*(?:{USER_NOUN}\s*\d|[是在用的]*(?:用户\s*\d|\d+\s*号))"
-)
-
 
 def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
     """The intent, or a question back about it where its sentence does not clearly ask for it now."""
@@ -49,13 +44,10 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
     acts = intent.kind == "allocate" or (intent.kind == "command" and intent.topic in CHANGING)
     if not acts and not (intent.kind == "clarify" and intent.pending):
         return intent
-    plain = normalise(text)
     voice = Voice(intent.language, labels_of(own_words(), intent.language))
-    name = stranger(plain, context)
-    if name is not None:
-        users = ", ".join(context.user_names[:_NAMES_SHOWN]) if context is not None else ""
-        key = "unknown_name" if users else "unknown_name_alone"
-        return _asking(intent, voice.say(key, text=text[slice(*name)], users=users))
+    name, users = stranger(text, context), ", ".join(context.user_names[:_NAMES_SHOWN]) if context is not None else ""
+    if name and not (acts and users and name in _named_by(intent)):  # else the session asks who that is, and waits
+        return _asking(intent, voice.say("unknown_name" if users else "unknown_name_alone", text=name, users=users))
     if not acts:
         return intent
     doubt = doubted(text, context, intent)
@@ -99,36 +91,17 @@ def tells_no_mere_fact(text: str) -> bool:
     return any(True for language in languages_of(text) for _ in standing(plain, language, _NO_FACT))
 
 
-def stranger(plain: str, context: Context | None) -> Span | None:
-    """The name of somebody who is no user of the cell, where one is to be served, promised or left out.
+def _named_by(intent: Intent) -> set[str]:
+    lists = (value for value in intent.constraints.values() if isinstance(value, Mapping | tuple))
+    return {user for users in lists for user in users}
 
-    >>> start, end = stranger("at least 1 Mbit/s for Brenda", None)
-    >>> "at least 1 Mbit/s for Brenda"[start:end]
+
+def stranger(text: str, context: Context | None) -> str:
+    """The name of somebody who is no user of the cell, where one is to be served, promised or left out; "" for none.
+
+    >>> stranger("at least 1 Mbit/s for Brenda", None)
     'Brenda'
     """
     own = re.findall(r"\w+", " ".join(context.user_names).casefold()) if context is not None else []
-    for match in (match for language in languages_of(plain) for match in _names(language).finditer(plain)):
-        form = match.lastgroup or ""
-        name = match[form].casefold()
-        if name in own or _IS_A_USER.match(plain, match.end(form)):
-            continue
-        whole = form in ("titled", "lettered")
-        if whole or not shipped_model().familiarity(name):
-            return match.span() if whole else match.span(form)
-    return None
-
-
-@functools.cache
-def _names(language: str) -> re.Pattern[str]:
-    """Names: behind a title, or written large beside a word that somebody is named by."""
-    data = table_of(language)["names"]
-    listed = {key: "|".join(sorted(map(re.escape, words), key=len, reverse=True)) for key, words in data.items()}
-    if language == "zh":
-        familiar = f"(?:{listed['nicknames']})(?:{listed['surnames']}|{listed['given']})"
-        titled = f"(?:{listed['surnames']})(?:{listed['titles']})"
-        return re.compile(rf"(?P<titled>(?<![最缩减变大太过较很]){familiar}|{titled}|用户\s*[A-Z](?![A-Za-z0-9]))")
-    large = rf"(?!(?i:{listed['titles']})\b)[A-ZÀ-Þ][a-zß-ÿ]+"
-    return re.compile(
-        rf"\b(?i:{listed['titles']})\b\.?\s+(?P<titled>{large})|\b(?i:{listed['before']})\s+(?P<behind>{large})|"
-        rf"(?:^|[,;.:!?]\s)\s*(?P<ahead>{large})\s+(?i:{listed['after']})\b|(?i:\b{USER_NOUN})\s+(?P<lettered>[A-Z])(?!\w)"
-    )
+    found = (text[slice(*span)] for span in read_once(text, own_words(), context).reading.strangers)
+    return next((name for name in found if name.casefold() not in own), "")

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
-from wirelessagent.language.looks import first_look, second_look
+from wirelessagent.language.looks import first_look, second_look, with_strangers
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.number_roles import ITEMS, PERHAPS, NumberRoles
 from wirelessagent.language.numerals import Number
@@ -37,12 +37,15 @@ class Judged:
         lists: where the rates or the weights of each list begin.
         doubtful: the spans of words such as "one" that may be figures and may be nothing.
         harmless: the spans of numbers that describe and limit nothing, such as a time of day.
+        strangers: the spans of names that no user is known by; they are mentions, too.
     """
 
     def __init__(
         self, plain: str, quantities: Sequence[Quantity], names: Sequence[str], taken: Sequence[tuple[int, int]]
     ) -> None:
         first = first_look(plain, quantities, names, taken)
+        self.strangers = first.view().strangers()
+        first = with_strangers(first, self.strangers)
         numbers = NumberRoles(first)
         look = second_look(first, numbers.users, numbers.borrowing)
         self._look, self._view = look, numbers.view if look is first else look.view()

@@ -6,26 +6,20 @@ wish than the model does. A question back costs a sentence, a wrong action a cel
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import cast
 
 from wirelessagent.language import forms
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.intent import IntentKind
 from wirelessagent.language.linear_model import shipped_model
-from wirelessagent.language.sentence import BUILT_IN, Sentence, own_words
-from wirelessagent.language.text import CLAUSE_END
+from wirelessagent.language.sentence import BUILT_IN, Sentence
 
 _ENOUGH, _ENOUGH_AGAINST_THE_LEXICON, _ENOUGH_FOR_THE_OPPOSITE = 0.45, 0.65, 0.98
 _ENOUGH_FOR_THE_SLOWEST = 0.8
 _OWN_PHRASE_ASKED = 0.8
 _FAMILIAR = 0.25
-_SURE_ALONE, _SHORTEST = 0.9, 4
-"""How sure a clause alone must be of an aim, and its letters at least; by fresh sentences with limits beside an aim."""
-_CUT = deferred(CLAUSE_END)
 _OTHER_KINDS = ("question", "command", "clarify", "out_of_scope")
 _WHAT_IF = "question.what_if"
 
@@ -77,11 +71,6 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
             acts=goal.objective in registered, objective_clear=True,
         )  # fmt: skip
     kind = _kind(sentence, shares, objective)
-    if kind == "clarify" and goal.verdict in ("none", "weak", "clear"):
-        alone = aim_of_a_clause(sentence)
-        if alone and (goal.verdict != "clear" or alone == goal.objective):
-            kind, objective = "allocate", alone
-            share = max(_SURE_ALONE, shares.labels[alone])
     acts = kind == "allocate"
     topic = "" if acts else shares.topics[kind]
     if topic == "what_if" and sentence.reading.steps and shares.labels["question.step"] > shares.labels[_WHAT_IF] / 2:
@@ -91,33 +80,6 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     return Judgement(
         kind=kind, topic=topic, objective=objective, likeliest=share, certainty=round(min(1.0, sure), 4), acts=acts
     )
-
-
-def aim_of_a_clause(sentence: Sentence) -> str:
-    """The aim that a clause without a figure wishes by itself, beside limits in others; "" where none does.
-
-    >>> from wirelessagent.language.sentence import own_words
-    >>> aim_of_a_clause(Sentence("at most 300 mW per subcarrier; apart from that go for maximum rate", own_words()))
-    'max_rate'
-    """
-    if not sentence.reading.masked:
-        return ""
-    plain, found = sentence.plain, dict[str, float]()
-    cuts = [0, *(cut.end() for cut in _CUT.finditer(plain)), len(plain)]
-    for start, end in itertools.pairwise(cuts):
-        figure = any(start < last and first < end for first, last in sentence.reading.masked)
-        if figure or sum(map(str.isalpha, plain[start:end])) < _SHORTEST:
-            continue
-        clause = Sentence(plain[start:end], own_words())
-        shares = _shares(clause)
-        name = max(BUILT_IN, key=lambda aim: shares.labels[aim])
-        if (
-            shares.familiar
-            and shares.labels[name] >= _SURE_ALONE
-            and clause.goal.verdict not in ("negated", "opposite")
-        ):
-            found[name] = shares.labels[name]
-    return next(iter(found)) if len(found) == 1 else ""
 
 
 def _is_all_said(sentence: Sentence) -> bool:

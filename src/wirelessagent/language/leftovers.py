@@ -47,24 +47,7 @@ _TIMES = Phrases(
     r"个小时|天|周|个月|年)(?!\s*[w瓦])|"
     r"(?:周|星期|礼拜)[一二三四五六日天]|[一二三四五六七八九十0-9]{1,2}月|[一二三四五六七八九十0-9]{1,2}[日]"
 )
-_PRICES = deferred(  # and other amounts of what no limit here is
-    r"(?i)[€$£¥]\s?[0-9][0-9.,]*|(?<![\w.,])[0-9][0-9.,]*\s?(?:€|\$|£|¥|euros?|cents?|dollars?|pounds?|pesos?|francs?|"
-    r"centimes?|céntimos?|yuan|kronen|[kM]?Wh|kilowatt-?hours?|kilowattheures?|[kMGT]B(?!/|\s?per|ps)|gigabytes?|"
-    r"terabytes?|gigas?octets?|km|metres?|meters?|kilometres?)(?![A-Za-zÀ-ÿ])|"
-    r"[0-9.]+\s?(?:元|块钱?|毛|欧元|美元|度电?)(?!带宽)"
-)
-_GLUED = deferred(  # CO2, TV5, A9, 9th, 3GPP
-    r"(?<![A-Za-z0-9_])(?:(?!(?:[UuRrPpWwXx]|UE|ue|Ue)[0-9])[A-Za-z]{1,4}[0-9₀-₉]{1,3}|[0-9]{1,3}(?:st|nd|rd|th|er|ère|ème|º|ª))"
-    r"(?![A-Za-z0-9]*[=<>≤≥])(?![A-Za-z0-9.,]*[0-9])|3GPP|CO₂"
-)
 _OF_THE_YEAR = Phrases(r"\b(?:this|last|next|each|every|per|the) quarter\b", "quarter")
-_PAIRS = Phrases(
-    r"\b(?:between|of|the|these|those|either|in|both|or|my|our|by)\s+(?:the\s+)?(?:two|three)(?=\s*(?:$|"
-    r"[.,;:!?)]|of\s+(?:them|us)|sides?|extremes?|ends?|goals?|things?|worlds?|"
-    r"aims?|plans?|results?|wishes|objectives))|[两]者|两个都|两头|两全|两边|一举两得|三心二意|四面八方|十足|"
-    r"第[一二三]|万一|一二",
-    marks="two three 两 一举 三心 四面 十足 第 万一 一二",
-)
 _VAGUE = deferred(
     r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
     r"(?<=a )number)\s+(?:of\s+)?"
@@ -79,7 +62,7 @@ _UNIT_OF_ANOTHER_KIND = deferred(
 _ABBREVIATED = deferred(r"\s?-?(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})(?![^\W\d_])")  # "43 dbx"
 _ALONE_AHEAD = deferred(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
 _ALONE_BEHIND = deferred(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
-_ALL_IDIOMS = (_NAMES, _TIMES, _PAIRS, _OF_THE_YEAR, _PRICES, _GLUED)
+_ALL_IDIOMS = (_NAMES, _TIMES, _OF_THE_YEAR)
 _RATING = deferred(  # what a device has, and a limit only where nothing else is said
     r"(?i)\s?-?(?:[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz|(?:kilo|mega|giga)hertz)(?![^\W\d_])|\s*[千兆毫]?(?:伏|赫)"
 )
@@ -122,7 +105,6 @@ def idioms(plain: str) -> tuple[Span, ...]:
         match.span()
         for pattern in _ALL_IDIOMS
         for match in pattern.finditer(plain)
-        if not (pattern is _PRICES and is_all_said(plain, *match.span()))
         if not (pattern is _TIMES and "may" in plain[slice(*match.span())])  # no month
     )
 

@@ -7,6 +7,7 @@ the model of roles says (``judged``); here they get their unit and their value.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
@@ -17,7 +18,6 @@ from wirelessagent.language.leftovers import loose_numbers
 from wirelessagent.language.mentions import Mention, mentions, merged
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity, QuantityKind
-from wirelessagent.language.ratios import nines, odds
 from wirelessagent.language.readings import Reading, readings
 from wirelessagent.language.units import unit_at
 
@@ -65,12 +65,8 @@ def first_look(
     plain: str, quantities: Sequence[Quantity], names: Sequence[str] = (), taken: Sequence[tuple[int, int]] = ()
 ) -> Look:
     """A sentence before anybody asked what its numbers are; ``taken`` spans are read elsewhere."""
-    sure = [q for q in nines(plain) if not any(start < q.end and q.start < end for start, end in taken)]
-    settled = [*taken, *((q.start, q.end) for q in sure)]
-    clear = [q for q in quantities if not any(start < q.end and q.start < end for start, end in settled)]
-    stated = [*sure, *(q for q in clear if q.kind not in ("bare", "other"))]
-    stated += odds(plain, [*((q.start, q.end) for q in stated), *taken])
-    stated.sort(key=lambda figure: figure.start)
+    clear = [q for q in quantities if not any(start < q.end and q.start < end for start, end in taken)]
+    stated = [q for q in clear if q.kind not in ("bare", "other")]
     spans = [(q.start, q.end) for q in stated]
     found = mentions(plain, names, [*spans, *taken])
     covered = [*spans, *taken, *((mention.start, mention.end) for mention in found)]
@@ -83,6 +79,13 @@ def first_look(
     return Look(
         plain=plain, quantities=quantities, figures=stated, unread=unread, mentions=found, loose=loose, ones=alone
     )
+
+
+def with_strangers(look: Look, names: Sequence[Span]) -> Look:
+    """The same with those among the users mentioned who are called by ``names`` that nobody is known by."""
+    called = [Mention(role="named", users=(look.plain[a:b],), start=a, end=b) for a, b in names]
+    found = merged(look.plain, sorted([*look.mentions, *called], key=lambda mention: mention.start))
+    return dataclasses.replace(look, mentions=found) if names else look
 
 
 def second_look(look: Look, users: Sequence[Number], roles: Mapping[Number, str]) -> Look:

@@ -57,7 +57,7 @@ def classes_in(plain: str) -> list[tuple[str, Span]]:
         (
             (f"{name}:{reach}", span)
             for language in languages_of(plain)
-            for name, reach, span in standing(plain, language, (one for one in table_of(language) if one != "names"))
+            for name, reach, span in standing(plain, language, table_of(language))
         ),
         key=lambda found: (found[1][0], -found[1][1]),
     )

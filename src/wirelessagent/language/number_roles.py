@@ -16,24 +16,9 @@ from wirelessagent.language.mentions import JOINT, LISTED
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.whole_cell import COUNTED_USERS
 
-_CORRECTION = deferred(
-    r"(?ia)\b(?:no|nope|wait|sorry|i mean|i meant|make (?:that|it)|scratch that|rather|correction|oops|actually|"
-    r"better|pardon|er|"
-    r"non|nein|perdón|pardon|mejor|plutôt|lieber|besser|doch|digo|ich meine|je veux dire|quiero decir|strike that|"
-    r"let's say)\b|"
-    r"[,\uff0c。]\s*不\s*[,\uff0c]|不对|不是|应该是|改成|改为|算了|错了|说错|还是|哦不|不不|口误|更正|纠正"
-)
-_ONE_OF_A_LIST, _NEAR = 0.3, 24
+_ONE_OF_A_LIST = 0.3
 _MOST_WEIGHT = 10**6
 ITEMS = deferred(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
-_WEIGHED = deferred(
-    r"(?i)weigh|count|priorit|import|prefer|peso|pesa|cuent|poids|pèse|compt|gewicht|zähl|wichtig|vale|权|优先|重要|比重|算|当"
-)
-_HEADS = deferred(r"\s*(?::|=|->|→)\s*[0-9]")
-_COUNTS = deferred(  # "3 waiting users"
-    r"(?i)\s+(?!(?:for|to|of|from|with|at|and|or|is|are|other|as|than|our|the)\b)[a-z]+(?:\s+[a-z]+)?\s+(?:users|ues|people|"
-    r"subscribers|customers|clients|devices|phones|sensors|terminals)\b"
-)
 _WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
     r"(?i)(?:\b(?:weights?|weigh(?:s|ing|ed)?|pesos?|poids|gewichten?)(?:\s+(?:of|are|is|being|de|von|sind))?|权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
 )
@@ -61,7 +46,6 @@ class NumberRoles:
             number: answers("number", self.view.number(number, look.bound(number)))
             for number in (*look.loose, *look.ones)
         }
-        self._superseded = _superseded(look.plain, look)
         self._weighing = _weighing_lists(look.plain, look, self.chances)
         self._plausible = self._may_be_no_limits()
         chances = {number: self.chances[number]["user"] for number in self._plausible}
@@ -75,8 +59,7 @@ class NumberRoles:
             (q.start, q.end) for q in look.quantities if q.kind in ("bare", "other") and q.comparator is not None
         ]
         bounded += [(figure.start - 1, figure.end) for figure in look.figures]  # "2 9 watts"
-        settled = {(number.start, number.end) for number in self._weighing}.union(self._superseded)
-        able = [number for number in look.loose if (number.start, number.end) not in settled]
+        able = [number for number in look.loose if number not in self._weighing]
         return [number for number in able if not _is_a_limit(plain, number, bounded)]
 
     def doubtful(self, look: Look) -> list[tuple[int, int]]:
@@ -91,8 +74,7 @@ class NumberRoles:
         return [
             number
             for number in look.loose
-            if number in self._weighing
-            or (_weighs(look.plain, number, self.chances[number]) and not _may_be_a_multiple(look, number))
+            if number in self._weighing or _weighs(look.plain, number, self.chances[number])
         ]
 
     def recounted(self, look: Look) -> list[tuple[int, int]]:
@@ -107,7 +89,6 @@ class NumberRoles:
         return [
             *idioms(look.plain),
             *self.recounted(look),
-            *self._superseded,
             *((mention.start, mention.end) for mention in look.mentions if mention.role != "named"),
             *((n.start, n.end) for n in others if _says_nothing(n, self.chances[n], named)),
         ]
@@ -166,16 +147,9 @@ def _weighing_lists(plain: str, look: Look, roles: Mapping[Number, Mapping[str, 
     ]
 
 
-def _may_be_a_multiple(look: Look, number: Number) -> bool:
-    """Whether a "double" may as well be of the rate before it: "1 Mbit/s each, double for user 3"."""
-    after_a_rate = any(figure.kind == "rate" and figure.end <= number.start for figure in look.figures)
-    return number.form == "times" and after_a_rate and _WEIGHED.search(look.plain) is None
-
-
 def _users(plain: str, numbers: Sequence[Number], chances: Mapping[Number, float]) -> list[Number]:
     """The numbers that are users: surely, or likelier than not beside one that surely is ("2, 5 and 7")."""
     able = [n for n in numbers if n.value is not None and 0 <= n.value == int(n.value) < _MOST_BARE_USERS]
-    able = [n for n in able if _COUNTS.match(plain, n.end) is None]
     able = [n for n in able if COUNTED_USERS.match(plain, n.start) is None and FOREIGN_UNIT.match(plain, n.end) is None]
     lists: list[list[Number]] = []
     for number in able:
@@ -185,25 +159,11 @@ def _users(plain: str, numbers: Sequence[Number], chances: Mapping[Number, float
             lists.append([number])
     lists = [each for each in lists if _WEIGHTS.search(plain, 0, each[0].start) is None]
     sure = [each for each in lists if max(chances[number] for number in each) > _SURE_OF_A_USER]
-    found = [number for each in sure for number in each if chances[number] > _ONE_OF_A_LIST]
-    if any(_HEADS.match(plain, number.end) for number in found):  # "1: 1 Mbit/s, 2: 2 Mbit/s"
-        found += [number for number in able if number not in found and _HEADS.match(plain, number.end)]
-    return found
+    return [number for each in sure for number in each if chances[number] > _ONE_OF_A_LIST]
 
 
 def _is_a_limit(plain: str, number: Number, bounded: Sequence[tuple[int, int]]) -> bool:
     """Whether a number can be no mere description: it is bounded, scaled ("2M"), a part of one, or has a unit."""
     within = any(start <= number.end and number.start < end for start, end in bounded)
-    corrects = _CORRECTION.search(plain, max(0, number.start - _NEAR), number.start) is not None
     part = number.value is not None and 0 < number.value < 1
-    return within or part or corrects or may_be_a_limit(plain, number)
-
-
-def _superseded(plain: str, look: Look) -> list[tuple[int, int]]:
-    """The numbers that the figure after them corrects: "make it 20, no, 22 W"."""
-    return [
-        (number.start, number.end)
-        for number in look.loose
-        for figure in look.figures
-        if 0 < figure.start - number.end <= _NEAR and _CORRECTION.search(plain, number.end, figure.start) is not None
-    ]
+    return within or part or may_be_a_limit(plain, number)

@@ -20,7 +20,7 @@ from wirelessagent.language.command_cues import CHANGING, is_unsure
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
-from wirelessagent.language.judgement import Judgement, aim_of_a_clause, judge
+from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
 from wirelessagent.language.moods import is_ordered, is_supposed
 from wirelessagent.language.nobody_starves import nobody_starves
@@ -141,8 +141,6 @@ class _Understanding:
             values = merged(context.pending, values)
         if not values and not dropped:
             return None
-        if aim_of_a_clause(self._sentence) not in ("", context.objective):
-            return None  # "0.3 W per subcarrier; apart from that the highest sum"
         reply = self._voice.amended(values, dropped)
         request = self._answer.allocate(context.objective, values, reading.evidence, reply, 0.85)
         return dataclasses.replace(request, amends=True, dropped=dropped)

@@ -8,13 +8,12 @@ beside a word for reliability.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import chinese_value
-from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.text import Phrases
 from wirelessagent.language.units import unit_at
 
@@ -45,7 +44,7 @@ _PART = rf"(?P<part>[0-9]{{1,3}}|{'|'.join(sorted(_PARTS, key=len, reverse=True)
 _WHOLE = rf"(?P<whole>10|20|25|40|50|100|200|500|1[ .,']?000|{'|'.join(sorted(_WHOLES, key=len, reverse=True))})"
 _NUMERAL = "[0-9一二两三四五六七八九十百千]+"
 _ODDS = deferred(
-    rf"(?i)(?<![\w.,]){_PART}(?:[\s-]+{_EVENT})?[\s-]+(?:in|out\s+of|of|por\s+cada|de\s+cada|cada|entre|sur|von|aus|auf)"
+    rf"(?i)(?<![\w.,]){_PART}(?:[\s-]+{_EVENT}[\s-]+of|(?:[\s-]+{_EVENT})?[\s-]+(?:in|out\s+of|por\s+cada|de\s+cada|cada|entre|sur|von|aus|auf))"
     rf"[\s-]+(?:every\s+|each\s+|je\s+)?{_WHOLE}(?![\w%]|[.,][0-9]|\s?(?:[kmM]?W|dB\w*|[kKMG]?bit\S*|[kMG]bps)\b)|"
     rf"\bjede[rsnm]?\s+(?P<ordinal>{'|'.join(_ORDINALS)})[nrsm]?\b|"
     rf"(?P<zhwhole>{_NUMERAL})(?P<unit>次|回)(?:里|中|之中|当中)?[^,，。;；0-9一二两三四五六七八九十百千]{{0,6}}(?P<zhpart>{_NUMERAL})(?P=unit)"
@@ -68,59 +67,51 @@ _NINES = Phrases(
 )
 
 
-def odds(plain: str, taken: Sequence[tuple[int, int]]) -> Iterator[Quantity]:
-    """The odds of a normalised text as ratios, where no ``taken`` span is.
+def odds(plain: str) -> Iterator[tuple[Decimal, int, int]]:
+    """The odds of a normalised text as ratios, and where they stand.
 
-    >>> [(q.text, q.value) for q in odds("one miss in twenty is fine", ())]
-    [('one miss in twenty', 0.05)]
+    >>> [value for value, *_ in odds("one miss in twenty is fine")]
+    [Decimal('0.05')]
     """
     for match in _ODDS.finditer(plain):
-        value = _value(match)
-        if 0 < value < 1 and not any(match.start() < end and start < match.end() for start, end in taken):
-            yield Quantity(
-                value=value, kind="ratio", text=match.group(), start=match.start(), end=match.end(),
-                phrase_start=match.start(), phrase_end=match.end(),
-            )  # fmt: skip
+        part, whole = _of(match)
+        if 0 < part < whole:
+            yield part / whole, *match.span()
 
 
-def _value(match: re.Match[str]) -> float:
-    """The ratio of a match; 0 where it is none."""
+def _of(match: re.Match[str]) -> tuple[Decimal, Decimal]:
+    """How many of how many."""
     if match["ordinal"]:
-        return 1 / _ORDINALS[match["ordinal"].lower()]
+        return Decimal(1), Decimal(_ORDINALS[match["ordinal"].lower()])
     if match["zhwhole"]:
-        part, whole = _chinese(match["zhpart"]), _chinese(match["zhwhole"])
-    else:
-        part, whole = _number(match["part"], _PARTS), _number(match["whole"], _WHOLES)
-    return part / whole if whole else 0.0
+        return _chinese(match["zhpart"]), _chinese(match["zhwhole"])
+    return _number(match["part"], _PARTS), _number(match["whole"], _WHOLES)
 
 
-def _number(word: str, words: dict[str, int]) -> float:
+def _number(word: str, words: dict[str, int]) -> Decimal:
     digits = re.sub(r"[ .,']", "", word)
-    return float(digits) if digits.isdigit() else float(words.get(" ".join(word.lower().split()), 0))
+    return Decimal(digits if digits.isdigit() else words.get(" ".join(word.lower().split()), 0))
 
 
-def _chinese(word: str) -> float:
-    return float(word) if word.isdigit() else float(chinese_value(word) or 0)
+def _chinese(word: str) -> Decimal:
+    return Decimal(word) if word.isdigit() else Decimal(chinese_value(word) or 0)
 
 
-def nines(plain: str) -> Iterator[Quantity]:
-    """The reliabilities of a normalised text that are no percentages, as ratios.
+def nines(plain: str) -> Iterator[tuple[Decimal, int, int]]:
+    """The reliabilities of a normalised text that are no percentages, as ratios, and where they stand.
 
-    >>> [(q.text, q.value) for text in ("five nines", "reliability 99.9", "四个九") for q in nines(text)]
-    [('five nines', 0.99999), ('99.9', 0.999), ('四个九', 0.9999)]
+    >>> [float(value) for text in ("five nines", "reliability 99.9", "四个九") for value, *_ in nines(text)]
+    [0.99999, 0.999, 0.9999]
     """
     for match in _NINES.finditer(plain):
         group = match.lastgroup or ""
         counted = group in ("count", "zh")
         start, end = match.span() if counted else match.span(group)
         if unit_at(plain, end) is None:
-            yield Quantity(
-                value=_reliability(match[group].lower(), counted=counted), kind="ratio", text=plain[start:end],
-                start=start, end=end, phrase_start=start, phrase_end=end,
-            )  # fmt: skip
+            yield _reliability(match[group].lower(), counted=counted), start, end
 
 
-def _reliability(word: str, *, counted: bool) -> float:
+def _reliability(word: str, *, counted: bool) -> Decimal:
     if counted:
-        return float(1 - Decimal(10) ** -int(_HOW_MANY.get(word) or chinese_value(word) or word))
-    return float(Decimal(word.replace(",", ".")) / 100)
+        return 1 - Decimal(10) ** -int(_HOW_MANY.get(word) or chinese_value(word) or word)
+    return Decimal(word.replace(",", ".")) / 100

@@ -7,6 +7,7 @@ from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
+from wirelessagent.language.ratios import nines, odds
 from wirelessagent.language.text import USER_NOUN, has_chinese
 from wirelessagent.language.units import Unit, unit_at
 from wirelessagent.language.word_tables import words_of
@@ -39,14 +40,7 @@ _TRAILING_DIGIT = deferred(
 )
 _FRACTION = deferred(r"(?P<below>[0-9]+|[一二三四五六七八九十百千万两]+)分之$")
 _TENTHS = deferred(r"成(?P<more>[一二三四五六七八九半]{0,3})(?![员立为功本交绩效长了就品]|不变)")
-_ODDS = deferred(
-    r"(?i)\s+(?:(?:(?:times?|nights?|days?|cases?|tries|attempts?|miss(?:es)?|failures?|outages?|mal|fällen?|nächten?|"
-    r"veces|noches|casos|días|fois|cas|nuits|jours)\s+)(?:out\s+of|in|of|von|aus|auf|de(?:\s+cada)?|sur|en)|"
-    r"out\s+of|(?:de\s+)?cada|de\s+cada|sur)(?:\s+(?:every|each|je))?\s+$"
-)
-_BASES = (10, 20, 25, 40, 50, 100, 200, 500, 1000, 10_000)
 _COUNTED = deferred(rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|persons|personas|personnes|sensor\w*)\b")
-_ONE_IN = deferred(r"(?i)\s+in\s+$")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,19 +56,17 @@ class Reading:
 
 def readings(plain: str) -> list[Reading]:
     """Every number of a normalised text with its unit, from left to right, not overlapping."""
-    found: list[Reading] = []
-    blocked = 0
+    shares = (each for each in odds(plain) if _COUNTED.match(plain, each[2]) is None)
+    found = [_as_share(*each) for each in (*nines(plain), *shares)]
     for number in numbers(plain):
-        if number.start < blocked:
-            continue
-        reading = _read(plain, number)
-        odds = _odds(plain, found[-1], reading) if found else None
-        if odds is not None:
-            found[-1] = reading = odds
-        else:
-            found.append(reading)
-        blocked = reading.end
-    return found
+        if not any(each.start < number.end and number.start < each.end for each in found):
+            found.append(_read(plain, number))
+    return sorted(found, key=lambda reading: reading.start)
+
+
+def _as_share(value: Decimal, start: int, end: int) -> Reading:
+    number = Number(value=value, start=start, end=end, form="words")
+    return Reading(number=number, unit=Unit(kind="ratio", end=end), start=start, end=end)
 
 
 def _read(plain: str, number: Number) -> Reading:
@@ -142,16 +134,3 @@ def _share(plain: str, number: Number) -> Reading | None:
         return None
     number = Number(value=value, start=number.start, end=number.end, form=number.form)
     return Reading(number=number, unit=Unit(kind="ratio", end=end), start=start, end=end)
-
-
-def _odds(plain: str, first: Reading, second: Reading) -> Reading | None:
-    """Two numbers that are one share: "99 times in a hundred", "19 de cada 20", "one in twenty"."""
-    part, whole = first.number.value, second.number.value
-    if part is None or whole is None or first.unit is not None or second.unit is not None:
-        return None
-    gap = plain[first.end : second.start]
-    fits = 0 < part < whole and whole in _BASES and _COUNTED.match(plain, second.end) is None
-    if not fits or not (_ODDS.match(gap) or (part == 1 and _ONE_IN.match(gap))):
-        return None
-    number = Number(value=part / whole, start=first.start, end=second.end, form=first.number.form)
-    return Reading(number=number, unit=Unit(kind="ratio", end=second.end), start=first.start, end=second.end)

@@ -26,7 +26,7 @@ class Reading:
     ``masked`` are the spans that are used up, so that their words do not count as wishes again; ``not_used`` are
     figures that describe the channel rather than ask for something, ``counted`` the spans of those that count.
     ``missing`` is a share of the channel that is said to be missing, ``steps`` amounts to add, by detail name, ``back``
-    users to be taken in again, ``named`` everybody who is named.
+    users to be taken in again, ``named`` everybody who is named; ``strangers`` are spans of names that no user has.
     """
 
     values: Mapping[str, Constraint]
@@ -40,6 +40,7 @@ class Reading:
     steps: Mapping[str, float] = field(default_factory=dict[str, float])
     back: tuple[str, ...] = ()
     named: tuple[str, ...] = ()
+    strangers: Sequence[Span] = ()
 
 
 class Notes:

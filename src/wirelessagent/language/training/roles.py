@@ -7,7 +7,6 @@ shows nothing about figures of their kind.
 
 from __future__ import annotations
 
-import json
 import logging
 import math
 import re
@@ -30,10 +29,10 @@ from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.role_features import BUCKETS, hashed
 from wirelessagent.language.text import normalise
-from wirelessagent.language.training.compose import OBJECTIVES
 from wirelessagent.language.training.marked import Marked, marked
+from wirelessagent.language.training.meant import sentences
+from wirelessagent.language.training.named import named
 from wirelessagent.language.training.shortened import shortened
-from wirelessagent.language.training.spoken import spoken
 
 _RIDGE = 1e-6
 _STEPS = 200
@@ -48,7 +47,6 @@ _FAINT = 3
 """Weights of so many 127ths of the largest cost half of the file and change nothing."""
 
 _NOTHING = {"none", "stale", "refused"}
-MEANINGS = Path(__file__).with_name("meanings")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,6 +71,15 @@ def shown_by(line: str) -> Iterator[Example]:
     """What a sentence shows whose figures and users are marked."""
     marked_one = Marked(line)
     yield from _shown(first_look(normalise(marked_one.text), parse_quantities(marked_one.text)), marked_one)
+
+
+def named_in(text: str, names: Sequence[tuple[int, int]]) -> Iterator[Example]:
+    """What a sentence shows of words that are somebody's name, as those in the spans ``names`` are, and of others."""
+    view = first_look(normalise(text), parse_quantities(text)).view()
+    for place in view.words:
+        start, end = view.span(place)
+        name = any(first < end and start < last for first, last in names)
+        yield from _example("word", view.word(place), {"somebody" if name else "nobody"})
 
 
 def _shown(look: Look, wanted: _Wanted | Marked) -> Iterator[Example]:
@@ -358,6 +365,9 @@ def trained(sentences: Iterable[tuple[str, Mapping[str, Any]]]) -> dict[str, npt
     for line in marked():
         for example in shown_by(line):
             shown[example.question] += [example] * _MARKED_COUNT
+    for text, names, count in named():
+        for example in named_in(text, names):
+            shown["word"] += [example] * count
     return {question: fit(question, each) for question, each in shown.items()}
 
 
@@ -374,17 +384,6 @@ def save(path: Path, found: Mapping[str, npt.NDArray[np.float32]]) -> None:
     for question, weights in found.items():
         arrays[f"{question}_weights"], arrays[f"{question}_scales"] = rounded(weights)
     np.savez_compressed(path, allow_pickle=False, **arrays)
-
-
-def sentences() -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """(sentence, constraints): ``meanings/*.tsv``, and the spoken requests that say what they mean."""
-    for path in sorted(MEANINGS.glob("*.tsv")):
-        for line in path.read_text(encoding="utf-8").splitlines():
-            text, _, meaning = line.partition("\t")
-            yield text, json.loads(meaning)
-    for each in spoken():
-        if (each.label in OBJECTIVES or each.near) and each.constraints is not None:
-            yield each.text, each.constraints
 
 
 def main(path: Path) -> None:

@@ -1,0 +1,80 @@
+"""Sentences in which people and things are called by a name, and such as call nobody by one: ``named/<language>.txt``.
+
+A name that stands for a user is marked, "[the camera]{name} can wait"; other nouns are nobody's. Beside them count
+those that have a meaning: as they are, and with names in the places of those whom they name by number.
+"""
+
+from __future__ import annotations
+
+import itertools
+import random
+import re
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from wirelessagent.language.looks import first_look
+from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.text import language_of, normalise
+from wirelessagent.language.training.compose import OBJECTIVES
+from wirelessagent.language.training.marked import unmarked
+from wirelessagent.language.training.meant import sentences
+from wirelessagent.language.training.orders import FILLED, framed
+from wirelessagent.language.training.spoken import spoken
+
+NAMED = Path(__file__).with_name("named")
+Span = tuple[int, int]
+_COUNT = 5
+"""How often a marked sentence counts, beside one that has a meaning."""
+
+_SHARE, _MISSPELT = 0.8, 0.2
+"""How many of the others count, and in how many of all a word is misspelt: no name either."""
+
+_LONG_WORD = re.compile(r"[^\W\d_\u3400-\u9fff]{5,}")
+
+
+def named(seed: int = 1) -> Iterator[tuple[str, list[Span], int]]:
+    """Sentences, the names in them, and how often each counts."""
+    chance, names = random.Random(seed), defaultdict[str, list[str]](list)
+    for path in sorted(NAMED.glob("*.txt")):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            text, marks = unmarked(line)
+            spans = [(start, end) for start, end, _ in marks]
+            names[path.stem] += [text[start:end] for start, end in spans]
+            yield text, spans, _COUNT
+    for text in _without_names():
+        turn = chance.random()
+        if turn < _SHARE:
+            yield misspelt(text, chance) if turn < _MISSPELT else text, [], 1
+            swapped, spans = with_names(text, names[language_of(text)], chance)
+            if spans:
+                yield swapped, spans, 1
+
+
+def with_names(text: str, names: Sequence[str], chance: random.Random) -> tuple[str, list[Span]]:
+    """A sentence with names in the places of those whom it names by number, and where they stand."""
+    plain, spans, place, found = normalise(text), list[Span](), 0, ""
+    for mention in first_look(plain, parse_quantities(text)).mentions:
+        if mention.role == "named":
+            found, name = found + plain[place : mention.start], chance.choice(names)
+            spans.append((len(found), len(found) + len(name)))
+            found, place = found + name, mention.end
+    return found + plain[place:], spans
+
+
+def misspelt(text: str, chance: random.Random) -> str:
+    """A sentence in which one of the longer words lacks a letter."""
+    words = list(_LONG_WORD.finditer(text))
+    if not words:
+        return text
+    start, end = chance.choice(words).span()
+    place = chance.randrange(start + 1, end)
+    return text[:place] + text[place + 1 :]
+
+
+def _without_names() -> Iterator[str]:
+    """Sentences that call nobody by a name."""
+    yield from (text for text, _ in sentences())
+    wordless = (each for each in spoken() if each.constraints is None)
+    yield from (each.text for each in wordless if each.label in OBJECTIVES or each.label.startswith("command"))
+    yield from (text for text, _ in itertools.islice(framed(), 0, None, FILLED))
