@@ -285,6 +285,8 @@ def test_two_strangers_are_asked_about_one_after_the_other() -> None:
     talk.say("user 2")
     assert talk.request is not None
     assert dict(talk.request.constraints) == {"users": ("1", "2")}
+    talk.say("at least 100 kbit/s for the harvester")
+    assert dict(talk.request.constraints)["min_rate_bps"] == {"2": 1e5}
 
 
 @pytest.mark.parametrize(

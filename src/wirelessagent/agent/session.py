@@ -197,7 +197,10 @@ class Session:
         state, request, supposed = self._state, self._state.request, self._state.supposed
         question = state.question or Question()
         before: Mapping[str, Detail] = self._turns[-1].intent.details if self._turns else {}
-        names = called([turn.text for turn in self._turns])
+        names = dict(called([turn.text for turn in self._turns]))
+        for turn in self._turns:  # who "the ambulance" is was asked, and answered
+            told = cast("Mapping[str, tuple[str]]", turn.intent.details.get("called") or {})
+            names |= {name: number for name, (number,) in told.items()}
         return Context(
             user_names=self._site.user_names,
             max_power_w=self._site.scene.cell.max_power_w,
@@ -353,7 +356,7 @@ class Session:
             number, _ = user_number(named[0] if len(named) == 1 else match[1] if match else "", self._site.user_names)
         except UnknownUserError:
             return None
-        return _with_user(missing, self._site.user_names[number])
+        return _with_user(missing, self._site.user_names[number], number)
 
 
 def _meant(pressed: Press, text: str, language: str) -> Intent:
@@ -415,12 +418,14 @@ def _stated(after: State, before: State, intent: Intent) -> Mapping[str, Constra
     return taken_off or stated_by(after.request, before.request) or before.stated
 
 
-def _with_user(missing: Missing, name: str) -> Intent:
-    """The intent with a user in the place of the one who is not there."""
+def _with_user(missing: Missing, name: str, number: int) -> Intent:
+    """The intent with a user in the place of the one who is not there, who is called so from now on."""
     intent, reference = missing.intent, missing.reference
     details: dict[str, Any] = {key: _renamed(value, reference, name) for key, value in intent.details.items()}
     if not reference:
         details["user"] = name
+    elif not any(map(str.isdigit, reference)):
+        details["called"] = {reference.lower(): (str(number + 1),)}
     constraints, pending = (
         {key: _renamed(value, reference, name) for key, value in values.items()}
         for values in (intent.constraints, intent.pending)
