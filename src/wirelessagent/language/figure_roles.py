@@ -57,10 +57,11 @@ Answer = TypeVar("Answer")
 _MOST_USERS = 20
 SCALED = deferred(r"\s?[kKMG](?![^\W\d_])")
 _FAR = 8
-_SURE_OF_A_NAME, _PART_OF_A_NAME, _SHORTEST_NAME = 0.5, 0.2, 2
+_SURE_OF_A_NAME, _PART_OF_A_NAME, _SHORTEST_NAME = 0.45, 0.2, 2
 _MOST_TELLING, _TELLS, _NEARLY, _TINY = 3, 1.0, 0.85, 1e-6
 _JOINT = deferred(r"(?i)\b(?:and|then|y|et|und)\b")
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[\w'’-])+")
+_LETTERS = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W\d_])+")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -198,7 +199,10 @@ class View:
         return [
             place
             for place, kind in enumerate(self._kinds)
-            if kind.isalpha() and (len(kind) > 1 or is_chinese(kind)) and based([kind], self._language)
+            if kind.isalpha()
+            and self._tokens[place].start not in self._places
+            and (len(kind) > 1 or is_chinese(kind))
+            and (is_chinese(kind) or based([kind], self._language))
         ]
 
     def word(self, place: int) -> set[str]:
@@ -228,11 +232,12 @@ class View:
                     found[len(found) - (bool(found) and not sure) :] = [(start, end)]
                     sure = chance > _SURE_OF_A_NAME
         found = found if sure else found[:-1]
-        return [(start, max(end, start + _SHORTEST_NAME)) for start, end in found]
+        return [span for span in found if span[1] - span[0] >= _SHORTEST_NAME]
 
     def span(self, place: int) -> tuple[int, int]:
         """Where the word of a token stands."""
-        word = _WORD.match(self._plain, self._tokens[place].start)
+        following = [token.start for token in self._tokens[place + 1 : place + 2]] or [len(self._plain)]
+        word = _LETTERS.match(self._plain, self._tokens[place].start, *following)
         assert word is not None
         return word.span()
 

@@ -24,10 +24,10 @@ from wirelessagent.language.training.spoken import spoken
 
 NAMED = Path(__file__).with_name("named")
 Span = tuple[int, int]
-_COUNT = 5
+_COUNT = 3
 """How often a marked sentence counts, beside one that has a meaning."""
 
-_SHARE, _MISSPELT = 0.8, 0.2
+_SHARE, _MISSPELT = 0.8, 0.4
 """How many of the others count, and in how many of all a word is misspelt: no name either."""
 
 _LONG_WORD = re.compile(r"[^\W\d_\u3400-\u9fff]{5,}")

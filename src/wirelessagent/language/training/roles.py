@@ -37,7 +37,7 @@ from wirelessagent.language.training.shortened import shortened
 _RIDGE = 1e-6
 _STEPS = 200
 _BALANCE = 0.3
-_CLOSE = 1e-6
+_CLOSE, _SMALL = 1e-6, 4
 _ENDS = re.compile(r"\s*(?:$|[,.;:!?)\uff0c。；、])")
 _SHORTENED = ("number", "user", "link")  # what is learned from sentences said shorter
 _MARKED_COUNT = 2
@@ -74,12 +74,17 @@ def shown_by(line: str) -> Iterator[Example]:
 
 
 def named_in(text: str, names: Sequence[tuple[int, int]]) -> Iterator[Example]:
-    """What a sentence shows of words that are somebody's name, as those in the spans ``names`` are, and of others."""
-    view = first_look(normalise(text), parse_quantities(text)).view()
+    """What a sentence shows of words that are somebody's name, as those in the spans ``names`` are, and of others.
+
+    The small words of a name show nothing: "my", "on the".
+    """
+    plain = normalise(text)
+    view = first_look(plain, parse_quantities(text)).view()
     for place in view.words:
         start, end = view.span(place)
         name = any(first < end and start < last for first, last in names)
-        yield from _example("word", view.word(place), {"somebody" if name else "nobody"})
+        if not (name and end - start < _SMALL and plain[start].islower() and plain[start].isascii()):
+            yield from _example("word", view.word(place), {"somebody" if name else "nobody"})
 
 
 def _shown(look: Look, wanted: _Wanted | Marked) -> Iterator[Example]:
