@@ -58,11 +58,6 @@ _TAG = deferred(  # "…, will you?", "…, ¿vale?", "…，好吗？"
     r"verstanden|oíste|entendido|está claro|compris|d'accord|s'il (?:te|vous) pla[iî]t|ja|bitte|gut|in ordnung)|"
     r"[,\uff0c]?\s*(?:好吗|好吧|行吗|可以吗|好不好|行不行))\s*[?\uff1f]\s*$"
 )
-_STATED = deferred(
-    r"(?i)\s*(?:the|our|this|that|your)\s+[\w -]{2,30}?\s+(?:is|are|looks?|seems?|was|feels?)\s+(?:good|fine|ok|"
-    r"okay|nice|"
-    r"all right|alright|great|perfect|normal|acceptable)\b[^,;:\n]{0,20}"
-)
 
 
 def without_a_tag(text: str) -> str:
@@ -100,11 +95,6 @@ def asks_without_a_mark(plain: str) -> bool:
 def is_a_program(text: str) -> bool:
     """Whether a text is a program, a query, mark-up, or speaks to a language model rather than of a cell."""
     return _CODE.search(text) is not None
-
-
-def is_a_statement(text: str) -> bool:
-    """Whether a text only states that something is all right: "the speed is good"."""
-    return _STATED.fullmatch(text) is not None
 
 
 def plain_command(plain: str) -> str:

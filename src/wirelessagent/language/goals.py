@@ -12,7 +12,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.vocabulary import Found
 
 Verdict: TypeAlias = Literal["clear", "none", "weak", "contradiction", "negated", "opposite"]
@@ -60,11 +59,6 @@ _PAIRS: dict[tuple[str, str], tuple[str, float]] = {
     ("bad", "battery"): ("more_power", 0.5),
     ("bad", "efficiency"): ("less_efficiency", 1.0),
 }
-_EQUALLY = deferred(r"(?i)\bequally fast\b|\bequal (?:rates|speeds)\b|(?:一样|同样)快")
-_IN_TOTAL = deferred(
-    r"(?i)\b(?:total|sum|overall|aggregate|combined|versus|or|than|not|no)\b|总|和速率|合计|不(?!超过|高于)|别|还是|比"
-)
-_SAME_WISH = 0.8
 _CONTRASTED = 0.8
 # Readings that yield to a nearer or plainer one: "save as much power as you can" asks for less of it.
 _VAGUE = {("want", "rate"): 1.5, ("want", "battery"): 1.5, ("want", "efficiency"): 1.5, ("up", "power"): 3.0}
@@ -136,17 +130,6 @@ def goal_of(found: Sequence[Found]) -> Goal:
     best = max(s.weight for s in signals if s.objective == strong[0] and not s.negated)
     confidence = 0.8 + 0.075 * min(best, 2.0) - 0.1 * slips - 0.1 * min(others, 1.0)
     return Goal(verdict="clear", objective=strong[0], options=tuple(strong), spans=spans, confidence=confidence)
-
-
-def equally_fast(goal: Goal, plain: str) -> Goal:
-    """The goal, where wishes for speed and for equal speeds are one wish: "all equally fast, and very fast"."""
-    if goal.verdict != "contradiction" or set(goal.options) != {"max_rate", "max_min_rate"}:
-        return goal
-    if _EQUALLY.search(plain) is None or _IN_TOTAL.search(plain) is not None:
-        return goal
-    return Goal(
-        verdict="clear", objective="max_min_rate", options=("max_min_rate",), spans=goal.spans, confidence=_SAME_WISH
-    )
 
 
 def _speaks_of_the_worst(signals: Sequence[Signal], objective: str, found: Sequence[Found]) -> bool:

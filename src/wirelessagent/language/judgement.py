@@ -111,7 +111,7 @@ def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
     if forms.is_a_program(sentence.text):
         return "out_of_scope"
     sign = len(sentence.units) == 1 and len(sentence.units[0].word) == 1  # a letter, a Chinese character
-    if sign or not sentence.worded or not shares.familiar or forms.is_a_statement(sentence.text):
+    if sign or not sentence.worded or not shares.familiar:
         return "clarify"
     if shares.kinds[other] >= shares.labels[objective]:
         back = other == "command" and sentence.reading.back  # "bring user 3 back" changes a request, it undoes none

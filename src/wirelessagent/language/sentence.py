@@ -49,7 +49,7 @@ class Sentence:
         self.units: list[Unit] = units_of(self._spelt, self.reading.masked)
         self.found: list[Found] = _vocabulary(own).find(self.units)
         self.concepts = {item.term.concept for item in self.found}
-        self.goal: Goal = goals.equally_fast(goals.goal_of(self.found), self._spelt)
+        self.goal: Goal = goals.goal_of(self.found)
 
     @property
     def worded(self) -> bool:
