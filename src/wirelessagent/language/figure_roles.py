@@ -61,7 +61,6 @@ _SURE_OF_A_NAME, _PART_OF_A_NAME, _SHORTEST_NAME = 0.45, 0.2, 2
 _MOST_TELLING, _TELLS, _NEARLY, _TINY = 3, 1.0, 0.85, 1e-6
 _JOINT = deferred(r"(?i)\b(?:and|then|y|et|und)\b")
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[\w'’-])+")
-_LETTERS = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W\d_])+")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -219,27 +218,24 @@ class View:
 
     def strangers(self) -> list[tuple[int, int]]:
         """The spans of what somebody is called who is none of those mentioned; words beside may be a part of it."""
-        found: list[tuple[int, int]] = []
-        sure = False
+        found: list[tuple[int, int, float]] = []
         for place in self.words:
             chance = answers("word", self.word(place))["somebody"]
-            start, end = self.span(place)
-            beside = bool(found) and not self._plain[found[-1][1] : start].strip(" .-")
-            if chance > _PART_OF_A_NAME:
-                if beside:
-                    found[-1], sure = (found[-1][0], end), sure or chance > _SURE_OF_A_NAME
-                else:
-                    found[len(found) - (bool(found) and not sure) :] = [(start, end)]
-                    sure = chance > _SURE_OF_A_NAME
-        found = found if sure else found[:-1]
-        return [span for span in found if span[1] - span[0] >= _SHORTEST_NAME]
+            if chance <= _PART_OF_A_NAME:
+                continue
+            (start, end), beside = self.span(place), found[-1:]
+            if beside and not self._plain[beside[0][1] : start].strip(" .-"):
+                found[-1] = (beside[0][0], end, max(beside[0][2], chance))
+            else:
+                found.append((start, end, chance))
+        return [
+            (start, end) for start, end, chance in found if chance > _SURE_OF_A_NAME and end - start >= _SHORTEST_NAME
+        ]
 
     def span(self, place: int) -> tuple[int, int]:
         """Where the word of a token stands."""
-        following = [token.start for token in self._tokens[place + 1 : place + 2]] or [len(self._plain)]
-        word = _LETTERS.match(self._plain, self._tokens[place].start, *following)
-        assert word is not None
-        return word.span()
+        token = self._tokens[place]
+        return token.start, token.end
 
     def owners(self, start: int, candidates: Sequence[Mention | None]) -> list[set[str]]:
         """The features of each mention, or of nobody in particular, as the one whom the figure at ``start`` is for."""

@@ -44,9 +44,12 @@ class Judged:
         self, plain: str, quantities: Sequence[Quantity], names: Sequence[str], taken: Sequence[tuple[int, int]]
     ) -> None:
         first = first_look(plain, quantities, names, taken)
-        self.strangers = first.view().strangers()
-        first = with_strangers(first, self.strangers)
-        numbers = NumberRoles(first)
+        view = first.view()
+        self.strangers = view.strangers()
+        if self.strangers:
+            first = with_strangers(first, self.strangers)
+            view = first.view()
+        numbers = NumberRoles(first, view)
         look = second_look(first, numbers.users, numbers.borrowing)
         self._look, self._view = look, numbers.view if look is first else look.view()
         self.mentions = look.mentions

@@ -85,7 +85,7 @@ def with_strangers(look: Look, names: Sequence[Span]) -> Look:
     """The same with those among the users mentioned who are called by ``names`` that nobody is known by."""
     called = [Mention(role="named", users=(look.plain[a:b],), start=a, end=b) for a, b in names]
     found = merged(look.plain, sorted([*look.mentions, *called], key=lambda mention: mention.start))
-    return dataclasses.replace(look, mentions=found) if names else look
+    return dataclasses.replace(look, mentions=found)
 
 
 def second_look(look: Look, users: Sequence[Number], roles: Mapping[Number, str]) -> Look:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.figure_roles import SCALED, answers
+from wirelessagent.language.figure_roles import SCALED, View, answers
 from wirelessagent.language.leftovers import FOREIGN_UNIT, idioms, may_be_a_limit
 from wirelessagent.language.looks import BORROWING, Look
 from wirelessagent.language.mentions import JOINT, LISTED
@@ -40,8 +40,8 @@ class NumberRoles:
         borrowing: those that are figures by the unit of another, each with its role.
     """
 
-    def __init__(self, look: Look) -> None:
-        self._first, self.view = look, look.view()
+    def __init__(self, look: Look, view: View) -> None:
+        self._first, self.view = look, view
         self.chances: Mapping[Number, Mapping[str, float]] = {
             number: answers("number", self.view.number(number, look.bound(number)))
             for number in (*look.loose, *look.ones)

@@ -38,10 +38,11 @@ class Span:
 
 
 class Token(NamedTuple):
-    """A word, a Chinese character, a mark or a placeholder ("@rate") of a sentence."""
+    """A word, a Chinese character, a mark or a placeholder ("@rate") at characters [start, end) of a sentence."""
 
     word: str
     start: int
+    end: int = -1
 
 
 def tokens_of(plain: str, spans: Iterable[Span]) -> list[Token]:
@@ -52,7 +53,7 @@ def tokens_of(plain: str, spans: Iterable[Span]) -> list[Token]:
         if span.start < place:
             continue
         found.extend(_words(plain, place, span.start))
-        found.append(Token(span.placeholder, span.start))
+        found.append(Token(span.placeholder, span.start, span.end))
         place = span.end
     found.extend(_words(plain, place, len(plain)))
     return found
@@ -60,7 +61,7 @@ def tokens_of(plain: str, spans: Iterable[Span]) -> list[Token]:
 
 def _words(plain: str, start: int, end: int) -> Iterator[Token]:
     for match in _TOKEN.finditer(plain, start, end):
-        yield Token(_simple(match.group()), match.start())
+        yield Token(_simple(match.group()), *match.span())
 
 
 @functools.lru_cache(maxsize=4096)
