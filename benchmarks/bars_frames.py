@@ -18,9 +18,9 @@ from typing import Any, cast
 
 from wirelessagent.experiments.evaluate_intents import same_constraints
 from wirelessagent.language.conversation import understood
-from wirelessagent.language.followups import numbers_of
+from wirelessagent.language.followups import numbers_of, users_in
 from wirelessagent.language.guard import CHANGING
-from wirelessagent.language.intent import EVERYBODY, Constraint, Intent, checked_constraints
+from wirelessagent.language.intent import Constraint, Intent, checked_constraints
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 
@@ -41,8 +41,7 @@ def read(path: Path) -> list[dict[str, Any]]:
 
 def acts(intent: Intent) -> bool:
     """Whether something would change; a session asks who is meant where a user is named whom the cell does not have."""
-    named = {user for value in intent.constraints.values() if not isinstance(value, float) for user in value}
-    known = all(isinstance(user, int) for user in numbers_of(named - {EVERYBODY}, USERS))
+    known = all(isinstance(user, int) for user in numbers_of(users_in(intent.constraints), USERS))
     return (intent.kind == "allocate" and known) or (intent.kind == "command" and intent.topic in CHANGING)
 
 

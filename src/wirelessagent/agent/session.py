@@ -35,7 +35,8 @@ from wirelessagent.language.conversation import called, unanswered, understood, 
 from wirelessagent.language.conversation.amendments import Missing, Question
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.references import named_alone
-from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
+from wirelessagent.language.followups import users_in
+from wirelessagent.language.intent import Constraint, Detail, Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.offline import OfflineRecogniser
@@ -436,10 +437,8 @@ def _with_user(missing: Missing, name: str, number: int) -> Intent:
 
 def _check_users(intent: Intent, user_names: tuple[str, ...]) -> None:
     """Raise for the first user in what waits for an answer who is not there."""
-    for value in intent.pending.values():
-        for reference in value if isinstance(value, Mapping | tuple) else ():
-            if reference != EVERYBODY:
-                user_number(reference, user_names, intent.language)
+    for reference in users_in(intent.pending):
+        user_number(reference, user_names, intent.language)
 
 
 def _renamed(value: Constraint | Detail, reference: str, name: str) -> Any:

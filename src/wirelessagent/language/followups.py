@@ -114,6 +114,16 @@ def taken_in(users: tuple[str, ...], context: Context) -> tuple[dict[str, Constr
     return values, tuple(dropped)
 
 
+def users_in(constraints: Mapping[str, Constraint]) -> list[str]:
+    """Everybody whom constraints name, each once, in their order; "all" is nobody's name.
+
+    >>> users_in({"max_power_w": 5.0, "min_rate_bps": {"all": 1e5, "3": 1e6}, "users": ("3", "5")})
+    ['3', '5']
+    """
+    named = (value for value in constraints.values() if isinstance(value, Mapping | tuple))
+    return list(dict.fromkeys(user for users in named for user in users if user != EVERYBODY))
+
+
 def numbers_of(users: Iterable[str], user_names: Sequence[str]) -> set[int | str]:
     """Which users are meant, from 1, so that "2" and "user 2" are the same; a name that nobody has stays itself.
 

@@ -10,10 +10,9 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from wirelessagent.language.followups import dropped_in
+from wirelessagent.language.followups import dropped_in, users_in
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.moods import Span, standing
 from wirelessagent.language.order_model import LIKELY, frame_of, shipped_order_model
@@ -46,7 +45,8 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
         return intent
     voice = Voice(intent.language, labels_of(own_words(), intent.language))
     name, users = stranger(text, context), ", ".join(context.user_names[:_NAMES_SHOWN]) if context is not None else ""
-    if name and not (acts and users and name in _named_by(intent)):  # else the session asks who that is, and waits
+    waits = acts and users and name in users_in(intent.constraints)  # the session asks who that is, and goes on
+    if name and not waits:
         return _asking(intent, voice.say("unknown_name" if users else "unknown_name_alone", text=name, users=users))
     if not acts:
         return intent
@@ -89,11 +89,6 @@ def tells_no_mere_fact(text: str) -> bool:
     """
     plain = normalise(text)
     return any(True for language in languages_of(text) for _ in standing(plain, language, _NO_FACT))
-
-
-def _named_by(intent: Intent) -> set[str]:
-    lists = (value for value in intent.constraints.values() if isinstance(value, Mapping | tuple))
-    return {user for users in lists for user in users}
 
 
 def stranger(text: str, context: Context | None) -> str:

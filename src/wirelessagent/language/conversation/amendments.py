@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.assent import is_assent
 from wirelessagent.language.conversation.line import NAME, Line, has, is_all
-from wirelessagent.language.followups import merged, numbers_of, taken_in
+from wirelessagent.language.followups import merged, numbers_of, taken_in, users_in
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, LISTS_OF_USERS, Constraint, Intent
 from wirelessagent.language.numerals import too_many_figures
 from wirelessagent.language.recogniser import Context
@@ -201,8 +201,7 @@ def unanswered(text: str, intent: Intent, context: Context) -> Question:
     if too_many_figures(normalise(text)):
         return Question(pending=intent.pending)
     goal = Sentence(text, own_words()).goal
-    named = (value for value in intent.pending.values() if isinstance(value, Mapping | tuple))
-    settled = {user for value in named for user in value}
+    settled = users_in(intent.pending)
     users = tuple(user for user in line.users if user not in settled)
     objective = goal.objective if goal.verdict == "clear" else None
     offered = intent.offered

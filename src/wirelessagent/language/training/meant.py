@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from wirelessagent.language.intent import EVERYBODY
+from wirelessagent.language.looks import BORROWING, Look, figures_of
+from wirelessagent.language.mentions import Mention
+from wirelessagent.language.numerals import Number
+from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.training.compose import OBJECTIVES
 from wirelessagent.language.training.spoken import spoken
 
 MEANINGS = Path(__file__).with_name("meanings")
+_CLOSE = 1e-6
+_ENDS = re.compile(r"\s*(?:$|[,.;:!?)\uff0c。；、])")
+_NOTHING = {"none", "stale", "refused"}
 
 
 def sentences() -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -22,3 +32,171 @@ def sentences() -> Iterator[tuple[str, Mapping[str, Any]]]:
     for each in spoken():
         if (each.label in OBJECTIVES or each.near) and each.constraints is not None:
             yield each.text, each.constraints
+
+
+class Meant:
+    """The meaning of a sentence, asked by figure."""
+
+    def __init__(self, constraints: Mapping[str, Any], look: Look) -> None:
+        self._constraints, self._look = constraints, look
+        self._values = {
+            name: _by_user(constraints[name])
+            for name in ("min_rate_bps", "max_rate_bps", "weights")
+            if name in constraints
+        }
+        self._powers = {
+            name: float(constraints[name])
+            for name in ("max_power_w", "circuit_power_w", "subcarrier_max_power_w")
+            if name in constraints
+        }
+        self._users = {name: {str(user) for user in constraints.get(name, ())} for name in ("users", "leave_out")}
+        self._all_users = self._users["users"] | self._users["leave_out"]
+        for figures in self._values.values():
+            self._all_users |= figures.keys() - {EVERYBODY}
+        self._rates = [
+            value
+            for name in ("min_rate_bps", "max_rate_bps")
+            for value in self._values.get(name, {}).values()
+            if value > 0  # nobody says a floor of zero in figures
+        ]
+        self._worth = {number: self._worth_of(number) for number in (*look.loose, *look.ones)}
+        self._known = [(figure.kind, figure.value) for figure in look.figures]
+        self._borrowing = {number: roles for number in self._worth for roles in [self._borrows(number)] if roles}
+        self._known += [
+            (BORROWING[role], self._worth[number][role]) for number, roles in self._borrowing.items() for role in roles
+        ]
+        outage = constraints.get("outage_probability")
+        self._complete = {
+            "power": all(self._has("power", value) for value in self._powers.values()),
+            "rate": all(self._has("rate", value) for value in self._rates),
+            "ratio": outage is None or self._has("ratio", outage) or self._has("ratio", 1 - outage),
+        }
+
+    def _has(self, kind: str, value: float) -> bool:
+        return any(kind == known and _close(value, each) for known, each in self._known)
+
+    def _worth_of(self, number: Number) -> dict[str, float]:
+        """What a number would be worth in each role that borrows a unit."""
+        look = self._look
+        found = {role: figures_of(look.plain, {number: role}, (), look.figures).get(number) for role in BORROWING}
+        return {role: figure.value for role, figure in found.items() if figure is not None}
+
+    def _borrows(self, number: Number) -> set[str]:
+        """The role in which a number is a wanted figure that stands nowhere with its unit."""
+        outage = self._constraints.get("outage_probability")
+        missing = {
+            "rate": [rate for rate in self._rates if not self._has("rate", rate)],
+            "power": [power for power in self._powers.values() if not self._has("power", power)],
+            "outage": [outage] if outage is not None and not self._has("ratio", outage) else [],
+            "reliability": [1 - outage] if outage is not None and not self._has("ratio", 1 - outage) else [],
+        }
+        missing["multiple"] = missing["rate"] if number.form == "times" else []
+        worth = self._worth[number]
+        roles = {role for role, value in worth.items() if any(_close(value, each) for each in missing[role])}
+        if "rate" in worth and not roles and not self._is_unnamed_user(number):
+            value = worth["rate"]
+            stated = sum(figure.kind == "rate" and _close(value, figure.value) for figure in self._look.figures)
+            more = sum(_close(value, rate) for rate in self._rates) > stated > 0 and not missing["rate"]
+            return {"rate"} if more and self._is_alone(number) else set()
+        return set() if roles and self._is_unnamed_user(number) else roles
+
+    def _is_alone(self, number: Number) -> bool:
+        """Whether nobody is counted by a number: "the other two" are users."""
+        return _ENDS.match(self._look.plain, number.end) is not None
+
+    def _is_unnamed_user(self, number: Number) -> bool:
+        named = {user for mention in self._look.mentions for user in mention.users}
+        value = number.value
+        return value is not None and value == int(value) and str(int(value)) in self._all_users - named
+
+    def of_figure(self, figure: Quantity) -> set[str]:
+        if not self._complete[figure.kind]:
+            return set()
+        if figure.kind == "ratio":
+            outage = self._constraints.get("outage_probability")
+            if outage is None:
+                return {"none", "missing"}
+            roles = {"outage"} if _close(figure.value, outage) else set[str]()
+            return roles | ({"reliability"} if _close(1 - figure.value, outage) else set()) or {"none", "missing"}
+        if figure.kind == "power":
+            return {name for name, value in self._powers.items() if _close(value, figure.value)} or _NOTHING
+        roles = {
+            name
+            for name in ("min_rate_bps", "max_rate_bps")
+            if any(_close(value, figure.value) for value in self._values.get(name, {}).values())
+        }
+        return {"both"} if len(roles) > 1 and set(self._rates) == {figure.value} else roles or _NOTHING
+
+    def of_user(self, mention: Mention, found: Sequence[Mention]) -> set[str]:
+        users = set(mention.users)
+        again = any(other is not mention and users & set(other.users) for other in found)
+        for name in ("leave_out", "users"):
+            if users <= self._users[name]:
+                return {name, "given"} if again else {name}
+            if users & self._users[name]:
+                return set()
+        floors = self._values.get("min_rate_bps", {})
+        if any(floors.get(user) == 0 for user in users):
+            return {"exempt", "given"} if again else {"exempt"}
+        given = {user for figures in self._values.values() for user in figures}
+        if users & given:
+            return {"given"}
+        return {"kept"}
+
+    def of_pronoun(self, pronoun: Mention, found: Sequence[Mention]) -> set[str]:
+        named = [other for other in found if other.role == "named" and other.end <= pronoun.start]
+        return {"given", *self.of_user(named[-1], found)} if named else {"given"}
+
+    def of_number(self, number: Number) -> set[str]:
+        value = None if number.value is None else float(number.value)
+        if value is None:
+            return {"limit"} if not all(self._complete.values()) else set()
+        if number in self._borrowing:
+            return self._borrowing[number]
+        scaled = any(_is_scaled(value, rate, (1.0, 1e3, 1e6, 8e3, 8e6)) for rate in self._rates)
+        powers = any(_is_power(value, power) for power in self._powers.values())
+        if (scaled and not self._complete["rate"]) or (powers and not self._complete["power"]):
+            return set() if self._is_unnamed_user(number) else {"limit"}
+        if number in self._look.ones:
+            return {"harmless"} if all(self._complete.values()) and "weights" not in self._values else set()
+        outage = self._constraints.get("outage_probability")
+        if not self._complete["ratio"] and outage is not None:
+            return {"limit"}
+        user = value == int(value) and str(int(value)) in self._all_users | self._values.get("weights", {}).keys()
+        weight = any(_close(value, each) for each in self._values.get("weights", {}).values())
+        if user and weight:
+            return set()
+        if user or weight:
+            return {"user"} if user else {"weight"}
+        if value == 1 and "weights" in self._values:
+            return {"weight", "harmless"}  # "all others 1" is what they count anyway
+        return {"harmless"} if all(self._complete.values()) else set()
+
+    def owners(self, figure: Quantity) -> set[str]:
+        """The users whose rate a figure is."""
+        figures = [self._values.get(name, {}) for name in ("min_rate_bps", "max_rate_bps")]
+        found = {user for each in figures for user, value in each.items() if _close(value, figure.value)}
+        return found | self._users["users"] if EVERYBODY in found else found
+
+    def weighed(self, value: float) -> set[str]:
+        return {user for user, weight in self._values.get("weights", {}).items() if _close(weight, value)}
+
+
+def _by_user(value: float | Mapping[str, float]) -> dict[str, float]:
+    return (
+        {str(user): float(each) for user, each in value.items()}
+        if isinstance(value, Mapping)
+        else {EVERYBODY: float(value)}
+    )
+
+
+def _close(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=_CLOSE, abs_tol=1e-12)
+
+
+def _is_scaled(value: float, other: float, factors: Iterable[float]) -> bool:
+    return any(_close(value * factor, other) for factor in factors)
+
+
+def _is_power(value: float, power: float) -> bool:
+    return _is_scaled(value, power, (1.0, 1e-3)) or (value < 300 and _close(10 ** ((value - 30) / 10), power))
