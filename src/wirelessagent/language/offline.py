@@ -11,7 +11,6 @@ aliases and its own phrases.
 from __future__ import annotations
 
 import dataclasses
-import re
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language import forms
@@ -29,7 +28,7 @@ from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
-from wirelessagent.language.text import language_of, normalise
+from wirelessagent.language.text import language_in_a_talk, normalise
 from wirelessagent.language.topics import details_of
 from wirelessagent.language.vocabulary import OwnWords
 
@@ -55,7 +54,8 @@ class OfflineRecogniser(Recogniser):
     def read(self, text: str, context: Context | None = None) -> Intent:
         """What the operator may mean, as it is read; never raises, whatever the text."""
         own = own_words()
-        language = _language(text[:_MAX_CHARACTERS], context)
+        before = "" if context is None else context.language
+        language = language_in_a_talk(text[:_MAX_CHARACTERS], before)
         voice = Voice(language, labels_of(own, language))
         if len(text) > _MAX_CHARACTERS:
             return Answer(voice, language, NAME).ask("too_long")
@@ -72,14 +72,6 @@ def recognise(text: str, context: Context | None = None) -> Intent:
     ('min_power', {'min_rate_bps': 200000.0})
     """
     return OfflineRecogniser().recognise(text, context)
-
-
-def _language(text: str, context: Context | None) -> str:
-    """The sentence's own language; that of the conversation where hardly a word is said ("10 W")."""
-    words = re.findall(r"[^\W\d_]{3,}", text)
-    if context is not None and context.language and language_of(text) == "en" and len(words) < 2:
-        return context.language
-    return language_of(text)
 
 
 class _Understanding:

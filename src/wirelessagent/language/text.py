@@ -139,6 +139,24 @@ def language_of(text: str) -> str:
     return best if counts[best] > counts["en"] else "en"
 
 
+def language_in_a_talk(text: str, before: str) -> str:
+    """The language of a line: that of the talk before it, "" at its start, unless its own words tell another clearly.
+
+    >>> language_in_a_talk("plus 6", "en"), language_in_a_talk("mejor 2 Mbit/s", "es"), language_in_a_talk("10 W", "zh")
+    ('en', 'es', 'zh')
+    >>> language_in_a_talk("and what is the rate of user 3?", "es"), language_in_a_talk("no", "")
+    ('en', 'en')
+    """
+    own = language_of(text)
+    if not before or own == "zh":
+        return own
+    counts, words = _counts(text), sum(len(word) > 1 for word in _WORD.findall(text))
+    if before == "zh":
+        return own if words > 1 else before
+    ahead = counts[own] - counts[before]
+    return own if ahead >= _TELLING or (ahead > 0 and words > 1) else before
+
+
 def languages_of(text: str) -> tuple[str, ...]:
     """The languages that a sentence may be in: all of them where its small words hardly tell.
 

@@ -21,12 +21,11 @@ from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words, read_once
-from wirelessagent.language.text import has_chinese, language_of, normalise, replaced
+from wirelessagent.language.text import has_chinese, language_in_a_talk, normalise, replaced
 from wirelessagent.language.word_tables import table, written
 
 NAME = READ_IN_A_TALK
 _ASKED = deferred(r"[?？]\s*$|[呢吗]\s*[?？]?\s*$")
-_WORD = deferred(r"[^\W\d_]{3,}")
 _POLITE = deferred(
     r"^(?:(?:(?:ok(?:ay)?|please|hey|well|then|so|now|and|(?:could|can|would|will) you|let's|let us)\b|请|"
     r"麻烦(?:你|您)?|帮我|那就?)[,，\s]*)+(?=\S)|[,，\s]*(?:please|thanks|thank you|谢谢|吧|了吧)?[\s.!。！~]*$"
@@ -99,16 +98,14 @@ class Line:
     @classmethod
     def of(cls, text: str, context: Context) -> Line:
         """The line with its shape."""
-        plain, language = normalise(text), language_of(text)
+        plain = normalise(text)
         figures = tuple(figure for figure in parse_quantities(text) if figure.kind in ("rate", "power"))
         spans = [(figure.start, figure.end, "#") for figure in figures]
         taken = [(start, end) for start, end, _ in spans]
         named = [each for each in mentions(plain, context.user_names, taken) if each.role == "named"]
         spans += [(each.start, each.end, "@") for each in named]
         shape = " ".join(replaced(plain, sorted(spans)).lower().split())
-        said = _WORD.findall(shape)  # hardly anything ("10 W") or one word ("nein") has no language of its own
-        if context.language and language == "en" and (not said or shape.rstrip(".!?") in said[:1]):
-            language = context.language
+        language = language_in_a_talk(text, context.language)
         users = tuple(dict.fromkeys(user for each in named for user in each.users))
         return cls(
             text=text, shape=shape, wish=_POLITE.sub("", shape), users=users, figures=figures, context=context,
