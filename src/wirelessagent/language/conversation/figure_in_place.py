@@ -128,7 +128,7 @@ def _caps(words: Words) -> bool:
 def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: bool) -> bool:
     """Whether a line says no more than what a figure is to be now, and so leans on what was said before."""
     classes = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
-    classes += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposes else []
+    classes += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposes or model else []
     classes += ["more", "less"] if figure.kind == "bare" and words.has("to") else []
     classes += ["revise"] if model is not None and isinstance(model.whom, Named) else []
     if len(words.named_kinds()) == 1:
