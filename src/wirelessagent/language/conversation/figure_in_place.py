@@ -129,7 +129,7 @@ def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: boo
     """Whether a line says no more than what a figure is to be now, and so leans on what was said before."""
     classes = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
     classes += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposes or model else []
-    classes += ["more", "less"] if figure.kind == "bare" and words.has("to") else []
+    classes += (["to"] if words.users else ["more", "less"]) if figure.kind == "bare" and words.has("to") else []
     classes += ["revise"] if model is not None and isinstance(model.whom, Named) else []
     if len(words.named_kinds()) == 1:
         classes += ["make", "promise"] if words.users else ["make", "limit"]
@@ -139,7 +139,7 @@ def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: boo
     if not leans or (words.has("by") and words.has("make")):
         return False
     pairs = itertools.pairwise(words.tokens)
-    led = words.has("lead", "correct", "with", "make", "at_most", "grant")
+    led = words.has("lead", "correct", "with", "make", "at_most", "grant", "to")
     led = led or any(token.figure and "promise" in behind.classes for token, behind in pairs)  # "1 Mbit/s promised"
     return led or not words.users
 

@@ -189,6 +189,8 @@ def _moved(words: Words) -> Intent | None:
     if len(last) != 1:
         return None
     ((act, old),) = last
+    if isinstance(act, Serve) and act.alone and not _denies(words.tokens):  # "no, 1 and 3" behind "only 1 and 2"
+        return words.acts([dataclasses.replace(act, whom=Named(words.users))])
     users = tuple(user for user in words.users if user not in old)
     figures = [*words.figures, *([words.replaced] if words.replaced is not None else [])]
     denied = {*(f"{figure.value:g}" for figure in figures), *words.users} - {*users}
@@ -230,9 +232,13 @@ def _of_named(words: Words) -> list[tuple[Limit | LeaveOut | Serve, tuple[str, .
 def _meant(words: Words) -> tuple[str, ...]:
     """A user by the number alone, where it is one's by the words or can be no figure: "for 3", "4, not 3"."""
     users, last = words.counted(), _of_named(words)
-    if len(users) != 1 or len(last) != 1:
+    if not users or len(last) != 1:
         return ()
     ((act, named),) = last
+    if isinstance(act, Serve | LeaveOut):
+        return users
+    if len(users) != 1:
+        return ()
     instead = words.replaced is not None and f"{words.replaced.value:g}" in named
     is_figure = isinstance(act, Limit) and value_of(words.figures[0], act.kind, act) is not None
     return users if instead or words.has("whose") or not is_figure else ()
@@ -274,6 +280,8 @@ def _as_another(words: Words) -> Intent | None:
     """ "user 8 the same as user 3": the one figure of a user, for another one too."""
     named = [token.users for token in words.tokens if token.users]
     named += [words.counted()] if len(named) == 1 and words.counted() else []
+    if len(named) == 1 and len(named[0]) == 2:  # "用户5和用户2一样", one list of two
+        named = [(user,) for user in named[0]]
     if len(named) != 2 or len(named[1]) != 1:
         return None
     figures = [(kind, value[named[1][0]]) for kind in FIGURES_OF_USERS
@@ -396,7 +404,8 @@ def _same_of_others(words: Words) -> Intent | None:
     nouns = ("promise", "rate") if stated & {*words.named_kinds()} else ()
     if not users or not words.only("too", "lead", "it", "correct", *nouns, *_OF_USERS.split()):
         return None
-    if not words.has("too", "whose") and not words.users:
+    listed = bool(words.last(LeaveOut, Serve)) and not words.has("correct")  # whom a number names, then
+    if not words.has("too", "whose") and not words.users and not listed:
         return None
     again = [dataclasses.replace(act, whom=Named(users)) for act in words.last(Limit, Drop, LeaveOut, Scale, Serve)
              if isinstance(act.whom, Named) and not (isinstance(act, Drop) and act.kind in stated)]  # fmt: skip
