@@ -500,3 +500,17 @@ def test_sentences_of_their_own_are_left_to_the_recogniser(said: str) -> None:
         stated={"min_rate_bps": {"2": 1e6}}, supposed_objective="max_rate",
     )  # fmt: skip
     assert understood(said, context, Scripted([means("out_of_scope")])).kind == "out_of_scope"
+
+
+@pytest.mark.parametrize(
+    ("first", "line", "language"),
+    [
+        ("máxima tasa, al menos 500 kbit/s cada uno", "mejor 800 kbit/s", "es"), ("highest total rate", "plus 6", "en"),
+        ("höchste Gesamtrate", "Nutzer 8 weglassen", "de"), ("总速率最高", "10 W", "zh"),
+        ("highest total rate", "ja, bitte", "de"), ("débit total maximal", "and what does user 3 get?", "en"),
+    ],
+)  # fmt: skip
+def test_a_short_line_is_answered_in_the_language_of_its_talk(first: str, line: str, language: str) -> None:
+    session = Session(SCENE, LOSS, seed=SEED)
+    session.say(first)
+    assert session.say(line).intent.language == language

@@ -63,3 +63,27 @@ def test_what_only_may_be_meant_changes_nothing(said: str) -> None:
 
 def test_what_is_said_to_start_over_in_french_is_forgotten() -> None:
     assert talked_into(POWER_W, "on repart de zéro")[1][-1].stage == "undone"
+
+
+@pytest.mark.parametrize(
+    ("lines", "held"),
+    [
+        (("highest total rate, leave out user 3", "nor user 4"), {"leave_out": ("3", "4")}),
+        (("highest total rate, only users 1 and 2", "plus 4"), {"users": ("1", "2", "4")}),
+        (("只服务用户1和2，总速率最高", "再加上4"), {"users": ("1", "2", "4")}),
+        (("highest total rate, only users 1 and 2", "no, 1 and 3"), {"users": ("1", "3")}),
+        (("highest total rate with 10 W", "at least 500k each", "leave user 3 out", "back to the first"),
+         {"max_power_w": 10.0}),
+        (("总速率最高，每人最多2兆", "用户3可以到4"), {"max_rate_bps": {"all": 2e6, "3": 4e6}}),
+        (("总速率最高，用户2至少1兆", "减半", "用户4和用户2一样"), {"min_rate_bps": {"2": 5e5, "4": 5e5}}),
+        (("总速率最高，每人至少250k", "300，不是250"), {"min_rate_bps": 3e5}),
+        (("höchste Summenrate, jeder mindestens 300k", "doch lieber 500k"), {"min_rate_bps": 5e5}),
+        (("máxima tasa, al menos 500 kbit/s cada uno", "mejor 800 kbit/s"), {"min_rate_bps": 8e5}),
+        (("highest total rate", "what if we had 4 W?", "cap the power at 4 W then"), {"max_power_w": 4.0}),
+        (("highest total rate", "what if we had 4 W?", "limit power to 5 W?"), {}),
+        (("highest total rate, 200k each, user 4 at least 800k", "drop user 4's own floor"), {"min_rate_bps": 2e5}),
+    ],
+)  # fmt: skip
+def test_a_line_that_revises_what_was_said_changes_just_that(lines: tuple[str, ...], held: dict[str, Any]) -> None:
+    assert talked_into(*lines)[0] == {name: pytest.approx(value) if isinstance(value, float) else value
+                                      for name, value in held.items()}  # fmt: skip

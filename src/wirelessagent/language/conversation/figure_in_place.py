@@ -14,6 +14,7 @@ from wirelessagent.language.acts import Drop, Everybody, Limit, Named, Others, S
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words, own_users
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.intent_acts import stated
+from wirelessagent.language.moods import is_ordered
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.model.units import human
 
@@ -64,7 +65,8 @@ def read_figure(words: Words) -> Intent | None:
     ):
         return None
     wondered = words.line.is_asked or words.has("suppose") or supposed
-    if not wondered or words.has("take", "make", "correct"):
+    orders = is_ordered(words.line.text) and not words.line.is_asked
+    if not wondered or words.has("take", "make", "correct") or orders:
         said = f"{figure.value:g} {_unit(model)}" if _is_bare(figure, kind) and model is not None else figure.text
         return words.acts([Limit(kind=kind, value=value, whom=whom, words=said)])
     if isinstance(whom, Others) or not (words.has("suppose") or supposed):
@@ -128,7 +130,8 @@ def _caps(words: Words) -> bool:
 def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: bool) -> bool:
     """Whether a line says no more than what a figure is to be now, and so leans on what was said before."""
     classes = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
-    classes += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposes or model else []
+    classes += ["make"] if model is not None and not words.is_read else []
+    classes += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposes else []
     classes += (["to"] if words.users else ["more", "less"]) if figure.kind == "bare" and words.has("to") else []
     classes += ["revise"] if model is not None and isinstance(model.whom, Named) else []
     if len(words.named_kinds()) == 1:

@@ -424,6 +424,7 @@ def _corrected(words: Words) -> Intent | None:
 
 
 _OF_USERS = "users bare lead again pronoun one"
+_GONE = "it users bare every others both pronoun one own again lead correct more by"
 _NOUNS = " ".join(NOUNS)
 _FORMS = (
     Form("correct", "users bare lead it revise whose", _moved),
@@ -435,7 +436,9 @@ _FORMS = (
     Form("take", "it", _taken_up),
     Form("as_it_was", f"before after users lead correct make undo told leave first {_NOUNS}", _as_it_was),
     Form("equal weight", "every make again lead", _weighed_equally),
-    Form("remove|too", f"it users bare every others both pronoun one again lead correct more by {_NOUNS}", _dropped),
+    Form(
+        "remove|too", f"{_GONE} {_NOUNS}", _dropped
+    ),
     Form("every serve", "again lead take make", _all_served),
     Form("others serve", "again lead too make bare", _all_served),
     Form("both serve", "again lead every", _both_served),
