@@ -240,7 +240,7 @@ def _meant(words: Words) -> tuple[str, ...]:
     if len(users) != 1:
         return ()
     instead = words.replaced is not None and f"{words.replaced.value:g}" in named
-    is_figure = isinstance(act, Limit) and value_of(words.figures[0], act.kind, act) is not None
+    is_figure = value_of(words.figures[0], act.kind, act) is not None
     return users if instead or words.has("whose") or not is_figure else ()
 
 
