@@ -81,6 +81,9 @@ def test_what_is_said_to_start_over_in_french_is_forgotten() -> None:
         (("máxima tasa, al menos 500 kbit/s cada uno", "mejor 800 kbit/s"), {"min_rate_bps": 8e5}),
         (("highest total rate", "what if we had 4 W?", "cap the power at 4 W then"), {"max_power_w": 4.0}),
         (("highest total rate", "what if we had 4 W?", "limit power to 5 W?"), {}),
+        (("highest total rate, user 4 at least 1 Mbit/s", "half of that for user 2"),
+         {"min_rate_bps": {"4": 1e6, "2": 5e5}}),
+        (("höchste Gesamtrate, höchstens 14 W", "die Hälfte davon"), {"max_power_w": 7.0}),
         (("highest total rate, 200k each, user 4 at least 800k", "drop user 4's own floor"), {"min_rate_bps": 2e5}),
     ],
 )  # fmt: skip

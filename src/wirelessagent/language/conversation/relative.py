@@ -80,6 +80,9 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
     if basis is None:
         if words.has("worth") and name == "min_rate_bps":
             return words.line.question("step", rate_share=change.factor - 1.0)
+        said = [act for act in words.last(Limit) if act.kind == name]
+        if len(said) == 1 and not change.step and not supposes:  # "half of that for user 6", who has no such figure
+            return words.acts([Limit(kind=name, value=said[0].value * change.factor, whom=Named(users))])
         return words.line.ask("no_rate_to_change")
     return _result(words, name, basis, change, supposes=supposes, users=users)
 
