@@ -9,8 +9,9 @@ sentences. So nothing is done that a word of the line may not have meant. What k
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import cast
 
@@ -24,20 +25,16 @@ from wirelessagent.language.acts import (
     Named,
     Scale,
     Serve,
-    Undo,
 )  # fmt: skip
 from wirelessagent.language.conversation.figure_in_place import figures_of, read_figure, value_of
 from wirelessagent.language.conversation.line import Line, begins, is_all
 from wirelessagent.language.conversation.relative import read_relative, read_repeated
-from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, speaks_of_one, tokens_of, words_of
+from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, words_of
 from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
 from wirelessagent.language.moods import is_ordered
-from wirelessagent.language.text import languages_of, normalise
 
 _LONGEST = 120
-_SHORT = 40
-_MOST_STEPS = 20
 _FIRST_NUMBER = re.compile(r"\s*(\d{1,3})\s+(?=[^\W\d_]{2,}\s)")
 _NUMBER = re.compile(r"(?<![A-Za-z\d.])\d++(?:\.\d+)?+(?![A-Za-z])")  # "7", and no "4K"
 _BUT = re.compile(r"(?:\s(?=(?:but|and)\s)|(?=但|而))(.+)$")
@@ -69,21 +66,13 @@ class Form:
 def read_fragment(line: Line) -> Intent | None:
     """What a line does that leans on the last act; None for any other line."""
     context = line.context
-    whose = context.pending_users and context.pending_users != context.spoken_of  # "what of user 5?", "leave him out"
-    whose = whose or (context.pending_users and not speaks_of_one(normalise(line.text)))
-    open_ = context.pending or context.pending_objective or whose or context.offered or context.guess
-    if context.objective is None or (context.awaits == "clarification" and open_) or len(line.text) > _LONGEST:
+    open_ = context.awaits == "clarification" and (context.pending_users or context.guess)
+    if context.objective is None or open_ or len(line.text) > _LONGEST:
         return None
     if _takes_back(line):
         return line.command("undo", steps=1.0)
     line = _without_a_description(_without_what_stays(line))
-    order = _order_about_one(line)
-    found = [_read(words) for words in words_of(line)]
-    if order is not None:
-        found += [_read(words) for words in words_of(order) if words.spoken_of is not None]
-    figure = _behind_a_story(line)
-    if figure is not None:
-        found += [read_figure(words) or read_relative(words) for words in words_of(figure)]
+    found = [*map(_read, words_of(line)), *_behind_a_story(line)]
     return next((intent for intent in found if intent is not None), None)
 
 
@@ -104,74 +93,61 @@ def read_wondered(line: Line) -> Intent | None:
     return next((intent for intent in found if intent is not None), None)
 
 
-def _order_about_one(line: Line) -> Line | None:
-    """What is ordered of one user behind a clause that only tells of that user: "user 7 has paid, let him back in"."""
+def _behind_a_story(line: Line) -> Iterator[Intent | None]:
+    """What is meant last behind a clause that only tells: "user 7 has paid, let him back in", "ouch. 95 will do"."""
     clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or line.is_asked:
-        return None
+    if clause is None:
+        return
     story = Line.of(line.text[: clause.start()], line.context)
+    if is_ordered(story.text) or tells_no_mere_fact(story.text):
+        return
     first = _FIRST_NUMBER.match(story.text)
     numbered = first is not None and int(first[1]) in range(1, len(line.context.user_names) + 1)
     users = story.users or ((first[1],) if first is not None and numbered else ())
-    acts = story.figures or is_ordered(story.text) or any(True for _ in words_of(story))
-    if len(users) != 1 or acts or story.is_asked or tells_no_mere_fact(story.text):
-        return None
-    return Line.of(clause[1], dataclasses.replace(line.context, spoken_of=users))
+    for words in words_of(Line.of(clause[1], dataclasses.replace(line.context, spoken_of=users))):
+        if words.spoken_of is not None:
+            yield _read(words)
+        elif not _tells_anew(story):
+            yield read_figure(words)
 
 
-def _behind_a_story(line: Line) -> Line | None:
-    """What is said last behind a clause that only tells of nobody, or of what holds: "ouch. 95 will do"."""
-    clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or line.is_asked:
-        return None
-    story = Line.of(line.text[: clause.start()], line.context)
-    held = {figure for limit in line.context.constraints.values() for figure in figures_of(limit)}
+def _tells_anew(story: Line) -> bool:
+    """Whether a clause says a figure that does not hold, or an aim."""
+    held = {figure for limit in story.context.constraints.values() for figure in figures_of(limit)}
     known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)}
     new = {figure.value for figure in story.figures} - held or set(_NUMBER.findall(story.text)) - known
-    acts = is_ordered(story.text) or any(True for _ in words_of(story))
-    if story.users or acts or new or story.is_asked or tells_no_mere_fact(story.text):
-        return None
-    return None if story.sentence.goal.objective else Line.of(clause[1], line.context)
+    return bool(new or story.sentence.goal.objective)
 
 
 def _without_what_stays(line: Line) -> Line:
     """The line without a last clause that only says what stays: "…, but keep the promise to user 3"."""
     clause = _LAST_CLAUSE.search(line.text) or _BUT.search(line.text)
-    stays = clause is not None and is_all("kept", Line.of(clause[1], line.context).shape.rstrip(".!。 "))
-    return Line.of(line.text[: clause.start()], line.context) if clause is not None and stays else line
+    if clause is None or not is_all("kept", Line.of(clause[1], line.context).shape.rstrip(".!。 ")):
+        return line
+    return Line.of(line.text[: clause.start()], line.context)
 
 
 def _without_a_description(line: Line) -> Line:
     """The line without what it says about its user beside what it wants: "oops, the hospital is user 8, not 3"."""
     match = begins("described", line.shape)
-    if match is None or not line.users:
+    if match is None:
         return line
-    words = match["words"]
-    place = line.text.lower().find(words)
-    return line if place < 0 else Line.of(line.text[:place] + line.text[place + len(words) :], line.context)
+    return Line.of(re.sub(re.escape(match["words"]), "", line.text, count=1, flags=re.IGNORECASE), line.context)
 
 
 def _takes_back(line: Line) -> bool:
-    """Whether the last clause of a short line is an undo and nothing else: "call's over, undo that"."""
+    """Whether the last clause of a line is an undo and nothing else: "call's over, undo that"."""
     clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or len(line.text) > _SHORT or line.is_asked:
+    if clause is None or line.is_asked:
         return False
-    last = Line.of(clause[1], line.context)
-    read = ((tokens_of(last, language), language) for language in languages_of(line.text))
-    return any(_is_undo(Words(last, tokens, language), "again") for tokens, language in read if tokens)
-
-
-def _is_undo(words: Words, *further: str) -> bool:
-    """Whether a line takes the last change back and says nothing else: "undo that", "undo the raise"."""
-    changes = "make more less factor rate limit promise power weight" if words.has("make", "more", "less") else ""
-    return words.has("undo") and words.only("undo", "it", *further, *changes.split())
+    last = words_of(Line.of(clause[1], line.context))
+    return any(words.has("undo") and words.only("undo", "it", "again") for words in last)
 
 
 def _denies(tokens: Sequence[Token]) -> bool:
     """Whether a word that corrects what was said before stands where it denies what this line says."""
-    said = [place for place, token in enumerate(tokens) if not token.classes & {"correct", "skip", "lead"}]
-    behind = tokens[said[0] :] if said else ()
-    return any("correct" in token.classes and not token.classes & {"skip", "lead"} for token in behind)
+    said = itertools.dropwhile(lambda token: token.classes & {"correct", "skip", "lead"}, tokens)
+    return any("correct" in token.classes for token in said)
 
 
 def _moved(words: Words) -> Intent | None:
@@ -262,18 +238,9 @@ def _taken_off_another(words: Words) -> Intent | None:
     return words.acts([*back, off], {"taken_off": {kind: gone}}) if len(gone) == len(words.users) else None
 
 
-def _steps_undone(words: Words) -> Intent | None:
-    """ "undo the last two changes"; a bare command is a sentence of its own where recognisers read it."""
-    counts = [figure.value for figure in words.figures] + [token.factor for token in words.tokens if token.factor]
-    if words.is_read or len(counts) != 1 or counts[0] not in range(1, _MOST_STEPS):
-        return None
-    return words.line.command("undo", steps=float(counts[0]))
-
-
 def _undone(words: Words) -> Intent | None:
-    """ "nah, undo that", "undo the raise"."""
-    says_more = words.has("make", "more", "less", "correct") or not words.is_read
-    return words.line.command("undo", steps=1.0) if says_more and _is_undo(words, "correct", "lead", "again") else None
+    """ "rückgängig"; a bare command is a sentence of its own where recognisers read it."""
+    return None if words.is_read else words.line.command("undo", steps=1.0)
 
 
 def _as_another(words: Words) -> Intent | None:
@@ -288,11 +255,6 @@ def _as_another(words: Words) -> Intent | None:
                if isinstance(value := words.held.get(kind), Mapping) and named[1][0] in value]  # fmt: skip
     acts = [Limit(kind=kind, value=value, whom=Named(named[0])) for kind, value in figures]
     return words.acts(acts) if len(acts) == 1 else None
-
-
-def _again(words: Words) -> Intent | None:
-    """ "once more" behind an undo."""
-    return words.line.command("undo", steps=1.0) if words.last(Undo) else None
 
 
 def _taken_up(words: Words) -> Intent | None:
@@ -325,11 +287,6 @@ def _is_about(act: Act, kinds: Sequence[str], users: Sequence[str]) -> bool:
         return False
     whom = getattr(act, "whom", None)
     return not users or (isinstance(whom, Named) and set(users) <= set(whom.users))
-
-
-def _weighed_equally(words: Words) -> Intent | None:
-    """ "all weights equal"."""
-    return words.acts([Drop(kind="weights")]) if "weights" in words.held else None
 
 
 def _dropped(words: Words) -> Intent | None:
@@ -413,11 +370,6 @@ def _same_of_others(words: Words) -> Intent | None:
     return words.acts(again) if len(set(again)) == 1 else None
 
 
-def _asks_what_changes(words: Words) -> Intent:
-    """ "limit the power", without the figure."""
-    return words.line.ask("what_changes")
-
-
 def _corrected(words: Words) -> Intent | None:
     """ "No, a third", where no share was said before."""
     return None if "outage_probability" in words.line.context.stated else words.line.ask("what_changes")
@@ -428,17 +380,12 @@ _GONE = "it users bare every others both pronoun one own again lead correct more
 _NOUNS = " ".join(NOUNS)
 _FORMS = (
     Form("correct", "users bare lead it revise whose", _moved),
-    Form("undo", "bare factor change_noun lead again", _steps_undone),
-    Form("undo", "correct it lead again make more less factor rate limit promise power weight", _undone),
+    Form("undo", "it lead again", _undone),
     Form("too|equal", "users bare lead weight rate promise again", _as_another),
-    Form("again", "lead", _again),
     Form("again", "lead it take", read_repeated),
     Form("take", "it", _taken_up),
     Form("as_it_was", f"before after users lead correct make undo told leave first {_NOUNS}", _as_it_was),
-    Form("equal weight", "every make again lead", _weighed_equally),
-    Form(
-        "remove|too", f"{_GONE} {_NOUNS}", _dropped
-    ),
+    Form("remove|too", f"{_GONE} {_NOUNS}", _dropped),
     Form("every serve", "again lead take make", _all_served),
     Form("others serve", "again lead too make bare", _all_served),
     Form("both serve", "again lead every", _both_served),
@@ -446,7 +393,6 @@ _FORMS = (
     Form("leave", f"too take make {_OF_USERS}", _left_out),
     Form("too|lead", f"it correct promise rate {_OF_USERS}", _same_of_others),
     Form("", "", read_relative, asked=True),
-    Form("limit power", "make", _asks_what_changes, asked=True),
     Form("", "", read_figure, asked=True),
     Form("correct ratio|factor", "lead by to less more", _corrected),
 )
