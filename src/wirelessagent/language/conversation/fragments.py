@@ -15,18 +15,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import cast
 
-from wirelessagent.language.acts import (
-    Act,
-    Aim,
-    Drop,
-    Everybody,
-    LeaveOut,
-    Limit,
-    Named,
-    Scale,
-    Serve,
-)  # fmt: skip
-from wirelessagent.language.conversation.figure_in_place import figures_of, read_figure, value_of
+from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Scale, Serve
+from wirelessagent.language.conversation.figure_in_place import figures_of, read_figure
 from wirelessagent.language.conversation.line import Line, begins, is_all
 from wirelessagent.language.conversation.relative import read_relative, read_repeated
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, words_of
@@ -152,16 +142,17 @@ def _denies(tokens: Sequence[Token]) -> bool:
 
 def _moved(words: Words) -> Intent | None:
     """ "no, user 5", "I mean user 6, not 3", "for 3": what was said last of one user, of another."""
-    words.users = words.users or _meant(words)
+    words.users = words.users or (words.counted() if words.has("whose") or words.last(LeaveOut, Serve) else ())
     if not words.users:
         return None
     if words.taken_off:
         return _taken_off_another(words)
     last = _of_named(words)
-    if not last and len(words.last(Scale)) == 1:
-        return _scaled_another(words, words.last(Scale)[0])
     if not last:
-        return _for_all_moved(words)
+        scaled = words.last(Scale)
+        if len(scaled) == 1:
+            return _scaled_another(words, scaled[0])
+        return words.line.ask("what_of_user", users=words.line.voice.users(words.users))
     if len(last) != 1:
         return None
     ((act, old),) = last
@@ -181,16 +172,10 @@ def _moved(words: Words) -> Intent | None:
 
 def _scaled_another(words: Words, act: Scale) -> Intent | None:
     """ "no, I meant user 7" behind "user 8 needs double"."""
-    if not isinstance(act.whom, Named) or set(act.whom.users) & set(words.users) or words.figures:
-        return None
     held = words.held.get(act.kind)
-    if not isinstance(held, Mapping):
+    if not isinstance(act.whom, Named) or not isinstance(held, Mapping) or EVERYBODY not in held:
         return None
-    back: Act = Drop(kind=act.kind, whom=act.whom, own=True)
-    if EVERYBODY not in held:
-        if not set(words.users) <= held.keys():
-            return None
-        back = dataclasses.replace(act, factor=1 / act.factor)
+    back = Drop(kind=act.kind, whom=act.whom, own=True)
     return words.acts([back, dataclasses.replace(act, whom=Named(words.users))])
 
 
@@ -203,29 +188,6 @@ def _of_named(words: Words) -> list[tuple[Limit | LeaveOut | Serve, tuple[str, .
             said[same] = (*said.get(same, ()), *act.whom.users)
     first = next((act.words for act in words.last(Limit)), "")
     return [(dataclasses.replace(act, words=first), users) for act, users in said.items()]
-
-
-def _meant(words: Words) -> tuple[str, ...]:
-    """A user by the number alone, where it is one's by the words or can be no figure: "for 3", "4, not 3"."""
-    users, last = words.counted(), _of_named(words)
-    if not users or len(last) != 1:
-        return ()
-    ((act, named),) = last
-    if isinstance(act, Serve | LeaveOut):
-        return users
-    if len(users) != 1:
-        return ()
-    instead = words.replaced is not None and f"{words.replaced.value:g}" in named
-    is_figure = value_of(words.figures[0], act.kind, act) is not None
-    return users if instead or words.has("whose") or not is_figure else ()
-
-
-def _for_all_moved(words: Words) -> Intent:
-    """What was said last for everybody, for these users alone; where nothing was, what is meant is asked."""
-    last = [act for act in words.last(Limit) if act.kind in FIGURES_OF_USERS and isinstance(act.whom, Everybody)]
-    if len(last) != 1 or words.figures:
-        return words.line.ask("what_of_user", users=words.line.voice.users(words.users))
-    return words.acts([Drop(kind=last[0].kind), dataclasses.replace(last[0], whom=Named(words.users))])
 
 
 def _taken_off_another(words: Words) -> Intent | None:
@@ -246,7 +208,6 @@ def _undone(words: Words) -> Intent | None:
 def _as_another(words: Words) -> Intent | None:
     """ "user 8 the same as user 3": the one figure of a user, for another one too."""
     named = [token.users for token in words.tokens if token.users]
-    named += [words.counted()] if len(named) == 1 and words.counted() else []
     if len(named) == 1 and len(named[0]) == 2:  # "用户5和用户2一样", one list of two
         named = [(user,) for user in named[0]]
     if len(named) != 2 or len(named[1]) != 1:
@@ -267,53 +228,35 @@ def _taken_up(words: Words) -> Intent | None:
 
 def _as_it_was(words: Words) -> Intent | None:
     """ "back to how it was before the power limit": to the turn before the last one that set or dropped it."""
-    before, after = words.has("before"), words.has("after")
-    kinds, earlier = words.named_kinds(), list(enumerate(words.line.context.earlier, start=1))
-    if before is after:
-        return None
-    if words.has("first") and after and not kinds and not words.users:
-        turns = [turn for turn, acts in earlier if any(isinstance(act, Aim | Limit | LeaveOut | Serve) for act in acts)]
-        return words.line.command("undo", turn=float(turns[0])) if turns else None
-    if not kinds and not words.users:
-        return None
-    turns = [turn for turn, acts in earlier if any(_is_about(act, kinds, words.users) for act in acts)]
-    turn = turns[-1] - before if turns else 0
+    kinds = words.named_kinds()
+    turns = [
+        turn for turn, acts in enumerate(words.line.context.earlier, start=1)
+        if any(isinstance(act, Limit | Scale | Drop) and act.kind in kinds for act in acts)
+    ]  # fmt: skip
+    turn = turns[-1] - words.has("before") if turns else 0
     return words.line.command("undo", turn=float(turn)) if turn > 0 else None
-
-
-def _is_about(act: Act, kinds: Sequence[str], users: Sequence[str]) -> bool:
-    """Whether an act changes one of these limits, or something of these users."""
-    if kinds and not (isinstance(act, Limit | Scale | Drop) and act.kind in kinds):
-        return False
-    whom = getattr(act, "whom", None)
-    return not users or (isinstance(whom, Named) and set(users) <= set(whom.users))
 
 
 def _dropped(words: Words) -> Intent | None:
     """ "remove the cap again", "and his too" behind another one that went."""
-    users = words.counted() if words.figures else ()
-    gone = words.has("remove") or (bool(words.last(Drop)) and not words.last(Limit, Scale))
-    if (words.figures and not users) or not gone:
+    users = words.counted()
+    if (words.figures and not users) or not (words.has("remove") or words.last(Drop)):
         return None
     whom = Named(users) if users else words.whom()
     own = [name for name, value in words.held.items() if isinstance(value, Mapping) and isinstance(whom, Named)
            and set(whom.users) <= value.keys()]  # fmt: skip
     kinds = [kind for kind in words.named_kinds() if kind in words.held]
-    if words.has("own") and whom is not None and not words.has(*NOUNS):  # "cancel user 5's"
-        kinds = own
     if users and not words.has("leave", *NOUNS):  # "6不用了"
         kinds = own
-    raised = words.has("more") and (bool(words.line.context.share_of) or not words.has("again"))  # "lift it"
+    raised = words.has("more") and not words.has("again")  # "lift it"
     said_it = words.has("it") and whom is None and not words.has(*NOUNS)
     if said_it and not raised and not is_all("cancel", words.line.said):  # "lift it again" behind a limit
         last = words.last(Limit)
         kinds, whom = [act.kind for act in last], last[0].whom if len(last) == 1 else None
-    if len(kinds) > 1:
-        kinds = [act.kind for act in words.last(Limit) if act.kind in kinds][-1:]
     if len(kinds) != 1 or (isinstance(whom, Named) and kinds[0] not in own and kinds[0] != "min_rate_bps"):
         return None
     held = words.held.get(kinds[0])
-    common = kinds == own and words.has("own") and isinstance(held, Mapping) and EVERYBODY in held
+    common = kinds == own and isinstance(held, Mapping) and EVERYBODY in held
     return words.acts([Drop(kind=kinds[0], whom=whom or Everybody(), own=common)])
 
 
@@ -322,8 +265,7 @@ def _all_served(words: Words) -> Intent | None:
     served, out = words.listed("users"), words.listed("leave_out")
     missing = len(words.line.context.user_names) - len(served) if served else len(out)
     counted = [figure.value for figure in words.figures]
-    some = missing or (served and words.has("every"))
-    return words.acts([Serve(whom=Everybody())]) if some and counted in ([], [missing]) else None
+    return words.acts([Serve(whom=Everybody())]) if missing and counted in ([], [missing]) else None
 
 
 def _both_served(words: Words) -> Intent | None:
@@ -343,7 +285,7 @@ def _served(words: Words) -> Intent | None:
     """ "user 7 back in"."""
     users, alone = _of_whom(words), words.listed("users")
     served = set(users) <= {*alone} if alone else not set(users) & {*words.listed("leave_out")}
-    return words.acts([Serve(whom=Named(users))]) if users and not served else None
+    return None if served else words.acts([Serve(whom=Named(users))])
 
 
 def _left_out(words: Words) -> Intent | None:
@@ -357,15 +299,15 @@ def _left_out(words: Words) -> Intent | None:
 
 def _same_of_others(words: Words) -> Intent | None:
     """ "and 3 too": users of whom the same is said as of the last ones."""
-    users, stated = _of_whom(words), {act.kind for act in words.last(Limit)}
-    nouns = ("promise", "rate") if stated & {*words.named_kinds()} else ()
-    if not users or not words.only("too", "lead", "it", "correct", *nouns, *_OF_USERS.split()):
-        return None
+    users = _of_whom(words)
     listed = bool(words.last(LeaveOut, Serve)) and not words.has("correct")  # whom a number names, then
-    if not words.has("too", "whose") and not words.users and not listed:
+    if not users or not (words.has("too", "whose") or words.users or listed):
         return None
-    again = [dataclasses.replace(act, whom=Named(users)) for act in words.last(Limit, Drop, LeaveOut, Scale, Serve)
-             if isinstance(act.whom, Named) and not (isinstance(act, Drop) and act.kind in stated)]  # fmt: skip
+    again = [
+        dataclasses.replace(act, whom=Named(users))
+        for act in words.last(Limit, Drop, LeaveOut, Scale, Serve)
+        if isinstance(act.whom, Named)
+    ]
     again = [dataclasses.replace(act, alone=False) if isinstance(act, Serve) else act for act in again]
     return words.acts(again) if len(set(again)) == 1 else None
 
@@ -381,10 +323,10 @@ _NOUNS = " ".join(NOUNS)
 _FORMS = (
     Form("correct", "users bare lead it revise whose", _moved),
     Form("undo", "it lead again", _undone),
-    Form("too|equal", "users bare lead weight rate promise again", _as_another),
+    Form("too|equal", "users lead weight rate promise again", _as_another),
     Form("again", "lead it take", read_repeated),
     Form("take", "it", _taken_up),
-    Form("as_it_was", f"before after users lead correct make undo told leave first {_NOUNS}", _as_it_was),
+    Form("as_it_was before|after", f"lead correct make undo told leave {_NOUNS}", _as_it_was),
     Form("remove|too", f"{_GONE} {_NOUNS}", _dropped),
     Form("every serve", "again lead take make", _all_served),
     Form("others serve", "again lead too make bare", _all_served),
