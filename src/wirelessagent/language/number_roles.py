@@ -1,7 +1,7 @@
 """What each number without a unit is: a user, a figure by the unit of another, a weight, or a mere description.
 
 The model says how likely each is (``figure_roles``). Here it is decided, by thresholds and by what a number in its
-place can be at all: a bounded number is no user, a scaled one no weight.
+place can be at all: a bounded number is no user, a huge one no weight.
 """
 
 from __future__ import annotations
