@@ -16,12 +16,12 @@ from dataclasses import dataclass
 from typing import cast
 
 from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Scale, Serve
-from wirelessagent.language.conversation.figure_in_place import figures_of, read_figure
+from wirelessagent.language.conversation.figure_in_place import read_figure
 from wirelessagent.language.conversation.line import Line, begins, is_all
 from wirelessagent.language.conversation.relative import read_relative, read_repeated
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, words_of
 from wirelessagent.language.guard import tells_no_mere_fact
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.moods import is_ordered
 
 _LONGEST = 120
@@ -103,10 +103,17 @@ def _behind_a_story(line: Line) -> Iterator[Intent | None]:
 
 def _tells_anew(story: Line) -> bool:
     """Whether a clause says a figure that does not hold, or an aim."""
-    held = {figure for limit in story.context.constraints.values() for figure in figures_of(limit)}
+    held = {figure for limit in story.context.constraints.values() for figure in _figures_of(limit)}
     known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)}
     new = {figure.value for figure in story.figures} - held or set(_NUMBER.findall(story.text)) - known
     return bool(new or story.sentence.goal.objective)
+
+
+def _figures_of(held: Constraint | None) -> tuple[float, ...]:
+    """All figures of a limit that holds."""
+    if isinstance(held, Mapping):
+        return tuple(held.values())
+    return (held,) if isinstance(held, float) else ()
 
 
 def _without_what_stays(line: Line) -> Line:
