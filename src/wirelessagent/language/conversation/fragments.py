@@ -166,8 +166,7 @@ def _moved(words: Words) -> Intent | None:
     if isinstance(act, Serve) and act.alone and not _denies(words.tokens):  # "no, 1 and 3" behind "only 1 and 2"
         return words.acts([dataclasses.replace(act, whom=Named(words.users))])
     users = tuple(user for user in words.users if user not in old)
-    figures = [*words.figures, *([words.replaced] if words.replaced is not None else [])]
-    denied = {*(f"{figure.value:g}" for figure in figures), *words.users} - {*users}
+    denied = {*(f"{figure.value:g}" for figure in words.figures), *words.users} - {*users}
     if not users or not denied <= {*old}:
         return None
     gone = Named(tuple(user for user in old if user in denied or not denied))
