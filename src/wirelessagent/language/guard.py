@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from wirelessagent.language.followups import dropped_in, users_in
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.moods import Span, standing
-from wirelessagent.language.order_model import LIKELY, frame_of, shipped_order_model
+from wirelessagent.language.order_model import frame_of, shipped_order_model
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import languages_of, normalise
@@ -69,7 +69,7 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
         return None
     sentence = read_once(text, own_words(), context)
     frame = frame_of(sentence, dropped_in(sentence.plain, context)[1])
-    if len(frame.tokens) < _FEWEST_WORDS or shipped_order_model().probability(frame) >= LIKELY:
+    if len(frame.tokens) < _FEWEST_WORDS or shipped_order_model().is_order(frame):
         return None
     return shipped_order_model().against(frame) or (0, 0)
 

@@ -3,7 +3,8 @@
 Aims, figures and users are one mark each, words that training never saw are another, and signs count as words. What is
 left says who wants it, when, whether it is told, asked, denied or supposed. It is seen as the words that are said, as
 base words, which the languages share, and as classes of mood (:mod:`.moods`); of each view a logistic regression has
-the runs of words and the side of the wish that they stand on. Trained by
+the runs of words and the side of the wish that they stand on. Many words for an order outvote the few that take it
+back, so that a frame with words that hardly any order of the training has must be an order more surely. Trained by
 :mod:`wirelessagent.language.training.orders`.
 """
 
@@ -27,11 +28,13 @@ from wirelessagent.language.text import CJK, unaccented
 ORDER_FILE = Path(__file__).with_name("orders.npz")
 BUCKETS = 1 << 18
 WISH, UNKNOWN = "@", "~"
-LIKELY = 0.5
-"""From where on a sentence is taken for an order."""
+LIKELY, SURE = 0.5, 0.9
+"""From where on a sentence is taken for an order: as a rule, and where it has words that orders hardly have."""
 
 _MOST_TOKENS, _MOST_QUOTED = 80, 4
 _TOKEN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
+_TELLING = ("w2", "w3", "w<")
+"""Of the words that are said: runs of two or three, and words before the wish."""
 _COMMON = ("subject:ours", "subject:adverbial", "subject:speaker")
 """Classes that tell least of a word that has another, too."""
 _CUT = frozenset(",;:.!?…—–-\n，。；：！？、")
@@ -94,6 +97,11 @@ def frame_of(sentence: Sentence, explained: Sequence[Span] = ()) -> Frame:
 def features(frame: Frame, known: frozenset[int]) -> npt.NDArray[np.int64]:
     """The distinct buckets that a frame falls into, ascending; ``known`` are the hashes of known words."""
     return np.unique([_hash(gram) % BUCKETS for gram in _grams(frame, known)])
+
+
+def phrases(frame: Frame, known: frozenset[int]) -> set[int]:
+    """The hashes of the runs of words, and of words before the wish, that may tell that nothing is ordered."""
+    return {_hash(gram) for gram in _grams(frame, known) if gram.startswith(_TELLING)}
 
 
 def word_hashes(frame: Frame) -> set[int]:
@@ -161,24 +169,38 @@ def _sides(said: Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True, kw_only=True)
 class OrderModel:
-    """Weights (bucket,) as int8 with their scale, an intercept, and the hashes of known words."""
+    """A logistic regression, and what orders hardly ever have.
+
+    Attributes:
+        weights: (bucket,) as int8, with their ``scale`` and an ``intercept``.
+        known: the hashes of known words.
+        unordered: the hashes of phrases that hardly any order has, and many a sentence that is none.
+    """
 
     weights: npt.NDArray[np.int8]
     scale: float
     intercept: float
     known: frozenset[int]
+    unordered: frozenset[int]
 
     @classmethod
     def load(cls, path: Path) -> OrderModel:
         with np.load(path) as arrays:
             return cls(
                 weights=arrays["weights"], scale=float(arrays["scale"]), intercept=float(arrays["intercept"]),
-                known=frozenset(arrays["known"].tolist()),
+                known=frozenset(arrays["known"].tolist()), unordered=frozenset(arrays["unordered"].tolist()),
             )  # fmt: skip
 
     def save(self, path: Path) -> None:
-        known = np.array(sorted(self.known), dtype=np.uint32)
-        np.savez_compressed(path, weights=self.weights, scale=self.scale, intercept=self.intercept, known=known)
+        known, unordered = (np.array(sorted(each), dtype=np.uint32) for each in (self.known, self.unordered))
+        np.savez_compressed(
+            path, weights=self.weights, scale=self.scale, intercept=self.intercept, known=known, unordered=unordered
+        )
+
+    def is_order(self, frame: Frame) -> bool:
+        """Whether a sentence of this frame is likely enough to order something now."""
+        needed = LIKELY if phrases(frame, self.known).isdisjoint(self.unordered) else SURE
+        return self.probability(frame) >= needed
 
     def probability(self, frame: Frame) -> float:
         """How likely a sentence of this frame orders something now, and does not only tell, ask or wonder."""
@@ -189,16 +211,16 @@ class OrderModel:
     def against(self, frame: Frame) -> Span | None:
         """The words, four at most, without which a sentence is likeliest to order something; None where that is none.
 
-        They stand side by side, as few of them as make it likelier than not, and none is cut in two.
+        They stand side by side, as few of them as make it likely enough, and none is cut in two.
         """
         for size in range(1, _MOST_QUOTED + 1):
             without = {
                 place: self.probability(frame.without(place, size))
                 for place in range(len(frame.tokens) - size + 1)
-                if WISH not in frame.tokens[place : place + size]
+                if WISH not in frame.tokens[place : place + size] and self.is_order(frame.without(place, size))
             }
             best = max(without, key=lambda place: without[place], default=None)
-            if best is not None and without[best] >= LIKELY:
+            if best is not None:
                 words = [(first, last) for _, first, last in frame.moods if first < best + size and best <= last]
                 first, last = min([best, *(a for a, _ in words)]), max([best + size - 1, *(b for _, b in words)])
                 return frame.spans[first][0], frame.spans[last][1]

@@ -11,17 +11,16 @@ import functools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from wirelessagent.language import lexicon
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.spelling import nearest, one_edit
 from wirelessagent.language.text import CJK, CLAUSE_END, normalise
+from wirelessagent.language.word_tables import languages_with, table
 
 MASK = "#"
 
 _UNIT = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|(?P<cut>{CLAUSE_END})")
 _SIGN = 0.6  # a single Chinese character may be part of another word: 快 of 快递
 _SHORTEST_CORRECTED, _LONG = 5, 8
-_RIGHT_WORDS = frozenset(lexicon.RIGHT_WORDS.split())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,25 +85,26 @@ def units_of(plain: str, masked: Sequence[tuple[int, int]] = ()) -> list[Unit]:
 
 
 class Vocabulary:
-    """The lexicon together with the objectives' own words."""
+    """The lexicon, ``lexicon/<language>.toml``, together with the objectives' own words."""
 
     def __init__(self, own: Iterable[OwnWords]) -> None:
         self._by_first: dict[str, list[tuple[tuple[str, ...], Term]]] = {}
         self._words: set[str] = set()
         known: dict[tuple[str, ...], Term] = {}
-        for concept, listing in lexicon.CONCEPTS.items():
-            known |= {_entry(item): Term(concept=concept) for item in listing.split()}
-        for objective, listing in lexicon.DIRECT.items():
-            known |= {
-                _entry(item): Term(concept="direct", objective=objective, weight=_SIGN if len(item) == 1 else 1.0)
-                for item in listing.split()
-            }
+        tables = [table("lexicon", language) for language in languages_with("lexicon")]
+        for each in tables:
+            for concept, items in each["concepts"].items():
+                known |= {_entry(item): Term(concept=concept) for item in items}
+            for objective, items in each["direct"].items():
+                known |= {
+                    _entry(item): Term(concept="direct", objective=objective, weight=_SIGN if len(item) == 1 else 1.0)
+                    for item in items
+                }
         for words in own:
             spoken = [*words.names, *(phrase for _, phrases in words.phrases for phrase in phrases)]
             term = Term(concept="direct", objective=words.objective, weight=2.0)
-            known |= {tuple(unit.word for unit in units_of(normalise(phrase))): term for phrase in spoken}
-        for item in lexicon.COMPLAINTS.split():
-            phrase = _entry(item)
+            known |= {_entry(normalise(phrase)): term for phrase in spoken}
+        for phrase in (_entry(item) for each in tables for item in each["also"]["complaints"]):
             known[phrase] = replace(known[phrase], complaint=True)
         known.pop((), None)
         for phrase, term in known.items():
@@ -112,6 +112,7 @@ class Vocabulary:
             self._words.update(phrase)
         for entries in self._by_first.values():
             entries.sort(key=lambda entry: -len(entry[0]))
+        self._right = self._words.union(word for each in tables for word in each["also"].get("right", ()))
         self._long = sorted(word for word in self._words if len(word) >= _LONG - 1 and word.isascii())
         self._slips: dict[str, set[str]] = {}
         for word in self._words:
@@ -156,7 +157,7 @@ class Vocabulary:
 
     @functools.lru_cache(maxsize=4096)  # noqa: B019  # one vocabulary lives as long as the process
     def _corrected(self, word: str) -> str:
-        if len(word) < _SHORTEST_CORRECTED or len(word) > 24 or word in self._words or word in _RIGHT_WORDS:
+        if len(word) < _SHORTEST_CORRECTED or len(word) > 24 or word in self._right:
             return word
         near = {known for variant in _deletions(word) for known in self._slips.get(variant, ())}
         close = [known for known in near if known[0] == word[0] and one_edit(word, known)]
@@ -166,7 +167,7 @@ class Vocabulary:
 
 
 def _entry(item: str) -> tuple[str, ...]:
-    return tuple(unit.word for unit in units_of(item.replace("_", " ")))
+    return tuple(unit.word for unit in units_of(item))
 
 
 def _deletions(word: str) -> list[str]:

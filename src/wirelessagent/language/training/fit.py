@@ -14,7 +14,7 @@ from wirelessagent.language.sentence import Sentence, own_words
 
 ForModel: TypeAlias = tuple[str, list[str], str]
 _RIDGE = 5e-7
-_STEPS = 120
+_STEPS = 500
 
 
 def matrix_of(columns: Sequence[npt.NDArray[np.int64]], width: int) -> sparse.csr_matrix:

@@ -11,6 +11,7 @@ import logging
 import random
 import sys
 import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -19,12 +20,12 @@ import numpy.typing as npt
 
 from wirelessagent.language.order_model import (
     BUCKETS,
-    LIKELY,
     ORDER_FILE,
     Frame,
     OrderModel,
     features,
     frame_of,
+    phrases,
     word_hashes,
 )  # fmt: skip
 from wirelessagent.language.sentence import Sentence, own_words
@@ -44,6 +45,8 @@ DRAWN, MILD, FRAME = 0.03, 0.2, 3.0
 """What a drawn sentence counts, one that was not written to be mistaken, and a frame, beside a sentence that was."""
 
 _RIDGE = 1e-6
+_OFTEN, _HARDLY = 1.9, 0.1
+"""How much is said, at least, with a phrase that orders hardly have, and how much of it orders, at most."""
 
 
 def framed(folder: Path = FRAMES, seed: int = 1) -> Iterator[tuple[str, bool]]:
@@ -83,9 +86,7 @@ def main(path: Path) -> None:
     labels, weight = ["yes" if orders else "no" for _, orders, _ in said], np.array([each[2] for each in said])
     model = made(frames, labels, weight)
     model.save(path)
-    right = [
-        (model.probability(each) >= LIKELY) == (label == "yes") for each, label in zip(frames, labels, strict=True)
-    ]
+    right = [model.is_order(each) == (label == "yes") for each, label in zip(frames, labels, strict=True)]
     log.info("%.1f %% of them told apart; %s: %d kB (%.0f s)", 100 * np.average(right, weights=weight), path.name,
              path.stat().st_size // 1000, time.perf_counter() - start)  # fmt: skip
 
@@ -101,7 +102,20 @@ def made(frames: Sequence[Frame], labels: Sequence[str], weight: npt.NDArray[np.
     return OrderModel(
         weights=np.asarray(np.rint(weights / scale), dtype=np.int8), scale=scale,
         intercept=float(intercepts[1] - intercepts[0]), known=known,
+        unordered=_unordered(frames, labels, weight, known),
     )  # fmt: skip
+
+
+def _unordered(
+    frames: Sequence[Frame], labels: Sequence[str], weight: npt.NDArray[np.float64], known: frozenset[int]
+) -> frozenset[int]:
+    """The phrases that much is said with that orders nothing, and hardly an order."""
+    orders, others = Counter[int](), Counter[int]()
+    for frame, label, counts in zip(frames, labels, weight.tolist(), strict=True):
+        said = orders if label == "yes" else others
+        for phrase in phrases(frame, known):
+            said[phrase] += counts
+    return frozenset(p for p, counts in others.items() if counts >= _OFTEN and orders[p] <= _HARDLY * counts)
 
 
 if __name__ == "__main__":
