@@ -94,14 +94,14 @@ def frame_of(sentence: Sentence, explained: Sequence[Span] = ()) -> Frame:
     return Frame(tokens=tokens, spans=spans, moods=tuple(moods), language=sentence.language)
 
 
-def features(frame: Frame, known: frozenset[int]) -> npt.NDArray[np.int64]:
-    """The distinct buckets that a frame falls into, ascending; ``known`` are the hashes of known words."""
-    return np.unique([_hash(gram) % BUCKETS for gram in _grams(frame, known)])
+def features(frame: Frame, known: frozenset[int]) -> tuple[npt.NDArray[np.int64], set[int]]:
+    """The distinct buckets that a frame falls into, ascending, and the hashes of its telling phrases.
 
-
-def phrases(frame: Frame, known: frozenset[int]) -> set[int]:
-    """The hashes of the runs of words, and of words before the wish, that may tell that nothing is ordered."""
-    return {_hash(gram) for gram in _grams(frame, known) if gram.startswith(_TELLING)}
+    Those are runs of words, and words before the wish; ``known`` are the hashes of known words.
+    """
+    said = set(_grams(frame, known))
+    telling = {_hash(gram) for gram in said if gram.startswith(_TELLING)}
+    return np.unique([_hash(gram) % BUCKETS for gram in said]), telling
 
 
 def word_hashes(frame: Frame) -> set[int]:
@@ -197,16 +197,20 @@ class OrderModel:
             path, weights=self.weights, scale=self.scale, intercept=self.intercept, known=known, unordered=unordered
         )
 
-    def is_order(self, frame: Frame) -> bool:
-        """Whether a sentence of this frame is likely enough to order something now."""
-        needed = LIKELY if phrases(frame, self.known).isdisjoint(self.unordered) else SURE
-        return self.probability(frame) >= needed
-
     def probability(self, frame: Frame) -> float:
         """How likely a sentence of this frame orders something now, and does not only tell, ask or wonder."""
-        found = features(frame, self.known)
+        return self._judged(frame)[0]
+
+    def is_order(self, frame: Frame) -> bool:
+        """Whether a sentence of this frame is likely enough to order something now."""
+        probability, needed = self._judged(frame)
+        return probability >= needed
+
+    def _judged(self, frame: Frame) -> tuple[float, float]:
+        """How likely a frame is one of an order, and how likely it has to be."""
+        found, telling = features(frame, self.known)
         score = self.intercept + self.scale * float(self.weights[found].sum(dtype=np.int32)) / float(len(found)) ** 0.5
-        return float(1 / (1 + np.exp(-score)))
+        return float(1 / (1 + np.exp(-score))), LIKELY if telling.isdisjoint(self.unordered) else SURE
 
     def against(self, frame: Frame) -> Span | None:
         """The words, four at most, without which a sentence is likeliest to order something; None where that is none.
@@ -214,13 +218,14 @@ class OrderModel:
         They stand side by side, as few of them as make it likely enough, and none is cut in two.
         """
         for size in range(1, _MOST_QUOTED + 1):
-            without = {
-                place: self.probability(frame.without(place, size))
+            judged = {
+                place: self._judged(frame.without(place, size))
                 for place in range(len(frame.tokens) - size + 1)
-                if WISH not in frame.tokens[place : place + size] and self.is_order(frame.without(place, size))
+                if WISH not in frame.tokens[place : place + size]
             }
-            best = max(without, key=lambda place: without[place], default=None)
-            if best is not None:
+            enough = [place for place, (probability, needed) in judged.items() if probability >= needed]
+            if enough:
+                best = max(enough, key=lambda place: judged[place][0])
                 words = [(first, last) for _, first, last in frame.moods if first < best + size and best <= last]
                 first, last = min([best, *(a for a, _ in words)]), max([best + size - 1, *(b for _, b in words)])
                 return frame.spans[first][0], frame.spans[last][1]

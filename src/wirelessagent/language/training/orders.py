@@ -25,7 +25,6 @@ from wirelessagent.language.order_model import (
     OrderModel,
     features,
     frame_of,
-    phrases,
     word_hashes,
 )  # fmt: skip
 from wirelessagent.language.sentence import Sentence, own_words
@@ -95,25 +94,24 @@ def made(frames: Sequence[Frame], labels: Sequence[str], weight: npt.NDArray[np.
     """A model of what orders something ("yes") and what does not ("no")."""
     words = known_words(map(word_hashes, frames))
     known = frozenset(words.tolist())
-    rows = matrix_of([features(frame, known) for frame in frames], BUCKETS)
+    seen = [features(frame, known) for frame in frames]
+    rows = matrix_of([found for found, _ in seen], BUCKETS)
     found, intercepts = fit(rows, labels, ("no", "yes"), weight, _RIDGE)
     weights = found[:, 1] - found[:, 0]
     scale = float(np.abs(weights).max()) / 127
     return OrderModel(
         weights=np.asarray(np.rint(weights / scale), dtype=np.int8), scale=scale,
         intercept=float(intercepts[1] - intercepts[0]), known=known,
-        unordered=_unordered(frames, labels, weight, known),
+        unordered=_unordered([telling for _, telling in seen], labels, weight),
     )  # fmt: skip
 
 
-def _unordered(
-    frames: Sequence[Frame], labels: Sequence[str], weight: npt.NDArray[np.float64], known: frozenset[int]
-) -> frozenset[int]:
+def _unordered(told: Sequence[set[int]], labels: Sequence[str], weight: npt.NDArray[np.float64]) -> frozenset[int]:
     """The phrases that much is said with that orders nothing, and hardly an order."""
     orders, others = Counter[int](), Counter[int]()
-    for frame, label, counts in zip(frames, labels, weight.tolist(), strict=True):
+    for phrases, label, counts in zip(told, labels, weight.tolist(), strict=True):
         said = orders if label == "yes" else others
-        for phrase in phrases(frame, known):
+        for phrase in phrases:
             said[phrase] += counts
     return frozenset(p for p, counts in others.items() if counts >= _OFTEN and orders[p] <= _HARDLY * counts)
 
