@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import json
 import random
@@ -181,6 +182,22 @@ def test_the_judge_of_orders_sees_the_frame_and_not_the_wish(tmp_path: Path) -> 
     told = {form: model.probability(frame(form.format(wishes[2]))) >= LIKELY for form in frames}
     assert told == {form: label == "yes" for form, label in frames.items()}
     assert frame("Please max total rate").tokens == frame("Please save power").tokens == ("please", "@")
+
+
+def test_words_that_no_order_has_must_be_outweighed_and_are_quoted() -> None:
+    def frame(text: str) -> Frame:
+        return frame_of(Sentence(text, own_words()))
+
+    said = {"{}, forget that": "no", "no, forget that: {}": "no", "please {}": "yes", "{}, please": "yes"}
+    frames = [frame(form.format("max rate")) for form in said]
+    fitted = orders.made(frames, list(said.values()), np.ones(len(said)))
+    likely = dataclasses.replace(fitted, weights=np.zeros_like(fitted.weights), intercept=1.0)  # 73 % whatever is said
+    assert likely.is_order(frame("please max rate"))
+    doubtful = "please max rate, forget that"
+    assert not likely.is_order(frame(doubtful))
+    assert dataclasses.replace(likely, intercept=3.0).is_order(frame(doubtful))
+    start, end = likely.against(frame(doubtful)) or (0, 0)
+    assert doubtful[start:end] in ("forget", "that")
 
 
 def test_the_frames_for_training_have_one_place_and_are_no_sentence_of_a_test(tested: set[str]) -> None:
