@@ -8,14 +8,12 @@ from typing import Any
 from wirelessagent.language.intent import CONSTRAINTS, Constraint, Intent, IntentKind
 from wirelessagent.language.replies import Voice
 
-NAME = "offline"
-
 
 class Answer:
-    """Intents in one operator's language."""
+    """Intents of one recogniser in one operator's language."""
 
-    def __init__(self, voice: Voice) -> None:
-        self.voice = voice
+    def __init__(self, voice: Voice, language: str, recogniser: str) -> None:
+        self.voice, self.language, self.recogniser = voice, language, recogniser
 
     def ask(
         self, key: str, confidence: float = 0.5, pending: Mapping[str, Constraint] | None = None,
@@ -41,11 +39,11 @@ class Answer:
     ) -> Intent:
         """A request: an objective with constraints, and the words that each came from."""
         ordered = {name: values[name] for name in CONSTRAINTS if name in values}
+        kept = {name: words for name, words in evidence.items() if name not in CONSTRAINTS or name in ordered}
         return self._intent(
-            kind="allocate", objective=objective, constraints=ordered, confidence=confidence, reply=reply,
-            evidence=evidence,
-        )  # fmt: skip
+            kind="allocate", objective=objective, constraints=ordered, confidence=confidence, reply=reply, evidence=kept
+        )
 
     def _intent(self, **fields: Any) -> Intent:
         blank: dict[str, Any] = {"objective": None, "constraints": {}, "evidence": {}}
-        return Intent(language=self.voice.language, recogniser=NAME, **(blank | fields))
+        return Intent(language=self.language, recogniser=self.recogniser, **(blank | fields))

@@ -19,6 +19,12 @@ _ASKS_ELSEWHERE = deferred(
     r"quién (?:tiene|es|recibe))\b"
 )
 _IMPERATIVE = deferred(r"(?i)^\s*(?:\w+,? )?have\b|\bplease\b|\bbitte\b|\bs'il (?:te|vous)\b|\bpor favor\b")
+_ONLY_ASKING = deferred(
+    r"(?i)\b(?:just|only|merely) (?:asking|curious|wondering|checking|a question)\b|\bwithout (?:changing|touching|"
+    r"applying) (?:anything|it)\b|\b(?:don'?t|do not) (?:touch|change|apply|do) "
+    r"(?:it|anything|a thing)\b(?!\s+else)|\bhypothetical(?:ly)?\b|只是问问|随便问问|先别动|别真改|不要真的改|"
+    r"只是想知道"
+)
 _ANSWERS = {
     "confirm": deferred(
         r"(?i)\s*(?:yes|yeah|yep|yup|ok|okay|sure|of course|yes,? please|confirm(?:ed)?|agreed|do that|sí|si|vale|"
@@ -41,6 +47,11 @@ _CODE = deferred(  # programs, mark-up and injections are no wishes
     r"(?i:\b(?:ignore|disregard|forget)\s+(?:all\s+|any\s+|the\s+|your\s+)*(?:previous|prior|above|earlier)\s+"
     r"(?:instructions?|rules?|prompts?))|(?:忽略|无视)[^,\uff0c]{0,6}(?:指令|规则|提示)"
 )
+_ASKS_IN_CHINESE = deferred(
+    r"^\s*(?:我?想)?(?:请教|请问|问一下|打听)|^\s*(?:为啥|为什么|为何|凭什么|咋)(?![不别])|(?:多少|什么|怎么|"
+    r"为什么|谁|哪[个些里]|几[个瓦位]|"
+    r"啥)[^\uff0c。,]{0,8}[\uff1f?]\s*$"
+)
 _TAG = deferred(  # "…, will you?", "…, ¿vale?", "…，好吗？"
     r"(?i)(?:[\s,]+(?:will|would|could|can|won't) (?:you|ya)|,\s*(?:please|ok(?:ay)?|right|yes|vale|sí|por favor|"
     r"puedes|understood|clear|got it|klar|"
@@ -60,7 +71,9 @@ def without_a_tag(text: str) -> str:
 
 
 def is_asked(plain: str) -> bool:
-    """Whether a sentence is certainly a question: it begins and ends like one."""
+    """Whether a sentence is certainly a question: it ends like one, or says that it only asks."""
+    if _ONLY_ASKING.search(plain) is not None or _ASKS_IN_CHINESE.search(plain) is not None:
+        return True
     return begins_like_a_question(plain) and plain.rstrip().endswith(("?", "\uff1f"))
 
 

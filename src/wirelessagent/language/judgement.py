@@ -21,6 +21,7 @@ _ENOUGH_FOR_THE_SLOWEST = 0.8
 _OWN_PHRASE_ASKED = 0.8
 _FAMILIAR = 0.25
 _OTHER_KINDS = ("question", "command", "clarify", "out_of_scope")
+_WHAT_IF = "question.what_if"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,6 +34,7 @@ class Judgement:
         objective: the likeliest objective, whatever the kind; its share is ``likeliest``.
         certainty: 0 to 1, of what was decided.
         acts: whether the objective is likely enough to act on it.
+        objective_clear: whether the operator named an objective by its own phrase.
     """
 
     kind: IntentKind
@@ -41,6 +43,7 @@ class Judgement:
     likeliest: float
     certainty: float
     acts: bool
+    objective_clear: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,27 +56,36 @@ class _Shares:
     familiar: bool
 
 
-def judge(sentence: Sentence) -> Judgement:
-    """What the sentence wants."""
+def judge(sentence: Sentence, registered: set[str]) -> Judgement:
+    """What the sentence wants, among the registered objectives."""
     goal, shares = sentence.goal, _shares(sentence)
     objective = max(BUILT_IN, key=lambda name: shares.labels[name])
     share = shares.labels[objective]
     command = forms.plain_command(sentence.plain)
     if command:
         return Judgement(kind="command", topic=command, objective=objective, likeliest=share, certainty=1.0, acts=False)
-    own_phrase = goal.verdict == "clear" and goal.objective not in BUILT_IN
+    own_phrase = goal.verdict == "clear" and (goal.objective not in BUILT_IN or _is_all_said(sentence))
     if own_phrase and shares.kinds["question"] + shares.kinds["command"] < _OWN_PHRASE_ASKED:
         return Judgement(
-            kind="allocate", topic="", objective=goal.objective, likeliest=1.0, certainty=goal.confidence, acts=True
-        )
+            kind="allocate", topic="", objective=goal.objective, likeliest=1.0, certainty=goal.confidence,
+            acts=goal.objective in registered, objective_clear=True,
+        )  # fmt: skip
     kind = _kind(sentence, shares, objective)
     acts = kind == "allocate"
     topic = "" if acts else shares.topics[kind]
-    agreed = goal.confidence if goal.objective == objective else 0.0
+    if topic == "what_if" and sentence.reading.steps and shares.labels["question.step"] > shares.labels[_WHAT_IF] / 2:
+        topic = "step"
+    agreed = goal.confidence if goal.verdict == "clear" and goal.objective == objective else 0.0
     sure = max(agreed, share) if acts else shares.kinds[kind]
     return Judgement(
         kind=kind, topic=topic, objective=objective, likeliest=share, certainty=round(min(1.0, sure), 4), acts=acts
     )
+
+
+def _is_all_said(sentence: Sentence) -> bool:
+    """Whether a sentence is nothing but the words for its wish: "max rate", "P1"."""
+    (start, end), *others = sentence.goal.spans
+    return not others and sentence.plain[start:end] == sentence.plain.strip(" .!。\uff01")
 
 
 def _shares(sentence: Sentence) -> _Shares:
@@ -88,8 +100,9 @@ def _shares(sentence: Sentence) -> _Shares:
             kinds[kind] += share
             best[kind] = max(best[kind], (share, topic))
     familiar = sentence.goal.verdict == "clear" or model.familiarity(text) >= _FAMILIAR
-    topics = {kind: topic for kind, (_, topic) in best.items()}
-    return _Shares(labels=labels, kinds=kinds, topics=topics, familiar=familiar)
+    return _Shares(
+        labels=labels, kinds=kinds, topics={kind: topic for kind, (_, topic) in best.items()}, familiar=familiar
+    )
 
 
 def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:

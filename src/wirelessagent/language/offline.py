@@ -11,10 +11,11 @@ aliases and its own phrases.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from wirelessagent.language import forms
-from wirelessagent.language.answer import NAME, Answer
+from wirelessagent.language.answer import Answer
+from wirelessagent.language.command_cues import CHANGING, is_unsure
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
@@ -28,9 +29,10 @@ from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import language_in_a_talk, normalise
-from wirelessagent.language.topics import CHANGING, details_of, is_unsure
+from wirelessagent.language.topics import details_of
 from wirelessagent.language.vocabulary import OwnWords
 
+NAME = "offline"
 _MAX_CHARACTERS = 2000
 _DEFAULT_CONFIDENCE = 0.75
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
@@ -39,7 +41,7 @@ _FAIR_WORDS = {"fair", "same", "fairly"}
 _ONLY_ORDERED = {"users", "weights", "subcarrier_max_power_w", "resource_block_group_size"}
 """What hardly anybody speaks of but to order it."""
 _WITH_A_LEXICON = ("en", "zh")
-_PERHAPS, _SURE = 0.7, 0.85
+_PERHAPS, _SURE, _SURE_TO_SAVE = 0.7, 0.85, 0.95
 """How sure an aim must be beside figures where a request holds, which else only change that one; by frames_dev*."""
 _ASKED = deferred(r"[?\uff1f]\s*$")
 
@@ -52,14 +54,14 @@ class OfflineRecogniser(Recogniser):
     def read(self, text: str, context: Context | None = None) -> Intent:
         """What the operator may mean, as it is read; never raises, whatever the text."""
         own = own_words()
-        context = context or Context()
-        language = language_in_a_talk(text[:_MAX_CHARACTERS], context.language)
+        before = "" if context is None else context.language
+        language = language_in_a_talk(text[:_MAX_CHARACTERS], before)
         voice = Voice(language, labels_of(own, language))
         if len(text) > _MAX_CHARACTERS:
-            return Answer(voice).ask("too_long")
+            return Answer(voice, language, NAME).ask("too_long")
         if too_many_figures(normalise(text)):
-            return Answer(voice).ask("too_many_figures", most=str(MOST_FIGURES))
-        return _Understanding(text, own, voice, context).intent()
+            return Answer(voice, language, NAME).ask("too_many_figures", most=str(MOST_FIGURES))
+        return _Understanding(text, own, voice, context, language).intent()
 
 
 def recognise(text: str, context: Context | None = None) -> Intent:
@@ -75,8 +77,10 @@ def recognise(text: str, context: Context | None = None) -> Intent:
 class _Understanding:
     """One sentence within a conversation, and what it amounts to."""
 
-    def __init__(self, text: str, own: tuple[OwnWords, ...], voice: Voice, context: Context) -> None:
-        self._text, self._voice, self._answer, self._context = text, voice, Answer(voice), context
+    def __init__(
+        self, text: str, own: tuple[OwnWords, ...], voice: Voice, context: Context | None, language: str
+    ) -> None:
+        self._text, self._voice, self._answer, self._context = text, voice, Answer(voice, language, NAME), context
         self._sentence = read_once(text, own, context)
         self._reading, self._goal = self._sentence.reading, self._sentence.goal
         self._dropped, dropped_spans = dropped_in(self._sentence.plain, context)
@@ -84,7 +88,7 @@ class _Understanding:
         self._unread = amount_of_another_time(self._sentence.plain) or unread(
             self._sentence.plain, [*self._reading.masked, *self._reading.counted, *named, *dropped_spans]
         )
-        self._judged: Judgement = judge(self._sentence)
+        self._judged: Judgement = judge(self._sentence, set(voice.labels))
 
     def intent(self) -> Intent:
         if not self._sentence.units:
@@ -95,7 +99,7 @@ class _Understanding:
         """A change of the current request that names no wish of its own: "now with 10 W", "leave user 3 out"."""
         context, reading, judged = self._context, self._reading, self._judged
         changes = bool(reading.values or self._dropped or reading.back)
-        if context.objective is None or not changes:
+        if context is None or context.objective is None or not changes or judged.objective_clear:
             return None
         asked = _ASKED.search(forms.without_a_tag(self._text)) is not None
         commands = judged.kind == "command" and judged.topic not in (*CHANGING, "reject")
@@ -105,33 +109,33 @@ class _Understanding:
                 return None  # "exclude user 7, he is only testing" is an order, whatever it is like
         elif asked:
             return None
-        if judged.acts and (self._goal.verdict != "none" or judged.certainty > _SURE):
-            return None
         saves = judged.objective == "min_power" and "max_power_w" in reading.values  # a limit of it, more likely
+        if judged.acts and (self._goal.verdict != "none" or judged.certainty > (_SURE_TO_SAVE if saves else _SURE)):
+            return None
         unsure = judged.acts and judged.certainty > _PERHAPS and judged.objective != context.objective and not saves
-        if unsure and self._voice.language not in _WITH_A_LEXICON:
+        if unsure and reading.values and self._voice.language not in _WITH_A_LEXICON:
             others = self._voice.choices(without=judged.objective)
             label = self._voice.label(judged.objective)
             return self._answer.ask("weak", 0.6, reading.values, judged.objective, goal=label, choices=others)
-        if self._goal.verdict in ("clear", "contradiction") and self._goal.objective != context.objective:
+        if self._goal.verdict == "contradiction" or (
+            self._goal.verdict == "clear" and self._goal.objective != context.objective
+        ):
             return None  # "fair, at most 5 W": a wish that is not sure is no mere limit
         doubt = self._unfulfillable()
         if doubt is not None:
             return doubt
-        values, dropped = self._changed()
+        out = reading.values.get("leave_out")
+        if self._dropped and isinstance(out, tuple):  # "sin tasa mínima para el usuario 3", who has none
+            return self._answer.ask("no_limit_of_its_own", 0.8, users=self._voice.users(out))
+        values, dropped = with_users_back(reading, context) if reading.back else (dict(reading.values), ())
+        dropped = tuple(dict.fromkeys((*self._dropped, *dropped)))
+        if context.awaits == "clarification":
+            values = merged(context.pending, values)
         if not values and not dropped:
             return None
         reply = self._voice.amended(values, dropped)
         request = self._answer.allocate(context.objective, values, reading.evidence, reply, 0.85)
         return dataclasses.replace(request, amends=True, dropped=dropped)
-
-    def _changed(self) -> tuple[dict[str, Constraint], tuple[str, ...]]:
-        """The constraints that hold with this sentence, and those of the current request that it drops."""
-        context = self._context
-        values, gone = with_users_back(self._reading, context)
-        if context.awaits == "clarification":
-            values = merged(context.pending, values)
-        return values, tuple(dict.fromkeys((*self._dropped, *gone)))
 
     def _is_plain(self) -> bool:
         """Whether what looks like a supposition has no word of one, and does not ask: "never over 14 W, clear?"."""
@@ -175,17 +179,19 @@ class _Understanding:
         return None
 
     def _request(self) -> Intent:
-        goal, judged = self._goal, self._judged
-        registered = judged.objective in self._voice.labels
-        if registered and self._lets_somebody_starve(judged.objective):
+        goal, judged, default = self._goal, self._judged, self._default()
+        if default is not None and (judged.objective == "max_rate" or not judged.acts):
+            return default
+        wished = judged.objective if judged.acts else goal.objective if goal.verdict == "clear" else ""
+        if wished in self._voice.labels and self._lets_somebody_starve(wished):
             fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
-            names = {"goal": self._voice.label(judged.objective), "both": self._voice.both(fair, "or")}
+            names = {"goal": self._voice.label(wished), "both": self._voice.both(fair, "or")}
             return self._answer.ask("starving", 0.8, self._reading.values, **names)
-        if not judged.acts or not registered:
-            return self._default() or self._question_back()
-        spans = sorted(goal.spans) if goal.options[:1] == (judged.objective,) else ()
-        words = " … ".join(self._text[start:end] for start, end in spans) or self._text
-        return self._allocate(judged.objective, words, judged.certainty)
+        if judged.acts and judged.objective in self._voice.labels:
+            spans = _merged(goal.spans) if goal.options[:1] == (judged.objective,) else ()
+            words = " … ".join(self._text[start:end] for start, end in spans) or self._text
+            return self._allocate(judged.objective, words, judged.certainty)
+        return self._question_back()
 
     def _lets_somebody_starve(self, objective: str) -> bool:
         """Whether a wish that nobody goes without would be dropped: no least rate for all, no fair objective."""
@@ -198,7 +204,7 @@ class _Understanding:
         goal, pending, concepts = self._goal, self._reading.values, self._sentence.concepts
         offered = [name for name in goal.options if name in self._voice.labels or goal.verdict == "opposite"]
         fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
-        fairly = goal.objective == "proportional_fairness"  # "make it fair"
+        fairly = goal.objective == "proportional_fairness" and goal.verdict == "clear"  # "make it fair"
         if (concepts & _FAIR_WORDS or fairly) and len(fair) > 1 and goal.verdict != "contradiction":
             return self._answer.ask("fairness", 0.8, pending, both=self._voice.both(fair, "or"))
         if goal.verdict == "contradiction" and len(offered) > 1:
@@ -215,14 +221,21 @@ class _Understanding:
         return self._limits_alone() or self._unclear()
 
     def _allocate(self, objective: str, words: str, confidence: float) -> Intent:
-        reading = self._reading
-        values, dropped = self._changed()
+        context, reading = self._context, self._reading
+        values, dropped = dict(reading.values), self._dropped
         evidence = {"objective": words} if words else {}
         evidence |= reading.evidence
         if reading.not_used:
             evidence["not_used"] = " … ".join(reading.not_used)
-        changes = bool(dropped or reading.back or not reading.values)
-        amends = self._context.objective is not None and (changes or keeps_the_limits(self._sentence.plain))
+        amends = False
+        whole = bool(words and values)  # a request of its own answers no earlier question
+        if context is not None and context.awaits == "clarification" and not (whole and context.objective is not None):
+            values = merged(context.pending, values)
+        if context is not None and context.objective is not None:
+            amends = bool(dropped or reading.back or not reading.values) or keeps_the_limits(self._sentence.plain)
+            if reading.back:
+                values, gone = with_users_back(reading, context)
+                dropped = tuple(dict.fromkeys((*dropped, *gone)))
         reply = self._voice.restated(objective, values, reading.not_used)
         request = self._answer.allocate(objective, values, evidence, reply, confidence)
         return dataclasses.replace(request, amends=amends, dropped=dropped if amends else ())
@@ -230,7 +243,7 @@ class _Understanding:
     def _default(self) -> Intent | None:
         """A promised rate under a power limit has one sensible reading."""
         values, goal = self._reading.values, self._goal
-        free = (goal.verdict == "none" or goal.objective == "max_rate") and self._sentence.worded
+        free = goal.verdict in ("none", "weak") and goal.objective in ("", "max_rate") and self._sentence.worded
         if {"min_rate_bps", "max_power_w"} <= set(values) and free and "max_rate" in self._voice.labels:
             return self._allocate("max_rate", "", _DEFAULT_CONFIDENCE)
         return None
@@ -261,3 +274,14 @@ class _Understanding:
     def _words_for(self, concept: str) -> str:
         item = next(item for item in self._sentence.found if item.term.concept == concept)
         return self._text[item.start : item.end]
+
+
+def _merged(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Spans from left to right, those that overlap made one."""
+    merged_spans: list[tuple[int, int]] = []
+    for start, end in sorted(spans):
+        if merged_spans and start < merged_spans[-1][1]:
+            merged_spans[-1] = (merged_spans[-1][0], max(end, merged_spans[-1][1]))
+        else:
+            merged_spans.append((start, end))
+    return merged_spans

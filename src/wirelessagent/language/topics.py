@@ -1,15 +1,21 @@
-"""What a question or a command is about: its user, its figures, what to compare with, and whether it was meant."""
+"""What a question or a command is about: its user, its figures, what to compare with."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.intent import Detail
+from wirelessagent.language.intent import Constraint, Detail
 from wirelessagent.language.named_tools import tools_named
+from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence import Sentence
 
+_NUMBER = deferred(
+    r"(?i)(?:numbers?|turn|no\.?|#|request|entry|step|run|record|第|轮)\s*(?P<n>[0-9]+|[一二三四五六七八九十]+)|"
+    r"\bhistory\s+(?:show\s+)?(?P<m>[0-9]+)"
+)
 _FORMATS = (("tmf921", deferred(r"(?i)tmf\s*-?921")), ("ts28312", deferred(r"(?i)28\.?312|3gpp")))
 _WITH = deferred(
     r"(?i)\bcompare\s+(?:(?:it|this|that)\s+)?(?:with|to|against)\s+([a-z][\w.-]*)[\s.!?]*$|"
@@ -25,6 +31,7 @@ _NO_TOOL = deferred(
 )
 _NO_FORMAT = deferred(r"(?i)json|files?|disk|standard|document|text|it|this|that|me|us")
 _MORE = deferred(r"(?i)\b(?:more|extra|additional|further|another)\s+")
+_FEWER = deferred(r"(?i)\b(?:less|fewer|lower|reduc\w+|cut\w*|sav\w+|drop\w*)\b|(?<!多)少|降|减|省")
 _EACH = deferred(
     r"(?i)\b(?:each|every(?:one|body)?|all\s+(?:the\s+)?users|per\s+(?:user|head)|apiece)\b|每[个位名]?|大家|所有人|所有用户|"
     r"各用户|人人"
@@ -42,34 +49,6 @@ _GONE = deferred(
     r"remov\w*|ignor\w*|sin|fuera|sans|dehors|ohne|weg|raus)\b|走|离|不在|没|去掉|下线|掉线|不服务|不管|退|除|停|少"
 )
 
-_STEPS = {"power": "power_w", "rate": "rate_bps"}
-
-CHANGING = ("apply", "confirm", "undo", "reset")
-_SURE_OF_A_COMMAND = 0.6
-_CUES = {  # a command that changes something is carried out only where one of these is in it
-    "reset": deferred(
-        r"(?i)reset|clear|wip|eras|forget|delet|start over|again|scratch|afresh|anew|zero|new|fresh|slate|"
-        r"square one|back|drop|scrap|"
-        r"flush|beginning|defaults?|restart|top|重|清|忘|新|初始|零|默认|出厂|归|reinici|borr|cero|empe|olvid|"
-        r"recommen|effac|zéro|réinit|"
-        r"oubli|zurück|vorn|neu|lösch|vergiss|anfang"
-    ),
-    "undo": deferred(
-        r"(?i)undo|rever|roll|back|restor|previous|before|cancel|retract|mistake|wrong|old|withdraw|oops|撤|回|退|"
-        r"还原|恢复|取消|后悔|错|"
-        r"deshac|deshaz|vuelve|revier|restaura|annul|retour|revien|défai|rückgängig|zurück|alten"
-    ),
-    "apply": deferred(
-        r"(?i)appl|deploy|activ|implement|execut|roll|push|commit|install|enact|\buse\b|send|live|effect|operation|"
-        r"happen|on air|"
-        r"production|\bgo\b|proceed|do it|let's|carry|make it|engage|run with|ship|put it|write|load|take it|应用|"
-        r"执行|下发|部署|生效|启用|实施|"
-        r"落地|采用|提交|办|定|上线|开|推|动手|搞|走|就|用|按|照|做|发|adelante|hazlo|ponlo|aplíca|aplica|ejec|"
-        r"despl|activa|vas-y|mets|exéc|"
-        r"déplo|envoie|anwend|wende|übern|ausf|ausroll|spiel|mach|leg|setz|aktiv|damit"
-    ),
-}
-
 
 def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
     """The figures and names of a question or command of this topic."""
@@ -79,10 +58,17 @@ def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
     if topic == "what_if":
         return _what_if(sentence)
     if topic == "step":
-        return _step(sentence)
+        user: dict[str, Detail] = {"user": reading.named[0]} if reading.named else {}
+        steps = _step(sentence)
+        return {**steps, **(user if "rate_bps" in steps else {})}
     if topic == "compare":
         unknown = _named_in(_WITH, _NO_TOOL, sentence.plain)
         return {"with": " ".join(tools_named(sentence.plain, "method", "repairer")) or unknown or "last"}
+    if topic == "history":
+        match = _NUMBER.search(sentence.plain)
+        word = (match["n"] or match["m"]) if match is not None else ""
+        number = int(word) if word.isdigit() else int(chinese_value(word) or 0) if word else 0
+        return {"number": float(number)} if number else {}
     if topic == "export":
         known = next((name for name, pattern in _FORMATS if pattern.search(sentence.plain)), "")
         return {"format": known or _named_in(_AS, _NO_FORMAT, sentence.plain) or "ts28312"}
@@ -104,7 +90,7 @@ def _what_if(sentence: Sentence) -> dict[str, Detail]:
     if share is not None and 0 <= share < 1:
         details["missing_share"] = share
     values = dict(reading.values)
-    if reading.named and not values and not reading.back and _GONE.search(sentence.plain):
+    if reading.named and not values and not reading.back and share is None and _GONE.search(sentence.plain):
         values["leave_out"] = reading.named  # "what if user 3 were gone?"
     if values:
         details["constraints"] = values
@@ -113,27 +99,29 @@ def _what_if(sentence: Sentence) -> dict[str, Detail]:
     return details
 
 
-def _step(sentence: Sentence) -> dict[str, Detail]:
-    """How much more is asked about: power, rate or users; a watt where nothing is said."""
+def _step(sentence: Sentence) -> Mapping[str, Detail]:
+    """How much more is asked about: power, rate or users; a watt where nothing is said. Less is below zero."""
     if _MORE_USERS.search(sentence.plain):
         return {"users": 1.0}
     plain, steps = _MORE.sub("", sentence.plain), dict[str, Detail](sentence.reading.steps)
-    for figure in parse_quantities(plain):  # "5 more watts"
-        if figure.kind in _STEPS and figure.value > 0:
-            steps.setdefault(_STEPS[figure.kind], figure.value)
-    if "rate_bps" in steps and sentence.reading.named:
-        steps["user"] = sentence.reading.named[0]
-    elif "rate_bps" in steps and _EACH.search(plain):
+    said = parse_quantities(plain)  # "5 more watts"
+    for kind, name in (("power", "power_w"), ("rate", "rate_bps")):
+        figure = next((figure.value for figure in said if figure.kind == kind and figure.value > 0), None)
+        if figure is not None and not steps:
+            steps[name] = figure
+    steps = steps or _stated(sentence.reading.values) or {"power_w": 1.0}
+    if "rate_bps" in steps and _EACH.search(plain):
         steps["each"] = 1.0
-    return steps or {"power_w": 1.0}
+    sign = -1.0 if _FEWER.search(plain) and said else 1.0
+    return {name: sign * value if isinstance(value, float) else value for name, value in steps.items()}
 
 
-def is_unsure(topic: str, plain: str, certainty: float) -> bool:
-    """Whether a command that changes something may have been meant, and has to be asked for.
-
-    >>> is_unsure("undo", "undo that", 0.9), is_unsure("undo", "hmm", 0.9), is_unsure("history", "hmm", 0.5)
-    (False, True, False)
-    """
-    cue = _CUES.get(topic)
-    said = cue is None or cue.search(plain) is not None
-    return topic in CHANGING and not (said and certainty >= _SURE_OF_A_COMMAND)
+def _stated(values: Mapping[str, Constraint]) -> dict[str, Detail]:
+    power, rate = values.get("max_power_w"), values.get("min_rate_bps")
+    if isinstance(power, float):
+        return {"power_w": power}
+    if isinstance(rate, float):
+        return {"rate_bps": rate}
+    if isinstance(rate, Mapping):
+        return {"rate_bps": next(iter(rate.values()))}
+    return {}

@@ -73,7 +73,7 @@ def units_of(plain: str, masked: Sequence[tuple[int, int]] = ()) -> list[Unit]:
     units: list[Unit] = []
     clause = 0
     for match in _UNIT.finditer(plain):
-        hidden = any(start <= match.start() < end for start, end in masked)
+        hidden = bool(masked) and any(start <= match.start() < end for start, end in masked)
         if match["cut"] is not None:
             clause += 0 if hidden else 1
         elif not hidden:
@@ -149,9 +149,10 @@ class Vocabulary:
 
     def _longest(self, units: Sequence[Unit], words: Sequence[str], place: int) -> tuple[int, Term] | None:
         for phrase, term in self._by_first.get(words[place], ()):
-            last = place + len(phrase) - 1
-            if tuple(words[place : last + 1]) == phrase and units[last].clause == units[place].clause:
-                return len(phrase), term
+            length = len(phrase)
+            one_clause = place + length <= len(units) and units[place + length - 1].clause == units[place].clause
+            if one_clause and all(words[place + i] == phrase[i] for i in range(length)):
+                return length, term
         return None
 
     @functools.lru_cache(maxsize=4096)  # noqa: B019  # one vocabulary lives as long as the process
