@@ -85,6 +85,16 @@ def test_what_is_said_to_start_over_in_french_is_forgotten() -> None:
          {"min_rate_bps": {"4": 1e6, "2": 5e5}}),
         (("höchste Gesamtrate, höchstens 14 W", "die Hälfte davon"), {"max_power_w": 7.0}),
         (("highest total rate, 200k each, user 4 at least 800k", "drop user 4's own floor"), {"min_rate_bps": 2e5}),
+        (("highest total rate, 200k each, user 4 at least 800k", "the one for user 4 can go"), {"min_rate_bps": 2e5}),
+        (("总速率最高，每人至少200k，用户4至少800k", "用户4的不要了"), {"min_rate_bps": 2e5}),
+        (("highest total rate, users 1 and 2 at least 1M", "remove 2's"), {"min_rate_bps": {"1": 1e6}}),
+        (("highest total rate, user 3 at least 1 Mbit/s", "sorry, 4, not 3"), {"min_rate_bps": {"4": 1e6}}),
+        (("highest total rate", "at least 300k each", "I mean user 3"), {"min_rate_bps": {"3": 3e5}}),
+        (("highest total rate, 10 W", "12 instead of 9"), {"max_power_w": 10.0}),
+        (("proportional fairness", "user 3 weight 4", "make all weights equal"), {}),
+        (("highest total rate", "user 3 at least 1M", "raise it to 2M", "nah, undo the raise"),
+         {"min_rate_bps": {"3": 1e6}}),
+        (("débit total maximal", "au moins 200k chacun", "10 W au plus", "annule les deux derniers changements"), {}),
     ],
 )  # fmt: skip
 def test_a_line_that_revises_what_was_said_changes_just_that(lines: tuple[str, ...], held: dict[str, Any]) -> None:

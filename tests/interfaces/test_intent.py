@@ -27,6 +27,14 @@ RATE, POWER, EE = "max_rate", "min_power", "max_energy_efficiency"
 FAIR, LEAST = "proportional_fairness", "max_min_rate"
 
 ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
+    # rules that no other sentence here needs
+    ("Fairness I couldn't care less about, total rate please", RATE, {}),
+    ("Everyone the same rate", LEAST, {}),
+    ("user one hundred kilobits, save power", POWER, {"min_rate_bps": {"1": 1e5}}),
+    ("user 3 counts for three, proportional fairness", FAIR, {"weights": {"3": 3.0}}),
+    ("usuario 2 cuenta por dos, reparto proporcional", FAIR, {"weights": {"2": 2.0}}),
+    ("max rate, promises kept nineteen times out of twenty", RATE, {"outage_probability": 0.05}),
+    ("Save power, 200 kbit/s each, 99 times in a hundred", POWER, {"min_rate_bps": 2e5, "outage_probability": 0.01}),
     # the paper's own sentences and the design's
     ("Higher speed for video streaming", RATE, {}),
     ("Save power for sensors", POWER, {}),

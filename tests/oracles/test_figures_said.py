@@ -204,8 +204,11 @@ def test_a_correction_takes_the_unit_of_what_it_corrects(text: str, powers: list
 @pytest.mark.parametrize(
     ("text", "value"),
     [
+        ("可靠性九成九五", 0.995), ("可靠性九成半", 0.95), ("20分之一的中断概率", 0.05),
         ("九成五", 0.95), ("可靠性九成九", 0.99), ("中断不超一成", 0.1), ("千分之一", 0.001), ("万分之五", 0.0005),
-        ("9 out of 10 users", None), ("serve 3 of 10", None), ("一成不变", None), ("设成20", None),
+        ("nineteen times out of twenty", 0.95), ("99 times in a hundred", 0.99), ("one in twenty", 0.05),
+        ("19 de cada 20", 0.95), ("que ça tienne neuf fois sur dix", 0.9), ("9 out of 10 users", None),
+        ("serve 3 of 10", None), ("一成不变", None), ("设成20", None),
     ],
 )  # fmt: skip
 def test_shares_in_words_are_ratios(text: str, value: float | None) -> None:

@@ -113,10 +113,11 @@ def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Com
     """How the figure at [start, end) of a normalised text is bounded; words before ``after`` are another's."""
     found = _before(text, start, end, kind=kind, after=after)
     behind = _AFTER_RE.match(text, end)
-    if found is not None and (behind is None or not _LOOSE.match(text, found[1])):
+    own = behind is None or not _LOOSE.match(text, found[1]) if found is not None else False
+    if found is not None and own:
         return Comparison(comparator=found[0], start=found[1], end=end)
     last = _LAST_WORD.match(text, end)
-    if last is not None:
+    if last is not None and behind is None:
         word = "exactly" if last["exactly"] else "at_most" if last["at_most"] else "at_least"
         return Comparison(comparator=word, start=start, end=last.end())
     if behind is not None and _takes(kind, text[behind.end() : behind.end() + 12]):

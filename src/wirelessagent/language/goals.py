@@ -8,7 +8,7 @@ and says why.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
@@ -17,7 +17,8 @@ from wirelessagent.language.vocabulary import Found
 Verdict: TypeAlias = Literal["clear", "none", "weak", "contradiction", "negated", "opposite"]
 
 ENOUGH = 0.7
-_REACH, _REACH_OF_NOT, _REACH_TO_TURN = 4, 6, 2
+_WHOLE_PREDICATE = 3  # "不在乎", "dont care about": words enough to stand behind what they refer to
+_REACH_BEFORE, _REACH_AFTER, _REACH_OF_NOT, _REACH_TO_TURN = 4, 3, 6, 2
 
 _DIRECTIONS = ("up", "down", "want", "keep", "waste", "bad")
 _OBJECTS = ("rate", "stream", "power", "battery", "efficiency", "worst")
@@ -82,6 +83,7 @@ class Signal:
     clause: int
     corrected: bool
     negated: bool = False
+    immune: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,7 +121,7 @@ def goal_of(found: Sequence[Found]) -> Goal:
         return Goal(verdict="contradiction", options=tuple(strong), spans=spans)
     if not strong:
         return _contrasted(signals) or _unclear(positive, negated)
-    if strong[0] != "max_min_rate" and "max_min_rate" in positive:
+    if strong[0] != "max_min_rate" and ("max_min_rate" in positive or _speaks_of_the_worst(signals, strong[0], found)):
         return Goal(verdict="contradiction", options=(strong[0], "max_min_rate"), spans=spans)
     if _joined_with_another(signals, strong[0], found):
         return Goal(verdict="contradiction", options=tuple(positive), spans=spans)
@@ -130,11 +132,22 @@ def goal_of(found: Sequence[Found]) -> Goal:
     return Goal(verdict="clear", objective=strong[0], options=tuple(strong), spans=spans, confidence=confidence)
 
 
+def _speaks_of_the_worst(signals: Sequence[Signal], objective: str, found: Sequence[Found]) -> bool:
+    """Whether a wish has the slowest user in its clause and still is not for that user: "stop making … faster"."""
+    clauses = {item.clause for item in found if item.term.concept == "worst"}
+    return any(s.objective == objective and not s.negated and s.clause in clauses for s in signals)
+
+
 def _joined_with_another(signals: Sequence[Signal], objective: str, found: Sequence[Found]) -> bool:
     """Whether an "and" ties the clear wish to a bare word for another one: "battery saving and speed"."""
     joins = {item.first for item in found if item.term.concept == "join"}
-    wished = [signal.last for signal in signals if signal.objective == objective]
-    return any(signal.first - 1 in joins.intersection(wished) for signal in signals if signal.objective != objective)
+    wished = [signal for signal in signals if signal.objective == objective and not signal.negated]
+    others = [signal for signal in signals if signal.objective != objective and not signal.negated]
+    return any(
+        (a.last in joins and b.first == a.last + 1) or (b.last in joins and a.first == b.last + 1)
+        for a in wished
+        for b in others
+    )
 
 
 def _contrasted(signals: Sequence[Signal]) -> Goal | None:
@@ -143,7 +156,7 @@ def _contrasted(signals: Sequence[Signal]) -> Goal | None:
     denied = {signal.objective for signal in signals if signal.negated}
     clauses = {signal.clause for signal in signals if signal.negated}
     apart = all(signal.negated or signal.clause not in clauses for signal in signals)
-    if len(named) != 1 or not denied or not apart:
+    if len(named) != 1 or not denied or named & {*denied, *_UNSERVED} or not apart:
         return None
     spans = tuple((signal.start, signal.end) for signal in signals if not signal.negated)
     return Goal(verdict="clear", objective=(one := named.pop()), options=(one,), spans=spans, confidence=_CONTRASTED)
@@ -165,8 +178,9 @@ def _signals(found: Sequence[Found]) -> list[Signal]:
     signals: list[Signal] = []
     for item in found:
         if item.term.concept == "direct":
-            meant = _OPPOSITES[item.term.objective] if _is_turned_round(item, found) else item.term.objective
-            signals.append(_signal(item, item, meant, item.term.weight))
+            turned = _turned_round(item, found, pairs)
+            meant = item.term.objective if turned is None else _OPPOSITES[item.term.objective]
+            signals.append(_signal(turned or item, item, meant, item.term.weight))
         elif item.term.concept in _OBJECTS:
             direction = pairs.get(item.first)
             meaning = None if direction is None else _PAIRS.get((direction.term.concept, item.term.concept))
@@ -178,12 +192,15 @@ def _signals(found: Sequence[Found]) -> list[Signal]:
                 signals.append(_signal(item, item, *_ALONE[item.term.concept]))
         elif item.term.concept == "fairly" and _of_sharing(item, found):
             signals.append(_signal(item, item, "proportional_fairness", 1.0))
+        elif item.term.concept == "same":
+            everyone = _beside(item, found, "everyone")
+            signals += [_signal(item, everyone, "max_min_rate", 1.0)] if everyone is not None else []
     return signals
 
 
 def _of_sharing(item: Found, found: Sequence[Found]) -> bool:
     """Whether "fairly" says how to share rates: "share it fairly", not "fairly fast" nor "share the power fairly"."""
-    share = next((other for other in found if other.term.concept == "share" and other.clause == item.clause), None)
+    share = _beside(item, found, "share")
     if share is None:
         return False
     degree = any(other.first == item.last and other.term.concept in ("up", "down", "bad", "direct") for other in found)
@@ -194,6 +211,11 @@ def _of_sharing(item: Found, found: Sequence[Found]) -> bool:
     return not degree and not power
 
 
+def _beside(item: Found, found: Sequence[Found], concept: str) -> Found | None:
+    """The first term of a concept in the clause of ``item``."""
+    return next((other for other in found if other.term.concept == concept and other.clause == item.clause), None)
+
+
 def _for_the_worst(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     """Wishes for rate that stand beside the slowest user, and nothing that may turn them round, are for that user."""
     result: list[Signal] = []
@@ -202,7 +224,7 @@ def _for_the_worst(signals: list[Signal], found: Sequence[Found]) -> list[Signal
         if signal.objective == "max_rate" and user is not None:
             gap = max(user.first - signal.last, signal.first - user.last, 0)
             spoilt = any(other.term.concept in _SPOILERS and other.clause == signal.clause for other in found)
-            signal = replace(signal, objective="max_min_rate") if gap <= _REACH and not spoilt else signal
+            signal = replace(signal, objective="max_min_rate") if gap <= _REACH_AFTER and not spoilt else signal
         result.append(signal)
     return result
 
@@ -212,24 +234,27 @@ def _lessened(found: Sequence[Found], item: Found) -> bool:
     return any(other.term.concept == "down" and other.clause == item.clause for other in found)
 
 
-def _is_turned_round(item: Found, found: Sequence[Found]) -> bool:
-    """Whether a word makes a term the opposite of its wish: "lowest energy efficiency", "more buffering"."""
+def _turned_round(item: Found, found: Sequence[Found], pairs: Mapping[int, Found]) -> Found | None:
+    """The word that makes a term the opposite of its wish: "lowest energy efficiency", "more buffering"."""
     if item.term.objective not in _OPPOSITES:
-        return False
+        return None
     turning = ("up", "want") if item.term.complaint else ("down", "bad")
-    from_behind = item.term.objective in _TURNED_FROM_BEHIND
+    spoken_for = {direction.first for direction in pairs.values()}
     for word in found:
-        gap = item.first - word.last if word.last <= item.first or not from_behind else word.first - item.last
-        if word.term.concept in turning and word.clause == item.clause and 0 <= gap <= _REACH_TO_TURN:
-            return True
-    return False
+        free = word.term.concept in turning and word.clause == item.clause and word.first not in spoken_for
+        before = word.last <= item.first
+        gap = item.first - word.last if before else word.first - item.last
+        sided = before or (not item.term.complaint and item.term.objective in _TURNED_FROM_BEHIND)
+        if free and sided and gap <= _REACH_TO_TURN and not _blocked(found, word, item):
+            return word
+    return None
 
 
 def _signal(one: Found, other: Found, objective: str, weight: float) -> Signal:
     a, b = (one, other) if one.first <= other.first else (other, one)
     return Signal(
         objective=objective, weight=weight, start=a.start, end=b.end, first=a.first, last=b.last, clause=a.clause,
-        corrected=a.corrected or b.corrected,
+        corrected=a.corrected or b.corrected, immune=one.term.concept == "keep",
     )  # fmt: skip
 
 
@@ -239,20 +264,22 @@ def _pair(found: Sequence[Found]) -> dict[int, Found]:
     for place, item in enumerate(found):
         if item.term.concept not in _OBJECTS:
             continue
-        near = found[max(0, place - _REACH - 1) : place + _REACH + 2]
+        near = found[max(0, place - _REACH_BEFORE - 1) : place + _REACH_AFTER + 2]
         for direction in near:
             if direction.term.concept not in _DIRECTIONS or direction.clause != item.clause:
                 continue
             before = direction.last <= item.first
             gap = item.first - direction.last if before else direction.first - item.last
+            reach = 1 if item.term.concept == "stream" else _REACH_BEFORE if before else _REACH_AFTER
             means = (direction.term.concept, item.term.concept) in _PAIRS
-            if means and gap <= _REACH and not _blocked(near, direction, item):
-                cost = gap + _VAGUE.get((direction.term.concept, item.term.concept), 0.0)
+            if means and gap <= reach and not _blocked(near, direction, item):
+                cost = gap + (0.0 if before else 0.5) + _VAGUE.get((direction.term.concept, item.term.concept), 0.0)
                 candidates.append((cost, item, direction))
     chosen: dict[int, Found] = {}
     taken: set[int] = set()
     for _, item, direction in sorted(candidates, key=lambda entry: entry[0]):
-        if item.first not in chosen and direction.first not in taken:
+        after = direction.first >= item.last
+        if item.first not in chosen and not (after and direction.first in taken):
             chosen[item.first] = direction
             taken.add(direction.first)
     return chosen
@@ -262,6 +289,9 @@ def _blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
     """Whether another object stands between the two, unless "and" or "or" joins it to this one."""
     low, high = min(direction.last, item.last), max(direction.first, item.first)
     between = [other for other in found if low <= other.first < high and other is not item and other is not direction]
+    stated = direction.term.concept == "up" and direction.first >= item.last
+    if stated and any(other.term.concept == "question" for other in between):
+        return True  # "the speed is good" says how it is
     objects = [other for other in between if other.term.concept in _OBJECTS or other.term.concept == "direct"]
     joined = any(other.term.concept == "join" for other in between)
     return bool(objects) and not joined
@@ -270,24 +300,27 @@ def _blocked(found: Sequence[Found], direction: Found, item: Found) -> bool:
 def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     """Signals with those turned off that a negation refers to; a negated wish for less rate is one for rate."""
     turned_off: set[int] = set()
+    first = min((item.start for item in found if item.term.concept in ("not", "isnt", "undo")), default=0)
     named = [item for item in found if item.term.concept in (*_OBJECTS, "direct", "same", "fairly")]
+    joins = [item.first for item in found if item.term.concept == "join"]
     for item in found:
         same = [other for other in named if other.clause == item.clause]
         behind = [other for other in same if item.first - _REACH_OF_NOT <= other.first < item.first]
         if item.term.concept in ("not", "isnt", "undo") or (item.term.concept == "over" and _prefers(found, item)):
             ahead = [other for other in same if item.last <= other.first < item.last + _REACH_OF_NOT]
-            turned_off.update(other.first for other in ahead[:1])
+            turned_off.update(other.first for other in _with_joined(ahead, joins))
             if not ahead and _is_predicate(item, found):
                 turned_off.update(other.first for other in behind[-1:])
         elif item.term.concept == "not_after":
             turned_off.update(other.first for other in behind[-1:])
     result: list[Signal] = []
     for signal in signals:
-        hit = any(signal.first <= place < signal.last for place in turned_off)
+        hit = not signal.immune and any(signal.first <= place < signal.last for place in turned_off)
         if hit and signal.objective in _UNSERVED:
             if signal.objective in ("less_rate", "waste_power"):
                 wish = "max_rate" if signal.objective == "less_rate" else "min_power"
-                result.append(replace(signal, objective=wish, weight=0.8))
+                start = min(first, signal.start)  # "don't waste power": the negation is a part of the wish
+                result.append(replace(signal, objective=wish, weight=0.8, start=start))
             continue
         result.append(replace(signal, negated=hit))
     return result
@@ -300,7 +333,8 @@ def _is_predicate(negation: Found, found: Sequence[Found]) -> bool:
         item.term.concept in _DIRECTIONS and item.clause == negation.clause and 0 <= item.first - negation.last <= 1
         for item in found
     )
-    return negation.term.concept == "isnt" or (negation.term.concept == "not" and (is_not or directed))
+    whole = negation.term.concept == "not" and negation.last - negation.first >= _WHOLE_PREDICATE
+    return negation.term.concept == "isnt" or whole or (negation.term.concept == "not" and (is_not or directed))
 
 
 def _prefers(found: Sequence[Found], over: Found) -> bool:
@@ -308,20 +342,34 @@ def _prefers(found: Sequence[Found], over: Found) -> bool:
     return any(item.term.concept == "want" and item.clause == over.clause and item.first < over.first for item in found)
 
 
+def _with_joined(ahead: Sequence[Found], joins: Sequence[int]) -> list[Found]:
+    """The first of the things named, and those that stand right beside it after an "and" or an "or"."""
+    reached = list(ahead[:1])
+    for other in ahead[1:]:
+        if other.first - reached[-1].last == 1 and reached[-1].last in joins:
+            reached.append(other)
+        else:
+            break
+    return reached
+
+
 def _balanced(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
     """With a word of balance between rate and power, both wishes become one for energy efficiency."""
-    wishes = {signal.objective for signal in signals}
-    balancing = ("balance", "both", "paired") if wishes >= {"max_rate", "min_power"} else ("balance",)
-    words = [item for item in found if item.term.concept in balancing]
+    words = [item for item in found if item.term.concept == "balance"]
+    both = [item for item in found if item.term.concept == "both"]
+    paired = [item for item in found if item.term.concept == "paired"]
+    wishes = {signal.objective for signal in signals if not signal.negated}
+    if not words and wishes >= {"max_rate", "min_power"}:
+        words = both or (paired if len(paired) > 1 else [])
     concepts = {item.term.concept for item in found}
     for_rate = concepts & {"rate", "stream", "performance"} or "max_rate" in wishes
     for_power = concepts & {"power", "battery"} or "min_power" in wishes
-    if not words or not for_rate:
+    if any(signal.negated for signal in signals):
         return signals
-    if for_power:
-        kept = [s for s in signals if s.objective not in ("max_rate", "min_power", *_UNSERVED)]
-        return [*kept, _signal(words[0], words[-1], "max_energy_efficiency", 1.5)]
-    if "proportional_fairness" in wishes:  # "a balance of speed and fairness"
+    if words and for_rate and not for_power and "proportional_fairness" in wishes:  # "a balance of speed and fairness"
         kept = [s for s in signals if s.objective not in ("max_rate", *_UNSERVED)]
         return [*kept, _signal(words[0], words[-1], "proportional_fairness", 1.5)]
-    return signals
+    if not words or not for_rate or not for_power:
+        return signals
+    kept = [s for s in signals if s.objective not in ("max_rate", "min_power", *_UNSERVED)]
+    return [*kept, _signal(words[0], words[-1], "max_energy_efficiency", 1.5)]

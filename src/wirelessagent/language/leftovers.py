@@ -31,7 +31,7 @@ _SPELL = (
 )
 _MONTH = (
     r"(?:jan(?:uary|vier|uar)|enero|février|feb(?:ruary|ruar|rero)|märz|mar(?:ch|s|zo)|april|avril|"
-    r"abril|mai|mayo|june?|juin|juni|junio|july|juillet|juli|julio|august|août|agosto|sept?(?:ember|embre|"
+    r"abril|may|mai|mayo|june?|juin|juni|junio|july|juillet|juli|julio|august|août|agosto|sept?(?:ember|embre|"
     r"iembre)|oct(?:ober|obre|ubre)|oktober|nov(?:ember|embre|iembre)|de[cz]ember|"
     r"diciembre|décembre)(?![A-Za-zÀ-ÿ])"
 )
@@ -59,11 +59,16 @@ _SETS_A_LIMIT = deferred(
 _UNIT_OF_ANOTHER_KIND = deferred(
     r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"
 )
+_ABBREVIATED = deferred(r"\s?-?(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})(?![^\W\d_])")  # "43 dbx"
 _ALONE_AHEAD = deferred(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
 _ALONE_BEHIND = deferred(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
 _ALL_IDIOMS = (_NAMES, _TIMES, _OF_THE_YEAR)
 _RATING = deferred(  # what a device has, and a limit only where nothing else is said
     r"(?i)\s?-?(?:[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz|(?:kilo|mega|giga)hertz)(?![^\W\d_])|\s*[千兆毫]?(?:伏|赫)"
+)
+FOREIGN_UNIT = deferred(  # no user's number stands before one
+    r"(?i)\s?-?(?:[kMG]?Hz|hertz|[km]?V|volts?|voltios?|[km]?A|[km]?Wh|J|joules?|julios?|dB|°|[kMGT]?B|bits?|bytes?|"
+    r"kilo\w+|mega\w+|giga\w+|cm|mm|km|m²|ms|grad|degrees?|percent)(?![^\W\d_])"
 )
 _WHOLE = deferred(r"[0-9]+")
 _IDIOMS = frozenset(
@@ -96,7 +101,12 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
 @functools.lru_cache(maxsize=64)
 def idioms(plain: str) -> tuple[Span, ...]:
     """Where numbers are part of a name, a time or a turn of phrase."""
-    return tuple(match.span() for pattern in _ALL_IDIOMS for match in pattern.finditer(plain))
+    return tuple(
+        match.span()
+        for pattern in _ALL_IDIOMS
+        for match in pattern.finditer(plain)
+        if not (pattern is _TIMES and "may" in plain[slice(*match.span())])  # no month
+    )
 
 
 def is_all_said(plain: str, start: int, end: int) -> bool:
@@ -130,10 +140,13 @@ def _cut(plain: str, number: Number, taken: Sequence[Span]) -> Number:
 
 def may_be_a_limit(plain: str, number: Number) -> bool:
     """Whether a number stands where a limit would, or before a unit that no limit here has ("43 dB", "10 joules")."""
-    rating = _RATING.match(plain, number.end)
-    if rating is not None and is_all_said(plain, number.start, rating.end()):
+    abbreviated = _ABBREVIATED.match(plain, number.end)
+    if abbreviated is not None and is_all_said(plain, number.start, abbreviated.end()):
         return True
     after = _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None
+    foreign = _RATING.match(plain, number.end)
+    if foreign is not None and is_all_said(plain, number.start, foreign.end()):
+        return True
     return after or _SETS_A_LIMIT.search(plain, 0, number.start) is not None
 
 
@@ -151,7 +164,7 @@ def _is_figure(plain: str, number: Number) -> bool:
         return False
     if number.form in ("words", "foreign"):
         return plain[number.start : number.end].lower() not in _IDIOMS
-    return _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None
+    return number.form == "chinese" and _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None
 
 
 def _inside(place: int, spans: Sequence[Span]) -> bool:

@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.word_tables import table
 
 _PLAIN = str.maketrans("áàâäéèêëíîïóôöúùûüñç", "aaaaeeeeiiiooouuuunc")
@@ -85,6 +86,11 @@ _GERMAN_TENS = {word: value for word, value in _GRAMMARS["de"].values.items() if
 # What stresses an article, which is then a number: "a full megabit", "un seul".
 _STRESS = frozenset(word for language in LANGUAGES for word in table("figures", language)["numbers"]["stress"])
 
+_GERMAN_ROOTS = "|".join(
+    sorted(_GERMAN_ONES | _GERMAN_TENS | {"hundert": 0, "tausend": 0, "und": 0, "einhalb": 0}, key=len, reverse=True)
+)
+_GERMAN_COMPOUND = deferred(rf"(?:{_GERMAN_ROOTS})+|anderthalb(?:e|es)?")
+
 
 @dataclass(frozen=True, kw_only=True)
 class Spoken:
@@ -152,7 +158,9 @@ def german_value(word: str) -> Decimal | None:
     >>> german_value("siebenundzwanzig"), german_value("hunderttausend"), german_value("anderthalb")
     (Decimal('27'), Decimal('100000'), Decimal('1.5'))
     """
-    if word in ("anderthalb", "anderthalbe", "anderthalbes"):
+    if _GERMAN_COMPOUND.fullmatch(word) is None:
+        return None
+    if word.startswith("anderthalb"):
         return Decimal("1.5")
     if word.endswith("einhalb"):
         whole = german_value(word.removesuffix("einhalb"))
@@ -161,9 +169,10 @@ def german_value(word: str) -> Decimal | None:
         left, found, right = word.partition(name)
         if found:
             times, rest = german_value(left or "ein"), german_value(right.removeprefix("und") or "null")
-            return None if times is None or rest is None or rest >= scale else times * scale + rest
-    ones, _, tens = word.partition("und")
-    if ones in _GERMAN_ONES and tens in _GERMAN_TENS:
+            fits = times is not None and rest is not None and times < 1000 and rest < scale
+            return times * scale + rest if fits and times is not None and rest is not None else None
+    ones, joined, tens = word.partition("und")
+    if joined and ones in _GERMAN_ONES and tens in _GERMAN_TENS and _GERMAN_ONES[ones] < 10:
         return Decimal(_GERMAN_ONES[ones] + _GERMAN_TENS[tens])
     value = _GERMAN_ONES.get(word, _GERMAN_TENS.get(word))
     return None if value is None else Decimal(value)
@@ -181,15 +190,17 @@ class _Reader:
         if self._is_vague():
             return self._result(None, linked=True)
         value = self._cardinal()
-        if self._word() in _STRESS:
-            self._place += 1
-        value = self._with_parts(self._decimals(value))
+        is_article = self._place == 1 and self._words[0] in self._grammar.articles
+        if is_article and self._word() in _STRESS:
+            self._place, is_article = self._place + 1, False
+        value, linked = self._decimals(value), False
+        value = self._with_parts(value)
         if value is None:
             return None
-        linked = any(self._words[self._place - 1] in words for words in self._linking)
+        if self._place > 1 or not is_article:
+            linked = any(self._words[self._place - 1] in words for words in self._linking)
         value, linked = self._scaled(value, linked=linked)
-        is_article = self._place == 1 and self._words[0] in self._grammar.articles
-        return self._result(value, linked=linked, is_article=is_article)
+        return self._result(value, linked=linked, is_article=is_article and self._place == 1)
 
     def _result(self, value: Decimal | None, *, linked: bool, is_article: bool = False) -> Spoken:
         end = self._place
@@ -222,18 +233,18 @@ class _Reader:
         start = self._place
         while word := self._word():
             value = self._value(word)
-            if word in self._grammar.articles and self._place == start:
-                value = _ONE
-            if value is not None and self._fits(value, group, room):
+            if word in self._grammar.articles and group is None and self._place == start and value is None:
+                value = Decimal(1)
+            if value is not None and self._fits(value, group, room, outer):
                 group, room = (group or Decimal(0)) + value, self._room(value)
             elif group is not None and self._language == "fr" and word in ("vingt", "vingts") and group % 10 == 4:
                 group, room = group + 76, Decimal(20)
-            elif word in self._grammar.dozens and not total:
+            elif word in self._grammar.dozens and not total and (group is None or group < 100):
                 self._place += 1
                 return (_ONE if group is None else group) * 12
             elif self._grammar.scales.get(word) == 100 and (group is None or 0 < group < 100):
                 group, room = (_ONE if group is None else group) * 100, Decimal(100)
-            elif 100 < self._grammar.scales.get(word, 0) < outer:
+            elif 100 < self._grammar.scales.get(word, 0) < outer and group != 0:
                 outer = Decimal(self._grammar.scales[word])
                 total, group = total + (_ONE if group is None else group) * outer, None
             elif word in self._grammar.joins and self._joins(group, room, outer if total else None):
@@ -243,15 +254,17 @@ class _Reader:
             self._place += 1
         return None if self._place == start else total + (group or 0)
 
-    def _fits(self, value: Decimal, group: Decimal | None, room: Decimal) -> bool:
+    def _fits(self, value: Decimal, group: Decimal | None, room: Decimal, outer: Decimal) -> bool:
         if group is None:
-            return True
+            return value < outer
         if self._language == "fr" and self._words[self._place - 1] == "dix" and value < 7:
             return False  # "dix-sept", but not "dix deux"
-        return 0 < value < room
+        return 0 < value < room and group + value < outer
 
     def _room(self, value: Decimal) -> Decimal:
         """What may still be added after a word: less than ten after "twenty", nothing after "five"."""
+        if self._language == "de" or value == 0:
+            return Decimal(0)
         if value % 100 == 0:
             return Decimal(100)
         if self._language == "fr" and value == 60:
@@ -262,7 +275,7 @@ class _Reader:
     def _joins(self, group: Decimal | None, room: Decimal, outer: Decimal | None) -> bool:
         """Whether "and" stands inside the number: after hundreds in English, after tens in Spanish and French."""
         value = self._value(self._word(1))
-        if value is None:
+        if value is None or self._language == "de" or self._is_part(2):
             return False
         if self._language == "en":
             return value < 100 and (room == 100 if group is not None else outer is not None)
@@ -295,10 +308,10 @@ class _Reader:
             return value
         start = self._place
         self._place += 1
-        times: Decimal | None = _ONE
-        if not self._is_part(0):
-            times = _ONE if self._word() in self._grammar.articles else self._value(self._word())
-            self._place += 1
+        times = Decimal(1) if self._is_part(0) else self._value(self._word())
+        if self._word() in self._grammar.articles:
+            times = Decimal(1)
+        self._place += 0 if self._is_part(0) else 1
         if times is None or not self._is_part(0):
             self._place = start
             return value
@@ -308,7 +321,7 @@ class _Reader:
     def _scaled(self, value: Decimal, *, linked: bool) -> tuple[Decimal, bool]:
         """The value times a scale behind it: "half a million", "two and a half thousand", "half a dozen"."""
         ahead = 0
-        while self._word(ahead) in self._grammar.links:
+        while linked and self._word(ahead) in self._grammar.links:
             ahead += 1
         word = self._word(ahead)
         scale = 12 if word in self._grammar.dozens else self._grammar.scales.get(word)

@@ -1,7 +1,7 @@
 """Numbers as people write and say them, in digits, words and Chinese numerals, exact as decimals.
 
-Missing on purpose: ordinals, thirds in words, and vague amounts ("a few", 三十来), which are reported as numbers
-without a value so that nobody acts on half of one ("a few hundred" is not 100).
+Missing on purpose: ordinals, thirds, and vague amounts ("a few", 三十来), which are reported as numbers without a value
+so that nobody acts on half of one ("a few hundred" is not 100).
 """
 
 from __future__ import annotations
@@ -55,6 +55,10 @@ _EACH = (
     r"(?<!every )(?<!each )(?<!per )(?<!all )(?<!cada )(?<!por )(?<!chaque )(?<!par )(?<!jeder )(?<!jeden )(?<!pro )"
 )
 _NAMED = deferred(rf"(?i){_EACH}\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|y|et|und|&|/)\s*)*$")
+_PLURAL = deferred(
+    r"(?i)\b(?:users|ues|subscribers|customers|clients|devices|phones|usuarios|abonados|utilisateurs|"
+    r"abonnés|usagers|kunden)\s*$"
+)
 _BELOW_ZERO = deferred(r"(?i)(?<!al )(?<!lo )(?<!au )(?<!ou )\b(?:menos|moins)\s+$")
 
 MOST_FIGURES = 40
@@ -77,6 +81,9 @@ _TIMES = Phrases(
     rf"\b(?P<compound>{_MANY})(?:fach|mal)\w*|(?P<phrase>(?:une\s+fois\s+et\s+demie|deux\s+fois\s+et\s+demie|"
     rf"una\s+vez\s+y\s+media))|"
     rf"\b(?P<word>{_MANY})[\s-]?(?:times|veces|fois|mal|fold)\b|"
+    rf"\b(?:compt\w+|val\w+|pes\w+|p[eè]s\w+|cuent\w+|cont\w+|counts?|counting|count|zähl\w+)\s+(?:(?:al?|el|le|"
+    rf"l'|usuario|utilisateur|abonné|abonado|cliente?|user|[0-9]+)\s*){{0,4}}(?:pour|por|como|comme|for|as|für)\s+"
+    rf"(?P<counted>{_MANY})\b|"
     r"(?<![\w.])(?:x\s?(?P<x>[0-9]+(?:\.[0-9]+)?)(?![\w.])|(?P<n>[0-9]+(?:[.,][0-9]+)?)\s*(?:times\b|x\b|-?fold\b|"
     r"veces\b|fois\b|mal\b|-?fach\w*))|(?P<zhn>[0-9]+(?:\.[0-9]+)?)\s*倍|"
     r"(?P<zhtwo>翻倍|加倍|双倍|双份|翻一番|顶[两二]个|当[两二]个|算[两二]个)|(?P<zhhalf>减半|一半|半份|半倍)|"
@@ -158,23 +165,26 @@ def _in_digits(text: str, match: re.Match[str], language: str) -> Number:
         digits = digits.split(" ")[0]  # "UE 2 750 kbit/s": a name, then a figure
         return Number(value=Decimal(digits), start=start, end=start + len(digits), form="digits")
     value = _PARTS.get(digits) or _digits_value(digits, language)
-    if value is not None:
-        scale = (match["scale"] or "").lower().removesuffix("d'").removesuffix("de").strip()
-        value = value.scaleb(int(match["exponent"] or 0)) * _scale_value(scale)
-        over = _OVER.match(text, end)
-        part = and_part(text, end) if not _NAMED.search(text, max(0, start - 40), start) else None
-        if over is not None and unit_at(text, over.end()) is not None:
-            value, end = value / int(over["below"]), over.end()
-        elif part is not None and unit_at(text, part[1]) is not None:
-            value, end = value + part[0], part[1]
+    if value is not None and match["exponent"]:
+        value = value.scaleb(int(match["exponent"]))
+    scale = (match["scale"] or "").lower().removesuffix("d'").removesuffix("de").strip()
+    if value is not None and scale:
+        value *= _scale_value(scale, language)
+    over = _OVER.match(text, end) if value is not None and not scale else None
+    if value is not None and over is not None and unit_at(text, over.end()) is not None:
+        share = value / int(over["below"])
+        value, end = share if share * int(over["below"]) == value else None, over.end()
+    part = and_part(text, end) if not _NAMED.search(text, max(0, start - 40), start) else None
+    if value is not None and part is not None and unit_at(text, part[1]) is not None:
+        value, end = value + part[0], part[1]
     if _VAGUELY.match(text, end) and unit_at(text, end + 1) is not None:
         value, end = None, end + 1
     return _signed(match, text, Number(value=value, start=start, end=end, form="digits"))
 
 
-def _scale_value(scale: str) -> int:
-    if scale in _SCALES:
-        return _SCALES[scale]
+def _scale_value(scale: str, language: str) -> int:
+    if scale.isascii() or scale == "millón":
+        return 1 if scale == "mil" and language != "es" else _SCALES[scale]
     value = 1
     for letter in scale:
         value *= _CHINESE_SCALES.get(letter) or _CHINESE_BIG[letter]
@@ -184,46 +194,60 @@ def _scale_value(scale: str) -> int:
 def _digits_value(digits: str, language: str) -> Decimal | None:
     """The value of digits; what a single mark before three of them means depends on the language."""
     groups = language in ("es", "de")
-    digits = digits.replace("'", "").replace(" ", "")
-    if re.match(rf"[1-9][0-9]{{0,2}}(?:,[0-9]{{3}}){{{2 if language in ('de', 'fr') else 1},}}(?![0-9])", digits):
+    if re.match(r"[1-9][0-9]{0,2}(?:'[0-9]{3})+(?![0-9])", digits):
+        digits = digits.replace("'", "")
+    elif re.match(rf"[1-9][0-9]{{0,2}}(?:,[0-9]{{3}}){{{2 if language in ('de', 'fr') else 1},}}(?![0-9])", digits):
         digits = digits.replace(",", "")
     elif re.match(rf"[1-9][0-9]{{0,2}}(?:\.[0-9]{{3}}){{{1 if groups else 2},}}(?![0-9])", digits):
         digits = digits.replace(".", "")
     if len(re.findall(r"[.,]", digits)) > 1:
         return None  # "1,23,456": what the marks mean is anybody's guess
-    return Decimal(digits.replace(",", "."))
+    return Decimal(digits.replace(" ", "").replace(",", "."))
 
 
 def _in_words(text: str, match: re.Match[str], own: str) -> tuple[Number | None, str]:
     """The number that begins with a word, in this language or in another where a unit follows; and its language."""
-    start = match.start("word")
-    for language in sorted(languages_of(match["word"]), key=lambda language: language != own):
-        run = _WORDS.match(text, start)
+    word = match["word"]
+    for language in sorted(languages_of(word), key=lambda language: language != own):
+        run = _WORDS.match(text, match.start("word"))
         assert run is not None
         places = list(_WORD.finditer(run.group()))
         said = spoken([place.group() for place in places], language)
-        if said is None or (said.value is None and _AS_FEW.search(text, max(0, start - 8), start)):
-            continue  # "as few watts as possible"
-        number = _placed(text, start, said, places, language)
-        if unit_at(text, number.end) is not None:
+        number = _placed(text, match, said, places, language) if said is not None else None
+        if number is None:
+            continue
+        measured = unit_at(text, number.end) is not None
+        if measured and not (said and said.is_article and language == "en" != own):
             return _signed(match, text, number), language
         if language == own and _stands_alone(text, number, said):
             return number, language
     return None, own
 
 
-def _placed(text: str, start: int, said: Spoken, places: list[re.Match[str]], language: str) -> Number:
-    """The number where it stands, with "of a" where a unit follows that."""
+def _placed(
+    text: str, match: re.Match[str], said: Spoken | None, places: list[re.Match[str]], language: str
+) -> Number | None:
+    assert said is not None
+    start, form = match.start("word"), "words" if language == "en" else "foreign"
+    if said.value is None and _AS_FEW.search(text, max(0, start - 8), start):
+        return None  # "as few watts as possible"
     end, linked = start + places[said.words - 1].end(), start + places[said.linked - 1].end()
-    if unit_at(text, linked) is not None:
+    if said.linked > said.words and text[linked : linked + 1] == "'":
+        linked += 1
+    if linked > end and unit_at(text, linked) is not None:
         end = linked
-    return Number(value=said.value, start=start, end=end, form="words" if language == "en" else "foreign")
+    before = text[max(0, start - 40) : start]
+    is_name = _NAMED.search(before) is not None and _PLURAL.search(before) is None
+    if said.words > 1 and is_name and unit_at(text, end) is not None:
+        first = spoken([places[0].group()], language)  # "user one hundred kilobits": a name, then a figure
+        return first and Number(value=first.value, start=start, end=start + places[0].end(), form=form)
+    return Number(value=said.value, start=start, end=end, form=form)
 
 
-def _stands_alone(text: str, number: Number, said: Spoken) -> bool:
+def _stands_alone(text: str, number: Number, said: Spoken | None) -> bool:
     """Whether words without a unit are a number: no article, and no vague word of a language other than English."""
-    if said.is_article:
-        return text[number.start : number.end].lower() == "eines"
+    if said is None or said.is_article:
+        return number.form == "foreign" and text[number.start : number.end].lower() == "eines"
     return said.value is not None or number.form == "words"
 
 
@@ -280,14 +304,18 @@ def factors(plain: str) -> Iterator[Number]:
     """
     for match in _TIMES.finditer(plain):
         group = "zh" if match["zh"] else match.lastgroup or ""
-        yield Number(value=_fold(match, group), start=match.start(), end=match.end(), form="times")
+        start = match.start(group) if group == "counted" else match.start()
+        value = _fold(match, group)
+        if value is not None:
+            yield Number(value=value, start=start, end=match.end(), form="times")
 
 
-def _fold(match: re.Match[str], group: str) -> Decimal:
+def _fold(match: re.Match[str], group: str) -> Decimal | None:
     word = " ".join(match[group].lower().split())
     if group in ("n", "x", "zhn"):
         return Decimal(word.replace(",", "."))
     if group == "zh":
-        return (chinese_value(word) or Decimal(0)) + (_HALF if match["zhmore"].endswith("半") else 0)
+        value = chinese_value(word)
+        return None if value is None else Decimal(str(value)) + (_HALF if match["zhmore"].endswith("半") else 0)
     known = {"german": _GERMAN_FOLDS, "zhtwo": {word: 2}, "zhhalf": {word: _HALF}}.get(group, _FOLDS)
     return Decimal(known[word])

@@ -36,6 +36,7 @@ _USERS = deferred(rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|or|y|et|und|
 _CHINESE_COUNTED = deferred(
     r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
 )
+_VARIABLE = deferred(r"\s+[A-Za-z]{1,3}_?[0-9]")  # "R6=700k R7=900k"
 _FOREIGN_UNIT = deferred(r"\s?[A-Za-zμ][A-Za-zμ/]*")
 _FOREIGN_APIECE = deferred(
     r"(?i)\s?(?!users?\b|ues?\b)[A-Za-zμ][A-Za-zμ/]*\s*(?:each\b|apiece\b|per\s+(?:user|person|head)\b|每)"
@@ -46,9 +47,14 @@ _PRICE_AFTER = deferred(
     r"(?i)\s*(?:should\s+|can\s+|must\s+)?(?:buys?|brings?|carr(?:y|ies)|gives?|yields?|delivers?|moves?|"
     r"fetch(?:es)?)\b|[的]?(?:电|功率)?(?:都|要|能|可以)?(?:换|传|产|带来|跑|花得)"
 )
+_OWN_NOUN = deferred(  # "each user's rate no lower than" bounds the rate, and wishes for none
+    r"(?:用户|每人|人均|每个|每户|各|UE|终端|大家|的)的?(?P<noun>(?:下行|数据)?(?:速率|速度|网速|吞吐量?))(?:都|"
+    r"也)?(?:要|得|必须|应|须)?$"
+)
 _STEP_AFTER = deferred(
     r"(?i)\s*(?:more|less|faster|extra|too\s+much|de\s+m[aá]s|m[aá]s|de\s+plus|mehr|zu\s+viel|zuviel)\b"
 )
+_STEP_BEFORE = deferred(r"(?i)\b(?:not|nor|ni|pas|nicht|without|last|per|by|an|what)\s+$")
 
 
 def amount_of_another_time(plain: str) -> tuple[int, int] | None:
@@ -96,10 +102,11 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
     after = 0
     for index, reading in enumerate(readings):
         following = readings[index + 1] if index + 1 < len(readings) else None
-        if following is not None and _joined(plain, reading, following):
+        in_range = following is not None and following.unit is not None and _joined(plain, reading, following)
+        if in_range and following is not None:
             continue  # the lower end of a range: read together with the upper one
         lower = readings[index - 1] if index and _joined(plain, readings[index - 1], reading) else None
-        if lower is not None:
+        if lower is not None and reading.unit is not None:
             found.extend(_range(text, lower, reading))
         else:
             until = following.start if following is not None else len(plain)
@@ -114,12 +121,12 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
 def _joined(plain: str, lower: Reading, upper: Reading) -> bool:
     """Whether two readings are the ends of one range, "1 to 2 Mbit/s"."""
     gap = plain[lower.end : upper.start]
-    if upper.unit is None or lower.number.value is None or upper.number.value is None or _RANGE.match(gap) is None:
+    if lower.number.value is None or upper.number.value is None or _RANGE.match(gap) is None:
         return False
-    if lower.unit is not None and upper.unit.kind != lower.unit.kind:
+    if lower.unit is not None and (upper.unit is None or upper.unit.kind != lower.unit.kind):
         return False
     if re.fullmatch(r"\s*(?:and|y|et|und)\s*", gap.lower()) is None:
-        return lower.unit is not None or not _is_name(plain, lower.start)
+        return upper.unit is not None and not (lower.unit is None and _is_name(plain, lower.start))
     return re.search(r"(?i)(?:between|entre|zwischen)\s*$", plain[max(0, lower.start - 12) : lower.start]) is not None
 
 
@@ -150,29 +157,35 @@ def _bounded(text: str, plain: str, reading: Reading, *, after: int, until: int)
         if kind_or_none is None:
             return None
         kind = kind_or_none
-    elif bounds.comparator is None and unit is None:
+    elif number.value is None and bounds.comparator is None and unit is None:
         return None
     if kind == "power" and number.value == 1 and bounds.comparator is None and _is_price(plain, reading):
         return None
-    if (
-        number.value == 1
-        and number.form != "digits"
-        and bounds.comparator is None
-        and _STEP_AFTER.match(plain, reading.end)
-    ):
-        return None  # the least step, not a figure: "not a watt more"
+    if number.value == 1 and number.form != "digits" and bounds.comparator is None and _is_step(plain, reading):
+        return None
+    if _is_article(plain, reading) and not (unit is not None and (bounds.comparator or unit.kind == "rate")):
+        return None
     value = 0.0
     if number.value is not None and kind != "other":
         value = unit.value(number.value) if unit is not None else float(number.value * reading.factor)
     end = reading.end
+    own = (
+        _OWN_NOUN.search(plain, max(0, bounds.start - 12), bounds.start)
+        if bounds.comparator and kind == "rate"
+        else None
+    )
     foreign = _FOREIGN_UNIT.match(plain, end, until) if kind == "other" and unit is None else None
     if foreign is not None:
         end = foreign.end()
     return Quantity(
         value=value, kind=kind, text=text[reading.start : end], start=reading.start, end=end,
-        comparator=bounds.comparator, phrase_start=bounds.start, phrase_end=max(end, bounds.end),
-        doubtful=unit is not None and unit.doubtful,
+        comparator=bounds.comparator, phrase_start=max(after, own.start("noun")) if own else bounds.start,
+        phrase_end=max(end, bounds.end), doubtful=unit is not None and unit.doubtful,
     )  # fmt: skip
+
+
+def _is_article(plain: str, reading: Reading) -> bool:
+    return plain[reading.number.start : reading.number.end].lower() in ("a", "an")
 
 
 def _is_price(plain: str, reading: Reading) -> bool:
@@ -181,16 +194,31 @@ def _is_price(plain: str, reading: Reading) -> bool:
     return _PRICE_BEFORE.search(before) is not None or _PRICE_AFTER.match(after) is not None
 
 
+def _is_step(plain: str, reading: Reading) -> bool:
+    """Whether one unit is the least step, not a figure: "not a watt more", "every megabit"."""
+    return (
+        _STEP_AFTER.match(plain, reading.end) is not None
+        or _STEP_BEFORE.search(plain, max(0, reading.start - 12), reading.start) is not None
+    )
+
+
 def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> QuantityKind | None:
     """A number without a known unit: bare, a bound that is not understood, or nothing (a count, a name)."""
     if reading.number.form != "digits" and not bounded:
         return None
-    if reading.number.form == "chinese" or _CHINESE_COUNTED.match(plain, reading.end):
+    if reading.number.form == "chinese" or _counted_in_chinese(plain, reading.end):
         return None
-    glued = GENERATION.match(plain, reading.start) or plain[max(0, reading.start - 1) : reading.start] == "/"
-    if glued or _is_name(plain, reading.start):
+    named = _is_name(plain, reading.start)
+    glued = (
+        GENERATION.match(plain, reading.start) is not None or plain[max(0, reading.start - 1) : reading.start] == "/"
+    )
+    if glued or plain[reading.end : reading.end + 1] == "/":
+        return "other" if bounded else None
+    if named:
         return None
     if _AFTER_BARE.match(plain, reading.end) or has_chinese(plain[reading.end :].lstrip()[:1]):
+        return "bare"
+    if reading.factor != 1 and _VARIABLE.match(plain, reading.end):
         return "bare"
     apiece = _FOREIGN_APIECE.match(plain, reading.end) is not None
     return "other" if bounded or apiece else None
@@ -199,3 +227,7 @@ def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> Quanti
 def _is_name(plain: str, start: int) -> bool:
     """Whether a number names what stands before it: "user 3", "users 1 and 2", "slot 5"."""
     return any(pattern.search(plain, max(0, start - 40), start) is not None for pattern in (_NAMES, _USERS))
+
+
+def _counted_in_chinese(plain: str, end: int) -> bool:
+    return _CHINESE_COUNTED.match(plain, end) is not None

@@ -1,4 +1,4 @@
-"""Numbers with the units that follow them, shares included, before anybody asks what bounds them."""
+"""Numbers with the units that follow them, shares and odds included, before anybody asks what bounds them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
-from wirelessagent.language.ratios import nines
+from wirelessagent.language.ratios import nines, odds
 from wirelessagent.language.text import USER_NOUN, has_chinese
 from wirelessagent.language.units import Unit, unit_at
 from wirelessagent.language.word_tables import words_of
@@ -33,12 +33,14 @@ _APIECE_BEFORE = deferred(
 _PRICE = deferred(r"[€$£¥]\s?$")
 _SUFFIXES = {"k": Decimal(10**3), "K": Decimal(10**3), "M": Decimal(10**6), "G": Decimal(10**9)}
 GENERATION = deferred(r"[2-7]G(?![A-Za-z/])|[248]K(?![A-Za-z/])")
+_PICTURE = deferred(r"[248]K")
 _TRAILING_HALF = deferred(r"半(?!小时)")
 _TRAILING_DIGIT = deferred(
     r"(?P<digit>[一二三四五六七八九])(?![零〇一二三四五六七八九十百千万亿点半个号户位人台家成兆瓦毫kKM])"
 )
-_FRACTION = deferred(r"(?P<below>[一二三四五六七八九十百千万两]+)分之$")
-_TENTHS = deferred(r"成(?P<more>[一二三四五六七八九])?(?![员立为功本交绩效长了就品]|不变)")
+_FRACTION = deferred(r"(?P<below>[0-9]+|[一二三四五六七八九十百千万两]+)分之$")
+_TENTHS = deferred(r"成(?P<more>[一二三四五六七八九半]{0,3})(?![员立为功本交绩效长了就品]|不变)")
+_COUNTED = deferred(rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|persons|personas|personnes|sensor\w*)\b")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +56,8 @@ class Reading:
 
 def readings(plain: str) -> list[Reading]:
     """Every number of a normalised text with its unit, from left to right, not overlapping."""
-    found = [_as_share(*each) for each in nines(plain)]
+    shares = (each for each in odds(plain) if _COUNTED.match(plain, each[2]) is None)
+    found = [_as_share(*each) for each in (*nines(plain), *shares)]
     for number in numbers(plain):
         if not any(each.start < number.end and number.start < each.end for each in found):
             found.append(_read(plain, number))
@@ -68,19 +71,19 @@ def _as_share(value: Decimal, start: int, end: int) -> Reading:
 
 def _read(plain: str, number: Number) -> Reading:
     unit = unit_at(plain, number.end)
-    if unit is not None:
-        return _with_half(plain, number, unit)
-    share = _share(plain, number)
+    share = _share(plain, number) if unit is None else None
     if share is not None:
         return share
-    if GENERATION.match(plain, number.start):
-        return Reading(number=number, unit=None, start=number.start, end=number.end)
-    chinese = _CHINESE_SUFFIX.match(plain, number.end) if has_chinese(plain) else None
-    if chinese is not None:
+    if unit is not None:
+        return _with_half(plain, number, unit)
+    suffix = _SUFFIX.match(plain, number.end) if number.form == "digits" else None
+    spoken = number.form == "chinese" and number.value is not None and number.end - number.start > 1
+    written = (number.form == "digits" or spoken) and has_chinese(plain)
+    chinese = _CHINESE_SUFFIX.match(plain, number.end) if written else None
+    if chinese is not None and not _PICTURE.match(plain, number.start):
         unit = Unit(kind="rate", end=chinese.end(), factor=_SUFFIXES[chinese["suffix"]])
         return Reading(number=number, unit=unit, start=number.start, end=chinese.end())
-    suffix = _SUFFIX.match(plain, number.end) if number.form == "digits" else None
-    if suffix is not None:
+    if suffix is not None and not GENERATION.match(plain, number.start):
         end, factor = suffix.end(), _SUFFIXES[suffix["suffix"] or "M"]
         if suffix["suffix"] != "G" and _is_apiece(plain, number.start, end):
             unit = Unit(kind="rate", end=end, factor=factor)
@@ -107,14 +110,9 @@ def _with_half(plain: str, number: Number, unit: Unit) -> Reading:
         elif part is not None and unit_at(plain, part[1]) is None:
             value, end = value + part[0], part[1]
         elif digit is not None and number.form == "chinese":
-            value, end = value + _tenth(digit["digit"]), digit.end()
+            value, end = value + Decimal(chinese_value(digit["digit"]) or 0) / 10, digit.end()
     number = Number(value=value, start=number.start, end=number.end, form=number.form)
     return Reading(number=number, unit=unit, start=number.start, end=end)
-
-
-def _tenth(digit: str | None) -> Decimal:
-    """What a Chinese digit behind a unit adds: 一兆五, 九成五."""
-    return (chinese_value(digit or "") or Decimal(0)) / 10
 
 
 def _share(plain: str, number: Number) -> Reading | None:
@@ -125,12 +123,13 @@ def _share(plain: str, number: Number) -> Reading | None:
     over = _FRACTION.search(plain, max(0, start - 8), start)
     tenths = _TENTHS.match(plain, end)
     if over is not None:
-        below = chinese_value(over["below"])
+        below = Decimal(over["below"]) if over["below"].isdigit() else chinese_value(over["below"])
         if not below:
             return None
         start, value = over.start(), value / below
     elif tenths is not None and 0 < value < 10:
-        end, value = tenths.end(), (value + _tenth(tenths["more"])) / 10
+        more = "".join("5" if letter == "半" else str(chinese_value(letter)) for letter in tenths["more"])
+        end, value = tenths.end(), Decimal(f"{value}{'' if value != int(value) else '.'}{more or 0}") / 10
     else:
         return None
     number = Number(value=value, start=number.start, end=number.end, form=number.form)

@@ -10,9 +10,9 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 
-from wirelessagent.language.acts import Everybody, Limit, Named, Others, Scale, Suppose, Whom
+from wirelessagent.language.acts import Drop, Everybody, Limit, Named, Others, Scale, Suppose, Whom
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words, own_users
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.intent_acts import stated
 from wirelessagent.language.moods import is_ordered
 from wirelessagent.language.quantities import Quantity, parse_quantities
@@ -20,7 +20,7 @@ from wirelessagent.model.units import human
 
 _SAID = (
     "users", "every", "others", "pronoun", "one", "it", "lead", "make", "correct", "suppose", "take", "figure",
-    "ratio", "bare", "with", "grant", "too", "by", "to", "revise", "both", "at_most", "been", *NOUNS,
+    "ratio", "bare", "with", "grant", "too", "by", "to", "revise", "both", "at_most", *NOUNS,
 )  # fmt: skip
 _COUNTS = ("weights", "resource_block_group_size")
 """Limits without a unit."""
@@ -31,36 +31,45 @@ _FAR = 20.0
 
 def read_figure(words: Words) -> Intent | None:
     """The limit of which a line says the one figure; None for any other line."""
-    further = ("more", "less") if words.has("to") or _says_anew(words) else ()
-    if len(words.figures) != 1 or words.has("instead") or not words.only(*_SAID, *further):
+    further = ["been"] if words.has("suppose") else []
+    further += ["more", "less"] if words.has("to") or _says_anew(words) else []
+    if len(words.figures) != 1 or not words.only(*_SAID, *further):
         return None
-    figure = words.figures[0]
+    figure, corrects = words.figures[0], words.has("correct")
     supposed = [act for one in words.last(Suppose) for act in one.acts if isinstance(act, Limit)]
     before = supposed or [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
-    if words.taken_off:
+    if corrects and words.taken_off:
         before = [act for act in stated(words.taken_off) if isinstance(act, Limit)]
     kinds = _kinds_of(words, figure, before)
     if len(kinds) != 1:
         return None
     kind = kinds[0]
     models = [act for act in before if act.kind == kind]
-    if len({act.whom for act in models}) > 1 and not (words.whom() or words.has("both")):
-        if not words.has("correct"):
-            return None
+    model = _model(words, figure, kind, models)
+    says_whose = words.users or words.spoken_of or words.has("others", "every", "both")
+    several = len({act.whom for act in models}) > 1 and not says_whose
+    if several and model is not None and corrects:
         users = [user for act in models if isinstance(act.whom, Named) for user in act.whom.users]
         return words.line.ask("whose_figure", text=figure.text, users=words.line.voice.users(users))
+    of_share = bool(words.line.context.share_of) and figure.kind == "bare"
+    if several or (corrects and (of_share or (model is None and words.last(Drop)))):
+        return None
     if _caps(words) and kind not in ("max_rate_bps", *UNITS["power"]):
         return None
-    model = _model(words, figure, kind, models)
     value, whom = value_of(figure, kind, model), _whom(words, kind, model)
     if value is None or whom is None or not _leans(words, figure, model, supposes=bool(supposed)):
+        return None
+    replaced = words.replaced
+    if words.has("instead") or (
+        replaced is not None and value_of(replaced, kind, model) not in figures_of(words.held.get(kind))
+    ):
         return None
     wondered = words.line.is_asked or words.has("suppose") or supposed
     orders = is_ordered(words.line.text) and not words.line.is_asked
     if not wondered or words.has("take", "make", "correct") or orders:
         said = f"{figure.value:g} {_unit(model)}" if _is_bare(figure, kind) and model is not None else figure.text
         return words.acts([Limit(kind=kind, value=value, whom=whom, words=said)])
-    if isinstance(whom, Others):
+    if isinstance(whom, Others) or not (words.has("suppose") or supposed):
         return None
     users = dict.fromkeys(whom.users, value) if isinstance(whom, Named) else value
     return words.line.question("what_if", constraints={kind: users})
@@ -88,9 +97,12 @@ def _kinds_of(words: Words, figure: Quantity, before: Sequence[Limit]) -> list[s
     fitting = UNITS.get(figure.kind, ())
     named = words.named_kinds()
     possible = [kind for kind in named if not fitting or kind in fitting] if named else list(fitting)
-    known = [act.kind for act in before if not (named or fitting) or act.kind in possible]
+    whose = FIGURES_OF_USERS if words.users and figure.kind == "bare" else [act.kind for act in before]
+    known = [act.kind for act in before if (not (named or fitting) or act.kind in possible) and act.kind in whose]
     if not named and words.has(*NOUNS):
         return []
+    if figure.kind == "bare" and not named:
+        return known[-1:]
     held = [kind for kind in possible if kind in words.held]
     if known or len(held) == 1:
         return known[-1:] or held
@@ -99,10 +111,14 @@ def _kinds_of(words: Words, figure: Quantity, before: Sequence[Limit]) -> list[s
 
 def _model(words: Words, figure: Quantity, kind: str, models: Sequence[Limit]) -> Limit | None:
     """What the figure stands in the place of: what was said last, else what holds and is named by a noun."""
-    if models:
-        return models[-1]
-    held = words.held.get(kind) or (words.line.context.max_power_w if kind == "max_power_w" else None)
-    return Limit(kind=kind, value=held) if figure.kind == "bare" and isinstance(held, float) else None
+    model, held = models[-1] if models else None, words.held.get(kind)
+    if not models and kind == "max_power_w":
+        held = held or words.line.context.max_power_w
+    if not models and figure.kind == "bare" and kind in words.named_kinds() and isinstance(held, float):
+        model = Limit(kind=kind, value=held)
+    if words.has("others", "every") or words.users:
+        return next((act for act in models if isinstance(act.whom, Named) is bool(words.users)), model)
+    return model
 
 
 def _caps(words: Words) -> bool:
@@ -114,14 +130,14 @@ def _caps(words: Words) -> bool:
 def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: bool) -> bool:
     """Whether a line says no more than what a figure is to be now, and so leans on what was said before."""
     classes = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
-    if figure.kind == "bare" or supposes:
-        classes += ["make", "lead", "with", "suppose", "grant", "more", "less", *(["to"] if words.users else [])]
     classes += ["make"] if model is not None and not words.is_read else []
+    classes += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposes else []
+    classes += (["to"] if words.users else ["more", "less"]) if figure.kind == "bare" and words.has("to") else []
     classes += ["revise"] if model is not None and isinstance(model.whom, Named) else []
     if len(words.named_kinds()) == 1:
         classes += ["make", "promise"] if words.users else ["make", "limit"]
     says_nothing_else = all(token.figure or "skip" in token.classes for token in words.tokens)
-    alone = model is not None and says_nothing_else
+    alone = model is not None and words.line.context.awaits == "nothing" and says_nothing_else
     leans = alone or words.has(*classes) or (words.has("limit") and figure.kind == "power")
     if not leans or (words.has("by") and words.has("make")):
         return False
@@ -133,13 +149,26 @@ def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: boo
 
 def _whom(words: Words, kind: str, model: Limit | None) -> Whom | None:
     """For whom a limit is; None where no such limit is for whom the line says."""
-    if kind not in FIGURES_OF_USERS:
-        return None if words.users or words.has("others") else Everybody()
+    both, whom = own_users(words.held.get(kind)), words.whom() or (model.whom if model is not None else Everybody())
     if words.has("both"):
-        both = own_users(words.held.get(kind))
-        return Named(both) if len(both) == 2 else None
-    whom = words.whom() or (model.whom if model is not None else Everybody())
-    return None if words.has("one") and not isinstance(whom, Named) else whom
+        if len(both) != 2:
+            return None
+        whom = Named(both)
+    if kind not in FIGURES_OF_USERS:
+        if words.users or words.has("others"):
+            return None
+        whom = Everybody()
+    named = isinstance(whom, Named)
+    if (words.has("one") and not named) or (words.has("pronoun") and words.has("each") and named):
+        return None
+    return whom
+
+
+def figures_of(held: Constraint | None) -> tuple[float, ...]:
+    """All figures of a limit that holds."""
+    if isinstance(held, Mapping):
+        return tuple(held.values())
+    return (held,) if isinstance(held, float) else ()
 
 
 def _is_bare(figure: Quantity, kind: str) -> bool:
@@ -164,8 +193,8 @@ def value_of(figure: Quantity, kind: str, model: Limit | None) -> float | None:
 def _unit(model: Limit) -> str:
     """The unit in which a limit was said, or in which it is shown."""
     for one in parse_quantities(model.words):
-        if one.kind in UNITS and one.text[:1].isdigit():
-            return _NUMBER.sub("", one.text).strip()
+        if one.kind in UNITS and one.text[:1].isdigit() and (one.value == model.value or one.kind == "ratio"):
+            return _NUMBER.sub("", one.text).strip() or "W"
     if model.kind == "outage_probability":
         return "%"
     return _NUMBER.sub("", human(model.value, "W" if model.kind.endswith("_w") else "bit/s")).strip()

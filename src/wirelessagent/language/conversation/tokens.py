@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, cast
 
-from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Whom
+from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Serve, Whom
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.mentions import mentions
@@ -69,7 +69,8 @@ class Token:
 
 def words_of(line: Line) -> Iterator[Words]:
     """The line word by word in each language that it may be in and that knows all of its words."""
-    for language in languages_of(line.text):
+    spoken = [line.context.language] if line.context.language else []
+    for language in dict.fromkeys([*spoken, *languages_of(line.text)]):
         tokens = tokens_of(line, language)
         if tokens:
             yield Words(line, tokens, language)
@@ -82,7 +83,7 @@ def speaks_of_one(plain: str, of: str = "pronoun") -> bool:
         word in words if word.isascii() else word in plain
         for language in languages_of(plain)
         for word, token in _table(language)[0].items()
-        if of in token.classes
+        if of in token.classes and " " not in word
     )
 
 
@@ -95,7 +96,7 @@ def tokens_of(line: Line, language: str) -> list[Token] | None:
     """The line as words that are known here; None where one is not."""
     plain = _unmarked(normalise(line.text).lower())
     figures = [
-        dataclasses.replace(figure, kind="rate") if figure.kind == "bare" else figure  # "400k"
+        dataclasses.replace(figure, kind="rate") if figure.kind == "bare" and figure.value >= 1e3 else figure  # "400k"
         for figure in parse_quantities(line.text)
         if figure.kind not in ("bare", "other") or _PREFIXED.search(figure.text)
     ]
@@ -139,11 +140,14 @@ def _segmented(plain: str, spans: Mapping[int, tuple[int, Token]], language: str
         else:
             ends = range(min(len(plain), place + longest), place, -1)
             end = next((end for end in ends if plain[place:end] in words and _is_whole(plain, place, end)), None)
-            if place in spans and (end is None or end <= spans[place][0]):
+            if place in spans and (end is None or words[plain[place:end]].factor is None or end <= spans[place][0]):
                 place, token = spans[place]
                 found.append(token)
                 continue
             if end is None:
+                return None
+            inside = place not in spans and any(place < start < end for start in spans)
+            if inside and words[plain[place:end]].factor is None:
                 return None
             found.append(words[plain[place:end]])
             place = end
@@ -178,18 +182,20 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
     return tokens, max(map(len, tokens))
 
 
-def _without_what_goes(tokens: Sequence[Token]) -> list[Token]:
-    """The tokens without the figure that another replaces: "300 rather than 200".
+def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], Quantity | None]:
+    """The tokens without the figure that another replaces ("300 rather than 200", "500 was too much, 400"), and it.
 
     What holds was too much in "too much, make it 9", which says nothing more.
     """
     kept = list(tokens)
-    for token, behind in itertools.pairwise(tokens):
-        replaces = "instead" in token.classes and sum(each.figure is not None for each in kept) > 1
-        if replaces and behind.figure is not None:
-            kept = [each for each in kept if each is not token and each is not behind]
+    said = [token for token in kept if not token.classes <= {"skip"} or token.figure]
+    replaced: Quantity | None = None
+    for token, behind in itertools.pairwise(said):
+        gone = behind if "instead" in token.classes else token if "too_much" in behind.classes else None
+        if gone is not None and gone.figure is not None and sum(each.figure is not None for each in kept) > 1:
+            kept, replaced = [each for each in kept if each is not token and each is not behind], gone.figure
     first = next((place for place, token in enumerate(kept) if token.figure is not None), 0)
-    return [token for token in kept[:first] if "too_much" not in token.classes] + kept[first:]
+    return [token for token in kept[:first] if "too_much" not in token.classes] + kept[first:], replaced
 
 
 def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:
@@ -200,7 +206,7 @@ def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:
         counts = (
             token.figure is not None and token.figure.kind == "bare" and token.figure.value in range(1, num_users + 1)
         )
-        if counts and others and "whose" in ahead.classes:
+        if counts and others and "whose" in ahead.classes and not any(each.users for each in tokens):
             assert token.figure is not None
             changed[place] = Token(frozenset({"users"}), users=(f"{token.figure.value:g}",))
     return changed
@@ -211,7 +217,8 @@ class Words:
 
     def __init__(self, line: Line, tokens: Sequence[Token], language: str) -> None:
         self.line, self.language = line, language
-        self.tokens = tokens = _with_whose(_without_what_goes(tokens), len(line.context.user_names))
+        kept, self.replaced = _without_what_goes(tokens)
+        self.tokens = tokens = _with_whose(kept, len(line.context.user_names))
         self.figures = [token.figure for token in tokens if token.figure is not None]
         self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
         self.held = line.context.constraints
@@ -237,10 +244,13 @@ class Words:
 
     def counted(self) -> tuple[str, ...]:
         """Users named by their number alone: "and 3 too"."""
-        numbers = range(1, len(self.line.context.user_names) + 1)
-        if not all(figure.kind == "bare" and figure.value in numbers for figure in self.figures):
+        found = [token.figure for token in self.tokens if "bare" in token.classes and token.figure is not None]
+        names = {str(number) for number in range(1, len(self.line.context.user_names) + 1)}
+        users = tuple(f"{figure.value:g}" for figure in found)
+        if not users or len(found) != len(self.figures) or not set(users) <= names:
             return ()
-        return tuple(f"{figure.value:g}" for figure in self.figures)
+        named = any(isinstance(act.whom, Named) for act in self.last(Limit, Drop, LeaveOut, Serve, Scale))
+        return users if named or self.has("leave", "serve") else ()
 
     def listed(self, name: str) -> tuple[str, ...]:
         """The users whom the request serves alone ("users") or leaves out; nobody where it says nothing of that."""
@@ -261,7 +271,11 @@ class Words:
             return Named(self.users)
         if self.has("others"):
             return Others()
-        return self.spoken_of or (Everybody() if self.has("every") else None)
+        if self.spoken_of is not None:
+            return self.spoken_of
+        if self.has("pronoun") and isinstance(self.last_whom(), Named):
+            return self.last_whom()
+        return Everybody() if self.has("every") else None
 
     @property
     def spoken_of(self) -> Named | None:
