@@ -99,9 +99,9 @@ def features(frame: Frame, known: frozenset[int]) -> tuple[npt.NDArray[np.int64]
 
     Those are runs of words, and words before the wish; ``known`` are the hashes of known words.
     """
-    said = set(_grams(frame, known))
-    telling = {_hash(gram) for gram in said if gram.startswith(_TELLING)}
-    return np.unique([_hash(gram) % BUCKETS for gram in said]), telling
+    said = {gram: _hash(gram) for gram in _grams(frame, known)}
+    telling = {place for gram, place in said.items() if gram.startswith(_TELLING)}
+    return np.unique([place % BUCKETS for place in said.values()]), telling
 
 
 def word_hashes(frame: Frame) -> set[int]:
