@@ -34,6 +34,10 @@ def test_a_bare_figure_goes_on_with_the_power_that_was_said(lines: tuple[str, ..
     [
         (("highest total rate, groups of 2 subcarriers", "make those groups twice as big"),
          {"resource_block_group_size": 4.0}),
+        (("highest total rate, user 3 at most 3 Mbit/s", "scratch the cap on 3"), {}),
+        ((POWER_W, "die Leistungsgrenze kann weg"), {}), ((POWER_W, "ya no hace falta el límite de potencia"), {}),
+        ((POWER_W, "plus besoin de la limite de puissance"), {}),
+        ((POWER_W, "scratch that, 6 W"), {"max_power_w": 6.0}),
         (("max energy efficiency, the circuit takes 8 W", "2 W less", "another 1"), {"circuit_power_w": 5.0}),
         (("highest total rate, no subcarrier above 900 mW", "100 mW less"), {"subcarrier_max_power_w": 0.8}),
         (("least power, 400 kbit/s each", "user 3 needs only half of that"),
