@@ -206,7 +206,7 @@ def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> Quanti
     """A number without a known unit: bare, a bound that is not understood, or nothing (a count, a name)."""
     if reading.number.form != "digits" and not bounded:
         return None
-    if reading.number.form == "chinese" or _counted_in_chinese(plain, reading.end):
+    if reading.number.form == "chinese" or _CHINESE_COUNTED.match(plain, reading.end):
         return None
     named = _is_name(plain, reading.start)
     glued = (
@@ -227,7 +227,3 @@ def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> Quanti
 def _is_name(plain: str, start: int) -> bool:
     """Whether a number names what stands before it: "user 3", "users 1 and 2", "slot 5"."""
     return any(pattern.search(plain, max(0, start - 40), start) is not None for pattern in (_NAMES, _USERS))
-
-
-def _counted_in_chinese(plain: str, end: int) -> bool:
-    return _CHINESE_COUNTED.match(plain, end) is not None

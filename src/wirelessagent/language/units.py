@@ -112,17 +112,23 @@ _OF_ANOTHER_TIME = deferred(r"每个?(?:分钟?|小时|天|周|月)[^,\uff0c。;
 _GAP = deferred(r"\s?个\s?|-|\s{0,2}")
 
 
+def _starts(text: str, position: int) -> list[int]:
+    """Where a unit may begin: behind a space or a hyphen, or at once."""
+    gap = _GAP.match(text, position)
+    return sorted({gap.end() if gap else position, position}, reverse=True)
+
+
 @functools.lru_cache(maxsize=512)
 def unit_at(text: str, position: int) -> Unit | None:
     """The unit that begins at this place of a normalised text, after at most a space or a hyphen."""
-    gap = _GAP.match(text, position)
-    for start in sorted({gap.end() if gap else position, position}, reverse=True):
+    starts = _starts(text, position)
+    for start in starts:
         for read in (_level, _power, _rate, _ratio):
             found = read(text, start)
             if found is not None:
                 strange = found.kind != "ratio" and _NOT_A_RATE_OR_POWER.match(text, found.end)
                 return None if strange or (found.kind == "rate" and _is_of_another_time(text, start, found)) else found
-    return _misspelt(text, gap.end() if gap else position)
+    return _misspelt(text, starts[0])
 
 
 def _misspelt(text: str, start: int) -> Unit | None:
@@ -137,8 +143,7 @@ def _misspelt(text: str, start: int) -> Unit | None:
 
 def unit_of_another_time(text: str, position: int) -> int | None:
     """Where a unit of rate ends that is per minute or per day, after at most a space; None where there is none."""
-    gap = _GAP.match(text, position)
-    for start in sorted({gap.end() if gap else position, position}, reverse=True):
+    for start in _starts(text, position):
         found = _rate(text, start)
         if found is not None:
             return found.end if _is_of_another_time(text, start, found) else None
