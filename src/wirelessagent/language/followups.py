@@ -2,50 +2,21 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS, Constraint
+from wirelessagent.language.moods import Span, places, without
 from wirelessagent.language.stated import Reading
+from wirelessagent.language.word_tables import words_of
 
 if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Context
 
-_GO = (
-    r"(?:without|drop|remove|lift|forget(?:\s+about)?|no\s+more|no|cancel|get\s+rid\s+of|take\s+away|delete|ignore|"
-    r"scrap|waive|"
-    r"abolish|clear|relax|undo|loosen|sin|quita|elimina|sans|supprime|enlève|ohne|entferne|streiche|lass)"
-    r"(?:\s+(?:the|any|all|my|our|that|those|el|la|los|las|le|les|die|den|das|de))*\s+"
-)
-_LIMITS: tuple[tuple[str, str, str], ...] = (
-    ("subcarrier_max_power_w", (r"(?:per[- ])?sub-?carrier\s+(?:power\s+)?(?:limit|cap|"
-        r"ceiling)s?"), "子载波(?:功率)?(?:限制|上限)"),
-    ("max_power_w", (r"(?:power|transmit power|tx power|watt)\s*(?:limit|cap|budget|ceiling|restriction|constraint|"
-        r"bound)s?|limit\s+(?:on|of|for)\s+(?:the\s+)?power|"
-     r"l[ií]mite\s+de\s+potencia|limite\s+de\s+puissance|leistungs(?:grenze|limit|"
-     r"begrenzung)"), "(?:总|发射)?功率(?:的)?(?:限制|上限|约束|预算|封顶)"),
-    ("max_rate_bps", (r"(?:max(?:imum)?\s+rates?|rate\s+(?:cap|limit|ceiling)s?|speed\s+(?:cap|"
-        r"limit)s?)"), "速率(?:的)?(?:上限|封顶|限制)|最高速率|限速"),
-    ("min_rate_bps", (r"(?:min(?:imum)?\s+(?:data\s+)?(?:rates?|speeds?)|rate\s+(?:floor|guarantee|promise|"
-        r"requirement)s?|guarantees?|promises?|floors?|guaranteed\s+rates?|"
-     r"(?:tasa|velocidad)\s+mínima|débit\s+minim(?:al|um)|"
-     r"mindestrate)"), "最低速率|保底(?:速率)?|速率(?:保证|要求|下限)|最小速率"),
-    ("outage_probability", (r"(?:outage(?:\s+probability|\s+limit)?|reliability(?:\s+requirement|"
-        r"\s+target)?)"), "中断概率(?:限制|要求)?|可靠性(?:要求)?"),
-    ("weights", (r"(?:weights?|weighting|priorit(?:y|ies)|priorités?|poids|prioridad(?:es)?|pesos?|"
-     r"priorität(?:en)?|gewichtung(?:en)?|gewichte?)"), "权重|优先级"),
-    ("circuit_power_w", r"circuit\s+power", "电路功率"),
-    ("resource_block_group_size", r"(?:groups?|blocks?|grouping)(?:\s+of\s+subcarriers)?", "(?:子载波)?分组"),
-)  # fmt: skip
-_ALL = deferred(
-    rf"(?i)\b{_GO}(?:limits?|constraints?|restrictions?|conditions?|caps?|ceiling|límites?|limites?|grenzen?)\b|"
-    r"(?:去掉|取消|不要|解除|拿掉|撤掉|放开|删除|没有)(?:所有|全部|一切)?的?(?:限制|约束|条件|上限)(?!为|在)"
-)
-_ZH_GO = "(?:去掉|取消|不要|解除|拿掉|撤掉|放开|删除|删掉|撤销|不用|忽略|别管|没有|不设|移除)(?:了|掉)?"
-_ZH_GONE = "(?:去掉|取消|不要了|解除|拿掉|撤掉|放开|删掉|不设|没有了|免了|作废)"
 _GENERAL = ("max_power_w", "min_rate_bps", "max_rate_bps", "outage_probability", "subcarrier_max_power_w")
+"""What "all limits" are."""
+
 _SAME = deferred(
     r"(?i)\b(?:same|instead|keep(?:ing)?\s+(?:the\s+)?(?:limits?|rest|everything\s+else|constraints?|figures)|"
     r"otherwise|rather|but\s+with|still|also|too|switch|change)\b|"
@@ -55,43 +26,44 @@ _SAME = deferred(
 )
 
 
-_GOES = deferred(rf"(?i)(?<![A-Za-z]){_GO}|{_ZH_GO}|{_ZH_GONE}|\s(?:is|are)\s+(?:gone|off|lifted|no\s+longer|void)")
-
-
-def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tuple[tuple[int, int], ...]]:
+def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tuple[Span, ...]]:
     """The constraints that a sentence lifts, and the spans of the words that say so.
 
-    >>> dropped_in("without the power limit", None)[0]
-    ('max_power_w',)
+    Words that lift a limit stand ahead of its name or behind it, with no denial beside them; another may follow.
+
+    >>> dropped_in("without the power limit", None)[0], dropped_in("forget the weights, and the power limit", None)[0]
+    (('max_power_w',), ('max_power_w', 'weights'))
     """
-    names: list[str] = []
-    spans: list[tuple[int, int]] = []
-    for name, english, chinese in _LIMITS if _GOES.search(plain) else ():
-        match = re.search(
-            rf"(?i)(?<![A-Za-z]){_GO}(?:{english})(?![A-Za-z])|{_ZH_GO}(?:{chinese})|(?:{chinese})(?:也|都|"
-            rf"就)?{_ZH_GONE}"
-            rf"|(?<![A-Za-z])(?:{english})\s+(?:is|are)\s+(?:gone|off|lifted|no\s+longer\s+\w+|void)",
-            plain,
-        )  # fmt: skip
-        if match is not None and not any(start < match.end() and match.start() < end for start, end in spans):
-            names.append(name)
-            spans.append(match.span())
-    for name, english, _ in _LIMITS * bool(spans):  # "forget the weights, and the power limit too"
-        behind = re.compile(
-            rf"(?i)(?:\s*,|\s+(?:and|or|nor))+\s+(?:(?:the|any|all|my|our|that)\s+)?(?:{english})(?![A-Za-z])"
-        )
-        found = (behind.match(plain, end) for _, end in spans)
-        match = next((each for each in found if each is not None), None)
-        if match is not None and name not in names:
-            names.append(name)
-            spans.append(match.span())
-    match = _ALL.search(plain) or re.search("功率(?:不设限|不限制|不限|没有上限|随便用)|不限功率", plain)
-    if match is not None and not names:
-        held = tuple(context.constraints) if context is not None else ()
-        power = "功率" in match.group()
-        names = ["max_power_w"] if power else [name for name in _GENERAL if name in held] or ["max_power_w"]
-        spans.append(match.span())
-    return tuple(name for name in CONSTRAINTS if name in names), tuple(spans)
+    named = [(span, name) for name in (*CONSTRAINTS, "all") for span in places(_lifted(name), plain)]
+    limits = [(span, name) for span, name in sorted(named) if not any(_is_part(span, other) for other, _ in named)]
+    go, gone, alone = (list(places(_lifted(name), plain)) for name in ("go", "gone", "alone"))
+    denied = list(places(words_of("moods", "negation", "clause"), plain)) if go or gone else []
+    found: dict[str, Span] = {}
+    for span, name in limits:
+        ahead = [each for each in go if _is_beside(plain, each, span)]
+        ahead += [each for each in found.values() if _is_beside(plain, each, span, ",")]
+        behind = [each for each in gone if _is_beside(plain, span, each)]
+        whole = min([span, *ahead])[0], max([span, *behind])[1]
+        denies = any(_is_beside(plain, each, whole) or _is_beside(plain, whole, each) for each in denied)
+        if (ahead or behind) and not denies:
+            found.setdefault(name, whole)
+    if alone or found.keys() == {"all"}:
+        held = () if context is None or alone else tuple(context.constraints)
+        return tuple(name for name in _GENERAL if name in held) or ("max_power_w",), (*found.values(), *alone)
+    return tuple(name for name in CONSTRAINTS if name in found), tuple(found.values())
+
+
+def _lifted(name: str) -> tuple[str, ...]:
+    return words_of("figures", "lifted", name)
+
+
+def _is_part(span: Span, other: Span) -> bool:
+    return other != span and other[0] <= span[0] and span[1] <= other[1]
+
+
+def _is_beside(plain: str, first: Span, then: Span, joined_by: str = "") -> bool:
+    """Whether nothing but small words stands between two places."""
+    return first[1] <= then[0] and not without(_lifted("between"), plain[first[1] : then[0]]).strip(joined_by + " ")
 
 
 def with_users_back(reading: Reading, context: Context) -> tuple[dict[str, Constraint], tuple[str, ...]]:

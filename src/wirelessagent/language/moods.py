@@ -38,6 +38,16 @@ def places(words: Sequence[str], plain: str) -> Iterator[Span]:
             yield span
 
 
+def without(words: Sequence[str], plain: str) -> str:
+    """A text without these words.
+
+    >>> without(("the", "any"), "not the limit")
+    'not  limit'
+    """
+    gone = list(places(words, plain))
+    return "".join(sign for at, sign in enumerate(plain) if not any(start <= at < end for start, end in gone))
+
+
 def standing(plain: str, language: str, names: Iterable[str]) -> Iterator[tuple[str, str, Span]]:
     """The words of some classes of a language in a text: the class, how far it reaches, and where the word stands."""
     classes = table_of(language)
@@ -73,9 +83,7 @@ def is_ordered(plain: str) -> bool:
         classes = table_of(language)
         for start, _ in places(classes["imperative"]["words"], plain):
             first = clause_start(plain, start)
-            lead = list(places(classes["lead"]["words"], plain[first:start]))
-            said = "".join(sign for at, sign in enumerate(plain[first:start]) if not any(a <= at < b for a, b in lead))
-            if not any(map(str.isalnum, said)):
+            if not any(map(str.isalnum, without(classes["lead"]["words"], plain[first:start]))):
                 return True
     return False
 
