@@ -29,7 +29,7 @@ READ_IN_A_TALK = "conversation"
 """Who reads what a line is because of its conversation."""
 
 _NAMES_SHOWN = 12
-_FEWEST_WORDS = 2
+_FEWEST_WORDS = 3
 """And signs, of a sentence that can be judged."""
 
 _NO_FACT = ("refusal", "report", "quotation", "time", "condition", "irony", "others")
