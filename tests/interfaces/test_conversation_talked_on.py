@@ -104,3 +104,31 @@ def test_what_is_said_to_start_over_in_french_is_forgotten() -> None:
 def test_a_line_that_revises_what_was_said_changes_just_that(lines: tuple[str, ...], held: dict[str, Any]) -> None:
     assert talked_into(*lines)[0] == {name: pytest.approx(value) if isinstance(value, float) else value
                                       for name, value in held.items()}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "never drop the power limit", "do not remove the power limit", "don't forget the power limit",
+        "lass die Leistungsgrenze nicht weg", "no quites el límite de potencia", "不要取消功率上限",
+        "do not push it up to 9 W", "please don't drop the limit to 5 W", "dreh nicht auf 20 W auf",
+        "ne monte pas la limite à 15 W", "no subas el límite a 15 W", "不要把上限降到5瓦",
+    ],
+)  # fmt: skip
+def test_a_change_that_is_denied_is_not_made(said: str) -> None:
+    assert talked_into(POWER_W, said)[0] == {"max_power_w": 12.0}
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "the cap on power is gone",
+        "the power limit no longer applies",
+        "we can do away with the power limit",
+        "die Leistungsgrenze entfällt",
+        "le plafond de puissance saute",
+        "功率上限不算了",
+    ],
+)
+def test_a_limit_goes_in_the_words_of_each_language(said: str) -> None:
+    assert talked_into(POWER_W, said)[0] == {}
