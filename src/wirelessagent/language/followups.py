@@ -36,8 +36,11 @@ def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tu
     """
     named = [(span, name) for name in (*CONSTRAINTS, "all") for span in places(_lifted(name), plain)]
     limits = [(span, name) for span, name in sorted(named) if not any(_is_part(span, other) for other, _ in named)]
-    go, gone, alone = (list(places(_lifted(name), plain)) for name in ("go", "gone", "alone"))
-    denied = list(places(words_of("moods", "negation", "clause"), plain)) if go or gone else []
+    alone = list(places(_lifted("alone"), plain))
+    if not limits and not alone:
+        return (), ()
+    go, gone = (list(places(_lifted(name), plain)) for name in ("go", "gone"))
+    denied = list(places(words_of("moods", "negation", "clause"), plain))
     found: dict[str, Span] = {}
     for span, name in limits:
         ahead = [each for each in go if _is_beside(plain, each, span)]
