@@ -132,3 +132,57 @@ def test_a_change_that_is_denied_is_not_made(said: str) -> None:
 )
 def test_a_limit_goes_in_the_words_of_each_language(said: str) -> None:
     assert talked_into(POWER_W, said)[0] == {}
+
+
+BOTH_RATES = "highest total rate, at least 100 kbit/s each, at most 3 Mbit/s each"
+CAPPED_BUT_2 = dict.fromkeys("134", 3e6)
+"""Everybody's ceiling but user 2's."""
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "lift the speed limit for user 2", "user 2's rate cap can go",
+        "heb die Geschwindigkeitsgrenze für Nutzer 2 auf",
+        "enlève la limite de débit de l'utilisateur 2", "quita el límite de velocidad del usuario 2", "取消用户2的限速",
+    ],
+)  # fmt: skip
+def test_a_limit_that_goes_for_a_user_is_the_one_that_is_named(said: str) -> None:
+    assert talked_into(BOTH_RATES, said)[0] == {"min_rate_bps": 1e5, "max_rate_bps": CAPPED_BUT_2}
+
+
+@pytest.mark.parametrize(
+    ("lines", "held"),
+    [
+        ((POWER_W, "a bit less... no, a third less power"), {"max_power_w": 8.0}),
+        ((POWER_W, "at least 300k for user 1", "user 3 too... no, user 4"),
+         {"max_power_w": 12.0, "min_rate_bps": {"1": 3e5, "4": 3e5}}),
+        ((POWER_W, "un peu moins de puissance"), {"max_power_w": 12.0}),
+        (("highest total rate", "max energy efficiency, at most 6 W", "halve the power"), {"max_power_w": 3.0}),
+        ((POWER_W, "forget the cap", "nah, put the cap back"), {"max_power_w": 12.0}),
+        ((POWER_W, "at least 100k each", "leave out 3", "as it was at the start"), {"max_power_w": 12.0}),
+        ((POWER_W, "1 Mbit/s each", "ohne 3", "wie am Anfang"), {"max_power_w": 12.0}),
+        ((POWER_W, "only users 1 to 3", "no, serve all four of them again"), {"max_power_w": 12.0}),
+        ((POWER_W, "leave out 3 and 4", "bring 3 back"), {"max_power_w": 12.0, "leave_out": ("4",)}),
+        (("least power, 200k each", "user 3 at least 1M", "treat user 3 like the others again"), {"min_rate_bps": 2e5}),
+        (("kleinste Leistung, 200k für jeden", "Nutzer 3 mindestens 1M", "Nutzer 3 genau wie die anderen"),
+         {"min_rate_bps": 2e5}),
+        (("least power, 200k each", "user 4 is far out, 100k is enough there"),
+         {"min_rate_bps": {"all": 2e5, "4": 1e5}}),
+        (("least power, users 1, 2 and 3 at least 700k", "halve it for 1 and 3"),
+         {"min_rate_bps": {"1": 3.5e5, "2": 7e5, "3": 3.5e5}}),
+        (("proportional fairness, outage at most 5 %", "make that two percent"), {"outage_probability": 0.02}),
+        (("比例公平，中断概率不超过5%", "太宽了，改成1%"), {"outage_probability": 0.01}),
+        (("proportional fairness, user 3 counts double", "and triple, not double"), {"weights": {"3": 3.0}}),
+        (("proportional fairness, no subcarrier over 0.5 W", "total power 9 watts"),
+         {"subcarrier_max_power_w": 0.5, "max_power_w": 9.0}),
+        (("总速率最高，最多10瓦", "3号至少1M", "刚才那个不算"), {"max_power_w": 10.0}),
+        (("la máxima velocidad total, 10 W como máximo", "sin el usuario 4", "vuelve a poner al 4"),
+         {"max_power_w": 10.0}),
+        (("le moins de puissance, 500 kbit/s pour chacun", "pour le 4, 900k"),
+         {"min_rate_bps": {"all": 5e5, "4": 9e5}}),
+    ],
+)  # fmt: skip
+def test_a_line_is_of_what_the_talk_is_about(lines: tuple[str, ...], held: dict[str, Any]) -> None:
+    assert talked_into(*lines)[0] == {name: pytest.approx(value) if isinstance(value, float) else value
+                                      for name, value in held.items()}  # fmt: skip

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -175,9 +174,9 @@ def _set(figures: dict[Key, float], kind: str, whom: Whom, value: float) -> None
 
 def _scale(figures: dict[Key, float], act: Scale, radiated_w: float) -> None:
     if act.reference == "radiated":
-        held = figures.get((act.kind, EVERYBODY), math.nan)
-        if radiated_w > 0:
-            figures[act.kind, EVERYBODY] = act.factor * (held if math.isclose(held, radiated_w) else radiated_w)
+        basis = figures.get((act.kind, EVERYBODY), radiated_w)
+        if basis > 0:
+            figures[act.kind, EVERYBODY] = act.factor * basis
         return
     if isinstance(act.whom, Named):
         for user in act.whom.users:

@@ -1,4 +1,4 @@
-"""What a sentence means within a conversation: limits that go, users who come back, wishes that keep the limits."""
+"""What a sentence means within a conversation: users who come back, and wishes that keep the limits."""
 
 from __future__ import annotations
 
@@ -6,16 +6,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS, Constraint
-from wirelessagent.language.moods import Span, places, without
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint
 from wirelessagent.language.stated import Reading
-from wirelessagent.language.word_tables import words_of
 
 if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Context
-
-_GENERAL = ("max_power_w", "min_rate_bps", "max_rate_bps", "outage_probability", "subcarrier_max_power_w")
-"""What "all limits" are."""
 
 _SAME = deferred(
     r"(?i)\b(?:same|instead|keep(?:ing)?\s+(?:the\s+)?(?:limits?|rest|everything\s+else|constraints?|figures)|"
@@ -24,49 +19,6 @@ _SAME = deferred(
     r"改成|改用|换成|换为|换用|切换|(?:同样|相同|一样)的?(?:条件|限制|要求|需求|约束|前提|指标)|(?:要求|需求|约束|指标)(?:都)?不变|"
     r"保持(?:原有|现有|原来)?的?(?:条件|限制|要求|需求|约束)|还是"
 )
-
-
-def dropped_in(plain: str, context: Context | None) -> tuple[tuple[str, ...], tuple[Span, ...]]:
-    """The constraints that a sentence lifts, and the spans of the words that say so.
-
-    Words that lift a limit stand ahead of its name or behind it, with no denial beside them; another may follow.
-
-    >>> dropped_in("without the power limit", None)[0], dropped_in("forget the weights, and the power limit", None)[0]
-    (('max_power_w',), ('max_power_w', 'weights'))
-    """
-    named = [(span, name) for name in (*CONSTRAINTS, "all") for span in places(_lifted(name), plain)]
-    limits = [(span, name) for span, name in sorted(named) if not any(_is_part(span, other) for other, _ in named)]
-    alone = list(places(_lifted("alone"), plain))
-    if not limits and not alone:
-        return (), ()
-    go, gone = (list(places(_lifted(name), plain)) for name in ("go", "gone"))
-    denied = list(places(words_of("moods", "negation", "clause"), plain))
-    found: dict[str, Span] = {}
-    for span, name in limits:
-        ahead = [each for each in go if _is_beside(plain, each, span)]
-        ahead += [each for each in found.values() if _is_beside(plain, each, span, ",")]
-        behind = [each for each in gone if _is_beside(plain, span, each)]
-        whole = min([span, *ahead])[0], max([span, *behind])[1]
-        denies = any(_is_beside(plain, each, whole) or _is_beside(plain, whole, each) for each in denied)
-        if (ahead or behind) and not denies:
-            found.setdefault(name, whole)
-    if alone or found.keys() == {"all"}:
-        held = () if context is None or alone else tuple(context.constraints)
-        return tuple(name for name in _GENERAL if name in held) or ("max_power_w",), (*found.values(), *alone)
-    return tuple(name for name in CONSTRAINTS if name in found), tuple(found.values())
-
-
-def _lifted(name: str) -> tuple[str, ...]:
-    return words_of("figures", "lifted", name)
-
-
-def _is_part(span: Span, other: Span) -> bool:
-    return other != span and other[0] <= span[0] and span[1] <= other[1]
-
-
-def _is_beside(plain: str, first: Span, then: Span, joined_by: str = "") -> bool:
-    """Whether nothing but small words stands between two places."""
-    return first[1] <= then[0] and not without(_lifted("between"), plain[first[1] : then[0]]).strip(joined_by + " ")
 
 
 def with_users_back(reading: Reading, context: Context) -> tuple[dict[str, Constraint], tuple[str, ...]]:

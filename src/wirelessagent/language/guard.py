@@ -12,8 +12,9 @@ import dataclasses
 import re
 from typing import TYPE_CHECKING
 
-from wirelessagent.language.followups import dropped_in, users_in
+from wirelessagent.language.followups import users_in
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.lifted import dropped_in
 from wirelessagent.language.moods import Span, standing
 from wirelessagent.language.order_model import frame_of, shipped_order_model
 from wirelessagent.language.replies import Voice
@@ -38,7 +39,7 @@ _NO_FACT = ("refusal", "report", "quotation", "time", "condition", "irony", "oth
 
 def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
     """The intent, or a question back about it where its sentence does not clearly ask for it now."""
-    if intent.acts and intent.recogniser == READ_IN_A_TALK:  # each word of its line is known
+    if intent.recogniser == READ_IN_A_TALK and (intent.acts or intent.kind == "command"):  # each word is known
         return intent
     acts = intent.kind == "allocate" or (intent.kind == "command" and intent.topic in CHANGING)
     if not acts and not (intent.kind == "clarify" and intent.pending):

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
 from wirelessagent.language.figure_roles import answers, likely, shipped_roles
+from wirelessagent.language.lifted import is_part, named_in
 from wirelessagent.language.looks import first_look, second_look, with_strangers
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.number_roles import ITEMS, PERHAPS, NumberRoles
@@ -45,7 +46,8 @@ class Judged:
     ) -> None:
         first = first_look(plain, quantities, names, taken)
         view = first.view()
-        self.strangers = view.strangers()
+        limits = [span for span, _ in named_in(plain)]
+        self.strangers = [each for each in view.strangers() if not any(is_part(each, limit) for limit in limits)]
         if self.strangers:
             first = with_strangers(first, self.strangers)
             view = first.view()

@@ -17,10 +17,11 @@ from wirelessagent.language import forms
 from wirelessagent.language.answer import Answer
 from wirelessagent.language.command_cues import CHANGING, is_unsure
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.followups import dropped_in, keeps_the_limits, merged, with_users_back
+from wirelessagent.language.followups import keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
 from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
+from wirelessagent.language.lifted import dropped_in
 from wirelessagent.language.moods import is_ordered, is_supposed
 from wirelessagent.language.nobody_starves import nobody_starves
 from wirelessagent.language.numerals import MOST_FIGURES, too_many_figures

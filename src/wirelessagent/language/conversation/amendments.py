@@ -14,7 +14,15 @@ from wirelessagent.language import forms
 from wirelessagent.language.conversation.assent import is_assent
 from wirelessagent.language.conversation.line import NAME, Line, has, is_all
 from wirelessagent.language.followups import merged, numbers_of, taken_in, users_in
-from wirelessagent.language.intent import COMMANDS, EVERYBODY, LISTS_OF_USERS, Constraint, Intent
+from wirelessagent.language.intent import (
+    COMMANDS,
+    EVERYBODY,
+    FIGURES_OF_USERS,
+    LISTS_OF_USERS,
+    Constraint,
+    Intent,
+)  # fmt: skip
+from wirelessagent.language.lifted import lifted_in, named_in, says_no_more
 from wirelessagent.language.numerals import too_many_figures
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.sentence import Sentence, own_words
@@ -113,12 +121,16 @@ def _freed(line: Line) -> Intent | None:
     if not line.users and is_all("nobody_needs", line.wish):
         held = [name for name in _RATES if name in context.constraints]
         return line.amend({}, dropped=(held[0],)) if held else None
-    if not line.users or not is_all("freed", line.wish) or not has("of_a_limit", line.wish):
+    said = line.shape.replace("@", " ")
+    lifted = lifted_in(said)
+    frees = (lifted and not line.figures and says_no_more(said, lifted.values())) or is_all("freed", line.wish)
+    named = {name for _, name in named_in(said)}
+    if not line.users or not frees or not (named or line.figures):
         return None
     freed = numbers_of(line.users, context.user_names)
-    names = ("weights",) if has("of_weights", line.wish) else ("max_rate_bps", "min_rate_bps")
-    if names[0] != "weights" and not has("of_caps", line.wish):
-        names = ("min_rate_bps", "max_rate_bps")
+    names = tuple(name for name in FIGURES_OF_USERS if name in named)
+    if not names:
+        names = ("max_rate_bps", "min_rate_bps") if "all" in named else ("min_rate_bps", "max_rate_bps")
     for name in names:
         held = context.constraints.get(name)
         own = None if held is None or isinstance(held, tuple) else _by_user(held, context.user_names)

@@ -36,6 +36,8 @@ def read_figure(words: Words) -> Intent | None:
     if len(words.figures) != 1 or not words.only(*_SAID, *further):
         return None
     figure, corrects = words.figures[0], words.has("correct")
+    if figure.kind == "bare" and words.has("serve") and not words.has("to"):  # "bring 3 back", who is served
+        return None
     supposed = [act for one in words.last(Suppose) for act in one.acts if isinstance(act, Limit)]
     before = supposed or [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
     if corrects and words.taken_off:
@@ -130,21 +132,23 @@ def _caps(words: Words) -> bool:
 def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: bool) -> bool:
     """Whether a line says no more than what a figure is to be now, and so leans on what was said before."""
     classes = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
-    classes += ["make"] if model is not None and not words.is_read else []
+    classes += ["whose"] if not words.is_read else []
+    unread = not words.is_read or words.was_too_much or figure.kind == "ratio"
+    classes += ["make"] if model is not None and unread else []
     classes += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposes else []
     classes += (["to"] if words.users else ["more", "less"]) if figure.kind == "bare" and words.has("to") else []
     classes += ["revise"] if model is not None and isinstance(model.whom, Named) else []
     if len(words.named_kinds()) == 1:
-        classes += ["make", "promise"] if words.users else ["make", "limit"]
+        classes += ["make", "promise"] if words.users else ["make", "limit", "to"]
     says_nothing_else = all(token.figure or "skip" in token.classes for token in words.tokens)
     alone = model is not None and words.line.context.awaits == "nothing" and says_nothing_else
-    leans = alone or words.has(*classes) or (words.has("limit") and figure.kind == "power")
+    leans = alone or words.has(*classes) or (words.has("limit", "power") and figure.kind == "power")
     if not leans or (words.has("by") and words.has("make")):
         return False
     pairs = itertools.pairwise(words.tokens)
     led = words.has("lead", "correct", "with", "make", "at_most", "grant", "to")
     led = led or any(token.figure and "promise" in behind.classes for token, behind in pairs)  # "1 Mbit/s promised"
-    return led or not words.users
+    return led or not words.users or not words.is_read
 
 
 def _whom(words: Words, kind: str, model: Limit | None) -> Whom | None:

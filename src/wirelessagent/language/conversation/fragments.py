@@ -89,7 +89,7 @@ def read_fragment(line: Line) -> Intent | None:
 
 def _read(words: Words) -> Intent | None:
     """What the first form means that a line has and that means something."""
-    forms = _FORMS
+    words, forms = _corrected_at_once(words), _FORMS
     if words.line.is_asked:
         forms = tuple(form for form in _FORMS if form.asked)
     elif _denies(words.tokens):
@@ -149,6 +149,17 @@ def _without_a_description(line: Line) -> Line:
     words = match["words"]
     place = line.text.lower().find(words)
     return line if place < 0 else Line.of(line.text[:place] + line.text[place + len(words) :], line.context)
+
+
+def _corrected_at_once(words: Words) -> Words:
+    """A line with what stands behind a correction in the place of what it corrects: "a bit less... no, a third"."""
+    places = [at for at, token in enumerate(words.tokens) if token.classes & {"correct", "instead"} == {"correct"}]
+    ahead, behind = words.tokens[: places[-1] if places else 0], words.tokens[places[-1] + 1 if places else 0 :]
+    users, figures = any(token.users for token in behind), any(token.figure or token.factor for token in behind)
+    gone = {*(("users",) if users else ()), *(("figure", "bare", "ratio", "factor", "vague") if figures else ())}
+    kept = [token for token in ahead if not token.classes & gone]
+    said = any(token.classes - {"skip", "correct", "lead"} for token in ahead)
+    return Words(words.line, [*kept, *behind], words.language) if said and len(kept) < len(ahead) else words
 
 
 def _takes_back(line: Line) -> bool:
@@ -272,12 +283,17 @@ def _steps_undone(words: Words) -> Intent | None:
 
 def _undone(words: Words) -> Intent | None:
     """ "nah, undo that", "undo the raise"."""
-    says_more = words.has("make", "more", "less", "correct") or not words.is_read
-    return words.line.command("undo", steps=1.0) if says_more and _is_undo(words, "correct", "lead", "again") else None
+    further = ("correct", "lead", "again", "too", "remove", *(NOUNS if words.has("remove") else ()))
+    says_more = words.has("make", "more", "less", "correct", "too") or not words.is_read  # else a command is known
+    return words.line.command("undo", steps=1.0) if says_more and _is_undo(words, *further) else None
 
 
 def _as_another(words: Words) -> Intent | None:
-    """ "user 8 the same as user 3": the one figure of a user, for another one too."""
+    """ "user 8 the same as user 3", "user 5 like the others": the one figure of a user, or that of all, for another."""
+    if words.has("others", "every"):
+        own = [kind for kind in FIGURES_OF_USERS if words.users and isinstance(held := words.held.get(kind), Mapping)
+               and EVERYBODY in held and set(words.users) <= held.keys()]  # fmt: skip
+        return words.acts([Drop(kind=kind, whom=Named(words.users), own=True) for kind in own]) if own else None
     named = [token.users for token in words.tokens if token.users]
     named += [words.counted()] if len(named) == 1 and words.counted() else []
     if len(named) == 1 and len(named[0]) == 2:  # "用户5和用户2一样", one list of two
@@ -307,12 +323,10 @@ def _as_it_was(words: Words) -> Intent | None:
     """ "back to how it was before the power limit": to the turn before the last one that set or dropped it."""
     before, after = words.has("before"), words.has("after")
     kinds, earlier = words.named_kinds(), list(enumerate(words.line.context.earlier, start=1))
-    if before is after:
-        return None
-    if words.has("first") and after and not kinds and not words.users:
+    if words.has("first") and not before and not kinds and not words.users:
         turns = [turn for turn, acts in earlier if any(isinstance(act, Aim | Limit | LeaveOut | Serve) for act in acts)]
         return words.line.command("undo", turn=float(turns[0])) if turns else None
-    if not kinds and not words.users:
+    if before is after or not (kinds or words.users):
         return None
     turns = [turn for turn, acts in earlier if any(_is_about(act, kinds, words.users) for act in acts)]
     turn = turns[-1] - before if turns else 0
@@ -360,13 +374,20 @@ def _dropped(words: Words) -> Intent | None:
     return words.acts([Drop(kind=kinds[0], whom=whom or Everybody(), own=common)])
 
 
+def _restored(words: Words) -> Intent | None:
+    """ "put the cap back": the limit that was taken off last."""
+    gone, named = {act.kind for act in words.last(Drop)}, words.named_kinds()
+    back = gone & {*named} if words.has(*NOUNS) else gone
+    return words.line.command("undo", steps=1.0) if back and not words.last(Limit) else None
+
+
 def _all_served(words: Words) -> Intent | None:
     """ "serve everybody again", "let the other five in": nobody is left out any more."""
     served, out = words.listed("users"), words.listed("leave_out")
     missing = len(words.line.context.user_names) - len(served) if served else len(out)
     counted = [figure.value for figure in words.figures]
-    some = missing or (served and words.has("every"))
-    return words.acts([Serve(whom=Everybody())]) if some and counted in ([], [missing]) else None
+    some, names = missing or (served and words.has("every")), len(words.line.context.user_names)
+    return words.acts([Serve(whom=Everybody())]) if some and counted in ([], [missing], [names]) else None
 
 
 def _both_served(words: Words) -> Intent | None:
@@ -429,15 +450,16 @@ _NOUNS = " ".join(NOUNS)
 _FORMS = (
     Form("correct", "users bare lead it revise whose", _moved),
     Form("undo", "bare factor change_noun lead again", _steps_undone),
-    Form("undo", "correct it lead again make more less factor rate limit promise power weight", _undone),
-    Form("too|equal", "users bare lead weight rate promise again", _as_another),
+    Form("undo", "correct it lead again make more less factor rate limit promise power weight too remove", _undone),
+    Form("too|equal", "users bare lead weight rate promise again others every make it", _as_another),
     Form("again", "lead", _again),
     Form("again", "lead it take", read_repeated),
     Form("take", "it", _taken_up),
     Form("as_it_was", f"before after users lead correct make undo told leave first {_NOUNS}", _as_it_was),
     Form("equal weight", "every make again lead", _weighed_equally),
     Form("remove|too", f"{_GONE} {_NOUNS}", _dropped),
-    Form("every serve", "again lead take make", _all_served),
+    Form("restore", f"it correct lead take make again {_NOUNS}", _restored),
+    Form("every serve", "again lead take make correct bare it", _all_served),
     Form("others serve", "again lead too make bare", _all_served),
     Form("both serve", "again lead every", _both_served),
     Form("serve", f"too take make {_OF_USERS}", _served),
@@ -445,6 +467,7 @@ _FORMS = (
     Form("too|lead", f"it correct promise rate {_OF_USERS}", _same_of_others),
     Form("", "", read_relative, asked=True),
     Form("limit power", "make", _asks_what_changes, asked=True),
+    Form(f"vague more|less {_NOUNS.replace(' ', '|')}", "make lead it correct take users every", _asks_what_changes),
     Form("", "", read_figure, asked=True),
     Form("correct ratio|factor", "lead by to less more", _corrected),
 )

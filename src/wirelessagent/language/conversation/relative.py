@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from wirelessagent.language.acts import Act, Everybody, Limit, Named, Scale
 from wirelessagent.language.conversation.figure_in_place import as_held, value_of
 from wirelessagent.language.conversation.line import has
-from wirelessagent.language.conversation.tokens import UNITS, Words
+from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Detail, Intent
 from wirelessagent.language.quantities import Quantity
 
@@ -54,7 +54,8 @@ class _Change:
 
 def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
     """A change of a limit by what holds, or what would be if it were so changed; None for any other line."""
-    corrects = words.has("correct") and bool(words.line.context.share_of)
+    weighed = any(act.kind == "weights" for act in words.last(Limit))
+    corrects = words.has("correct") and (bool(words.line.context.share_of) or weighed)
     change = _change(words, corrects=corrects)
     if change is None or not words.only(*_SAID, *(("correct",) if corrects else ())):
         return None
@@ -62,7 +63,7 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
     supposes = wonders or words.has("suppose") or words.has("worth")
     if (asked or words.has("been") or (words.has("effect") and not words.has("less"))) and not supposes:
         return None
-    if corrects:
+    if corrects and not weighed:
         return _instead(words, change)
     if words.has("worth") and change.figure is not None:
         return _worth(words, change.figure, change.step)
@@ -70,7 +71,8 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
         weighed = _weighed(words, change.factor)
         if weighed is not None:
             return weighed
-    name, whom = _changed_limit(words, change), words.whom() or words.last_whom()
+    stays = words.has(*NOUNS) and not words.last(Limit, Scale)  # "double the floor" behind one that was taken off
+    name, whom = _changed_limit(words, change), words.whom() or (Everybody() if stays else words.last_whom())
     if name is None or ((words.has("pronoun") or words.has("one")) and not isinstance(whom, Named)):
         return None
     if words.users and name not in FIGURES_OF_USERS:
@@ -197,7 +199,8 @@ def _weighed(words: Words, factor: float) -> Intent | None:
     """ "Double his weight": a weight is a multiple of the others'."""
     limits = words.last(Limit)
     weights = [act for act in limits if act.kind == "weights"]
-    if not (words.has("weight") or (weights and len(weights) == len(limits) and factor > 1)):
+    alone = len(weights) == len(limits) or words.has("correct")
+    if not (words.has("weight") or (weights and alone and factor > 1)):
         return None
     whom = words.whom() or (weights[-1].whom if len(weights) == 1 else None)
     return words.acts([Limit(kind="weights", value=factor, whom=whom)]) if isinstance(whom, Named) else None

@@ -47,6 +47,8 @@ _CLASS = {"power": "figure", "rate": "figure"}
 
 _SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…=>→-]+")
 _PREFIXED = re.compile(r"[0-9]\s?[kMG]$")
+_SCALE = re.compile(r"[kKMG](?![^\W_])")
+_SCALES = {"": 1.0, "K": 1e3, "M": 1e6, "G": 1e9}
 _WORD = re.compile(r"[^\W\d_]+")
 _ONES = frozenset(
     {
@@ -94,14 +96,15 @@ def own_users(held: Constraint | None) -> tuple[str, ...]:
 
 def tokens_of(line: Line, language: str) -> list[Token] | None:
     """The line as words that are known here; None where one is not."""
-    plain = _unmarked(normalise(line.text).lower())
+    marked = normalise(line.text)
+    plain = _unmarked(marked.lower())
     figures = [
         dataclasses.replace(figure, kind="rate") if figure.kind == "bare" and figure.value >= 1e3 else figure  # "400k"
         for figure in parse_quantities(line.text)
         if figure.kind not in ("bare", "other") or _PREFIXED.search(figure.text)
     ]
     taken = [(figure.start, figure.end) for figure in figures]
-    found = mentions(normalise(line.text), line.context.user_names, taken)
+    found = mentions(marked, line.context.user_names, taken)
     named = [each for each in found if each.role == "named"]
     spans: dict[int, tuple[int, Token]] = {
         each.start: (each.end, Token(frozenset({"users"}), users=each.users)) for each in named
@@ -115,11 +118,13 @@ def tokens_of(line: Line, language: str) -> list[Token] | None:
         if number.value < 1 and not text[0].isdigit():  # "a quarter"
             spans[number.start] = (number.end, Token(frozenset({"factor"}), factor=float(number.value)))
         else:
-            bare = Quantity(
-                value=float(number.value), kind="bare", text=text, start=number.start, end=number.end,
-                phrase_start=number.start, phrase_end=number.end,
-            )  # fmt: skip
-            figures.append(bare)
+            scale = _SCALE.match(marked, number.end)  # "250k is enough"
+            end = number.end if scale is None else scale.end()
+            figures.append(Quantity(
+                value=float(number.value) * _SCALES[scale[0].upper() if scale else ""],
+                kind="bare" if scale is None else "rate", text=marked[number.start : end], start=number.start, end=end,
+                phrase_start=number.start, phrase_end=end,
+            ))  # fmt: skip
     for factor in factors(plain):
         if plain[factor.start : factor.end].strip()[0] in "x0123456789" and factor.value is not None:  # "x2", "2x"
             figures = [figure for figure in figures if not factor.start <= figure.start < factor.end]
@@ -172,8 +177,10 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
     listed = table("fragment_words", language)
     factors = cast("dict[str, float]", listed["factors"])
     classes: dict[str, set[str]] = {}
-    for name in listed.keys() - {"factors"}:
-        for word in cast("list[str]", listed[name]):
+    lifted = cast("Mapping[str, list[str]]", table("figures", language)["lifted"])
+    of_classes = {**listed, "remove": [*listed["remove"], *lifted["go"], *lifted["gone"]]}
+    for name in of_classes.keys() - {"factors"}:
+        for word in cast("list[str]", of_classes[name]):
             classes.setdefault(_unmarked(word), set()).add(name)
     factors = {_unmarked(word): factor for word, factor in factors.items()}
     for word in factors:
@@ -192,23 +199,24 @@ def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], Quantity |
     replaced: Quantity | None = None
     for token, behind in itertools.pairwise(said):
         gone = behind if "instead" in token.classes else token if "too_much" in behind.classes else None
-        if gone is not None and gone.figure is not None and sum(each.figure is not None for each in kept) > 1:
+        counted = [each for each in kept if each.figure or each.factor]
+        if gone is not None and gone in counted and len(counted) > 1:
             kept, replaced = [each for each in kept if each is not token and each is not behind], gone.figure
     first = next((place for place, token in enumerate(kept) if token.figure is not None), 0)
     return [token for token in kept[:first] if "too_much" not in token.classes] + kept[first:], replaced
 
 
 def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:
-    """The tokens with a bare number behind "for" as the user whose another figure or share is: "triple for 5"."""
+    """The tokens with bare numbers behind "for" as users whose another figure or share is: "triple for 5 and 6"."""
     changed = list(tokens)
     for place, (ahead, token) in enumerate(itertools.pairwise(tokens), start=1):
         others = any(each.figure or each.factor for each in tokens if each is not token)
-        counts = (
-            token.figure is not None and token.figure.kind == "bare" and token.figure.value in range(1, num_users + 1)
-        )
-        if counts and others and "whose" in ahead.classes and not any(each.users for each in tokens):
-            assert token.figure is not None
-            changed[place] = Token(frozenset({"users"}), users=(f"{token.figure.value:g}",))
+        figure = token.figure
+        counts = figure is not None and figure.kind == "bare" and figure.value in range(1, num_users + 1)
+        listed = "lead" in ahead.classes and bool(changed[place - 2].users)
+        if counts and others and ("whose" in ahead.classes or listed) and not any(each.users for each in tokens):
+            assert figure is not None
+            changed[place] = Token(frozenset({"users"}), users=(f"{figure.value:g}",))
     return changed
 
 
@@ -217,6 +225,7 @@ class Words:
 
     def __init__(self, line: Line, tokens: Sequence[Token], language: str) -> None:
         self.line, self.language = line, language
+        self.was_too_much = any("too_much" in token.classes for token in tokens)
         kept, self.replaced = _without_what_goes(tokens)
         self.tokens = tokens = _with_whose(kept, len(line.context.user_names))
         self.figures = [token.figure for token in tokens if token.figure is not None]

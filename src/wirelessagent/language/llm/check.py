@@ -19,10 +19,11 @@ from typing import Any
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.tokens import NOUNS
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.followups import dropped_in, keeps_the_limits, with_users_back
+from wirelessagent.language.followups import keeps_the_limits, with_users_back
 from wirelessagent.language.guard import CHANGING
 from wirelessagent.language.intent import EVERYBODY, LISTS_OF_USERS, Constraint, Detail, Intent, checked_constraints
 from wirelessagent.language.leftovers import unread
+from wirelessagent.language.lifted import dropped_in
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.llm.client import Objection
 from wirelessagent.language.llm.meaning import Meaning, Reference
