@@ -153,8 +153,9 @@ def _without_a_description(line: Line) -> Line:
 
 def _corrected_at_once(words: Words) -> Words:
     """A line with what stands behind a correction in the place of what it corrects: "a bit less... no, a third"."""
-    places = [at for at, token in enumerate(words.tokens) if token.classes & {"correct", "instead"} == {"correct"}]
-    ahead, behind = words.tokens[: places[-1] if places else 0], words.tokens[places[-1] + 1 if places else 0 :]
+    tokens = list(enumerate(words.tokens))
+    place = next((at for at, each in tokens[::-1] if "correct" in each.classes and "instead" not in each.classes), 0)
+    ahead, behind = words.tokens[:place], words.tokens[place + 1 :]
     users, figures = any(token.users for token in behind), any(token.figure or token.factor for token in behind)
     gone = {*(("users",) if users else ()), *(("figure", "bare", "ratio", "factor", "vague") if figures else ())}
     kept = [token for token in ahead if not token.classes & gone]
