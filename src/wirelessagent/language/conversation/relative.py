@@ -118,9 +118,9 @@ def _result(
     details: dict[str, Detail] = {"share_of": {name: basis}, "share_how": change.how}
     if supposes:
         return words.line.question("what_if", constraints={name: value}, **details)
-    if anew or change.figure is not None:
-        return words.line.amend({name: value}, details=details
-        )  # fmt: skip
+    above_the_cell = name == "max_power_w" and words.held.get(name, basis) != basis
+    if anew or change.figure is not None or above_the_cell:
+        return words.line.amend({name: value}, details=details)
     radiated = name == "max_power_w" and words.has("power")
     act: Act = Scale(
         kind=name, factor=change.factor, whom=Named(users) if users else Everybody(),
