@@ -124,9 +124,9 @@ def test_one_users_limit_goes_where_a_limit_for_all_holds() -> None:
         request(min_rate_bps=1e6, max_rate_bps=5e6), "user 2 doesn't need 1 Mbit/s any more", "3号不用限速了"
     )
     assert asked_for(session) == {
-        "min_rate_bps": {"1": 1e6, "3": 1e6, "4": 1e6}, "max_rate_bps": {"1": 5e6, "2": 5e6, "4": 5e6},
+        "min_rate_bps": {"all": 1e6, "2": 0.0}, "max_rate_bps": {"1": 5e6, "2": 5e6, "4": 5e6},
     }  # fmt: skip
-    assert "users 1, 3 and 4" in turn.reply
+    assert "each user but user 2" in turn.reply
     assert other.intent.language == "zh"
     session, (_, turn) = talk(request(min_rate_bps={"1": 1e6}), "remove user 2's rate limit")
     assert turn.stage == "asked"

@@ -21,8 +21,8 @@ from wirelessagent.agent.restating import changes_in_words, notes, plan_named, r
 from wirelessagent.agent.state import Replies, Reply, State, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, shift_between
 from wirelessagent.language.acts import Act, Apply, AskStatus, Export, Forget, No, TurnReference, Undo, Yes
-from wirelessagent.language.conversation.amendments import Question
 from wirelessagent.language.conversation.assent import assent, is_assent, speaks_of_applying
+from wirelessagent.language.conversation.open_question import Question
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said, joined, message
 from wirelessagent.telling.certificates import certificate_line

@@ -32,8 +32,8 @@ from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
 from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Press, Suppose, Undo, Yes, with_another
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import called, unanswered, understood, with_users
-from wirelessagent.language.conversation.amendments import Missing, Question
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.open_question import Missing, Question
 from wirelessagent.language.conversation.references import named_alone
 from wirelessagent.language.followups import users_in
 from wirelessagent.language.intent import Constraint, Detail, Intent

@@ -11,7 +11,7 @@ from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Run, Stage, Turn
 from wirelessagent.language.acts import Act, Press
-from wirelessagent.language.conversation.amendments import Question
+from wirelessagent.language.conversation.open_question import Question
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.language.recogniser import Awaited
 from wirelessagent.model.errors import WirelessAgentError

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.intent import CONSTRAINTS
@@ -56,12 +55,6 @@ def named_in(plain: str) -> list[tuple[Span, str]]:
     named = [(span, name) for name in (*CONSTRAINTS, "all") for span in places(_lifted(name), plain)]
     longer = [other for other, _ in named]
     return [each for each in sorted(named) if not any(each[0] != other and is_part(each[0], other) for other in longer)]
-
-
-def says_no_more(plain: str, spans: Iterable[Span]) -> bool:
-    """Whether nothing but small words stands beside these spans."""
-    rest = "".join(sign for at, sign in enumerate(plain) if not any(start <= at < end for start, end in spans))
-    return not without((*_lifted("between"), *_lifted("beside")), rest).strip(" ,.!")
 
 
 def _lifted(name: str) -> tuple[str, ...]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 
-from wirelessagent.language.conversation.amendments import leaves_the_question, read_amendment, unanswered
 from wirelessagent.language.conversation.assent import read_assent
 from wirelessagent.language.conversation.commands import (
     beside_method,
@@ -23,6 +22,7 @@ from wirelessagent.language.conversation.commands import (
 from wirelessagent.language.conversation.fragments import read_fragment, read_wondered
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.nicknames import called, only_called, with_users
+from wirelessagent.language.conversation.open_question import leaves_the_question, read_answer, unanswered
 from wirelessagent.language.conversation.questions import (
     asked_instead,
     given_instead,
@@ -46,7 +46,7 @@ _LONGEST = 200
 """Characters of a line that may lean on the conversation; a longer one speaks for itself."""
 _READERS = (
     read_command, read_assent, read_method, read_comparison, read_needed, read_promisable,
-    read_question, read_amendment,
+    read_question, read_answer,
 )  # fmt: skip
 """What a line may be because of its conversation, the closest first."""
 
@@ -94,7 +94,7 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
 def _possible(line: Line, asked: str, recogniser: Recogniser) -> Intent:
     """A what-if of what a line asks to be possible, where that is a request; else what the whole line means."""
     plain = Line.of(asked, line.context)
-    for read in (read_wondered, read_amendment):
+    for read in (read_wondered, read_answer):
         intent = read(plain)
         if intent is not None and intent.kind != "clarify":
             return supposed(line, intent)

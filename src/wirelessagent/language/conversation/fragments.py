@@ -12,13 +12,11 @@ import dataclasses
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import cast
 
 from wirelessagent.language.acts import (
     Act,
     Aim,
     Drop,
-    Everybody,
     LeaveOut,
     Limit,
     Named,
@@ -26,10 +24,13 @@ from wirelessagent.language.acts import (
     Serve,
     Undo,
 )  # fmt: skip
-from wirelessagent.language.conversation.figure_in_place import figures_of, read_figure, value_of
+from wirelessagent.language.conversation.corrections import denies, moved
+from wirelessagent.language.conversation.figure_in_place import figures_of, read_figure
+from wirelessagent.language.conversation.limits_off import dropped, restored
 from wirelessagent.language.conversation.line import Line, begins, is_all
 from wirelessagent.language.conversation.relative import read_relative, read_repeated
-from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Token, Words, speaks_of_one, tokens_of, words_of
+from wirelessagent.language.conversation.tokens import NOUNS, Words, speaks_of_one, tokens_of, words_of
+from wirelessagent.language.conversation.who_is_served import all_served, both_served, left_out, of_whom, served
 from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
 from wirelessagent.language.moods import is_ordered
@@ -92,7 +93,7 @@ def _read(words: Words) -> Intent | None:
     words, forms = _corrected_at_once(words), _FORMS
     if words.line.is_asked:
         forms = tuple(form for form in _FORMS if form.asked)
-    elif _denies(words.tokens):
+    elif denies(words.tokens):
         forms = _FORMS[:1]
     found = (form.read(words) for form in forms if form.fits(words))
     return next((intent for intent in found if intent is not None), None)
@@ -179,101 +180,6 @@ def _is_undo(words: Words, *further: str) -> bool:
     return words.has("undo") and words.only("undo", "it", *further, *changes.split())
 
 
-def _denies(tokens: Sequence[Token]) -> bool:
-    """Whether a word that corrects what was said before stands where it denies what this line says."""
-    said = [place for place, token in enumerate(tokens) if not token.classes & {"correct", "skip", "lead"}]
-    behind = tokens[said[0] :] if said else ()
-    return any("correct" in token.classes and not token.classes & {"skip", "lead"} for token in behind)
-
-
-def _moved(words: Words) -> Intent | None:
-    """ "no, user 5", "I mean user 6, not 3", "for 3": what was said last of one user, of another."""
-    words.users = words.users or _meant(words)
-    if not words.users:
-        return None
-    if words.taken_off:
-        return _taken_off_another(words)
-    last = _of_named(words)
-    if not last and len(words.last(Scale)) == 1:
-        return _scaled_another(words, words.last(Scale)[0])
-    if not last:
-        return _for_all_moved(words)
-    if len(last) != 1:
-        return None
-    ((act, old),) = last
-    if isinstance(act, Serve) and act.alone and not _denies(words.tokens):  # "no, 1 and 3" behind "only 1 and 2"
-        return words.acts([dataclasses.replace(act, whom=Named(words.users))])
-    users = tuple(user for user in words.users if user not in old)
-    figures = [*words.figures, *([words.replaced] if words.replaced is not None else [])]
-    denied = {*(f"{figure.value:g}" for figure in figures), *words.users} - {*users}
-    if not users or not denied <= {*old}:
-        return None
-    gone = Named(tuple(user for user in old if user in denied or not denied))
-    back: Act = LeaveOut(whom=gone) if isinstance(act, Serve) else Serve(whom=gone)
-    if isinstance(act, Limit):
-        back = Drop(kind=act.kind, whom=gone, own=True)
-    return words.acts([back, dataclasses.replace(act, whom=Named(users))])
-
-
-def _scaled_another(words: Words, act: Scale) -> Intent | None:
-    """ "no, I meant user 7" behind "user 8 needs double"."""
-    if not isinstance(act.whom, Named) or set(act.whom.users) & set(words.users) or words.figures:
-        return None
-    held = words.held.get(act.kind)
-    if not isinstance(held, Mapping):
-        return None
-    back: Act = Drop(kind=act.kind, whom=act.whom, own=True)
-    if EVERYBODY not in held:
-        if not set(words.users) <= held.keys():
-            return None
-        back = dataclasses.replace(act, factor=1 / act.factor)
-    return words.acts([back, dataclasses.replace(act, whom=Named(words.users))])
-
-
-def _of_named(words: Words) -> list[tuple[Limit | LeaveOut | Serve, tuple[str, ...]]]:
-    """What was said last of named users, with them; the same of several is said once."""
-    said: dict[Limit | LeaveOut | Serve, tuple[str, ...]] = {}
-    for act in cast("list[Limit | LeaveOut | Serve]", words.last(Limit, LeaveOut, Serve)):
-        if isinstance(act.whom, Named):
-            same = dataclasses.replace(act, whom=Everybody(), words="")
-            said[same] = (*said.get(same, ()), *act.whom.users)
-    first = next((act.words for act in words.last(Limit)), "")
-    return [(dataclasses.replace(act, words=first), users) for act, users in said.items()]
-
-
-def _meant(words: Words) -> tuple[str, ...]:
-    """A user by the number alone, where it is one's by the words or can be no figure: "for 3", "4, not 3"."""
-    users, last = words.counted(), _of_named(words)
-    if not users or len(last) != 1:
-        return ()
-    ((act, named),) = last
-    if isinstance(act, Serve | LeaveOut):
-        return users
-    if len(users) != 1:
-        return ()
-    instead = words.replaced is not None and f"{words.replaced.value:g}" in named
-    is_figure = value_of(words.figures[0], act.kind, act) is not None
-    return users if instead or words.has("whose") or not is_figure else ()
-
-
-def _for_all_moved(words: Words) -> Intent:
-    """What was said last for everybody, for these users alone; where nothing was, what is meant is asked."""
-    last = [act for act in words.last(Limit) if act.kind in FIGURES_OF_USERS and isinstance(act.whom, Everybody)]
-    if len(last) != 1 or words.figures:
-        return words.line.ask("what_of_user", users=words.line.voice.users(words.users))
-    return words.acts([Drop(kind=last[0].kind), dataclasses.replace(last[0], whom=Named(words.users))])
-
-
-def _taken_off_another(words: Words) -> Intent | None:
-    """ "Sorry, user 3": the limit of another user goes, in the place of the one that was taken off."""
-    kind, stated = next(iter(words.taken_off.items()))
-    held = cast("Mapping[str, float]", words.held.get(kind, {}))
-    gone = {user: held[user] for user in words.users if user in held}
-    back = [Limit(kind=kind, value=value, whom=Named((user,))) for user, value in stated.items()]
-    off = Drop(kind=kind, whom=Named(tuple(gone)))
-    return words.acts([*back, off], {"taken_off": {kind: gone}}) if len(gone) == len(words.users) else None
-
-
 def _steps_undone(words: Words) -> Intent | None:
     """ "undo the last two changes"; a bare command is a sentence of its own where recognisers read it."""
     counts = [figure.value for figure in words.figures] + [token.factor for token in words.tokens if token.factor]
@@ -347,82 +253,9 @@ def _weighed_equally(words: Words) -> Intent | None:
     return words.acts([Drop(kind="weights")]) if "weights" in words.held else None
 
 
-def _dropped(words: Words) -> Intent | None:
-    """ "remove the cap again", "and his too" behind another one that went."""
-    users = words.counted() if words.figures else ()
-    gone = words.has("remove") or (bool(words.last(Drop)) and not words.last(Limit, Scale))
-    if (words.figures and not users) or not gone:
-        return None
-    whom = Named(users) if users else words.whom()
-    own = [name for name, value in words.held.items() if isinstance(value, Mapping) and isinstance(whom, Named)
-           and set(whom.users) <= value.keys()]  # fmt: skip
-    kinds = [kind for kind in words.named_kinds() if kind in words.held]
-    if words.has("own") and whom is not None and not words.has(*NOUNS):  # "cancel user 5's"
-        kinds = own
-    if users and not words.has("leave", *NOUNS):  # "6不用了"
-        kinds = own
-    raised = words.has("more") and (bool(words.line.context.share_of) or not words.has("again"))  # "lift it"
-    said_it = words.has("it") and whom is None and not words.has(*NOUNS)
-    if said_it and not raised and not is_all("cancel", words.line.said):  # "lift it again" behind a limit
-        last = words.last(Limit)
-        kinds, whom = [act.kind for act in last], last[0].whom if len(last) == 1 else None
-    if len(kinds) > 1:
-        kinds = [act.kind for act in words.last(Limit) if act.kind in kinds][-1:]
-    if len(kinds) != 1 or (isinstance(whom, Named) and kinds[0] not in own and kinds[0] != "min_rate_bps"):
-        return None
-    held = words.held.get(kinds[0])
-    common = kinds == own and words.has("own") and isinstance(held, Mapping) and EVERYBODY in held
-    return words.acts([Drop(kind=kinds[0], whom=whom or Everybody(), own=common)])
-
-
-def _restored(words: Words) -> Intent | None:
-    """ "put the cap back": the limit that was taken off last."""
-    gone, named = {act.kind for act in words.last(Drop)}, words.named_kinds()
-    back = gone & {*named} if words.has(*NOUNS) else gone
-    return words.line.command("undo", steps=1.0) if back and not words.last(Limit) else None
-
-
-def _all_served(words: Words) -> Intent | None:
-    """ "serve everybody again", "let the other five in": nobody is left out any more."""
-    served, out = words.listed("users"), words.listed("leave_out")
-    missing = len(words.line.context.user_names) - len(served) if served else len(out)
-    counted = [figure.value for figure in words.figures]
-    some, names = missing or (served and words.has("every")), len(words.line.context.user_names)
-    return words.acts([Serve(whom=Everybody())]) if some and counted in ([], [missing], [names]) else None
-
-
-def _both_served(words: Words) -> Intent | None:
-    """ "both back in": the two who are left out."""
-    out = words.listed("leave_out")
-    return words.acts([Serve(whom=Named(out))]) if len(out) == 2 else None
-
-
-def _of_whom(words: Words) -> tuple[str, ...]:
-    """The users of a line that says no figure: by name, by number, or the one who was spoken of."""
-    if words.users:
-        return () if words.figures else words.users
-    return words.counted() or (words.spoken_of.users if words.spoken_of else ())
-
-
-def _served(words: Words) -> Intent | None:
-    """ "user 7 back in"."""
-    users, alone = _of_whom(words), words.listed("users")
-    served = set(users) <= {*alone} if alone else not set(users) & {*words.listed("leave_out")}
-    return words.acts([Serve(whom=Named(users))]) if users and not served else None
-
-
-def _left_out(words: Words) -> Intent | None:
-    """ "take 7 off the list"."""
-    users, lists = _of_whom(words), words.last(LeaveOut, Serve)
-    if words.figures and words.has("step") and {act.kind for act in words.last(Limit, Scale)} & {*UNITS["power"]}:
-        return None  # "enlève 2" behind a power
-    leans = bool(lists) or not words.is_read or words.spoken_of is not None
-    return words.acts([LeaveOut(whom=Named(users))]) if users and leans else None
-
-
 def _same_of_others(words: Words) -> Intent | None:
     """ "and 3 too": users of whom the same is said as of the last ones."""
-    users, stated = _of_whom(words), {act.kind for act in words.last(Limit)}
+    users, stated = of_whom(words), {act.kind for act in words.last(Limit)}
     nouns = ("promise", "rate") if stated & {*words.named_kinds()} else ()
     if not users or not words.only("too", "lead", "it", "correct", *nouns, *_OF_USERS.split()):
         return None
@@ -449,7 +282,7 @@ _OF_USERS = "users bare lead again pronoun one"
 _GONE = "it users bare every others both pronoun one own again lead correct more by"
 _NOUNS = " ".join(NOUNS)
 _FORMS = (
-    Form("correct", "users bare lead it revise whose", _moved),
+    Form("correct", "users bare lead it revise whose", moved),
     Form("undo", "bare factor change_noun lead again", _steps_undone),
     Form("undo", "correct it lead again make more less factor rate limit promise power weight too remove", _undone),
     Form("too|equal", "users bare lead weight rate promise again others every make it", _as_another),
@@ -458,13 +291,13 @@ _FORMS = (
     Form("take", "it", _taken_up),
     Form("as_it_was", f"before after users lead correct make undo told leave first {_NOUNS}", _as_it_was),
     Form("equal weight", "every make again lead", _weighed_equally),
-    Form("remove|too", f"{_GONE} {_NOUNS}", _dropped),
-    Form("restore", f"it correct lead take make again {_NOUNS}", _restored),
-    Form("every serve", "again lead take make correct bare it", _all_served),
-    Form("others serve", "again lead too make bare", _all_served),
-    Form("both serve", "again lead every", _both_served),
-    Form("serve", f"too take make {_OF_USERS}", _served),
-    Form("leave", f"too take make {_OF_USERS}", _left_out),
+    Form("remove|too", f"{_GONE} {_NOUNS} figure", dropped),
+    Form("restore", f"it correct lead take make again {_NOUNS}", restored),
+    Form("every serve", "again lead take make correct bare it", all_served),
+    Form("others serve", "again lead too make bare", all_served),
+    Form("both serve", "again lead every", both_served),
+    Form("serve", f"too take make it correct {_OF_USERS}", served),
+    Form("leave", f"too take make {_OF_USERS}", left_out),
     Form("too|lead", f"it correct promise rate {_OF_USERS}", _same_of_others),
     Form("", "", read_relative, asked=True),
     Form("limit power", "make", _asks_what_changes, asked=True),

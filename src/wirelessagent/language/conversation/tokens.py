@@ -39,8 +39,17 @@ NOUNS: Mapping[str, tuple[str, ...]] = {
     "circuit": ("circuit_power_w",),
     "subcarrier": ("subcarrier_max_power_w",),
     "group": ("resource_block_group_size",),
+    "rate_limit": ("max_rate_bps",),
 }
 """Limits that a noun may name."""
+
+_LIFTED: Mapping[str, str] = {
+    "go": "remove", "gone": "remove", "max_power_w": "power", "min_rate_bps": "promise", "max_rate_bps": "rate_limit",
+    "subcarrier_max_power_w": "subcarrier", "outage_probability": "certainty", "weights": "weight",
+    "circuit_power_w": "circuit",
+}  # fmt: skip
+"""The class that words for limits that go are in."""
+_ENDINGS = ("", "s", "n", "en", "e")
 
 _CLASS = {"power": "figure", "rate": "figure"}
 """What a figure with a unit is called, beside nouns."""
@@ -178,10 +187,11 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
     factors = cast("dict[str, float]", listed["factors"])
     classes: dict[str, set[str]] = {}
     lifted = cast("Mapping[str, list[str]]", table("figures", language)["lifted"])
-    of_classes = {**listed, "remove": [*listed["remove"], *lifted["go"], *lifted["gone"]]}
-    for name in of_classes.keys() - {"factors"}:
-        for word in cast("list[str]", of_classes[name]):
-            classes.setdefault(_unmarked(word), set()).add(name)
+    of_classes = [(name, word) for name in listed.keys() - {"factors"} for word in cast("list[str]", listed[name])]
+    of_classes += [(name, word) for limit, name in _LIFTED.items() for word in lifted.get(limit, ())]
+    for name, word in of_classes:
+        for ending in _ENDINGS if "*" in word else ("",):
+            classes.setdefault(_unmarked(word.replace("*", ending)), set()).add(name)
     factors = {_unmarked(word): factor for word, factor in factors.items()}
     for word in factors:
         classes.setdefault(word, set()).add("factor")
@@ -272,7 +282,7 @@ class Words:
             kind: stated
             for kind, stated in self.line.context.stated.items()
             if isinstance(stated, Mapping) and EVERYBODY not in stated
-            and isinstance(held := self.held.get(kind, {}), Mapping) and not stated.keys() & held.keys()
+            and isinstance(held := self.held.get(kind, {}), Mapping) and not any(held.get(user) for user in stated)
         }  # fmt: skip
 
     def whom(self) -> Whom | None:

@@ -1,0 +1,107 @@
+"""Lines that correct whom the last one was about: "no, user 5", "I mean user 6, not 3", "for 3"."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import cast
+
+from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Scale, Serve
+from wirelessagent.language.conversation.figure_in_place import value_of
+from wirelessagent.language.conversation.tokens import Token, Words
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
+
+
+def denies(tokens: Sequence[Token]) -> bool:
+    """Whether a word that corrects what was said before stands where it denies what this line says."""
+    said = [place for place, token in enumerate(tokens) if not token.classes & {"correct", "skip", "lead"}]
+    behind = tokens[said[0] :] if said else ()
+    return any("correct" in token.classes and not token.classes & {"skip", "lead"} for token in behind)
+
+
+def moved(words: Words) -> Intent | None:
+    """ "no, user 5", "I mean user 6, not 3", "for 3": what was said last of one user, of another."""
+    words.users = words.users or _meant(words)
+    if not words.users:
+        return None
+    if words.taken_off:
+        return _taken_off_another(words)
+    last = _of_named(words)
+    if not last and len(words.last(Scale)) == 1:
+        return _scaled_another(words, words.last(Scale)[0])
+    if not last:
+        return _for_all_moved(words)
+    if len(last) != 1:
+        return None
+    ((act, old),) = last
+    if isinstance(act, Serve) and act.alone and not denies(words.tokens):  # "no, 1 and 3" behind "only 1 and 2"
+        return words.acts([dataclasses.replace(act, whom=Named(words.users))])
+    users = tuple(user for user in words.users if user not in old)
+    figures = [*words.figures, *([words.replaced] if words.replaced is not None else [])]
+    denied = {*(f"{figure.value:g}" for figure in figures), *words.users} - {*users}
+    if not users or not denied <= {*old}:
+        return None
+    gone = Named(tuple(user for user in old if user in denied or not denied))
+    back: Act = LeaveOut(whom=gone) if isinstance(act, Serve) else Serve(whom=gone)
+    if isinstance(act, Limit):
+        back = Drop(kind=act.kind, whom=gone, own=True)
+    return words.acts([back, dataclasses.replace(act, whom=Named(users))])
+
+
+def _scaled_another(words: Words, act: Scale) -> Intent | None:
+    """ "no, I meant user 7" behind "user 8 needs double"."""
+    if not isinstance(act.whom, Named) or set(act.whom.users) & set(words.users) or words.figures:
+        return None
+    held = words.held.get(act.kind)
+    if not isinstance(held, Mapping):
+        return None
+    back: Act = Drop(kind=act.kind, whom=act.whom, own=True)
+    if EVERYBODY not in held:
+        if not set(words.users) <= held.keys():
+            return None
+        back = dataclasses.replace(act, factor=1 / act.factor)
+    return words.acts([back, dataclasses.replace(act, whom=Named(words.users))])
+
+
+def _of_named(words: Words) -> list[tuple[Limit | LeaveOut | Serve, tuple[str, ...]]]:
+    """What was said last of named users, with them; the same of several is said once."""
+    said: dict[Limit | LeaveOut | Serve, tuple[str, ...]] = {}
+    for act in cast("list[Limit | LeaveOut | Serve]", words.last(Limit, LeaveOut, Serve)):
+        if isinstance(act.whom, Named):
+            same = dataclasses.replace(act, whom=Everybody(), words="")
+            said[same] = (*said.get(same, ()), *act.whom.users)
+    first = next((act.words for act in words.last(Limit)), "")
+    return [(dataclasses.replace(act, words=first), users) for act, users in said.items()]
+
+
+def _meant(words: Words) -> tuple[str, ...]:
+    """A user by the number alone, where it is one's by the words or can be no figure: "for 3", "4, not 3"."""
+    users, last = words.counted(), _of_named(words)
+    if not users or len(last) != 1:
+        return ()
+    ((act, named),) = last
+    if isinstance(act, Serve | LeaveOut):
+        return users
+    if len(users) != 1:
+        return ()
+    instead = words.replaced is not None and f"{words.replaced.value:g}" in named
+    is_figure = value_of(words.figures[0], act.kind, act) is not None
+    return users if instead or words.has("whose") or not is_figure else ()
+
+
+def _for_all_moved(words: Words) -> Intent:
+    """What was said last for everybody, for these users alone; where nothing was, what is meant is asked."""
+    last = [act for act in words.last(Limit) if act.kind in FIGURES_OF_USERS and isinstance(act.whom, Everybody)]
+    if len(last) != 1 or words.figures:
+        return words.line.ask("what_of_user", users=words.line.voice.users(words.users))
+    return words.acts([Drop(kind=last[0].kind), dataclasses.replace(last[0], whom=Named(words.users))])
+
+
+def _taken_off_another(words: Words) -> Intent | None:
+    """ "Sorry, user 3": the limit of another user goes, in the place of the one that was taken off."""
+    kind, stated = next(iter(words.taken_off.items()))
+    held = cast("Mapping[str, float]", words.held.get(kind, {}))
+    gone = {user: held[user] for user in words.users if user in held}
+    back = [Limit(kind=kind, value=value, whom=Named((user,))) for user, value in stated.items()]
+    off = Drop(kind=kind, whom=Named(tuple(gone)))
+    return words.acts([*back, off], {"taken_off": {kind: gone}}) if len(gone) == len(words.users) else None
