@@ -13,8 +13,8 @@ import wirelessagent as wa
 from wirelessagent.interfaces.cli import run
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.tables import decision_tables
-from wirelessagent.telling.user_account import share_answer
+from wirelessagent.telling.report import decision_tables
+from wirelessagent.telling.user_account import Accounts
 
 
 @pytest.fixture(autouse=True)
@@ -87,7 +87,7 @@ def test_what_was_asked_for_without_a_probability_is_not_called_promised(
         if usable:
             assert kept in told
             case = Case(estimate=estimate, decision=decision)
-            said = [share_answer(case, user, language) for user in range(4)]
+            said = [Accounts(case, language).share(user) for user in range(4)]
             assert not [each for each in said if promised in each]
 
 

@@ -18,8 +18,8 @@ from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import nearest, shortage_of
-from wirelessagent.telling.reasons import nearest_answer, reason_in_words
-from wirelessagent.telling.tables import figures_of_infeasibility
+from wirelessagent.telling.reasons import Remedies, reason_in_words
+from wirelessagent.telling.report import figures_of_infeasibility
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
@@ -44,7 +44,7 @@ def test_more_power_than_any_cell_has_is_told_alike_everywhere(language: str, ou
     everywhere = [
         certificate_line(decision, language),
         *explain(SEEN, wa.report(decision), language=language),
-        nearest_answer(case, nearest(case), language),
+        Remedies(case, language).told(nearest(case)),
         figures_of_infeasibility(decision, language).rows[0][1],
         next(row[1] for row in side_by_side([("", run)], language).rows if row[1].endswith("1 MW")),
     ]
@@ -120,7 +120,7 @@ def test_a_limit_without_which_it_can_be_met_is_offered(language: str) -> None:
         assert [one.limit for one in found] == list(limit)
         free = wa.decide(SEEN, wa.Problem("min_power", min_rate_bps=1e5), CELL)
         assert found[0].decision.value == pytest.approx(free.value, rel=1e-6)
-        assert human(free.value, "W") in nearest_answer(case, nearest(case), language)
+        assert human(free.value, "W") in Remedies(case, language).told(nearest(case))
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -152,7 +152,7 @@ def test_who_can_be_served_is_named_where_most_are_left_out(language: str, told:
     assert found.fewer_users is not None
     assert len(found.fewer_users.left_out) == 3
     (kept,) = set(range(4)) - set(found.fewer_users.left_out)
-    assert told.format(called(language, SEEN.user_names[kept])) in nearest_answer(case, found, language)
+    assert told.format(called(language, SEEN.user_names[kept])) in Remedies(case, language).told(found)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -12,8 +12,7 @@ from wirelessagent.interfaces.cli import run
 from wirelessagent.model.units import human, percent
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.report import Report
-from wirelessagent.telling.tables import user_table
+from wirelessagent.telling.report import Report, user_table
 
 SCENE = wa.simulate("rayleigh", num_users=6, num_subcarriers=20, rms_delay_spread_s=300e-9, snr_db=30, seed=4)
 ESTIMATE = wa.repair(SCENE.observe(wa.loss.random(0.3), seed=1))

@@ -18,7 +18,7 @@ from wirelessagent.agent.turn import Turn
 from wirelessagent.interfaces.cli import run
 from wirelessagent.store.record_of import understood
 from wirelessagent.telling.catalogue import message
-from wirelessagent.telling.tables import decision_tables
+from wirelessagent.telling.report import decision_tables
 
 pytestmark = pytest.mark.machine_code
 

@@ -18,7 +18,7 @@ from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.deciding.objectives.max_rate import MaxRate
 from wirelessagent.deciding.objectives.min_power import MinPower
 from wirelessagent.model.errors import PluginError, UnsupportedProblemError
-from wirelessagent.telling.certificates import certificate_answer
+from wirelessagent.telling.certificates import Proofs
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.testing.judge import verdict_on
@@ -175,7 +175,7 @@ def test_a_closed_form_is_chosen_by_declaration() -> None:
 )
 def test_the_report_says_what_the_bound_rests_on(objective: wa.Objective, told: str) -> None:
     decision = wa.decide(ESTIMATE, wa.Problem(objective, max_power_w=1))
-    assert told in certificate_answer(Case(decision=decision, estimate=ESTIMATE), "en")
+    assert told in Proofs(Case(decision=decision, estimate=ESTIMATE), "en").proof()
 
 
 def test_the_report_on_somebody_elses_objective_says_so_at_once() -> None:

@@ -57,7 +57,7 @@ def test_at_the_margin_both_bids_are_the_same() -> None:
     case = case_of("proportional_fairness", resource_block_group_size=2)
     found = bids(case)
     for group, winner in enumerate(found.owner.tolist()):
-        first, last = found.members(group)
+        first, last = found.start[group], found.start[group + 1] - 1
         loser = int(np.argsort(found.behind_db[:, group])[1])
         gain = ESTIMATE.gain.copy()
         gain[loser, first : last + 1] *= 10 ** (found.behind_db[loser, group] / 10)

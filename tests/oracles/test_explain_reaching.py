@@ -13,7 +13,7 @@ import wirelessagent as wa
 from wirelessagent.model.units import human
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.steps import Reach, for_the_total, has_reach, rate_step, reach
-from wirelessagent.telling.step_effects import step_answer
+from wirelessagent.telling.step_effects import Steps
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
@@ -59,7 +59,7 @@ def test_what_no_power_reaches_is_told() -> None:
 def test_what_no_power_keeps_is_told() -> None:
     case = case_of("max_rate")
     beyond = Reach(target=case.decision.value, power_w=np.nan, tried_w=1e5)
-    said = step_answer(case, rate_step(case, 1e5, 0), beyond, "en")
+    said = Steps(case, "en").told(rate_step(case, 1e5, 0), beyond)
     figure = human(case.decision.value, "bit/s")
     assert f"The total rate cannot be kept at {figure}: not even 100 kW would do." in said
     assert ", ," not in said

@@ -12,7 +12,7 @@ import wirelessagent as wa
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import called
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.roster import owner_answer, rank_answer, subcarriers_answer
+from wirelessagent.telling.roster import Roster
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=5, num_subcarriers=16, seed=6)
@@ -31,11 +31,11 @@ def test_the_first_is_named_with_its_figure(rank: str, language: str) -> None:
     case = case_of("proportional_fairness")
     rates = case.decision.rate_bps
     user = int(np.argmin(rates) if rank == "least" else np.argmax(rates))
-    said = rank_answer(case, rank, "rate", language)
+    said = Roster(case, language).rank(rank, "rate")
     assert said.lower().startswith(called(language, SEEN.user_names[user]))
     assert human(float(rates[user]), "bit/s") in said
     power = np.array([case.decision.power_w[case.decision.owner == one].sum() for one in range(5)])
-    most = rank_answer(case, "most", "power", language)
+    most = Roster(case, language).rank("most", "power")
     assert most.lower().startswith(called(language, SEEN.user_names[int(np.argmax(power))]))
     assert human(float(power.max()), "W") in most
 
@@ -46,12 +46,12 @@ def test_those_who_get_nothing_are_named_apart_from_the_least(language: str) -> 
     rates = case.decision.rate_bps
     served = np.flatnonzero(rates > 0)
     assert 0 < served.size < 4
-    said = rank_answer(case, "least", "rate", language)
+    said = Roster(case, language).rank("least", "rate")
     nothing, others = re.split("[.。]", said)[:2]
     named = {int(number) - 1 for number in re.findall(r"\d+", nothing)}
     assert named == set(range(4)) - set(served.tolist())
     assert called(language, SEEN.user_names[int(served[np.argmin(rates[served])])]) in others
-    assert "720" not in rank_answer(case_of("min_power", min_rate_bps=1e5), "least", "rate", language)
+    assert "720" not in Roster(case_of("min_power", min_rate_bps=1e5), language).rank("least", "rate")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -59,14 +59,14 @@ def test_subcarriers_are_listed_from_one(language: str) -> None:
     case = case_of("proportional_fairness")
     owner = case.decision.owner
     for user in range(5):
-        said = subcarriers_answer(case, user, language)
+        said = Roster(case, language).subcarriers(user)
         places = said.split(":" if language == "en" else "：")[1].split("(" if language == "en" else "（")[0]
         listed = [place for part in re.findall(r"\d+(?:–\d+)?", places) for place in _spread(part)]
         assert listed == (np.flatnonzero((owner == user) & (case.decision.power_w > 0)) + 1).tolist()
-    everybody = subcarriers_answer(case, None, language)
+    everybody = Roster(case, language).subcarriers(None)
     assert all(called(language, name) in everybody for name in SEEN.user_names)
-    assert called(language, SEEN.user_names[int(owner[4])]) in owner_answer(case, 5, language)
-    assert "16" in owner_answer(case, 17, language)
+    assert called(language, SEEN.user_names[int(owner[4])]) in Roster(case, language).owner(5)
+    assert "16" in Roster(case, language).owner(17)
 
 
 def _spread(part: str) -> range:

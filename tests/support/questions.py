@@ -10,7 +10,7 @@ from wirelessagent.language.acts import Ask
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import acts_of
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.text_table import Table
+from wirelessagent.telling.told import Table
 
 
 def answer(

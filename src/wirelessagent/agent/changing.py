@@ -15,7 +15,6 @@ from collections.abc import Callable
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import Effect, applied_line, respects, same_allocation
 from wirelessagent.agent.dialogue import applied
-from wirelessagent.agent.events import Event
 from wirelessagent.agent.recalling import no_such_turn
 from wirelessagent.agent.restating import changes_in_words, notes, plan_named, restated
 from wirelessagent.agent.state import Replies, Reply, State, Talk, asked_back, nothing_yet
@@ -27,6 +26,7 @@ from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said, joined, message
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.parts import without_anything
+from wirelessagent.telling.told import Event
 
 _YES = ("apply", "confirm")
 

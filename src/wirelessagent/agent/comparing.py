@@ -21,7 +21,7 @@ from wirelessagent.telling.catalogue import called, joined, lines_of, listed, me
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.parts import goal_words, name_of_figure, outcome_in_words
 from wirelessagent.telling.reasons import power_in_words, reason_in_words
-from wirelessagent.telling.text_table import Table
+from wirelessagent.telling.told import Table
 
 Column = tuple[str, Run]
 

@@ -14,8 +14,8 @@ from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said, lines_of, message
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.explanation import explain
-from wirelessagent.telling.tables import decision_tables
-from wirelessagent.telling.text_table import Table
+from wirelessagent.telling.report import decision_tables
+from wirelessagent.telling.told import Table
 
 _SHOWN = 60
 """Characters of a sentence that the history shows."""

@@ -23,7 +23,6 @@ from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent import asking, changing, comparing, recalling, supposing
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.dialogue import Request, difference, stated_by
-from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
 from wirelessagent.agent.restating import noted_after
 from wirelessagent.agent.site import Decide, Site, decided, station_of
@@ -45,7 +44,8 @@ from wirelessagent.language.text import normalise
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.telling.catalogue import message
-from wirelessagent.telling.tables import decision_tables
+from wirelessagent.telling.report import decision_tables
+from wirelessagent.telling.told import Event, Progress, silent
 
 _USER = re.compile(
     r"(?i)\s*(?:(?:no|sorry|i mean|i meant|make it|我是说|是)[,，\s]*)*"

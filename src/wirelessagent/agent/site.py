@@ -16,7 +16,6 @@ from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent import acting
 from wirelessagent.agent.dialogue import Request
-from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.agent.posing import ABOVE_THE_LIMIT, Posed, RefusedError, pose
 from wirelessagent.agent.turn import Run, Tools
 from wirelessagent.language.intent import Intent
@@ -34,6 +33,7 @@ from wirelessagent.telling.catalogue import message
 from wirelessagent.telling.certificates import decided_line
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.report import report
+from wirelessagent.telling.told import Event, Progress, silent
 
 Decide: TypeAlias = Callable[[ChannelEstimate, Problem, Cell, Tools], Decision]
 """What decides."""

@@ -18,7 +18,7 @@ from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Plain
 from wirelessagent.telling.catalogue import Said, message
-from wirelessagent.telling.text_table import Table
+from wirelessagent.telling.told import Table
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

@@ -20,7 +20,7 @@ from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import called, joined, message
 from wirelessagent.telling.facts.nearest import more_power, nearest
 from wirelessagent.telling.parts import cannot_be_served, outcome_in_words, value_name
-from wirelessagent.telling.reasons import BEYOND_W, nearest_answer, reason_in_words
+from wirelessagent.telling.reasons import BEYOND_W, Remedies, reason_in_words
 
 _SAME = 1e-6
 """A share of the power that nobody sees."""
@@ -144,7 +144,7 @@ def _verdict(talk: Talk, run: Run, missing: float | None) -> str:
     assumed = notes(run, noted=talk.state.noted, before=() if now is None else now.notes)
     if not run.decision.is_usable:
         unmet = "" if missing is None else talk.say("what_if.unseen", share=percent(missing))
-        return joined(language, [*assumed, unmet, nearest_answer(run.case, nearest(run.case), language)])
+        return joined(language, [*assumed, unmet, Remedies(run.case, language).told(nearest(run.case))])
     key = "what_if.met" if missing is None else "what_if.still_met"
     met = talk.say(key, outcome=outcome_in_words(run.decision, language), share=percent(missing or 0.0))
     beside = _outcome_beside(now, run, language)

@@ -26,7 +26,7 @@ from wirelessagent.telling.certificates import certificate_line, summary_line
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.report import Report, report
-from wirelessagent.telling.text_table import Table
+from wirelessagent.telling.told import Table
 
 Stage: TypeAlias = Literal["answered", "asked", "planned", "applied", "reverted", "undone", "nothing"]
 """What a turn came to: answered (a question; nothing was to be applied), asked (a question back), planned (a decision

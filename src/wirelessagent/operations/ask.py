@@ -100,7 +100,7 @@ def run(request: AskRequest, progress: Progress) -> AskRecord:
 
 def _with_run(record: AskRecord, request: AskRequest, turn: Turn, run: Run) -> AskRecord:
     """The record with what was decided and done, written and drawn where that was asked for."""
-    from wirelessagent.telling.tables import served_table
+    from wirelessagent.telling.report import served_table
 
     if run.decision.is_usable and turn.stage == "nothing":  # the base station failed, which the reply says
         raise WirelessAgentError(turn.reply)

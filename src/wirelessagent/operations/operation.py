@@ -13,11 +13,11 @@ from typing import Any, ClassVar, Generic, TypeAlias, TypeVar
 from pydantic import BaseModel, ConfigDict, field_validator
 
 from wirelessagent import __version__
-from wirelessagent.agent.events import Event, Progress, silent
 from wirelessagent.model.errors import InputError, NothingRecordedError, WirelessAgentError
 from wirelessagent.model.legible import legible, written_out
 from wirelessagent.operations.catalogue import OPERATIONS
 from wirelessagent.operations.record import Record
+from wirelessagent.telling.told import Event, Progress, silent
 
 __all__ = [
     "AnyOperation", "Conversation", "Event", "InputError", "NothingRecordedError", "Operation", "Progress", "Request",

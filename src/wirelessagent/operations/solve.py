@@ -71,8 +71,7 @@ def run(request: SolveRequest, progress: Progress) -> SolveRecord:
     from wirelessagent.acting.file import FileBaseStation
     from wirelessagent.telling.certificates import summary_line
     from wirelessagent.telling.explanation import explain
-    from wirelessagent.telling.report import report
-    from wirelessagent.telling.tables import decision_tables
+    from wirelessagent.telling.report import decision_tables, report
 
     check_allocation(request.out)
     check_picture(request.plot)

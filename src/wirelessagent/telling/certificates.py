@@ -7,10 +7,9 @@ import numpy as np
 from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import human, percent, probability, reliability
-from wirelessagent.telling.catalogue import called, joined, listed, message
-from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.proof import Certainty, Certificate, basis, certainty, certificate
-from wirelessagent.telling.parts import cannot_be_served, goal_named, outcome_in_words, place
+from wirelessagent.telling.catalogue import message
+from wirelessagent.telling.facts.proof import Certainty, Certificate, certainty, certificate
+from wirelessagent.telling.parts import Teller, cannot_be_served, goal_named, outcome_in_words, place
 from wirelessagent.telling.reasons import reason_in_words
 
 _HARDLY_ANY = 0.05
@@ -60,95 +59,87 @@ def certificate_sentence(decision: Decision, language: str) -> str:
     return message(language, f"certificate.gap{outage}", bound=bound, gap=percent(decision.gap))
 
 
-def certificate_answer(case: Case, language: str) -> str:
-    """What is proven, how, and what it leaves open."""
-    decision, found = case.decision, certificate(case)
-    if found.proof in ("nothing", "infeasible", "undecided"):
-        reason = reason_in_words(decision, language)
-        return message(language, f"proof.{found.proof}", method=decision.method, reason=reason)
-    said = [_bound(case, found, language), _left(case, found, language)]
-    repaired, entries = int(case.estimate.repaired.sum()), case.estimate.repaired.size
-    if repaired:
-        said.append(message(language, "proof.estimated", repaired=repaired, entries=entries))
-    return joined(language, said)
-
-
-def _bound(case: Case, found: Certificate, language: str) -> str:
-    bound, outage = human(found.bound, case.decision.unit), case.problem.outage_probability
-    if found.proof == "closed_form":
-        return message(language, "proof.closed_form", bound=bound)
-    of = "outage" if outage is not None and case.decision.expected_rate_bps.size else "channel"
-    least = "least" if case.objective.direction == "min" else "most"
-    said: list[str] = [message(language, f"proof.{of}_{least}", bound=bound, sure=reliability(outage or 0.0))]
-    said.append(rests_on(case.objective, language))
-    if found.by != case.decision.method:
-        said.append(message(language, "proof.by_dual", method=case.decision.method))
-    return joined(language, said)
-
-
 def rests_on(objective: Objective, language: str) -> str:
-    """What of the objective the bound rests on; empty where it is the promised rates alone."""
-    on = basis(objective)
-    if on == "promises":
+    """What of the objective a bound rests on: that more rate is worth no less, the power law that it declares, or its
+    conjugate, never values of its utility that somebody asked for; empty where it is the promised rates alone.
+    """
+    if objective.measure == "power":
         return ""
+    on = "levels" if objective.joined == "min" else "conjugate" if objective.power_law() is None else "law"
     alpha = objective.power_law() or 0.0
     law = {0.0: "r", 1.0: "ln r"}.get(alpha, f"r^(1 − α)/(1 − α) with α = {alpha:g}")
     named = goal_named(objective.name, objective.name, language)
     return message(language, f"proof.rests_on_{on}", objective=named, law=law)
 
 
-def _left(case: Case, found: Certificate, language: str) -> str:
-    if case.decision.status == "optimal" or found.gap <= 0:
-        return message(language, "proof.reached")
-    unit = case.decision.unit
-    value, left = human(case.decision.value, unit), human(found.left, unit)
-    key = "proof.value_least" if case.objective.direction == "min" else "proof.value"
-    return message(language, key, value=value, left=left, gap=percent(found.gap))
+class Proofs(Teller):
+    """What is proven of a decision, and how sure it is of what it rests on."""
 
+    def proof(self) -> str:
+        """What is proven, how, and what it leaves open."""
+        decision, found, repaired = self.case.decision, certificate(self.case), self.case.estimate.repaired
+        if found.proof in ("nothing", "infeasible", "undecided"):
+            reason = reason_in_words(decision, self.language)
+            return self.say(f"proof.{found.proof}", method=decision.method, reason=reason)
+        said = [self._bound(found), self._left(found)]
+        if repaired.any():
+            said.append(self.say("proof.estimated", repaired=int(repaired.sum()), entries=repaired.size))
+        return self.joined(said)
 
-def uncertainty_answer(case: Case, language: str) -> str:
-    """What was missing, what it was repaired by, and how sure the decision is."""
-    found = certainty(case)
-    if not found.repaired and not found.noisy:
-        return message(language, "certainty.all_known")
-    share = percent(found.repaired / found.entries)
-    figures = {
-        "repaired": found.repaired,
-        "entries": found.entries,
-        "noisy": found.noisy,
-        "method": found.method,
-    }
-    key = "certainty.repaired" if found.repaired else "certainty.noisy"
-    said = [message(language, key, **figures, share=share, resting=found.resting, used=found.used)]
-    if found.unseen:
-        unseen = listed(language, case.named(found.unseen))
-        said.append(message(language, "certainty.unseen", names=unseen))
-    if case.decision.is_usable and found.least_sure is None:
-        said.append(message(language, "certainty.rests_on_none"))
-    return joined(language, [*said, *_sure(case, found, language)])
+    def _bound(self, found: Certificate) -> str:
+        case, bound, outage = self.case, self.worth(found.bound), self.case.problem.outage_probability
+        if found.proof == "closed_form":
+            return self.say("proof.closed_form", bound=bound)
+        of = "outage" if outage is not None and case.decision.expected_rate_bps.size else "channel"
+        key = f"proof.{of}_{'least' if case.falls else 'most'}"
+        said = [self.say(key, bound=bound, sure=reliability(outage or 0.0)), rests_on(case.objective, self.language)]
+        if found.by != case.decision.method:
+            said.append(self.say("proof.by_dual", method=case.decision.method))
+        return self.joined(said)
 
+    def _left(self, found: Certificate) -> str:
+        if self.case.decision.status == "optimal" or found.gap <= 0:
+            return self.say("proof.reached")
+        value, left = self.worth(self.case.decision.value), self.worth(found.left)
+        key = "proof.value_least" if self.case.falls else "proof.value"
+        return self.say(key, value=value, left=left, gap=percent(found.gap))
 
-def _sure(case: Case, found: Certainty, language: str) -> list[str]:
-    """How sure the rates are, and the gain that is known least."""
-    if found.least_sure is None or found.widest is None:
-        return []
-    names, outage = case.estimate.user_names, case.problem.outage_probability
-    user, subcarrier = found.widest
-    low, high = human(found.low_bps, "bit/s"), human(found.high_bps, "bit/s")
-    key = "holds" if found.expected_missed < _HARDLY_ANY else "may_fail"
-    told = {
-        "user": called(language, names[found.least_sure]),
-        "kept": probability(found.least_kept),
-        "missed": found.expected_missed,
-    }
-    served, sure = int((case.decision.committed_bps > 0).sum()), reliability(outage or 0.0)
-    asked = outage is None and case.problem.promises_rates
-    return [
-        message(language, "certainty.band", low=low, high=high) if low != high else "",
-        message(language, f"certainty.{key if outage is None else 'promise'}", served=served, sure=sure, **told),
-        message(language, "certainty.asked") if asked else "",
-        message(
-            language, "certainty.widest", user=names[user], place=place(subcarrier, subcarrier, language),
-            low=found.widest_low_db, high=found.widest_high_db,
-        ),
-    ]  # fmt: skip
+    def certainty(self) -> str:
+        """What was missing, what it was repaired by, and how sure the decision is."""
+        found = certainty(self.case)
+        if not found.repaired and not found.noisy:
+            return self.say("certainty.all_known")
+        said: list[str] = [
+            self.say(
+                "certainty.repaired" if found.repaired else "certainty.noisy",
+                repaired=found.repaired, entries=found.entries, noisy=found.noisy, method=found.method,
+                share=percent(found.repaired / found.entries), resting=found.resting, used=found.used,
+            )
+        ]  # fmt: skip
+        unseen = [user for user in found.unseen if self.case.served[user]]
+        if unseen:
+            said.append(self.say("certainty.unseen", names=self.names(unseen)))
+        if self.case.decision.is_usable and found.least_sure is None:
+            said.append(self.say("certainty.rests_on_none"))
+        return self.joined([*said, *self._sure(found)])
+
+    def _sure(self, found: Certainty) -> list[str]:
+        """How sure the rates are, and the gain that is known least."""
+        if found.least_sure is None or found.widest is None:
+            return []
+        (user, subcarrier), outage = found.widest, self.case.problem.outage_probability
+        low, high = human(found.low_bps, "bit/s"), human(found.high_bps, "bit/s")
+        told = {"user": self.name(found.least_sure), "kept": probability(found.least_kept)}
+        key = "promise" if outage is not None else "holds" if found.expected_missed < _HARDLY_ANY else "may_fail"
+        served, sure = int((self.case.decision.committed_bps > 0).sum()), reliability(outage or 0.0)
+        asked = outage is None and self.case.problem.promises_rates
+        return [
+            self.say("certainty.band", low=low, high=high) if low != high else "",
+            self.say(f"certainty.{key}", served=served, sure=sure, **told, missed=found.expected_missed),
+            self.say("certainty.asked") if asked else "",
+            self.say(
+                "certainty.widest", user=self.case.estimate.user_names[user],
+                place=place(subcarrier, subcarrier, self.language),
+                low=found.widest_low_db, high=found.widest_high_db,
+            ),
+        ]  # fmt: skip

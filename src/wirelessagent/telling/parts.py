@@ -1,6 +1,10 @@
-"""Parts of sentences: what values, subcarriers and results are called."""
+"""Parts of sentences: what values, subcarriers, users and results are called."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -9,7 +13,59 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import has_message, message
+from wirelessagent.telling.catalogue import Said, called, has_message, joined, listed, message
+
+if TYPE_CHECKING:
+    from wirelessagent.telling.facts.case import Case
+
+_Teller = TypeVar("_Teller", bound="Teller")
+
+
+@dataclass(frozen=True)
+class Teller:
+    """Tells of a decision in the operator's language; what it can tell by topic derives from this."""
+
+    case: Case
+    language: str
+
+    def by(self, kind: type[_Teller]) -> _Teller:
+        """Another teller of the same decision."""
+        return kind(self.case, self.language)
+
+    def say(self, key: str, /, **places: object) -> Said:
+        """A message in the operator's language."""
+        return message(self.language, key, **places)
+
+    def joined(self, sentences: Iterable[str]) -> Said:
+        """Sentences one after the other; those that are empty are left out."""
+        return joined(self.language, sentences)
+
+    def name(self, user: int) -> str:
+        """What a user is called."""
+        return called(self.language, self.case.estimate.user_names[user])
+
+    def names(self, users: Iterable[int]) -> str:
+        """What users are called, in a row."""
+        return listed(self.language, self.case.named(users))
+
+    @property
+    def figure(self) -> str:
+        """What the decision's value is called in a sentence."""
+        return value_name(self.case.decision, self.language)
+
+    @property
+    def budget(self) -> str:
+        """The power that may be radiated."""
+        return human(self.case.problem.budget_w(self.case.cell), "W")
+
+    @property
+    def spent(self) -> str:
+        """The power that is radiated."""
+        return human(self.case.decision.total_power_w, "W")
+
+    def worth(self, value: float) -> str:
+        """A value of the decision's objective with its unit."""
+        return human(value, self.case.decision.unit)
 
 
 def name_of_figure(decision: Decision, language: str = "en") -> str:

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from wirelessagent.model.units import human, percent
-from wirelessagent.telling.catalogue import called, joined, message
-from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.steps import (
+    NOTHING,
     Reach,
     Step,
     for_the_total,
@@ -17,162 +16,115 @@ from wirelessagent.telling.facts.steps import (
     rate_step,
     reach,
 )  # fmt: skip
-from wirelessagent.telling.parts import outcome_in_words, value_name
+from wirelessagent.telling.parts import Teller, outcome_in_words
 from wirelessagent.telling.reasons import reason_in_words
 
-_NOTHING = 1e-9
 
+class Steps(Teller):
+    """What more of something would change, or less."""
 
-def more_answer(
-    case: Case,
-    language: str,
-    *,
-    power_w: float | None = None,
-    rate_bps: float | None = None,
-    rate_share: float | None = None,
-    each: bool = False,
-    user: int | None = None,
-) -> str:
-    """What more power (1 W if nothing is named) or more rate would change; less where a figure is below zero.
+    def more_power(self, step_w: float) -> str:
+        """What more power would change; less where it is below zero."""
+        step = power_step(self.case, step_w)
+        if step is not None:
+            return self._stepped(step)
+        return self.say("step.no_power", step=human(-step_w, "W"), before=self.budget)
 
-    Args:
-        case: the decision asked about.
-        language: the operator's.
-        power_w: how much more power.
-        rate_bps: how much more rate: of ``user``, of ``each`` user, else of the value or in all.
-        rate_share: how much more rate, as a share.
-        each: whether the rate is every user's.
-        user: whose the rate is, from 0.
-    """
-    if rate_share is not None or (rate_bps is not None and user is None and not each):
-        return _more_rate(case, language, rate_bps, rate_share)
-    if rate_bps is not None:
-        return _stepped(case, rate_step(case, rate_bps, user), language)
-    step_w = 1.0 if power_w is None else power_w
-    step = power_step(case, step_w)
-    if step is not None:
-        return _stepped(case, step, language)
-    budget = human(case.problem.budget_w(case.cell), "W")
-    return message(language, "step.no_power", step=human(-step_w, "W"), before=budget)
+    def more_rate(self, step_bps: float, user: int | None) -> str:
+        """What more rate of a user, from 0, or of each user would change."""
+        return self._stepped(rate_step(self.case, step_bps, user))
 
+    def more_in_all(self, step_bps: float | None, share: float | None) -> str:
+        """What more rate takes where nobody says whose: of the value where that is one, else of promises and in all."""
 
-def _more_rate(case: Case, language: str, rate_bps: float | None, share: float | None) -> str:
-    """What more rate takes where nobody says whose: of the value where that is one, else of the promises and in all."""
+        def step_of(whole: float) -> float:
+            return (step_bps or 0.0) if share is None else share * whole
 
-    def step_of(whole: float) -> float:
-        return (rate_bps or 0.0) if share is None else share * whole
+        case, decision, promised = self.case, self.case.decision, float(self.case.promised_bps.max())
+        if has_reach(case):
+            return self._more(decision.value, step_of(decision.value), case.problem.budget_w(case.cell))
+        total = float(decision.rate_bps.sum()) if decision.is_usable else 0.0
+        of_promises, in_all = "", ""
+        if promised > 0 or not decision.is_usable:
+            of_promises = self.more_rate(step_of(promised), None)
+        if total > 0:
+            in_all = Steps(for_the_total(case), self.language)._more(total, step_of(total), decision.total_power_w)
+        return self.joined([of_promises, in_all])
 
-    now, promised, usable = case.decision.value, float(case.promised_bps.max()), case.decision.is_usable
-    if has_reach(case):
-        return _more(case, now, step_of(now), case.problem.budget_w(case.cell), language)
-    total = float(case.decision.rate_bps.sum()) if usable else 0.0
-    said: list[str] = []
-    if promised > 0 or not usable:
-        said.append(_stepped(case, rate_step(case, step_of(promised)), language))
-    if total > 0:
-        said.append(_more(for_the_total(case), total, step_of(total), case.decision.total_power_w, language))
-    return joined(language, said)
+    def _stepped(self, step: Step) -> str:
+        usable = step.before.is_usable and step.after.is_usable
+        return self.told(step, kept_by(self.case, step) if usable else None)
 
+    def told(self, step: Step, kept: Reach | None) -> str:
+        """What a step changes, and what power would keep the value, in a paragraph."""
+        usable, beyond = step.before.is_usable and step.after.is_usable, ""
+        said = [self._changed(step) if usable else self._unmet(step)]
+        if usable and kept is not None:
+            said.append(self._reached(kept, "step.kept", before_w=self.case.problem.budget_w(self.case.cell)))
+        if step.after.is_usable and not np.isnan(step.limit_w):
+            beyond = self.say("step.limit", limit=human(step.limit_w, "W"))
+        return self.joined([*said, self._bound(step) if usable else "", beyond])
 
-def _stepped(case: Case, step: Step, language: str) -> str:
-    usable = step.before.is_usable and step.after.is_usable
-    return step_answer(case, step, kept_by(case, step) if usable else None, language)
+    def change(self, step: Step) -> str:
+        """How the value changes, as in "raise the total rate by 1 Mbit/s (3 %), to 34 Mbit/s"."""
+        before, unit = step.before.value, step.before.unit
+        value, size = human(step.value_after, unit), human(abs(step.change), unit)
+        if abs(step.change) <= NOTHING * abs(before):
+            return self.say("step.keep", figure=self.figure, value=value)
+        share = self.say("step.share", share=percent(abs(step.change / before))) if before else ""
+        key = "step.raise" if step.change > 0 else "step.lower"
+        return self.say(key, figure=self.figure, size=size, share=share, value=value)
 
+    def _changed(self, step: Step) -> str:
+        if not step.of_power:
+            return self.say("step.rate", who=self._who(step), level=_level(step), change=self.change(step))
+        if step.changes_nothing and not self.case.spends_all:
+            key = "step.power_least" if self.case.objective.measure == "power" else "step.power_idle"
+            return self.say(key, level=_level(step), before=self.budget, spent=self.spent)
+        return self.say("step.power", level=_level(step), before=self.budget, change=self.change(step))
 
-def step_answer(case: Case, step: Step, kept: Reach | None, language: str) -> str:
-    """What a step changes, and what power would keep the value, in a paragraph."""
-    said: list[str] = []
-    if not (step.before.is_usable and step.after.is_usable):
-        said.append(_unmet(case, step, language))
-    else:
-        if step.of_power:
-            said.append(_power(case, step, language))
-        else:
-            change, who = change_in_words(case, step, language), _who(case, step, language)
-            said.append(message(language, "step.rate", who=who, level=_level(step), change=change))
-        budget = case.problem.budget_w(case.cell)
-        said += [] if kept is None else [_reached(case, kept, "step.kept", language, before_w=budget)]
-        said += _bound(case, step, language)
-    if step.after.is_usable and not np.isnan(step.limit_w):
-        said.append(message(language, "step.limit", limit=human(step.limit_w, "W")))
-    return joined(language, said)
+    def _more(self, now: float, step: float, spent_w: float) -> str:
+        """What power it takes that a value is larger by ``step``, or what a smaller one saves."""
+        more = self.say("step.rate_more" if step > 0 else "step.rate_less", step=self.worth(abs(step)))
+        if not now + step > 0:
+            return self.say("step.nothing_left", step=more, figure=self.figure, before=self.worth(now))
+        return self._reached(reach(self.case, now + step), "step.reached", before_w=spent_w, step=more)
 
+    def _reached(self, found: Reach, key: str, *, before_w: float, step: str = "") -> str:
+        told = {"figure": self.figure, "target": self.worth(found.target), "step": step}
+        if np.isnan(found.power_w):
+            out = "step.out_of_reach" if step else "step.not_kept"
+            return self.say(out, **told, power=human(found.tried_w, "W"))
+        more = found.power_w - before_w
+        way, size = self.say("step.more" if more >= 0 else "step.less"), human(abs(more), "W")
+        power, share = human(found.power_w, "W"), percent(abs(more) / before_w)
+        said = self.say(key, **told, power=power, before=human(before_w, "W"), size=size, share=share, way=way)
+        limited = not np.isnan(found.limit_w)
+        return self.joined([said, self.say("step.limit", limit=human(found.limit_w, "W")) if limited else ""])
 
-def _more(case: Case, now: float, step: float, spent_w: float, language: str) -> str:
-    """What power it takes that a value is larger by ``step``, or what a smaller one saves."""
-    unit, figure = case.decision.unit, value_name(case.decision, language)
-    more = message(language, "step.rate_more" if step > 0 else "step.rate_less", step=human(abs(step), unit))
-    if not now + step > 0:
-        return message(language, "step.nothing_left", step=more, figure=figure, before=human(now, unit))
-    return _reached(case, reach(case, now + step), "step.reached", language, before_w=spent_w, step=more)
+    def _unmet(self, step: Step) -> str:
+        who = self._who(step)
+        told = self.say("step.of_power" if step.of_power else "step.of_rate", level=_level(step), who=who)
+        if not step.before.is_usable and step.after.is_usable:
+            return self.say("step.now_met", step=told, outcome=outcome_in_words(step.after, self.language))
+        key = "step.no_longer" if step.before.is_usable else "step.still_not"
+        return self.say(key, step=told, reason=reason_in_words(step.after, self.language))
 
+    def _bound(self, step: Step) -> str:
+        """What no allocation could do better, where the decision after the step is not proven optimal."""
+        sign = -1.0 if self.case.falls else 1.0
+        most = sign * step.most_change
+        if step.after.status == "optimal" or sign * step.change < 0 or not np.isfinite(most) or most <= 0:
+            return ""
+        direction = self.say("step.down" if self.case.falls else "step.up")
+        return self.say("step.bound", direction=direction, size=human(most, step.before.unit))
 
-def _reached(case: Case, found: Reach, key: str, language: str, *, before_w: float, step: str = "") -> str:
-    figure, target = value_name(case.decision, language), human(found.target, case.decision.unit)
-    if np.isnan(found.power_w):
-        out = "step.out_of_reach" if step else "step.not_kept"
-        return message(language, out, figure=figure, target=target, step=step, power=human(found.tried_w, "W"))
-    more = found.power_w - before_w
-    said = message(
-        language, key, figure=figure, target=target, step=step, power=human(found.power_w, "W"),
-        before=human(before_w, "W"), size=human(abs(more), "W"), share=percent(abs(more) / before_w),
-        way=message(language, "step.more" if more >= 0 else "step.less"),
-    )  # fmt: skip
-    beyond = [] if np.isnan(found.limit_w) else [message(language, "step.limit", limit=human(found.limit_w, "W"))]
-    return joined(language, [said, *beyond])
-
-
-def change_in_words(case: Case, step: Step, language: str) -> str:
-    """How the value changes, as in "raise the total rate by 1 Mbit/s (3 %), to 34 Mbit/s"."""
-    figure, change, before = value_name(case.decision, language), step.change, step.before.value
-    value = human(step.value_after, step.before.unit)
-    if abs(change) <= _NOTHING * abs(before):
-        return message(language, "step.keep", figure=figure, value=value)
-    share = message(language, "step.share", share=percent(abs(change / before))) if before else ""
-    size = human(abs(change), step.before.unit)
-    return message(
-        language, "step.raise" if change > 0 else "step.lower", figure=figure, size=size, share=share, value=value
-    )
-
-
-def _power(case: Case, step: Step, language: str) -> str:
-    level, before = human(step.level, "W"), human(case.problem.budget_w(case.cell), "W")
-    if abs(step.change) <= _NOTHING * abs(step.before.value) and not case.spends_all:
-        key = "step.power_least" if case.objective.measure == "power" else "step.power_idle"
-        spent = human(step.before.total_power_w, "W")
-        return message(language, key, level=level, before=before, spent=spent)
-    return message(
-        language, "step.power", level=level, before=before, change=change_in_words(case, step, language)
-    )  # fmt: skip
-
-
-def _unmet(case: Case, step: Step, language: str) -> str:
-    kind = "step.of_power" if step.of_power else "step.of_rate"
-    told = message(language, kind, level=_level(step), who=_who(case, step, language))
-    if step.before.is_usable:
-        return message(language, "step.no_longer", step=told, reason=reason_in_words(step.after, language))
-    if not step.after.is_usable:
-        return message(language, "step.still_not", step=told, reason=reason_in_words(step.after, language))
-    return message(language, "step.now_met", step=told, outcome=outcome_in_words(step.after, language))
-
-
-def _bound(case: Case, step: Step, language: str) -> list[str]:
-    """What no allocation could do better, where the decision after the step is not proven optimal."""
-    sign = 1.0 if case.objective.direction == "max" else -1.0
-    most = sign * step.most_change
-    worse = sign * step.change < 0
-    if step.after.status == "optimal" or worse or not np.isfinite(most) or most <= 0:
-        return []
-    direction = message(language, "step.up" if sign > 0 else "step.down")
-    return [message(language, "step.bound", direction=direction, size=human(most, step.before.unit))]
+    def _who(self, step: Step) -> str:
+        if step.user is not None:
+            return self.name(step.user)
+        spread = np.ptp(self.case.promised_bps[self.case.served]) > 0
+        return self.say("step.everybody_more" if spread else "step.everybody", step=human(step.step, "bit/s"))
 
 
 def _level(step: Step) -> str:
     return human(step.level, "W" if step.of_power else "bit/s")
-
-
-def _who(case: Case, step: Step, language: str) -> str:
-    if step.user is not None:
-        return called(language, case.estimate.user_names[step.user])
-    spread = np.ptp(case.promised_bps[case.served]) > 0
-    return message(language, "step.everybody_more" if spread else "step.everybody", step=human(step.step, "bit/s"))

@@ -89,10 +89,11 @@ def account(case: Case, user: int) -> Account:
     plain = share(case, user)
     standing = plain.standing
     found = bids(case) if standing in ("served", "outbid", "no_weight") else None
+    also = case.named([*np.flatnonzero(case.served).tolist(), user])
     return dataclasses.replace(
         plain,
         losses=() if found is None else _losses(case, found, user),
-        included=_included(case, user) if standing == "left_out" else None,
+        included=case.solved(case.but(users=also)) if standing == "left_out" else None,
         promise=promise_step(case, user, PROMISE_BPS) if standing in ("outbid", "no_weight", "no_promise") else None,
     )
 
@@ -119,19 +120,11 @@ def share(case: Case, user: int) -> Account:
 
 def newcomer(case: Case) -> Account | None:
     """The account of the user with whom the value is best of those who are left out; None where nobody is."""
-    left = [int(user) for user in np.flatnonzero(~case.served)]
-    sign = 1.0 if case.objective.direction == "max" else -1.0
-    accounts = [account(case, user) for user in left]
-    met = [one for one in accounts if one.included is not None and one.included.is_usable]
-    first = accounts[0] if accounts else None
-    return max(met, key=lambda one: sign * one.included.value if one.included else 0.0, default=first)
-
-
-def _included(case: Case, user: int) -> Decision:
-    """The decision for the same users and this one."""
-    return case.solved(
-        dataclasses.replace(case.problem, users=case.named([*np.flatnonzero(case.served).tolist(), user]))
-    )
+    accounts = [account(case, user) for user in np.flatnonzero(~case.served).tolist()]
+    met = {one.included.value: one for one in reversed(accounts) if one.included is not None and one.included.is_usable}
+    if not met:
+        return accounts[0] if accounts else None
+    return met[min(met) if case.falls else max(met)]
 
 
 def _standing(case: Case, user: int, has_power: bool) -> Standing:
@@ -161,22 +154,14 @@ def _losses(case: Case, found: Bids, user: int) -> tuple[Loss, ...]:
 
 
 def _loss(case: Case, found: Bids, user: int, group: int) -> Loss:
-    first, last = found.members(group)
-    inside = np.arange(first, last + 1)
-    winner, behind = int(found.owner[group]), float(found.behind_db[user, group])
-    estimate = case.estimate
+    inside = np.arange(int(found.start[group]), int(found.start[group + 1]))
+    behind, estimate = float(found.behind_db[user, group]), case.estimate
     unsure = bool((estimate.gain_variance[user, inside] > 0).any())
     low_db, high_db, chance = _spread(case, user, inside, behind) if unsure else (0.0, 0.0, np.nan)
     return Loss(
-        first=first,
-        last=last,
-        winner=winner,
-        behind_db=behind,
-        repaired=bool(estimate.repaired[user, inside].any()),
-        low_db=low_db,
-        high_db=high_db,
-        chance=chance,
-    )
+        first=int(inside[0]), last=int(inside[-1]), winner=int(found.owner[group]), behind_db=behind,
+        repaired=bool(estimate.repaired[user, inside].any()), low_db=low_db, high_db=high_db, chance=chance,
+    )  # fmt: skip
 
 
 def _spread(case: Case, user: int, inside: IntArray, behind_db: float) -> tuple[float, float, float]:

@@ -14,7 +14,7 @@ from wirelessagent import chain
 from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.expected import counted_on
 from wirelessagent.deciding.methods.dual import Dual
-from wirelessagent.model.arrays import BoolArray, FloatArray
+from wirelessagent.model.arrays import BoolArray, FloatArray, IntArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import UnsupportedProblemError
@@ -64,6 +64,11 @@ class Case:
         """True for the users to serve, shape (user,)."""
         return self.problem.serves(self.num_users)
 
+    @property
+    def falls(self) -> bool:
+        """Whether the value is to be small."""
+        return self.objective.direction == "min"
+
     def named(self, users: Iterable[int]) -> tuple[str, ...]:
         """Users, given as indices, as a request names them."""
         return tuple(self.estimate.user_names[user] for user in users)
@@ -83,11 +88,15 @@ class Case:
         return (self.decision.owner == user) & (self.decision.power_w > 0)
 
     @functools.cached_property
+    def used(self) -> IntArray:
+        """The subcarriers that carry power, from 0."""
+        return np.flatnonzero((self.decision.owner >= 0) & (self.decision.power_w > 0))
+
+    @functools.cached_property
     def spent_w(self) -> FloatArray:
         """The power that is radiated to each user, shape (user,)."""
-        used = self.decision.power_w > 0
-        spent = np.bincount(self.decision.owner[used], weights=self.decision.power_w[used], minlength=self.num_users)
-        return np.asarray(spent, dtype=np.float64)
+        owner, power_w = self.decision.owner[self.used], self.decision.power_w[self.used]
+        return np.asarray(np.bincount(owner, weights=power_w, minlength=self.num_users), dtype=np.float64)
 
     @property
     def rate_bps(self) -> FloatArray:
@@ -118,7 +127,7 @@ class Case:
     @functools.cached_property
     def plain(self) -> Problem:
         """The problem without its outage probability, for :attr:`counted`."""
-        return dataclasses.replace(self.problem, outage_probability=None)
+        return self.but(outage_probability=None)
 
     @functools.cached_property
     def form(self) -> NormalForm:
@@ -129,6 +138,10 @@ class Case:
     def priced(self) -> Decision:
         """The decision of the dual on the channel that counts with nothing searched, for its bound and its prices."""
         return chain.decide(self.counted, self.plain, self.cell, "dual", restarts=0)
+
+    def but(self, **changes: Any) -> Problem:
+        """The problem with other fields."""
+        return dataclasses.replace(self.problem, **changes)
 
     def solved(self, problem: Problem, cell: Cell | None = None) -> Decision:
         """The same method's decision on the same channel for another problem, or another cell.

@@ -37,12 +37,10 @@ class MarginalPrices:
         power: change of the best value per watt more, in the value's unit per W; NaN if not known.
         rate: change per bit/s more promised to each user, shape (user,), NaN if not known. Positive where what is to be
             small grows, negative where what is to be large shrinks, 0 for a promise that does not bind.
-        binds: whether the whole budget is used.
     """
 
     power: float
     rate: FloatArray
-    binds: bool
 
 
 def marginal_prices(case: Case) -> MarginalPrices:
@@ -54,7 +52,7 @@ def marginal_prices(case: Case) -> MarginalPrices:
         rate = rate if rate.size else case.priced.price_of_rate
     if not rate.size:
         rate = np.full(case.num_users, np.nan if case.promised_bps.any() else 0.0)
-    return MarginalPrices(power=power, rate=rate, binds=case.spends_all)
+    return MarginalPrices(power=power, rate=rate)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -76,44 +74,31 @@ class Bids:
     start: IntArray
     behind_db: FloatArray
 
-    def members(self, group: int) -> tuple[int, int]:
-        """The first and the last subcarrier of a group, from 0."""
-        return int(self.start[group]), int(self.start[group + 1]) - 1
-
 
 def bids(case: Case) -> Bids:
     """The bids for a usable decision, at its own prices or, where its method has none, at the dual's."""
-    form, price = case.form, prices_of_rates(case)
+    form, price = case.form, _prices_of_rates(case)
     worth = priced_worth_w(form, form.snr_per_w, price)
     owner = np.maximum.reduceat(np.where(case.decision.power_w > 0, case.decision.owner, -1), form.start[:-1])
-    wanted = np.where(owner >= 0, worth[owner, np.arange(owner.size)], 0.0)
+    held = np.flatnonzero(owner >= 0)
+    wanted = np.zeros(owner.size)
+    wanted[held] = worth[owner[held], held]
     behind = _behind_db(form, price, wanted)
-    held = owner >= 0
-    behind[owner[held], np.flatnonzero(held)] = 0.0
+    behind[owner[held], held] = 0.0
     return Bids(price=price, bid_w=worth, owner=owner, start=form.start, behind_db=behind)
 
 
-def prices_of_rates(case: Case) -> FloatArray:
-    """λ of each user's rate, shape (user,), in W per nat."""
+def _prices_of_rates(case: Case) -> FloatArray:
+    """λ of each user's rate, shape (user,), in W per nat: of the decision, a closed form, or the dual."""
     found = case.decision.prices
-    if found is None and nats_worth(case.form) is not None:
-        return _closed_prices(case)
-    if found is None:
+    if found is None and nats_worth(case.form) is None:
         found = case.priced.prices
-    if found is None:
-        return _closed_prices(case)
-    return np.minimum(np.exp(np.minimum(found.log_rate, 300.0)), _DEAREST)
-
-
-def _closed_prices(case: Case) -> FloatArray:
-    """One water level for all whose rate counts: the height of the water on the subcarriers that are not full."""
-    form, decision = case.form, case.decision
-    counts = form.weight > 0
-    used = np.flatnonzero((decision.owner >= 0) & (decision.power_w > 0))
-    a = form.snr_per_w[decision.owner[used], used]
-    used, a = used[a > 0], a[a > 0]
-    level = float((decision.power_w[used] + 1.0 / a).max(initial=0.0))
-    return np.where(counts, level, 0.0)
+    if found is not None:
+        return np.minimum(np.exp(np.minimum(found.log_rate, 300.0)), _DEAREST)
+    # one water level for all whose rate counts: the height of the water on the subcarriers that are not full
+    a = case.form.snr_per_w[case.decision.owner[case.used], case.used]
+    level = float((case.decision.power_w[case.used[a > 0]] + 1.0 / a[a > 0]).max(initial=0.0))
+    return np.where(case.form.weight > 0, level, 0.0)
 
 
 def _behind_db(form: NormalForm, price: FloatArray, wanted: FloatArray) -> FloatArray:

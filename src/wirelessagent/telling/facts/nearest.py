@@ -18,8 +18,9 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -27,9 +28,7 @@ from wirelessagent.deciding.core.normal_form import NormalForm
 from wirelessagent.deciding.core.outage_channel import UncertainChannel
 from wirelessagent.deciding.core.rate_proof import ceilings, one_each, usable_groups
 from wirelessagent.deciding.methods.dual import Dual
-from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
-from wirelessagent.model.problem import Problem
 from wirelessagent.telling.facts.case import Case
 
 _SAFE = 1.0 - 1e-7
@@ -129,8 +128,7 @@ def nearest(case: Case) -> Nearest:
 
 def more_power(case: Case) -> MorePower | None:
     """The least power that the same rates were found to be carried with."""
-    least = dataclasses.replace(case.problem, objective="min_power", weights=None, max_power_w=None)
-    found = case.otherwise(least, _ample(case.cell))
+    found = _least_power(case)
     if not found.is_usable:
         return None
     for margin in _MARGINS:
@@ -138,7 +136,7 @@ def more_power(case: Case) -> MorePower | None:
         cell, allowed = case.cell, power <= case.cell.max_power_w
         if not allowed:
             cell = dataclasses.replace(cell, max_power_w=power)
-        decision = case.otherwise(dataclasses.replace(case.problem, max_power_w=power), cell)
+        decision = case.otherwise(case.but(max_power_w=power), cell)
         if decision.is_usable:
             return MorePower(power_w=power, decision=decision, within_limit=allowed)
     return None
@@ -146,14 +144,10 @@ def more_power(case: Case) -> MorePower | None:
 
 def without_limits(case: Case) -> tuple[WithoutLimit, ...]:
     """The limits without one of which the request can be met."""
-    problem, without = case.problem, dict[str, Problem]()
-    if problem.subcarrier_max_power_w is not None:
-        without["subcarrier_max_power_w"] = dataclasses.replace(problem, subcarrier_max_power_w=None)
-    if problem.resource_block_group_size > 1:
-        without["resource_block_group_size"] = dataclasses.replace(problem, resource_block_group_size=1)
-    if problem.outage_probability is not None:
-        without["outage_probability"] = dataclasses.replace(problem, outage_probability=None)
-    found = (WithoutLimit(limit=limit, decision=case.otherwise(loose)) for limit, loose in without.items())
+    without = {"subcarrier_max_power_w": None, "resource_block_group_size": 1, "outage_probability": None}
+    stated = [limit for limit in without if limit in case.problem.constraints()]
+    loose = (case.otherwise(case.but(**{limit: without[limit]})) for limit in stated)
+    found = (WithoutLimit(limit=limit, decision=decision) for limit, decision in zip(stated, loose, strict=True))
     return tuple(one for one in found if one.decision.is_usable)
 
 
@@ -200,7 +194,7 @@ def _searched_for(case: Case, most: float) -> LowerRates | None:
 
 def _scaled(case: Case, factor: float) -> Decision:
     """The decision with every promised rate times a factor."""
-    return case.otherwise(dataclasses.replace(case.problem, min_rate_bps=case.promised_bps * factor))
+    return case.otherwise(case.but(min_rate_bps=case.promised_bps * factor))
 
 
 def fewer_users(case: Case) -> FewerUsers | None:
@@ -242,23 +236,25 @@ def _dearest(case: Case, rest: list[int], left: list[int]) -> int:
     """Who of ``rest`` costs most at the prices without those who are ``left`` out already."""
     price = _without(case, left).price_of_rate if left else case.decision.price_of_rate
     if not price.size:
-        remaining = case.named(user for user in np.flatnonzero(case.served).tolist() if user not in left)
-        least = dataclasses.replace(
-            case.problem, objective="min_power", weights=None, max_power_w=None, users=remaining
-        )
-        price = case.otherwise(least, _ample(case.cell)).price_of_rate
+        price = _least_power(case, users=_rest(case, left)).price_of_rate
     if not price.size or not np.isfinite(price[rest]).any():
         return max(rest, key=lambda user: float(case.promised_bps[user] / max(case.counted.gain[user].max(), 1e-300)))
     return max(rest, key=lambda user: float(np.nan_to_num(price[user], nan=0.0) * case.promised_bps[user]))
 
 
-def _without(case: Case, left: list[int] | tuple[int, ...]) -> Decision:
-    rest = case.named(user for user in np.flatnonzero(case.served).tolist() if user not in left)
-    return case.otherwise(dataclasses.replace(case.problem, users=rest))
+def _without(case: Case, left: Sequence[int]) -> Decision:
+    return case.otherwise(case.but(users=_rest(case, left)))
 
 
-def _ample(cell: Cell) -> Cell:
-    return dataclasses.replace(cell, max_power_w=cell.max_power_w * _AMPLE)
+def _rest(case: Case, left: Sequence[int]) -> tuple[str, ...]:
+    """Who is served, without some."""
+    return case.named(user for user in np.flatnonzero(case.served).tolist() if user not in left)
+
+
+def _least_power(case: Case, **changes: Any) -> Decision:
+    """The least power that the promised rates take, where there is more than enough of it."""
+    least = case.but(objective="min_power", weights=None, max_power_w=None, **changes)
+    return case.otherwise(least, dataclasses.replace(case.cell, max_power_w=case.cell.max_power_w * _AMPLE))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -304,20 +300,14 @@ def _shortage(form: NormalForm) -> Shortage | None:
     if served < users.size:
         kind: Kind = "no_subcarrier" if users.size == 1 else "too_few"
         return Shortage(kind=kind, user=int(users[0]), users=users.size, served=served, places=places)
-    snr, nats = form.snr_per_w[users], form.promised_nats[users]
+    snr, nats, scale = form.snr_per_w[users], form.promised_nats[users], form.bps_per_nat
     most = np.add.reduceat(ceilings(form, snr), form.start[:-1], axis=1)  # of each group
     own, best = most.sum(axis=1), float(most.max(axis=0).sum())
     worst = int((own / nats).argmin())
     if own[worst] < nats[worst] * (1.0 - _ROUNDING):
-        promised, carried = float(nats[worst]), float(own[worst])
-        return _rates(form, "one_user", promised, carried, int(users[worst]))
+        promised, carried = float(nats[worst]) * scale, float(own[worst]) * scale
+        return Shortage(kind="one_user", user=int(users[worst]), promised_bps=promised, most_bps=carried)
     if best < nats.sum() * (1.0 - _ROUNDING):
-        return _rates(form, "together", float(nats.sum()), best)
+        return Shortage(kind="together", promised_bps=float(nats.sum()) * scale, most_bps=best * scale)
     needed = int(np.ceil(nats / most.max(axis=1) * (1.0 - _ROUNDING)).sum())
     return Shortage(kind="places", users=users.size, places=places, needed=needed) if needed > places else None
-
-
-def _rates(form: NormalForm, kind: Kind, promised: float, most: float, user: int = -1) -> Shortage:
-    """One that is a matter of rates, in nats."""
-    scale = form.bps_per_nat
-    return Shortage(kind=kind, user=user, promised_bps=promised * scale, most_bps=most * scale)

@@ -17,16 +17,18 @@ import numpy as np
 
 from wirelessagent import chain
 from wirelessagent.model.arrays import FloatArray, IntArray
+from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
 from wirelessagent.telling.facts.case import Case
 
+NOTHING = 1e-9
+"""A share of the value that is no change of it."""
 _AT_THE_CEILING = 1e-6
 _ACCURACY = 1e-3
 _FARTHEST = 1e4
 """How many times more or less than the budget is tried."""
 _STRIDE = 4.0
-_NOTHING = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,8 +48,8 @@ class Step:
     after: Decision
     step: float
     level: float
-    user: int | None
-    of_power: bool
+    user: int | None = None
+    of_power: bool = False
     limit_w: float = np.nan
 
     @property
@@ -61,23 +63,24 @@ class Step:
         return self.value_after - self.before.value
 
     @property
+    def changes_nothing(self) -> bool:
+        """Whether the value is the same after the step."""
+        return abs(self.change) <= NOTHING * abs(self.before.value)
+
+    @property
     def value_after(self) -> float:
         """The better of both values where the old allocation still keeps the new problem."""
         looser = self.step >= 0 if self.of_power else self.step <= 0
         if not looser or not self.before.is_usable:
             return self.after.value
-        better = np.fmin if self._falls else np.fmax
-        return float(better(self.before.value, self.after.value))
+        objective = self.before.problem.objective
+        falls = not isinstance(objective, str) and objective.direction == "min"
+        return float((np.fmin if falls else np.fmax)(self.before.value, self.after.value))
 
     @property
     def most_change(self) -> float:
         """The most that the value can improve by, proven by the bound after the step; NaN without one."""
         return self.after.bound - self.before.value
-
-    @property
-    def _falls(self) -> bool:
-        objective = self.before.problem.objective
-        return not isinstance(objective, str) and objective.direction == "min"
 
 
 def power_step(case: Case, step_w: float) -> Step | None:
@@ -85,23 +88,19 @@ def power_step(case: Case, step_w: float) -> Step | None:
 
     A budget beyond the cell's limit is solved as if the cell allowed it.
     """
-    before = case.problem.budget_w(case.cell)
-    budget = before + step_w
+    budget = case.problem.budget_w(case.cell) + step_w
     if not budget > 0:
         return None
-    cell, limit = case.cell, np.nan
-    if budget > cell.max_power_w * (1 + 1e-12):
-        cell, limit = dataclasses.replace(cell, max_power_w=budget), cell.max_power_w
-    after = case.solved(dataclasses.replace(case.problem, max_power_w=budget), cell)
-    return Step(
-        before=case.decision,
-        after=after,
-        step=step_w,
-        level=budget,
-        user=None,
-        of_power=True,
-        limit_w=limit,
-    )
+    cell, limit_w = _radiating(case.cell, budget)
+    after = case.solved(case.but(max_power_w=budget), cell)
+    return Step(before=case.decision, after=after, step=step_w, level=budget, of_power=True, limit_w=limit_w)
+
+
+def _radiating(cell: Cell, power_w: float) -> tuple[Cell, float]:
+    """The cell as if it allowed a power, and its limit where that is beyond it, else NaN."""
+    if power_w > cell.max_power_w * (1 + 1e-12):
+        return dataclasses.replace(cell, max_power_w=power_w), cell.max_power_w
+    return cell, np.nan
 
 
 def rate_step(case: Case, step_bps: float, user: int | None = None) -> Step:
@@ -120,45 +119,28 @@ def promise_step(case: Case, user: int, rate_bps: float) -> Step:
     return _promised(case, promised, np.array([user]), step)
 
 
-@dataclass(frozen=True, kw_only=True)
-class WithoutCeilings:
-    """Users who have all that they may have, and the decision if they might have more."""
+def _promised(case: Case, promised: FloatArray, users: IntArray, step: float) -> Step:
+    """The step to the rates ``promised`` (user,), of which ``users`` (number,) are promised ``step`` more.
 
-    users: tuple[int, ...]
-    decision: Decision
+    A ceiling below a promise gives way to it.
+    """
+    most = case.problem.max_rates_bps(case.num_users)
+    ceiling = None if case.problem.max_rate_bps is None else np.maximum(most, promised)
+    after = case.solved(case.but(min_rate_bps=promised, max_rate_bps=ceiling))
+    user = int(users[0]) if users.size == 1 else None
+    return Step(before=case.decision, after=after, step=step, level=float(promised[users].min()), user=user)
 
 
-def without_ceilings(case: Case) -> WithoutCeilings | None:
-    """What those who have all that they may have would get; None where nobody has."""
+def without_ceilings(case: Case) -> tuple[tuple[int, ...], Decision | None]:
+    """Who has all that it may have, and the decision if they might have more; None where nobody has."""
     decision, most = case.decision, case.problem.max_rates_bps(case.num_users)
     full = np.flatnonzero(case.served & np.isfinite(most) & (decision.rate_bps >= most * (1 - _AT_THE_CEILING)))
     if not full.size:
-        return None
+        return (), None
     without = most.copy()
     without[full] = np.inf
     limited = bool(np.isfinite(without).any())
-    problem = dataclasses.replace(case.problem, max_rate_bps=without if limited else None)
-    return WithoutCeilings(users=tuple(int(user) for user in full), decision=case.otherwise(problem))
-
-
-def _promised(case: Case, promised: FloatArray, users: IntArray, step: float) -> Step:
-    """The step to the rates ``promised`` (user,), of which ``users`` (number,) are promised ``step`` more."""
-    after = case.solved(_carrying(case.problem, promised, case.num_users))
-    return Step(
-        before=case.decision,
-        after=after,
-        step=step,
-        level=float(promised[users].min()),
-        user=int(users[0]) if users.size == 1 else None,
-        of_power=False,
-    )
-
-
-def _carrying(problem: Problem, promised: FloatArray, users: int) -> Problem:
-    """The problem with these promises; a ceiling below a promise gives way to it."""
-    most = problem.max_rates_bps(users)
-    ceiling = None if problem.max_rate_bps is None else np.maximum(most, promised)
-    return dataclasses.replace(problem, min_rate_bps=promised, max_rate_bps=ceiling)
+    return tuple(full.tolist()), case.otherwise(case.but(max_rate_bps=without if limited else None))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,18 +162,18 @@ class Reach:
 
 def has_reach(case: Case) -> bool:
     """Whether the value is a rate, which power buys."""
-    return case.objective.direction == "max" and case.decision.unit == "bit/s" and case.decision.is_usable
+    return not case.falls and case.decision.unit == "bit/s" and case.decision.is_usable
 
 
 def for_the_total(case: Case) -> Case:
     """The case of the highest total rate under the same limits: what a total takes at least, whatever the aim is."""
-    problem = chain.resolve(dataclasses.replace(case.problem, objective="max_rate", weights=None))
+    problem = chain.resolve(case.but(objective="max_rate", weights=None))
     return dataclasses.replace(case, decision=case.otherwise(problem), method=None, options={})
 
 
 def kept_by(case: Case, step: Step) -> Reach | None:
     """What power would keep the value where it was in spite of what more is promised; None where that is no matter."""
-    if step.of_power or not has_reach(case) or step.change >= -_NOTHING * abs(step.before.value):
+    if step.of_power or not has_reach(case) or step.change >= -NOTHING * abs(step.before.value):
         return None
     found = reach(case, step.before.value, step.problem)
     return None if np.isnan(found.power_w) else found
@@ -199,33 +181,28 @@ def kept_by(case: Case, step: Step) -> Reach | None:
 
 def reach(case: Case, target: float, problem: Problem | None = None) -> Reach:
     """The power at which a case's problem, or another one on its channel, is worth ``target``."""
-    problem, budget = problem or case.problem, case.problem.budget_w(case.cell)
     found: dict[float, float] = {}
 
     def short(log_power: float) -> float:
         if log_power not in found:
-            decision = _with_budget(case, problem, float(np.exp(log_power)))
+            power_w = float(np.exp(log_power))
+            at_power = dataclasses.replace(problem or case.problem, max_power_w=power_w)
+            decision = case.solved(at_power, _radiating(case.cell, power_w)[0])
             found[log_power] = (decision.value if decision.is_usable else 0.0) / target - 1.0
         return found[log_power]
 
     from scipy.optimize import brentq  # a quarter of a second, and few ask for this
 
-    low = high = float(np.log(budget))
+    low = high = budget = float(np.log(case.problem.budget_w(case.cell)))
     farthest, stride = float(np.log(_FARTHEST)), float(np.log(_STRIDE))
     while short(high) < 0.0:
-        if high - np.log(budget) > farthest:
+        if high - budget > farthest:
             return Reach(target=target, power_w=np.nan, tried_w=float(np.exp(high)))
         low, high = high, high + stride
     while short(low) >= 0.0:
-        if np.log(budget) - low > farthest:
+        if budget - low > farthest:
             break
         low, high = low - stride, low
     root = high if short(low) >= 0.0 else float(brentq(short, low, high, xtol=_ACCURACY, rtol=_ACCURACY))
     power, most = float(np.exp(root)), case.cell.max_power_w
     return Reach(target=target, power_w=power, tried_w=power, limit_w=most if power > most else np.nan)
-
-
-def _with_budget(case: Case, problem: Problem, power_w: float) -> Decision:
-    """The decision with another budget, which may be beyond the cell's limit."""
-    cell = dataclasses.replace(case.cell, max_power_w=max(power_w, case.cell.max_power_w))
-    return case.solved(dataclasses.replace(problem, max_power_w=power_w), cell)

@@ -1,4 +1,4 @@
-"""What a running piece of work tells its listener."""
+"""What is told beside sentences: tables for people, and events while a piece of work is running."""
 
 from __future__ import annotations
 
@@ -7,6 +7,15 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from wirelessagent.telling.catalogue import has_message, message
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """All cells are text; numbers come with their units in the column's name or in the cell."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
 
 
 @dataclass(frozen=True, kw_only=True)
