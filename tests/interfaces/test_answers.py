@@ -10,8 +10,7 @@ import pytest
 from tests.support.conversations import LOSS, SCENE, SEED, Scripted, asks, means
 
 import wirelessagent as wa
-from wirelessagent.agent.dialogue import Request
-from wirelessagent.agent.restating import restated
+from wirelessagent.agent.dialogue import Request, restated
 from wirelessagent.agent.turn import Turn
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.units import human

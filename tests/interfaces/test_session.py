@@ -12,9 +12,8 @@ import pytest
 from conversations import CHINESE, ENGLISH, LOSS, SCENE, SEED, Line, Scripted, asks, means
 
 import wirelessagent as wa
-from wirelessagent.agent.dialogue import Request
+from wirelessagent.agent.dialogue import Request, restated
 from wirelessagent.agent.posing import pose
-from wirelessagent.agent.restating import restated
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
 from wirelessagent.language.conversation import NAME as READ_HERE

@@ -14,9 +14,8 @@ from conversations import LOSS, SCENE, SEED, Scripted, asks, means
 import wirelessagent as wa
 from wirelessagent.agent.acting import carry_out, same_allocation
 from wirelessagent.agent.dialogue import Request
-from wirelessagent.agent.posing import pose
 from wirelessagent.agent.session import Session
-from wirelessagent.agent.site import look, plan
+from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Run, Tools, Turn
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -105,8 +104,7 @@ def run_of(objective: str, method: str | None = None, **constraints: object) -> 
     """A plan on the scene, by a method of one's choice."""
     tools = Tools(method=method)
     request = Request(objective=objective, constraints=constraints)  # type: ignore[arg-type]
-    posed = pose(request, SCENE.cell, SCENE.sensed.user_names)
-    return plan(asks(objective), posed, look(SCENE, (LOSS,), SEED, tools), tools)
+    return Site(SCENE, (LOSS,), seed=SEED, tools=tools).plan(asks(objective), request)
 
 
 def applied(run: Run) -> Run:

@@ -17,7 +17,7 @@ from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act, Ask
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import called, joined, lines_of
+from wirelessagent.telling.catalogue import called, lines_of
 from wirelessagent.telling.certificates import Proofs
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.case import Case
@@ -117,7 +117,7 @@ def methods(talk: Talk, _: acts.AskMethods) -> Reply:
         return nothing_yet(talk)
     decision = talk.state.run.decision
     used = talk.say("about.method_in_use", method=called(talk.language, decision.method))
-    return Reply(decided=joined(talk.language, [used, able(decision.problem, talk.language)]))
+    return Reply(decided=talk.joined(used, able(decision.problem, talk.language)))
 
 
 def about_the_decision(talk: Talk, act: Ask) -> Reply:

@@ -10,20 +10,19 @@ follow a reply that names the plan.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from typing import Any
 
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent.acting import Effect, applied_line, respects, same_allocation
-from wirelessagent.agent.dialogue import applied
+from wirelessagent.agent.acting import applied_line, respects, same_allocation
+from wirelessagent.agent.dialogue import applied, changes_in_words, restated
 from wirelessagent.agent.recalling import no_such_turn
-from wirelessagent.agent.restating import changes_in_words, notes, plan_named, restated
 from wirelessagent.agent.state import Replies, Reply, State, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, shift_between
-from wirelessagent.language.acts import Act, Apply, AskStatus, Export, Forget, No, TurnReference, Undo, Yes
+from wirelessagent.language.acts import Act, Apply, AskStatus, Export, Forget, No, Undo, Yes
 from wirelessagent.language.conversation.assent import assent, is_assent, speaks_of_applying
 from wirelessagent.language.conversation.open_question import Question
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import Said, joined, message
+from wirelessagent.telling.catalogue import Said
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.parts import without_anything
 from wirelessagent.telling.told import Event
@@ -33,31 +32,31 @@ _YES = ("apply", "confirm")
 
 def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
     """Decide on a new or amended request and act on it, or ask before."""
-    site, state, language = talk.site, talk.state, talk.language
+    state, language = talk.state, talk.language
     request, diff = applied(state.request, acts, radiated_w=state.radiated_w)
     assert request is not None  # an intent that allocates names an aim
-    run = site.plan(talk.intent, request)
+    run = talk.site.plan(talk.intent, request)
     new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good, stated=state.stated)
     same = _same_on_air(state, run)
     shift = None if same or state.run is None else shift_between(state.run.decision, run.decision)
-    line = _whole(language, certificate_line(run.decision, language))
-    idle = without_anything(run.decision, language)
     turn = talk.intent.details.get("turn")
-    back = [] if turn is None else [talk.say("request.back_to_turn", number=turn)]
+    back = "" if turn is None else talk.say("request.back_to_turn", number=turn)
+    line, idle = _whole(talk, certificate_line(run.decision, language)), without_anything(run.decision, language)
+    changed = changes_in_words(diff, language)
+    if shift is not None and diff.objective[0] is not None:
+        changed = talk.joined(changed, shift.in_words(language))
     reply = Reply(
-        decided=joined(language, [*back, restated(request, language), line, idle, *notes(run, noted=state.noted)]),
-        changed=changes_in_words(diff, shift, language),
-        state=new,
-        run=run,
-    )
+        decided=talk.joined(back, restated(request, language), line, idle, *talk.notes(run)),
+        changed=changed, state=new, run=run,
+    )  # fmt: skip
     if not run.decision.is_usable:
-        needs = joined(language, [talk.say("ask_back.unmet"), talk.say("ask_back.or_undo") if state.request else ""])
-        return _changing(reply, language, talk.say("plan.not_applied"), stage="nothing", needs=needs)
+        needs = talk.joined(talk.say("ask_back.unmet"), talk.say("ask_back.or_undo") if state.request else "")
+        return _changing(talk, reply, talk.say("plan.not_applied"), stage="nothing", needs=needs)
     if same is not None:
         kept = run.with_outcome(same.outcome)
-        reply = dataclasses.replace(reply, run=kept, state=dataclasses.replace(new, run=kept, on_air=kept))
-        return _changing(reply, language, talk.say("plan.no_change"), stage="nothing")
-    return _carry_or_ask(talk, reply, run)
+        now = dataclasses.replace(new, run=kept, on_air=kept)
+        return _changing(talk, reply, talk.say("plan.no_change"), stage="nothing", run=kept, state=now)
+    return _carry_or_ask(talk, reply, new, run)
 
 
 def _same_on_air(state: State, run: Run) -> Run | None:
@@ -66,9 +65,9 @@ def _same_on_air(state: State, run: Run) -> Run | None:
     return on_air if on_air is not None and same_allocation(run.decision, on_air.decision) else None
 
 
-def _changing(reply: Reply, language: str, said: str, **fields: object) -> Reply:
+def _changing(talk: Talk, reply: Reply, said: str, **fields: Any) -> Reply:
     """A reply that tells one more thing that changed, or did not."""
-    return dataclasses.replace(reply, changed=joined(language, [reply.changed, said]), **fields)  # pyright: ignore[reportArgumentType]
+    return dataclasses.replace(reply, changed=talk.joined(reply.changed, said), **fields)
 
 
 def apply(talk: Talk, _: Apply) -> Reply:
@@ -78,19 +77,20 @@ def apply(talk: Talk, _: Apply) -> Reply:
 
 def _applied(talk: Talk) -> Reply:
     """Apply what was decided and name it; the operator said so, which is the confirmation."""
-    state, language, run = talk.state, talk.language, talk.state.planned or talk.state.run
+    state, run = talk.state, talk.state.planned or talk.state.run
     if run is None:
         return nothing_yet(talk)
     if run is state.on_air:
         return Reply(decided=talk.say("plan.already"), stage="nothing")
     if not run.decision.is_usable:
-        return Reply(decided=talk.say("plan.nothing_to_apply", why=certificate_line(run.decision, language)))
+        why = certificate_line(run.decision, talk.language)
+        return Reply(decided=talk.say("plan.nothing_to_apply", why=why))
     station = talk.site.station(run)
     if station is None:
         return Reply(decided=talk.say("applied.no_station"), stage="nothing")
-    request = [] if state.request is None else [restated(state.request, language)]
-    reply = Reply(decided=joined(language, [*request, *notes(run, noted=True)]), state=state, run=run)
-    return _apply(talk, reply, run, station)
+    request = "" if state.request is None else restated(state.request, talk.language)
+    reply = Reply(decided=talk.joined(request, *talk.notes(run, noted=True)), run=run)
+    return _apply(talk, reply, state, run, station)
 
 
 def confirm(talk: Talk, act: Yes) -> Reply:
@@ -113,7 +113,7 @@ def reject(talk: Talk, act: No) -> Reply:
         if act.cancels:
             return asked_back(talk.say("plan.nothing_to_cancel"))
         return Reply(decided=talk.say("plan.nothing_to_confirm"))
-    dropped = joined(talk.language, [talk.say("plan.dropped"), talk.say("plan.not_applied")])
+    dropped = talk.joined(talk.say("plan.dropped"), talk.say("plan.not_applied"))
     if not act.cancels:
         return Reply(changed=dropped, stage="nothing", state=state.settled)
     before = state.settled if state.undoes or not talk.past else talk.past[-1]
@@ -121,57 +121,50 @@ def reject(talk: Talk, act: No) -> Reply:
     undone = 0 if held.request == state.request else 1
     asked = talk.say("request.nothing_asked")
     if held.request is not None:
-        asked = talk.say("request.asked_for", request=plan_named(held.request, talk.language))
+        asked = talk.say("request.asked_for", request=talk.plan(held.request))
     return Reply(decided=asked, changed=dropped, stage="nothing", state=held, undone=undone)
 
 
 def undo(talk: Talk, act: Undo) -> Reply:
     """Back to what was asked for before and, where something else was in effect then, back to that too."""
     past = talk.past
+    if act.turn in range(1, len(talk.turns) + 1):
+        return asked_back(talk.say("turn.without_request", number=act.turn))
     if act.turn is not None:
-        return asked_back(_no_way_back(talk, act.turn))
+        return asked_back(no_such_turn(talk, act.turn))
     if not past:
         return Reply(decided=talk.say("undo.nothing_to_undo"), stage="nothing")
     count = len(past) if act.steps is None else min(act.steps, len(past))
     before = past[-count]
     text = talk.say("undo.undone_all")
     if before.request is not None:
-        text = talk.say("undo.undone", request=plan_named(before.request, talk.language))
+        text = talk.say("undo.undone", request=talk.plan(before.request))
     if act.steps is not None and act.steps > count:
-        text = joined(talk.language, [talk.say("undo.undone_fewer", count=count), text])
+        text = talk.joined(talk.say("undo.undone_fewer", count=count), text)
     return dataclasses.replace(_undone(talk, before, text), undone=count)
-
-
-def _no_way_back(talk: Talk, turn: TurnReference) -> Said:
-    """Why a turn cannot be gone back to: it is none, or nothing was asked for then."""
-    if turn in range(1, len(talk.turns) + 1):
-        return talk.say("turn.without_request", number=turn)
-    return no_such_turn(turn, len(talk.turns), talk.language)
 
 
 def _undone(talk: Talk, before: State, text: str) -> Reply:
     """Put back what was in effect for the request that holds again, or plan for it anew where it never was."""
-    site, state, language = talk.site, talk.state, talk.language
-    good, wanted = before.on_air, before.run
+    site, state, good, wanted = talk.site, talk.state, before.on_air, before.run
     held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
     reply = Reply(decided=text, stage="undone", state=held, run=wanted)
     if wanted is not None and _never_applied(before) and site.station(wanted) is not None:
         if _same_on_air(state, wanted) is not None:
             return reply
-        return _carry_or_ask(talk, dataclasses.replace(reply, state=dataclasses.replace(held, undoes=True)), wanted)
+        return _carry_or_ask(talk, reply, dataclasses.replace(held, undoes=True), wanted)
     if good is None:
-        return reply if state.on_air is None else _changing(reply, language, talk.say("undo.stays"))
-    station = site.station(good)
+        return reply if state.on_air is None else _changing(talk, reply, talk.say("undo.stays"))
+    station, power = site.station(good), human(good.decision.total_power_w, "W")
     if station is None or _same_on_air(state, good) is not None:
         return reply
     if wanted is not None and not respects(good.decision, wanted.decision):
-        power = human(good.decision.total_power_w, "W")
-        return _changing(reply, language, talk.say("undo.breaks_what_holds", power=power))
+        return _changing(talk, reply, talk.say("undo.breaks_what_holds", power=power))
     if site.asks(station):
         waiting = dataclasses.replace(held, planned=good, undoes=True)
-        needs = _question(good, before, language)
+        needs = talk.say("ask_back.put_it_back", power=power, request=talk.plan(before.request))
         return dataclasses.replace(reply, needs=needs, stage="planned", state=waiting, run=good)
-    return _put_back(talk, dataclasses.replace(reply, state=before), good, station)
+    return _put_back(talk, reply, before, good, station)
 
 
 def _never_applied(state: State) -> bool:
@@ -179,7 +172,7 @@ def _never_applied(state: State) -> bool:
     run = state.run
     if state.request is None or run is None or run.outcome is not None or not run.decision.is_usable:
         return False
-    return state.on_air is None or state.on_air.decision is not run.decision
+    return state.on_air is None or not state.on_air.is_of(run)
 
 
 def reset(talk: Talk, _: Forget) -> Reply:
@@ -188,55 +181,52 @@ def reset(talk: Talk, _: Forget) -> Reply:
     return Reply(changed=talk.say("undo.reset"), stage="undone", state=new)
 
 
-def _carry_or_ask(talk: Talk, reply: Reply, run: Run) -> Reply:
-    station, state = talk.site.station(run), _state(reply)
+def _carry_or_ask(talk: Talk, reply: Reply, state: State, run: Run) -> Reply:
+    """Apply a run where nobody has to be asked, from the state that holds now."""
+    station = talk.site.station(run)
     if station is None:
-        return _changing(reply, talk.language, _whole(talk.language, talk.say("applied.no_station")), stage="planned")
+        return _changing(talk, reply, _whole(talk, talk.say("applied.no_station")), stage="planned", state=state)
     if talk.site.asks(station):
         waiting = dataclasses.replace(state, planned=run)
         return dataclasses.replace(reply, needs=talk.say("ask_back.apply_it"), stage="planned", state=waiting, run=run)
-    return _apply(talk, reply, run, station)
+    return _apply(talk, reply, state, run, station)
 
 
-def _state(reply: Reply) -> State:
-    assert reply.state is not None
-    return reply.state
-
-
-def _apply(talk: Talk, reply: Reply, run: Run, station: BaseStation) -> Reply:
+def _apply(talk: Talk, reply: Reply, state: State, run: Run, station: BaseStation) -> Reply:
     """Apply a run, or put one back that was in effect before."""
-    state, language = _state(reply), talk.language
     if run.outcome is not None and run is state.planned:
-        return _put_back(talk, reply, run, station)
+        return _put_back(talk, reply, state, run, station)
     talk.site.progress(_applying(talk, station))
     effect = talk.site.carry_out(run, station, state.last_good)
     new = dataclasses.replace(state, run=effect.run, planned=None, question=None)
     reply = dataclasses.replace(reply, run=effect.run, restored=effect.restored)
     if not effect.faults:
         new = dataclasses.replace(new, on_air=effect.run, last_good=effect.run)
-        return _changing(reply, language, _whole(language, applied_line(effect.run)), stage="applied", state=new)
-    said = _told(talk, effect, state.last_good)
-    if effect.restored is not None and not effect.trouble:
-        return _changing(
-            reply, language, said, stage="reverted", state=dataclasses.replace(new, on_air=state.last_good)
-        )  # fmt: skip
+        return _changing(talk, reply, _whole(talk, applied_line(effect.run)), stage="applied", state=new)
+    faults, good = talk.joined(*effect.faults), state.last_good
+    if good is not None and effect.restored is not None and not effect.trouble:
+        taken_back = _in_effect(talk, "station.reverted", good, faults=faults)
+        said = talk.joined(taken_back, talk.say("station.asked_but_taken_back"))
+        return _changing(talk, reply, said, stage="reverted", state=dataclasses.replace(new, on_air=good))
+    said = talk.say("station.faulty", faults=faults)
+    if good is not None:
+        said = talk.say("station.not_reverted", faults=faults, trouble=effect.trouble)
     new = dataclasses.replace(new, on_air=effect.run if effect.as_decided else None)
     stage = "nothing" if effect.run.outcome is None else "applied"
-    return _changing(reply, language, said, stage=stage, state=new, faulty=True)
+    return _changing(talk, reply, said, stage=stage, state=new, faulty=True)
 
 
-def _put_back(talk: Talk, reply: Reply, good: Run, station: BaseStation) -> Reply:
+def _put_back(talk: Talk, reply: Reply, state: State, good: Run, station: BaseStation) -> Reply:
     """Apply again what was in effect before, for an undo."""
-    state = _state(reply)
     talk.site.progress(_applying(talk, station))
     outcome, trouble = talk.site.put_back(good, station)
-    told = talk.say("undo.not_put_back", why=trouble) if trouble else _in_effect(talk.say, "undo.put_back", good)
+    told = talk.say("undo.not_put_back", why=trouble) if trouble else _in_effect(talk, "undo.put_back", good)
     back = good if outcome is None else good.with_outcome(outcome)
     new = dataclasses.replace(
         state, run=back if state.run is good else state.run, planned=None, question=None,
         on_air=None if trouble else back, last_good=state.last_good if trouble else back,
     )  # fmt: skip
-    return _changing(reply, talk.language, told, stage="undone", state=new, run=back, restored=outcome)
+    return _changing(talk, reply, told, stage="undone", state=new, run=back, restored=outcome)
 
 
 def _applying(talk: Talk, station: BaseStation) -> Event:
@@ -244,41 +234,26 @@ def _applying(talk: Talk, station: BaseStation) -> Event:
     return Event(stage="act", message=told, language=talk.language)
 
 
-def _told(talk: Talk, effect: Effect, last_good: Run | None) -> str:
-    faults = joined(talk.language, effect.faults)
-    if effect.restored is not None and not effect.trouble and last_good is not None:
-        taken_back = _in_effect(talk.say, "station.reverted", last_good, faults=faults)
-        return joined(talk.language, [taken_back, talk.say("station.asked_but_taken_back")])
-    if last_good is None:
-        return talk.say("station.faulty", faults=faults)
-    return talk.say("station.not_reverted", faults=faults, trouble=effect.trouble)
-
-
-def _in_effect(say: Callable[..., Said], key: str, run: Run, **names: str) -> Said:
+def _in_effect(talk: Talk, key: str, run: Run, **places: str) -> Said:
     """A sentence about an allocation that is in effect again."""
-    promised = run.decision.rate_bps if run.outcome is None else run.outcome.promised_bps
-    power, rate = human(run.decision.total_power_w, "W"), human(float(promised.sum()), "bit/s")
-    return say(key, power=power, rate=rate, **names)
+    power, rate = human(run.decision.total_power_w, "W"), human(float(run.promised_bps.sum()), "bit/s")
+    return talk.say(key, power=power, rate=rate, **places)
 
 
-def _question(good: Run, state: State, language: str) -> Said:
-    """Whether to put an earlier allocation back."""
-    power = human(good.decision.total_power_w, "W")
-    return message(language, "ask_back.put_it_back", power=power, request=plan_named(state.request, language))
-
-
-def _whole(language: str, line: str) -> Said:
+def _whole(talk: Talk, line: str) -> Said:
     """A line as a sentence of its own."""
-    return message(language, "text.sentence", line=line[:1].upper() + line[1:])
+    return talk.say("text.sentence", line=line[:1].upper() + line[1:])
 
 
 def _doubted(talk: Talk) -> Reply | None:
     """What is said to a line that was taken for a yes or for a command to apply and is none; None where it is one."""
     if talk.pressed:
         return None
-    if assent(talk.text) == "later":
-        return _left_waiting(talk)
-    if not is_assent(talk.text) or (talk.state.planned is not None and not _follows(talk)):
+    later, waits = assent(talk.text) == "later", talk.state.planned is not None
+    if later and waits:
+        needs = talk.say("plan.left_waiting", request=talk.plan(talk.state.request))
+        return Reply(needs=needs, stage="nothing", state=dataclasses.replace(talk.state, question=None))
+    if later or not is_assent(talk.text) or (waits and not _follows(talk)):
         return asked_again(talk)
     return None
 
@@ -310,17 +285,8 @@ def asked_again(talk: Talk) -> Reply:
     fresh = run.outcome is None and run.decision.is_usable and talk.site.station(run) is not None
     if state.planned is None and not fresh:
         return Reply(decided=talk.say("plan.nothing_to_confirm"))
-    plan = plan_named(state.request, talk.language)
     waiting = dataclasses.replace(state, planned=run, question=None)
-    return asked_back(talk.say("ask_back.shall_i_apply", request=plan), waiting)
-
-
-def _left_waiting(talk: Talk) -> Reply:
-    """What waits goes on waiting."""
-    if talk.state.planned is None:
-        return asked_again(talk)
-    needs = talk.say("plan.left_waiting", request=plan_named(talk.state.request, talk.language))
-    return Reply(needs=needs, stage="nothing", state=dataclasses.replace(talk.state, question=None))
+    return asked_back(talk.say("ask_back.shall_i_apply", request=talk.plan(state.request)), waiting)
 
 
 def naming_the_plan(reply: Reply, talk: Talk, acts: tuple[Act, ...]) -> Reply:
@@ -330,9 +296,7 @@ def naming_the_plan(reply: Reply, talk: Talk, acts: tuple[Act, ...]) -> Reply:
     whole = any(isinstance(act, Export | AskStatus) for act in acts)
     if not waits or whole or reply.needs or reply.stage not in ("answered", "nothing"):
         return reply
-    return dataclasses.replace(
-        reply, needs=talk.say("plan.still_waits", request=plan_named(after.request, talk.language))
-    )
+    return dataclasses.replace(reply, needs=talk.say("plan.still_waits", request=talk.plan(after.request)))
 
 
 REPLIES: Replies = {

@@ -11,13 +11,12 @@ from wirelessagent import plugins
 from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.dialogue import applied
 from wirelessagent.agent.posing import RefusedError
-from wirelessagent.agent.recalling import is_same, no_decision, turn_of
-from wirelessagent.agent.restating import notes
+from wirelessagent.agent.recalling import decided_by
 from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
 from wirelessagent.language.acts import Act, Aim, CompareLast, CompareRequests, CompareTools, CompareTurns, Limit
 from wirelessagent.model.units import human, percent, reliability
-from wirelessagent.telling.catalogue import called, joined, lines_of, listed, message
+from wirelessagent.telling.catalogue import called, lines_of, listed, message
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.parts import goal_words, name_of_figure, outcome_in_words
 from wirelessagent.telling.reasons import power_in_words, reason_in_words
@@ -28,29 +27,28 @@ Column = tuple[str, Run]
 
 def with_last(talk: Talk, _: CompareLast) -> Reply:
     """The decision that holds beside the last other one."""
-    run, language = talk.state.run, talk.language
+    run = talk.state.run
     if run is None:
         return nothing_yet(talk)
-    made = [turn for turn in talk.turns if turn.run is not None and turn.intent.kind == "allocate"]
-    own = next((turn.number for turn in reversed(made) if is_same(turn.run, run)), len(talk.turns))
-    earlier = [turn for turn in made if not is_same(turn.run, run)]
-    if not earlier:
+    turns = [turn for turn in reversed(talk.turns) if turn.intent.kind == "allocate"]
+    made = [(turn.number, turn.run) for turn in turns if turn.run is not None]
+    own = next((number for number, one in made if one.is_of(run)), len(talk.turns))
+    last = next(((number, one) for number, one in made if not one.is_of(run)), None)
+    if last is None:
         return Reply(decided=talk.say("compared.nothing"))
-    last = earlier[-1]
-    assert last.run is not None
-    columns = [(talk.say("turn.column", number=number), one) for number, one in ((own, run), (last.number, last.run))]
-    said = talk.say("compared.last", turn=last.number, line=certificate_line(last.run.decision, language))
-    return Reply(decided=said, tables=(side_by_side(columns, language),))
+    columns = [(talk.say("turn.column", number=number), one) for number, one in ((own, run), last)]
+    said = talk.say("compared.last", turn=last[0], line=certificate_line(last[1].decision, talk.language))
+    return Reply(decided=said, tables=(side_by_side(columns, talk.language),))
 
 
 def with_turns(talk: Talk, act: CompareTurns) -> Reply:
     """The decision that holds beside that of a turn, or those of two turns."""
     columns = list[Column]()
     for reference in act.turns:
-        chosen = turn_of(talk.turns, reference)
-        if chosen is None or chosen.run is None:
-            return no_decision(talk, reference, chosen)
-        columns.append((talk.say("turn.column", number=chosen.number), chosen.run))
+        found = decided_by(talk, reference)
+        if isinstance(found, Reply):
+            return found
+        columns.append((talk.say("turn.column", number=found[0]), found[1]))
     if len(columns) == 1:
         if talk.state.run is None:
             return nothing_yet(talk)
@@ -64,21 +62,22 @@ def with_turns(talk: Talk, act: CompareTurns) -> Reply:
 
 def with_requests(talk: Talk, act: CompareRequests) -> Reply:
     """Changes of the request solved beside each other; one alone stands beside the request that holds."""
-    site, state, language = talk.site, talk.state, talk.language
+    state = talk.state
     if state.run is None or state.request is None:
         return nothing_yet(talk)
-    changed = [(_label(change, language), applied(state.request, change)[0]) for change in act.changes]
-    columns = [(name, site.foreseen(site.plan(talk.intent, one))) for name, one in changed if one is not None]
+    changed = [(_label(change, talk.language), applied(state.request, change)[0]) for change in act.changes]
+    columns = [(name, talk.tried(one)) for name, one in changed if one is not None]
     if len(columns) == 1:
-        columns.insert(0, (talk.say("compared.now"), site.foreseen(state.run)))
-    assumed = [note for _, one in columns for note in notes(one, noted=state.noted, before=state.run.notes)]
-    said = joined(language, [*dict.fromkeys(assumed), *_outcomes(columns, language)])
-    return Reply(decided=said, changed=talk.say("plan.nothing_changed"), tables=(side_by_side(columns, language),))
+        columns.insert(0, (talk.say("compared.now"), talk.site.foreseen(state.run)))
+    assumed = [note for _, one in columns for note in talk.notes(one, before=state.run.notes)]
+    said = talk.joined(*dict.fromkeys(assumed), *_outcomes(talk, columns))
+    tables = (side_by_side(columns, talk.language),)
+    return Reply(decided=said, changed=talk.say("plan.nothing_changed"), tables=tables)
 
 
 def with_tools(talk: Talk, act: CompareTools) -> Reply:
     """The decision that holds beside those of other methods, or on what other repairers make of the channel."""
-    site, run, request, language = talk.site, talk.state.run, talk.state.request, talk.language
+    site, run, request = talk.site, talk.state.run, talk.state.request
     if run is None or request is None:
         return nothing_yet(talk)
     columns, refusals = [(run.decision.method, site.foreseen(run))], list[str]()
@@ -89,37 +88,35 @@ def with_tools(talk: Talk, act: CompareTools) -> Reply:
             tools, sight = site.with_tools(method=name), None
         elif name in plugins.names("repairer"):
             tools = dataclasses.replace(site.tools_of(request), repairer=name, repairer_options={})
-            sight = site.sight_by(tools, language)
+            sight = site.sight(talk.language, tools=tools)
         else:
             known = {f"{kind}s": ", ".join(plugins.names(kind)) for kind in ("method", "repairer")}
             return asked_back(talk.say("ask_back.not_installed", name=name, **known))
         try:
-            columns.append((name, site.foreseen(site.plan(talk.intent, request, sight=sight, tools=tools))))
+            columns.append((name, talk.tried(request, sight=sight, tools=tools)))
         except RefusedError as refusal:
             refusals.append(refusal.why)
-    told = _outcomes(columns, language) if len(columns) > 1 else []
-    said = joined(language, [talk.say("compared.by", names=listed(language, act.names)), *told])
-    tables = (side_by_side(columns, language),) if len(columns) > 1 else ()
-    return Reply(decided=lines_of([said, *refusals]), tables=tables)
+    some = len(columns) > 1
+    by = talk.say("compared.by", names=listed(talk.language, act.names))
+    said = lines_of([talk.joined(by, *(_outcomes(talk, columns) if some else [])), *refusals])
+    return Reply(decided=said, tables=(side_by_side(columns, talk.language),) if some else ())
 
 
-def _outcomes(columns: Sequence[Column], language: str) -> list[str]:
+def _outcomes(talk: Talk, columns: Sequence[Column]) -> list[str]:
     """What each of the runs comes to, one sentence each."""
     met = any(run.decision.is_usable for _, run in columns)
-    return [
-        message(language, "compared.outcome", name=called(language, name), outcome=_outcome(run, language, met=met))
-        for name, run in columns
-    ]
+    outcomes = [(called(talk.language, name), _outcome(talk, run, met=met)) for name, run in columns]
+    return [talk.say("compared.outcome", name=name, outcome=outcome) for name, outcome in outcomes]
 
 
-def _outcome(run: Run, language: str, *, met: bool) -> str:
+def _outcome(talk: Talk, run: Run, *, met: bool) -> str:
     """What a run comes to; that a method found nothing is no news of the request where another one met it."""
     if run.decision.is_usable:
-        return outcome_in_words(run.decision, language)
+        return outcome_in_words(run.decision, talk.language)
     if met and run.decision.status == "undecided":
-        return message(language, "compared.found_none")
-    because = message(language, "compared.because", reason=reason_in_words(run.decision, language))
-    return message(language, f"status.{run.decision.status}") + because
+        return talk.say("compared.found_none")
+    because = talk.say("compared.because", reason=reason_in_words(run.decision, talk.language))
+    return talk.say(f"status.{run.decision.status}") + because
 
 
 def _label(change: Sequence[Act], language: str) -> str:
@@ -145,26 +142,25 @@ def side_by_side(runs: Sequence[Column], language: str = "en") -> Table:
 
 def _cells(run: Run, language: str) -> dict[str, str]:
     """The figures of one run by their labels; "–" for what there is not."""
-    decision, objective = run.decision, run.decision.problem.objective
-    assert not isinstance(objective, str)
-    usable, need = decision.is_usable, decision.needed_power_w
-    figure = name_of_figure(decision, language)
-    served = decision.served
-    value = human(decision.value, decision.unit)
+    decision, outcome, need = run.decision, run.outcome, run.decision.needed_power_w
+    figure, value = name_of_figure(decision, language), human(decision.value, decision.unit)
     value = message(language, "label.with", value=value, beside=figure) if figure else value
-    missed = "–" if run.outcome is None or run.outcome.achieved is None else str(int(run.outcome.missed.sum()))
+
+    def met(cell: str) -> str:
+        return cell if decision.is_usable else "–"
+
     return {
-        "objective": goal_words(objective.name, language),
+        "objective": goal_words(run.case.objective.name, language),
         "status": message(language, f"status.{decision.status}"),
-        "value": value if usable else "–",
+        "value": met(value),
         "bound": human(decision.bound, decision.unit),
         "gap": percent(decision.gap),
-        "power": human(decision.total_power_w, "W") if usable else "–",
+        "power": met(human(decision.total_power_w, "W")),
         "power_needed": "–" if need is None else power_in_words(need.at_least, language),
-        "sum_rate_bps": human(float(decision.rate_bps.sum()), "bit/s") if usable else "–",
-        "lowest_rate": human(float(decision.rate_bps[served].min()), "bit/s") if usable else "–",
-        "users_served": str(int(np.count_nonzero(decision.rate_bps > 0))) if usable else "–",
-        "promises_missed": missed,
+        "sum_rate_bps": met(human(float(decision.rate_bps.sum()), "bit/s")),
+        "lowest_rate": met(human(float(decision.rate_bps[decision.served].min()), "bit/s")),
+        "users_served": met(str(int(np.count_nonzero(decision.rate_bps > 0)))),
+        "promises_missed": "–" if outcome is None or outcome.achieved is None else str(int(outcome.missed.sum())),
     }
 
 

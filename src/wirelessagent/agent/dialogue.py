@@ -1,4 +1,7 @@
-"""What is asked for in a conversation, and the one place that changes it: acts applied to a request, and their diff."""
+"""What is asked for in a conversation, and the one place that changes it: acts applied to a request, and their diff.
+
+Both as sentences too, with figures and units, for the operator to check.
+"""
 
 from __future__ import annotations
 
@@ -30,6 +33,9 @@ from wirelessagent.language.intent import (
     Constraint,
     checked_constraints,
 )  # fmt: skip
+from wirelessagent.language.restating import figure_in_words, limits_in_words
+from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.parts import goal_words
 
 ASSUMED_MIN_RATE_BPS = 200e3
 """Rate promised to each user where the least power is asked for and no rate was named."""
@@ -94,7 +100,7 @@ class Diff:
         """The request that this diff makes of the one before it."""
         if self.objective[1] is None:
             return None
-        figures = {} if before is None else figures_of(before.constraints)
+        figures = _held(before)
         for one in self.changes:
             figures.pop((one.kind, one.user), None)
             if one.after is not None:
@@ -109,7 +115,7 @@ def applied(before: Request | None, acts: Iterable[Act], *, radiated_w: float = 
     """
     acts = tuple(acts)
     of_users = any(isinstance(act, Limit) and (act.kind, type(act.whom)) == ("min_rate_bps", Named) for act in acts)
-    request = with_the_assumed(before) if of_users else before  # which holds for the others
+    request = _with_the_assumed(before) if of_users else before  # which holds for the others
     for act in acts:
         request = _after(request, act, radiated_w)
     return request, difference(before, request)
@@ -117,8 +123,7 @@ def applied(before: Request | None, acts: Iterable[Act], *, radiated_w: float = 
 
 def difference(before: Request | None, after: Request | None) -> Diff:
     """What differs between two requests."""
-    old = {} if before is None else figures_of(before.constraints)
-    new = {} if after is None else figures_of(after.constraints)
+    old, new = _held(before), _held(after)
     return Diff(
         objective=(before and before.objective, after and after.objective),
         method=(before and before.method, after and after.method),
@@ -153,7 +158,7 @@ def _after(request: Request | None, act: Act, radiated_w: float) -> Request | No
     return dataclasses.replace(request, constraints=constraints_of(figures))
 
 
-def with_the_assumed(request: Request | None) -> Request | None:
+def _with_the_assumed(request: Request | None) -> Request | None:
     """A request with the rate for each user that is assumed where least power is asked for and no rate is named."""
     if request is None or "min_rate_bps" in request.constraints:
         return request
@@ -173,34 +178,23 @@ def _set(figures: dict[Key, float], kind: str, whom: Whom, value: float) -> None
 
 
 def _scale(figures: dict[Key, float], act: Scale, radiated_w: float) -> None:
+    for_all = (act.kind, EVERYBODY)
     if act.reference == "radiated":
-        basis = figures.get((act.kind, EVERYBODY), radiated_w)
+        basis = figures.get(for_all, radiated_w)
         if basis > 0:
-            figures[act.kind, EVERYBODY] = act.factor * basis
+            figures[for_all] = act.factor * basis
         return
-    if isinstance(act.whom, Named):
-        for user in act.whom.users:
-            key = (act.kind, _name(user))
-            held = figures.get(key, figures.get((act.kind, EVERYBODY)))
-            if held is not None:
-                figures[key] = held * act.factor
-        return
-    for key in _of(figures, act.kind):
-        if key[1] == EVERYBODY or isinstance(act.whom, Everybody):
-            figures[key] *= act.factor
+    for key in _meant(figures, act.kind, act.whom):
+        held = figures.get(key, figures.get(for_all))
+        if held is not None:
+            figures[key] = held * act.factor
 
 
 def _drop(figures: dict[Key, float], act: Drop) -> None:
-    kind, whom = act.kind, act.whom
-    if isinstance(whom, Named):
-        for user in whom.users:
-            figures.pop((kind, _name(user)), None)
-            if kind == "min_rate_bps" and (kind, EVERYBODY) in figures and not act.own:
-                figures[kind, _name(user)] = 0.0  # to whom nothing is promised
-        return
-    for key in _of(figures, kind):
-        if isinstance(whom, Everybody) or key[1] == EVERYBODY:
-            del figures[key]
+    for key in _meant(figures, act.kind, act.whom):
+        figures.pop(key, None)
+        if act.kind == "min_rate_bps" and (act.kind, EVERYBODY) in figures and not act.own:
+            figures[key] = 0.0  # to whom nothing is promised
 
 
 def _serve(figures: dict[Key, float], act: Serve) -> None:
@@ -234,6 +228,17 @@ def _leave_out(figures: dict[Key, float], whom: Whom) -> None:
 
 def _of(figures: Mapping[Key, float], kind: str) -> list[Key]:
     return [key for key in figures if key[0] == kind]
+
+
+def _meant(figures: Mapping[Key, float], kind: str, whom: Whom) -> list[Key]:
+    """What an act on a figure is about: of users by name, whether they have one of their own, else of those held."""
+    if isinstance(whom, Named):
+        return [(kind, _name(user)) for user in whom.users]
+    return [key for key in _of(figures, kind) if key[1] == EVERYBODY or isinstance(whom, Everybody)]
+
+
+def _held(request: Request | None) -> dict[Key, float]:
+    return {} if request is None else figures_of(request.constraints)
 
 
 def _name(user: str) -> str:
@@ -275,9 +280,54 @@ def constraints_of(figures: Mapping[Key, float]) -> dict[str, Constraint]:
 
 def stated_by(after: Request, before: Request | None) -> dict[str, Constraint]:
     """What a request says that the one before it did not: what "that" refers to in the line behind it."""
-    held = with_the_assumed(before)
-    old = {} if held is None else figures_of(held.constraints)
-    new = figures_of(after.constraints)
+    old = _held(_with_the_assumed(before))
     return constraints_of({
-        key: value for key, value in new.items() if old.get(key, old.get((key[0], EVERYBODY))) != value
+        key: value for key, value in _held(after).items() if old.get(key, old.get((key[0], EVERYBODY))) != value
     })  # fmt: skip
+
+
+def restated(request: Request, language: str = "en") -> str:
+    """What is asked for, in one sentence.
+
+    >>> restated(Request(objective="max_rate", constraints={"max_power_w": 10.0, "leave_out": ("3",)}))
+    'The highest total rate: at most 10 W of radiated power, without user 3.'
+    """
+    goal, limits = goal_words(request.objective, language), limits_in_words(request.constraints, language)
+    if request.method is not None:
+        by = message(language, "request.by_method", method=called(language, request.method))
+        limits = message(language, "text.between").join(part for part in (limits, by) if part)
+    goal = goal[:1].upper() + goal[1:]
+    return message(language, "request.whole" if limits else "request.aim_alone", goal=goal, limits=limits)
+
+
+def plan_named(request: Request | None, language: str) -> str:
+    """What is asked for, as a part of a sentence."""
+    plan = "–" if request is None else restated(request, language).rstrip(".。")
+    return plan[:1].lower() + plan[1:]
+
+
+def changes_in_words(diff: Diff, language: str) -> str:
+    """What was changed of a request that held; empty for a first request.
+
+    >>> old, new = (Request(objective="max_rate", constraints={"max_power_w": watts}) for watts in (10.0, 5.0))
+    >>> changes_in_words(difference(old, new), "en")
+    'Now: at most 5 W of radiated power (before: 10 W).'
+    """
+    then_aim, now_aim = diff.objective
+    if then_aim is None:
+        return ""
+    said = list[str]()
+    if now_aim is not None and then_aim != now_aim:
+        then, now = goal_words(then_aim, language), goal_words(now_aim, language)
+        said.append(message(language, "changed.aim", then=then, now=now))
+    groups: dict[tuple[str, float | None, float], list[str]] = {}
+    for one in diff.changes:
+        if one.after is not None:
+            groups.setdefault((one.kind, one.before, one.after), []).append(one.user)
+    for (kind, before, after), users in groups.items():
+        now = limits_in_words(constraints_of({(kind, user): after for user in users}), language)
+        then = "" if before is None else figure_in_words(kind, before)
+        said.append(message(language, "changed.instead", now=now, then=then) if then else now)
+    told = message(language, "changed.changed", changes=message(language, "text.list").join(said)) if said else ""
+    gone = limits_in_words(diff.gone, language)
+    return joined(language, [told, message(language, "request.no_longer", limits=gone) if diff.gone else ""])

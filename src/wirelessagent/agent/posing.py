@@ -15,7 +15,12 @@ import numpy as np
 
 from wirelessagent import chain, plugins
 from wirelessagent.agent.dialogue import ASSUMED_MIN_RATE_BPS, Request
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint
+from wirelessagent.language.acts import with_another
+from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.open_question import Missing
+from wirelessagent.language.conversation.references import named_alone
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Detail, Intent
+from wirelessagent.language.recogniser import Context
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError, UnclearRequestError, UnsupportedProblemError
@@ -34,6 +39,15 @@ _UNNAMED: Mapping[str, float] = {"min_rate_bps": 0.0, "max_rate_bps": np.inf, "w
 """What holds for users who are not named in figures by user."""
 
 _NAMES_SHOWN = 12
+
+_USER = re.compile(
+    r"(?i)\s*(?:(?:no|sorry|i mean|i meant|make it|我是说|是)[,，\s]*)*"
+    r"(?:the\s+)?(?:user|ue|用户)?\s*#?\s*(.{1,40}?)\s*号?[.!。]?\s*"
+)
+"""An answer to "whom did you mean?"."""
+
+_LONGEST_NAME = 100
+"""Characters of a line that may be such an answer."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,9 +96,7 @@ class _Posing:
         circuit_power_w = self._given.pop("circuit_power_w", None)
         if circuit_power_w is not None:
             self._cell = dataclasses.replace(self._cell, circuit_power_w=cast(float, circuit_power_w))
-        self._check_power()
-        self._check_rates()
-        self._check_outage()
+        self._assume()
         some = bool(self._given.keys() & {*LISTS_OF_USERS})
         served = self._served()
         fields: dict[str, Any] = {"users": tuple(self._names[user] for user in served) if some else None}
@@ -93,7 +105,8 @@ class _Posing:
             fields[name] = self._by_user(name, value) if name in FIGURES_OF_USERS else value
         self._check_order(fields, served)
         self._check_group(fields)
-        self._check_weights(fields, served)
+        if "weights" in fields and not np.broadcast_to(fields["weights"], len(self._names))[list(served)].any():
+            raise UnclearRequestError(self._say("ask_back.no_weight"))
         try:
             problem = Problem(self._objective, **fields).for_users(self._names)
             problem.weights_of(len(self._names))
@@ -107,38 +120,30 @@ class _Posing:
     def _note(self, key: str, **names: object) -> None:
         self._notes[self._say(key, **names)] = None
 
-    def _check_power(self) -> None:
-        asked = cast("float | None", self._given.get("max_power_w"))
-        limit = self._cell.max_power_w
+    def _assume(self) -> None:
+        """Keep the cell's limit, and fill in what is assumed where nobody named it."""
+        given, limit = self._given, self._cell.max_power_w
+        asked = cast("float | None", given.get("max_power_w"))
         if asked is not None and asked > limit:
-            self._given["max_power_w"] = limit
+            given["max_power_w"] = limit
             self._note(ABOVE_THE_LIMIT, asked=human(asked, "W"), limit=human(limit, "W"))
-
-    def _check_rates(self) -> None:
-        if self._objective.measure != "power":
-            return
-        if "min_rate_bps" not in self._given:
-            self._given["min_rate_bps"] = ASSUMED_MIN_RATE_BPS
+        if self._objective.measure == "power" and "min_rate_bps" not in given:
+            given["min_rate_bps"] = ASSUMED_MIN_RATE_BPS
             self._note("assumed.rate", rate=human(ASSUMED_MIN_RATE_BPS, "bit/s"))
-        if self._given.pop("weights", None) is not None:
+        if self._objective.measure == "power" and given.pop("weights", None) is not None:
             self._note("assumed.weights_mean_nothing")
-
-    def _check_outage(self) -> None:
-        if "min_rate_bps" in self._given and "outage_probability" not in self._given:
-            self._given["outage_probability"] = ASSUMED_OUTAGE_PROBABILITY
+        if "min_rate_bps" in given and "outage_probability" not in given:
+            given["outage_probability"] = ASSUMED_OUTAGE_PROBABILITY
             self._note("assumed.outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))
 
     def _served(self) -> tuple[int, ...]:
         """The users to serve, as indices."""
-        wanted, unwanted = self._given.pop("users", None), self._given.pop("leave_out", None)
-        numbers = set(range(len(self._names))) if wanted is None else self._numbers(wanted)
-        numbers -= set[int]() if unwanted is None else self._numbers(unwanted)
+        wanted, unwanted = (cast("tuple[str, ...] | None", self._given.pop(name, None)) for name in LISTS_OF_USERS)
+        numbers = {*range(len(self._names))} if wanted is None else {self._number(user) for user in wanted}
+        numbers -= {self._number(user) for user in unwanted or ()}
         if not numbers:
             raise UnclearRequestError(self._say("ask_back.nobody_left"))
         return tuple(sorted(numbers))
-
-    def _numbers(self, references: Constraint) -> set[int]:
-        return {self._number(reference) for reference in cast("tuple[str, ...]", references)}
 
     def _number(self, reference: str) -> int:
         number, by_place = user_number(reference, self._names, self._language)
@@ -172,9 +177,8 @@ class _Posing:
             return
         for reference, rate in promised.items():
             if rate > 0 and reference != EVERYBODY and self._number(reference) not in served:
-                user = called(self._language, self._names[self._number(reference)])
-                rate_said = human(rate, "bit/s")
-                raise UnclearRequestError(self._say("ask_back.promised_and_left_out", user=user, rate=rate_said))
+                user, told = self._names[self._number(reference)], human(rate, "bit/s")
+                raise UnclearRequestError(self._say("ask_back.promised_and_left_out", user=user, rate=told))
 
     def _check_group(self, fields: dict[str, Any]) -> None:
         size = fields.get("resource_block_group_size")
@@ -183,13 +187,6 @@ class _Posing:
         if size != int(size):
             raise UnclearRequestError(self._say("ask_back.whole_groups", size=f"{size:g}"))
         fields["resource_block_group_size"] = int(size)
-
-    def _check_weights(self, fields: Mapping[str, Any], served: tuple[int, ...]) -> None:
-        """Refuse weights that leave nobody to count."""
-        if "weights" not in fields:
-            return
-        if not np.broadcast_to(fields["weights"], len(self._names))[list(served)].any():
-            raise UnclearRequestError(self._say("ask_back.no_weight"))
 
 
 def user_number(reference: str, user_names: tuple[str, ...], language: str = "en") -> tuple[int, bool]:
@@ -211,6 +208,39 @@ def user_number(reference: str, user_names: tuple[str, ...], language: str = "en
     if figure is None or not 1 <= int(figure[1]) <= len(names):
         raise UnknownUserError(reference, user_names, language)
     return int(figure[1]) - 1, True
+
+
+def completed(missing: Missing, said: str, context: Context) -> Intent | None:
+    """An intent with the user whom a line names in the place of the one who is not there; None where it names none.
+
+    The one who is there is called so from now on.
+    """
+    if len(said) > _LONGEST_NAME:
+        return None
+    match, named = _USER.fullmatch(said), named_alone(Line.of(said, context))
+    try:
+        number, _ = user_number(named[0] if len(named) == 1 else match[1] if match else "", context.user_names)
+    except UnknownUserError:
+        return None
+    intent, reference, name = missing.intent, missing.reference, context.user_names[number]
+    details, constraints, pending = (
+        {key: _renamed(value, reference, name) for key, value in values.items()}
+        for values in (intent.details, intent.constraints, intent.pending)
+    )
+    if not reference:
+        details["user"] = name
+    elif not any(map(str.isdigit, reference)):
+        details["called"] = {reference.lower(): (str(number + 1),)}
+    acts = tuple(with_another(act, reference, name) for act in intent.acts)
+    return dataclasses.replace(intent, details=details, constraints=constraints, pending=pending, acts=acts)
+
+
+def _renamed(value: Constraint | Detail, reference: str, name: str) -> Any:
+    if isinstance(value, Mapping):
+        return {name if key == reference else key: _renamed(inner, reference, name) for key, inner in value.items()}
+    if isinstance(value, tuple):
+        return tuple(name if user == reference else user for user in value)
+    return name if value == reference else value
 
 
 class RefusedError(UnsupportedProblemError):

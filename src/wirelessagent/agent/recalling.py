@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import datetime
 
-from wirelessagent.agent.restating import plan_named
 from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language.acts import AskHistory, AskReasons, AskStatus, Export, TurnReference
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import Said, lines_of, message
+from wirelessagent.telling.catalogue import Said, lines_of
 from wirelessagent.telling.certificates import certificate_line
 from wirelessagent.telling.explanation import explain
-from wirelessagent.telling.report import decision_tables
 from wirelessagent.telling.told import Table
 
 _SHOWN = 60
@@ -28,36 +26,35 @@ def turn_of(turns: Sequence[Turn], reference: TurnReference) -> Turn | None:
     return next((turn for turn in turns if turn.number == reference), None)
 
 
-def no_such_turn(reference: TurnReference, count: int, language: str) -> Said:
-    """What to say to a line about a turn that there is not, in a conversation of so many turns."""
+def no_such_turn(talk: Talk, reference: TurnReference) -> Said:
+    """What to say to a line about a turn that there is not."""
+    count = len(talk.turns)
     key = "turn.no_such" if count > 1 else "turn.only_one" if count else "turn.none_yet"
-    return message(language, key, number=reference, last=count)
+    return talk.say(key, number=reference, last=count)
 
 
-def no_decision(talk: Talk, reference: TurnReference, chosen: Turn | None) -> Reply:
-    """The reply to what needs the decision of a turn that has none."""
+def decided_by(talk: Talk, reference: TurnReference) -> tuple[int, Run] | Reply:
+    """The number of a turn and its run, or the reply to what needs the decision of a turn that has none."""
+    chosen = turn_of(talk.turns, reference)
     if chosen is None:
-        return asked_back(no_such_turn(reference, len(talk.turns), talk.language))
-    return asked_back(talk.say("turn.without_decision", number=chosen.number))
-
-
-def is_same(one: Run | None, other: Run) -> bool:
-    """Whether two runs are of one decision, applied or not."""
-    return one is not None and one.decision is other.decision
+        return asked_back(no_such_turn(talk, reference))
+    if chosen.run is None:
+        return asked_back(talk.say("turn.without_decision", number=chosen.number))
+    return chosen.number, chosen.run
 
 
 def reasons(talk: Talk, act: AskReasons) -> Reply:
     """A decision in words, with its tables."""
     run = talk.state.run
     if act.turn is not None:
-        chosen = turn_of(talk.turns, act.turn)
-        if chosen is None or chosen.run is None:
-            return no_decision(talk, act.turn, chosen)
-        run = chosen.run
+        found = decided_by(talk, act.turn)
+        if isinstance(found, Reply):
+            return found
+        run = found[1]
     if run is None:
         return nothing_yet(talk)
     said = explain(run.estimate, run.report, language=talk.language)
-    return Reply(decided=lines_of(said), tables=tuple(decision_tables(run.report, run.estimate, talk.language)))
+    return Reply(decided=lines_of(said), tables=run.tables(talk.language))
 
 
 def history(talk: Talk, act: AskHistory) -> Reply:
@@ -66,7 +63,7 @@ def history(talk: Talk, act: AskHistory) -> Reply:
     if act.turn is not None:
         chosen = turn_of(turns, act.turn)
         if chosen is None:
-            return asked_back(no_such_turn(act.turn, len(turns), talk.language))
+            return asked_back(no_such_turn(talk, act.turn))
         said = talk.say("turn.said", number=chosen.number, text=_short(chosen.text), reply=chosen.reply)
         return Reply(decided=said, tables=chosen.tables)
     if not turns:
@@ -93,28 +90,26 @@ def _value(turn: Turn) -> str:
 
 def status(talk: Talk, _: AskStatus) -> Reply:
     """What is asked for, what was decided, and what is in effect."""
-    site, state = talk.site, talk.state
-    if state.request is None and state.on_air is None and not site.touched:
+    state, unknown = talk.state, talk.state.on_air is None and talk.site.touched
+    if state.request is None and state.on_air is None and not unknown:
         return Reply(decided=talk.say("in_effect.none"))
     said: list[str] = []
     if state.request is not None:
-        said.append(talk.say("request.asked_for", request=plan_named(state.request, talk.language)))
+        said.append(talk.say("request.asked_for", request=talk.plan(state.request)))
     if state.run is not None:
         line = certificate_line(state.run.decision, talk.language)
         said.append(talk.say("in_effect.decided", certificate=line))
-    unknown = state.on_air is None and site.touched
     said.append(_unknown(talk) if unknown else _on_air(talk))
     return Reply(decided=lines_of(said), needs=talk.say("in_effect.waits") if state.planned is not None else "")
 
 
 def _unknown(talk: Talk) -> str:
     """That it is not known what is in effect, and what was read back last."""
-    read = talk.site.read_last
-    if read is None:
-        return talk.say("in_effect.unknown", read=talk.say("in_effect.read_nothing"))
-    used, total = int((read.power_w > 0).sum()), read.power_w.size
-    power = human(float(read.power_w.sum()), "W")
-    return talk.say("in_effect.unknown", read=talk.say("in_effect.read", power=power, used=used, total=total))
+    last, read = talk.site.read_last, talk.say("in_effect.read_nothing")
+    if last is not None:
+        used, power = int((last.power_w > 0).sum()), human(float(last.power_w.sum()), "W")
+        read = talk.say("in_effect.read", power=power, used=used, total=last.power_w.size)
+    return talk.say("in_effect.unknown", read=read)
 
 
 def _on_air(talk: Talk) -> str:
@@ -122,12 +117,12 @@ def _on_air(talk: Talk) -> str:
     if run is None:
         return talk.say("in_effect.off_air")
     number = next((turn.number for turn in reversed(talk.turns) if turn.run is run), len(talk.turns))
-    promised = run.decision.rate_bps if run.outcome is None else run.outcome.promised_bps
-    served = int((promised > 0).sum())
-    return talk.say(
-        "in_effect.on_air_one" if served == 1 else "in_effect.on_air", turn=number, served=served,
-        power=human(run.decision.total_power_w, "W"), rate=human(float(promised.sum()), "bit/s"),
-    )  # fmt: skip
+    served, power = int((run.promised_bps > 0).sum()), human(run.decision.total_power_w, "W")
+    key, rate = (
+        "in_effect.on_air_one" if served == 1 else "in_effect.on_air",
+        human(float(run.promised_bps.sum()), "bit/s"),
+    )
+    return talk.say(key, turn=number, served=served, power=power, rate=rate)
 
 
 def export(talk: Talk, act: Export) -> Reply:
@@ -139,20 +134,16 @@ def export(talk: Talk, act: Export) -> Reply:
     if act.format not in ("ts28312", "tmf921"):
         return asked_back(talk.say("ask_back.export_unknown", format=act.format))
     done = [turn for turn in turns if turn.stage not in ("answered", "asked")]
-    made = [turn for turn in done if run is not None and is_same(turn.run, run)]
+    made = [turn for turn in done if run is not None and turn.run is not None and turn.run.is_of(run)]
     if run is None or not made:
         return nothing_yet(talk)
     last, on_air = made[-1], talk.state.on_air
     subject = Subject(
-        name=f"{last.session}-{last.number}",
-        text=made[0].text,
-        decision=run.decision,
-        at=datetime.fromisoformat(last.at_utc),
-        outcome=on_air.outcome if on_air is not None and is_same(on_air, run) else None,
-        language=run.intent.language,
-        current=_in_effect_before(last, turns),
-        taken_back=last.stage == "reverted",
-    )
+        name=f"{last.session}-{last.number}", text=made[0].text, decision=run.decision,
+        at=datetime.fromisoformat(last.at_utc), language=run.intent.language,
+        outcome=on_air.outcome if on_air is not None and on_air.is_of(run) else None,
+        current=_in_effect_before(last, turns), taken_back=last.stage == "reverted",
+    )  # fmt: skip
     if act.format == "ts28312":
         return Reply(decided=ts28312.to_json(ts28312.document(subject)))
     return Reply(decided=tmf921.to_json(tmf921.document(subject)))

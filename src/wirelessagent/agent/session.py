@@ -16,24 +16,21 @@ import re
 import uuid
 from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
-from typing import Any, Protocol, TypeAlias, cast
+from typing import Protocol, TypeAlias, cast
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent import asking, changing, comparing, recalling, supposing
+from wirelessagent.agent import asking, changing, comparing, posing, recalling, supposing
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.dialogue import Request, difference, stated_by
 from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
-from wirelessagent.agent.restating import noted_after
 from wirelessagent.agent.site import Decide, Site, decided, station_of
 from wirelessagent.agent.state import Reply, State, Talk, asked_back
 from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
-from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Press, Suppose, Undo, Yes, with_another
+from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Press, Suppose, Undo, Yes
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import called, unanswered, understood, with_users
-from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.open_question import Missing, Question
-from wirelessagent.language.conversation.references import named_alone
 from wirelessagent.language.followups import users_in
 from wirelessagent.language.intent import Constraint, Detail, Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
@@ -44,14 +41,7 @@ from wirelessagent.language.text import normalise
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.telling.catalogue import message
-from wirelessagent.telling.report import decision_tables
 from wirelessagent.telling.told import Event, Progress, silent
-
-_USER = re.compile(
-    r"(?i)\s*(?:(?:no|sorry|i mean|i meant|make it|我是说|是)[,，\s]*)*"
-    r"(?:the\s+)?(?:user|ue|用户)?\s*#?\s*(.{1,40}?)\s*号?[.!。]?\s*"
-)
-"""An answer to "whom did you mean?"."""
 
 _NOTE = re.compile(r"[(（][^()（）]+[)）]$")
 """What a recogniser says of itself at the end of a reply."""
@@ -64,10 +54,6 @@ _BUTTONS: Mapping[Press, tuple[str, Act]] = {
     "yes": ("confirm", Yes()), "no": ("reject", No()), "undo": ("undo", Undo()),
 }  # fmt: skip
 """The topic and the act of each button."""
-
-_LONGEST_NAME = 100
-"""Characters of a line that may be such an answer."""
-
 
 Understand: TypeAlias = Callable[[str, Context, Recogniser], Intent]
 """What says what a line means."""
@@ -168,16 +154,14 @@ class Session:
             intent = _meant(pressed, text, self.language)
         self._state = dataclasses.replace(self._state, supposed=None)
         self._language = intent.language
-        if intent.kind == "allocate":
-            sure = f"{intent.confidence:.0%}"
-            read = message(
-                intent.language, "stage.understood", reply=intent.reply, recogniser=intent.recogniser, sure=sure
-            )
-            self._progress(Event(stage="understand", message=read, language=intent.language))
         talk = Talk(
             site=self._site, state=self._state, past=self._past, turns=self._turns, intent=intent, text=text,
             pressed=pressed,
         )  # fmt: skip
+        if intent.kind == "allocate":
+            reader, sure = intent.recogniser, f"{intent.confidence:.0%}"
+            read = talk.say("stage.understood", reply=intent.reply, recogniser=reader, sure=sure)
+            self._progress(Event(stage="understand", message=read, language=intent.language))
         try:
             reply = changing.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
             self._take(talk, reply)
@@ -203,29 +187,19 @@ class Session:
             told = cast("Mapping[str, tuple[str]]", turn.intent.details.get("called") or {})
             names |= {name: number for name, (number,) in told.items()}
         return Context(
-            user_names=self._site.user_names,
-            max_power_w=self._site.scene.cell.max_power_w,
+            user_names=self._site.user_names, max_power_w=self._site.scene.cell.max_power_w, language=self._language,
             objective=None if request is None else request.objective,
             constraints={} if request is None else request.constraints,
-            awaits=state.awaits,
-            pending=question.pending,
-            pending_objective=question.objective,
-            pending_users=question.users,
-            offered=question.offered,
-            guess=question.guess,
-            stated=state.stated,
+            awaits=state.awaits, pending=question.pending, pending_objective=question.objective,
+            pending_users=question.users, offered=question.offered, guess=question.guess, stated=state.stated,
             supposed_objective=None if supposed is None else supposed.objective,
             supposed={} if supposed is None else supposed.constraints,
-            ways=asking.unmet(self._turns) is not None,
-            offers=len(state.offers),
+            ways=asking.unmet(self._turns) is not None, offers=len(state.offers),
             share_of=cast("Mapping[str, Constraint]", before.get("share_of") or {}),
             share_how=str(before.get("share_how", "of")),
-            language=self._language,
-            acts=self._last_acts(),
-            spoken_of=self._spoken_of(names),
+            acts=self._last_acts(), spoken_of=self._spoken_of(names), called=names,
             earlier=tuple(turn.acts for turn in self._turns),
-            called=names,
-        )
+        )  # fmt: skip
 
     def _last_acts(self) -> tuple[Act, ...]:
         """The acts of the last line that changed something, or of the very last one where that supposed something."""
@@ -248,7 +222,10 @@ class Session:
         """What the intent leads to; what cannot be done becomes a reply, and changes nothing."""
         intent = talk.intent
         try:
-            return _with_tables(_handled(talk, context), talk.language)
+            reply = _handled(talk, context)
+            if reply.run is None or reply.stage == "answered":  # an answer has tables of its own
+                return reply
+            return dataclasses.replace(reply, tables=reply.run.tables(talk.language))
         except UnclearRequestError as question:
             reference = question.reference if isinstance(question, UnknownUserError) else None
             missing = None if reference is None else Missing(intent=intent, reference=reference)
@@ -275,7 +252,7 @@ class Session:
         elif new.request != before.request:
             self._past.append(before.settled)
             new = dataclasses.replace(new, stated=_stated(new, before, talk.intent))
-        noted = noted_after(reply.run, noted=before.noted, requested=talk.intent.kind == "allocate")
+        noted = before.noted_after(reply.run, requested=talk.intent.kind == "allocate")
         self._state = dataclasses.replace(new, noted=noted)
         self._requests.append(new.request)
 
@@ -289,26 +266,13 @@ class Session:
         run = reply.run if reply.stage != "answered" else None
         then, now = before.run and before.run.decision, run and run.decision
         turn = Turn(
-            number=len(self._turns) + 1,
-            session=self.id,
-            text=talk.text,
-            intent=intent,
-            lines=lines,
-            stage=reply.stage,
-            run=reply.run,
-            at_utc=datetime.now(UTC).isoformat(timespec="milliseconds"),
-            version=__version__,
-            seed=self._site.seed,
-            recogniser=intent.recogniser,
-            tables=reply.tables,
-            restored=reply.restored,
-            error=reply.error,
-            faulty=reply.faulty,
-            diff=difference(before.request, after.request),
-            shift=shift_between(then, now),
-            by=self._by,
-            pressed=talk.pressed,
-        )
+            number=len(self._turns) + 1, session=self.id, text=talk.text, intent=intent, lines=lines,
+            stage=reply.stage, run=reply.run, at_utc=datetime.now(UTC).isoformat(timespec="milliseconds"),
+            version=__version__, seed=self._site.seed, recogniser=intent.recogniser, tables=reply.tables,
+            restored=reply.restored, error=reply.error, faulty=reply.faulty,
+            diff=difference(before.request, after.request), shift=shift_between(then, now),
+            by=self._by, pressed=talk.pressed,
+        )  # fmt: skip
         if self._store is not None:
             try:
                 self._store.append(turn)
@@ -348,16 +312,9 @@ class Session:
 
     def _answered(self, text: str, context: Context) -> Intent | None:
         """The intent that waits for a user, with the one that this line names; None where it names none."""
-        question, said = self._state.question, text.strip()
+        question = self._state.question
         missing = None if question is None else question.missing
-        if missing is None or len(said) > _LONGEST_NAME:
-            return None
-        match, named = _USER.fullmatch(said), named_alone(Line.of(said, context))
-        try:
-            number, _ = user_number(named[0] if len(named) == 1 else match[1] if match else "", self._site.user_names)
-        except UnknownUserError:
-            return None
-        return _with_user(missing, self._site.user_names[number], number)
+        return None if missing is None else posing.completed(missing, text.strip(), context)
 
 
 def _meant(pressed: Press, text: str, language: str) -> Intent:
@@ -386,18 +343,11 @@ def _handled(talk: Talk, context: Context) -> Reply:
     return _REPLIES[type(acts[0])](talk, acts[0])
 
 
-def _with_tables(reply: Reply, language: str) -> Reply:
-    """A reply to what was asked for or done with the tables of its decision; an answer has its own."""
-    run = reply.run
-    if run is None or reply.stage == "answered":
-        return reply
-    return dataclasses.replace(reply, tables=tuple(decision_tables(run.report, run.estimate, language)))
-
-
 def _open_question(talk: Talk, context: Context) -> Reply:
     """A question back, with what was understood before it."""
     intent = talk.intent
-    _check_users(intent, talk.site.user_names)
+    for reference in users_in(intent.pending):  # who is not there is asked about first
+        user_number(reference, talk.site.user_names, intent.language)
     left = unanswered(talk.text, intent, context)
     if changing.is_about_the_plan(talk, left):
         return changing.asked_again(talk)
@@ -417,36 +367,6 @@ def _stated(after: State, before: State, intent: Intent) -> Mapping[str, Constra
         return {}
     taken_off = cast("Mapping[str, Constraint]", intent.details.get("taken_off") or {})
     return taken_off or stated_by(after.request, before.request) or before.stated
-
-
-def _with_user(missing: Missing, name: str, number: int) -> Intent:
-    """The intent with a user in the place of the one who is not there, who is called so from now on."""
-    intent, reference = missing.intent, missing.reference
-    details: dict[str, Any] = {key: _renamed(value, reference, name) for key, value in intent.details.items()}
-    if not reference:
-        details["user"] = name
-    elif not any(map(str.isdigit, reference)):
-        details["called"] = {reference.lower(): (str(number + 1),)}
-    constraints, pending = (
-        {key: _renamed(value, reference, name) for key, value in values.items()}
-        for values in (intent.constraints, intent.pending)
-    )
-    acts = tuple(with_another(act, reference, name) for act in intent.acts)
-    return dataclasses.replace(intent, details=details, constraints=constraints, pending=pending, acts=acts)
-
-
-def _check_users(intent: Intent, user_names: tuple[str, ...]) -> None:
-    """Raise for the first user in what waits for an answer who is not there."""
-    for reference in users_in(intent.pending):
-        user_number(reference, user_names, intent.language)
-
-
-def _renamed(value: Constraint | Detail, reference: str, name: str) -> Any:
-    if isinstance(value, Mapping):
-        return {name if key == reference else key: _renamed(inner, reference, name) for key, inner in value.items()}
-    if isinstance(value, tuple):
-        return tuple(name if user == reference else user for user in value)
-    return name if value == reference else value
 
 
 def ask(

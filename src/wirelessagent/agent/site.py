@@ -16,7 +16,7 @@ from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent import acting
 from wirelessagent.agent.dialogue import Request
-from wirelessagent.agent.posing import ABOVE_THE_LIMIT, Posed, RefusedError, pose
+from wirelessagent.agent.posing import ABOVE_THE_LIMIT, RefusedError, pose
 from wirelessagent.agent.turn import Run, Tools
 from wirelessagent.language.intent import Intent
 from wirelessagent.model.cell import Cell
@@ -48,24 +48,8 @@ def decided(estimate: ChannelEstimate, problem: Problem, cell: Cell, tools: Tool
 class Sight:
     """What is known of a scene's channel: what was seen, and what was made of it."""
 
-    scene: Scene
     observation: ChannelObservation
     estimate: ChannelEstimate
-
-
-def look(
-    scene: Scene, losses: Sequence[Loss], seed: int, tools: Tools, *, language: str = "en", progress: Progress = silent
-) -> Sight:
-    """Observe a scene, with what ``losses`` leave of it, and repair what is missing."""
-    seen = scene.observe(*losses, seed=seed)
-    progress(Event(stage="sense", message=describe(seen, language), language=language))
-    estimate = chain.repair(seen, tools.repairer, **tools.repairer_options)
-    missing = int(seen.missing.sum())
-    repaired = message(
-        language, "stage.repaired" if missing else "stage.complete", missing=missing, method=estimate.method
-    )
-    progress(Event(stage="repair", message=repaired, language=language))
-    return Sight(scene=scene, observation=seen, estimate=estimate)
 
 
 def describe(seen: ChannelObservation, language: str = "en") -> str:
@@ -76,27 +60,6 @@ def describe(seen: ChannelObservation, language: str = "en") -> str:
         language, "stage.sensed", users=seen.num_users, subcarriers=seen.num_subcarriers, history=history,
         missing=missing, entries=seen.missing.size, share=percent(missing / seen.missing.size),
     )  # fmt: skip
-
-
-def plan(
-    intent: Intent, posed: Posed, sight: Sight, tools: Tools, *, decide: Decide = decided, progress: Progress = silent
-) -> Run:
-    """Decide on what was posed; nothing is applied."""
-    decision = decide(sight.estimate, posed.problem, posed.cell, tools)
-    progress(Event(stage="decide", message=decided_line(decision, intent.language), language=intent.language))
-    made = report(decision)
-    return Run(
-        intent=intent,
-        scene=dataclasses.replace(sight.scene, cell=posed.cell),
-        observation=sight.observation,
-        estimate=sight.estimate,
-        decision=decision,
-        outcome=None,
-        report=made,
-        notes=posed.notes,
-        explanation=tuple(explain(sight.estimate, made, language=intent.language)),
-        tools=tools,
-    )
 
 
 def station_of(tools: Tools, scene: Scene) -> BaseStation | None:
@@ -125,10 +88,10 @@ class Site:
         *,
         seed: int,
         tools: Tools,
-        base_station: BaseStation | None,
-        confirm: bool | None,
-        tolerance: float,
-        progress: Progress,
+        base_station: BaseStation | None = None,
+        confirm: bool | None = None,
+        tolerance: float = acting.TOLERANCE,
+        progress: Progress = silent,
         station_of: Callable[[Tools, Scene], BaseStation | None] = station_of,
         decide: Decide = decided,
     ) -> None:
@@ -145,41 +108,52 @@ class Site:
     def user_names(self) -> tuple[str, ...]:
         return self.scene.sensed.user_names
 
-    def sight(self, language: str) -> Sight:
-        """What is known of the channel."""
+    def sight(self, language: str, *, missing: float | None = None, tools: Tools | None = None) -> Sight:
+        """What is known of the channel, if another share of the gains were ``missing``, or by other ``tools``."""
+        if missing is not None or tools is not None:
+            losses = self.losses if missing is None else [random(missing)] if missing > 0 else []
+            return self._look(losses, tools or self.tools, language)
         if self._sight is None:
-            self._sight = look(
-                self.scene, self.losses, self.seed, self.tools, language=language, progress=self.progress
-            )
+            self._sight = self._look(self.losses, self.tools, language)
         return self._sight
 
-    def sight_missing(self, share: float, language: str) -> Sight:
-        """What would be known if this share of the gains were missing, at random."""
-        losses = [random(share)] if share > 0 else []
-        return look(self.scene, losses, self.seed, self.tools, language=language, progress=self.progress)
+    def _look(self, losses: Sequence[Loss], tools: Tools, language: str) -> Sight:
+        """Observe the scene, with what ``losses`` leave of it, and repair what is missing."""
+        seen = self.scene.observe(*losses, seed=self.seed)
+        self._tell("sense", describe(seen, language), language)
+        estimate, missing = chain.repair(seen, tools.repairer, **tools.repairer_options), int(seen.missing.sum())
+        key = "stage.repaired" if missing else "stage.complete"
+        self._tell("repair", message(language, key, missing=missing, method=estimate.method), language)
+        return Sight(observation=seen, estimate=estimate)
 
-    def sight_by(self, tools: Tools, language: str) -> Sight:
-        """What is known of the same observation by another repairer."""
-        return look(self.scene, self.losses, self.seed, tools, language=language, progress=self.progress)
+    def _tell(self, stage: str, said: str, language: str) -> None:
+        self.progress(Event(stage=stage, message=said, language=language))
 
     def plan(self, intent: Intent, request: Request, *, sight: Sight | None = None, tools: Tools | None = None) -> Run:
-        """The decision for a request.
+        """The decision for a request; nothing is applied.
 
         Raises:
             UnclearRequestError: the request does not fit the channel; the message is the question to the operator.
             RefusedError: the method does not solve it; the message is for the operator.
         """
-        posed = pose(request, self.scene.cell, self.user_names, intent.language)
+        language, tools = intent.language, tools or self.tools_of(request)
+        posed = pose(request, self.scene.cell, self.user_names, language)
         for note in posed.notes:
             if note.key == ABOVE_THE_LIMIT:  # contradicts what was asked, which nobody should have to wait for
-                self.progress(Event(stage="note", message=note, language=intent.language))
-        tools = tools or self.tools_of(request)
+                self._tell("note", note, language)
         try:
             chain.check_solvable(posed.problem, tools.method)
         except UnsupportedProblemError as refusal:
-            raise RefusedError(refusal, posed.problem, tools.method, intent.language) from refusal
-        seen = sight or self.sight(intent.language)
-        return plan(intent, posed, seen, tools, decide=self._decide, progress=self.progress)
+            raise RefusedError(refusal, posed.problem, tools.method, language) from refusal
+        seen = sight or self.sight(language)
+        decision = self._decide(seen.estimate, posed.problem, posed.cell, tools)
+        self._tell("decide", decided_line(decision, language), language)
+        made, scene = report(decision), dataclasses.replace(self.scene, cell=posed.cell)
+        return Run(
+            intent=intent, scene=scene, observation=seen.observation, estimate=seen.estimate, decision=decision,
+            outcome=None, report=made, notes=posed.notes, tools=tools,
+            explanation=tuple(explain(seen.estimate, made, language=language)),
+        )  # fmt: skip
 
     def tools_of(self, request: Request) -> Tools:
         """The tools, with the method that the operator named."""

@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
-from wirelessagent.agent.dialogue import Request
+from wirelessagent.agent.dialogue import Request, plan_named
+from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY
 from wirelessagent.agent.site import Site
-from wirelessagent.agent.turn import Run, Stage, Turn
+from wirelessagent.agent.turn import Lines, Run, Stage, Turn
 from wirelessagent.language.acts import Act, Press
 from wirelessagent.language.conversation.open_question import Question
 from wirelessagent.language.intent import Constraint, Intent
@@ -17,7 +18,8 @@ from wirelessagent.language.recogniser import Awaited
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Plain
-from wirelessagent.telling.catalogue import Said, message
+from wirelessagent.model.units import reliability
+from wirelessagent.telling.catalogue import Said, joined, message
 from wirelessagent.telling.told import Table
 
 
@@ -63,6 +65,14 @@ class State(Plain):
         """Power of the last decision; 0 where there is none."""
         return 0.0 if self.run is None or not self.run.decision.is_usable else self.run.decision.total_power_w
 
+    def noted_after(self, run: Run | None, *, requested: bool) -> bool:
+        """Whether it is known what is assumed, after a turn with this run; another probability requested forgets it."""
+        if run is None:
+            return self.noted
+        if _assumed(run.intent.language) in run.notes:
+            return True
+        return self.noted and not (requested and run.decision.problem.outage_probability is not None)
+
     @property
     def settled(self) -> State:
         """The same with nothing open: no plan that waits, no question, no what-if."""
@@ -100,15 +110,31 @@ class Talk:
         """A message in the operator's language."""
         return message(self.language, key, **places)
 
+    def joined(self, *sentences: str) -> Said:
+        """Sentences one after the other; those that are empty are left out."""
+        return joined(self.language, sentences)
+
+    def plan(self, request: Request | None) -> str:
+        """What is asked for, as a part of a sentence."""
+        return plan_named(request, self.language)
+
+    def tried(self, request: Request, **by: Any) -> Run:
+        """The run for a request with what it would achieve, where that is known; nothing is applied."""
+        return self.site.foreseen(self.site.plan(self.intent, request, **by))
+
+    def notes(self, run: Run, *, noted: bool = False, before: Sequence[str] = ()) -> list[str]:
+        """The notes of a run as sentences, without those of ``before`` and, where they were ``noted``, the 95 %."""
+        language = run.intent.language
+        known = {*before, *([_assumed(language)] if noted or self.state.noted else [])}
+        told = (note[:1].upper() + note[1:] for note in run.notes if note not in known)
+        return [message(language, "text.note", note=note) for note in told]
+
 
 @dataclass(frozen=True, kw_only=True)
-class Reply:
-    """What a turn came to.
+class Reply(Lines):
+    """What a turn came to, beside what it says.
 
     Attributes:
-        decided: what was decided and how sure that is, or the answer.
-        changed: what that changed.
-        needs: what it needs from the operator.
         stage: see :data:`~wirelessagent.agent.turn.Stage`.
         state: what holds now; None where nothing changed.
         run: the run that was made or applied.
@@ -119,9 +145,6 @@ class Reply:
         faulty: whether what is in effect now is not as it was decided or promised.
     """
 
-    decided: str = ""
-    changed: str = ""
-    needs: str = ""
     stage: Stage = "answered"
     state: State | None = None
     run: Run | None = None
@@ -139,6 +162,10 @@ Replies: TypeAlias = Mapping[type[Act], Callable[[Talk, Any], Reply]]
 def asked_back(question: str, state: State | None = None) -> Reply:
     """A reply that only asks."""
     return Reply(needs=question, stage="asked", state=state)
+
+
+def _assumed(language: str) -> str:
+    return message(language, "assumed.outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))
 
 
 def nothing_yet(talk: Talk) -> Reply:

@@ -7,17 +7,16 @@ import dataclasses
 import numpy as np
 
 from wirelessagent.agent.comparing import side_by_side
-from wirelessagent.agent.dialogue import Request, applied
+from wirelessagent.agent.dialogue import Request, applied, restated
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
-from wirelessagent.agent.restating import notes, plan_named, restated
 from wirelessagent.agent.site import Sight
 from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
-from wirelessagent.language.acts import Act, Aim, AskMost, AskOtherChannel, AskPower, Limit, Suppose
+from wirelessagent.language.acts import Aim, AskMost, AskOtherChannel, AskPower, Limit, Suppose
 from wirelessagent.language.intent import Constraint
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
-from wirelessagent.telling.catalogue import called, joined, message
+from wirelessagent.telling.catalogue import called
 from wirelessagent.telling.facts.nearest import more_power, nearest
 from wirelessagent.telling.parts import cannot_be_served, outcome_in_words, value_name
 from wirelessagent.telling.reasons import BEYOND_W, Remedies, reason_in_words
@@ -44,16 +43,15 @@ def what_if(talk: Talk, act: Suppose) -> Reply:
         return nothing_yet(talk)
     if share is not None and not 0 <= share < 1:
         return asked_back(talk.say("ask_back.what_if_missing_share", share=percent(share)))
-    sight = None if share is None else talk.site.sight_missing(share, talk.language)
-    run, otherwise = _planned(talk, request, sight)
+    sight = None if share is None else talk.site.sight(talk.language, missing=share)
+    run, refused = _planned(talk, request, sight)
     if isinstance(act, AskMost) and run.decision.is_usable:
-        said = joined(talk.language, [*otherwise, _most(talk, run, act.user)])
+        said = talk.joined(refused, _most(talk, run, act.user))
     else:
-        answer = joined(talk.language, [*otherwise, _verdict(talk, run, share)])
-        asked = restated(request, talk.language)
-        said = answer
+        said = talk.joined(refused, _verdict(talk, run, share))
         if share is None:
-            said = talk.say("what_if.answer", request=asked[:1].lower() + asked[1:], answer=answer)
+            asked = restated(request, talk.language)
+            said = talk.say("what_if.answer", request=asked[:1].lower() + asked[1:], answer=said)
     runs = [(talk.say("what_if.column"), run)]
     if talk.state.run is not None:
         runs.insert(0, (talk.say("compared.now"), talk.site.foreseen(talk.state.run)))
@@ -63,22 +61,22 @@ def what_if(talk: Talk, act: Suppose) -> Reply:
 
 def needed_power(talk: Talk, act: AskPower) -> Reply:
     """The least power that the promised rates take; a what-if of the limit where nothing is promised."""
-    request, language = _supposed(talk, act), talk.language
+    request, enough_w = _supposed(talk, act), act.enough_w
     if request is None:
         return nothing_yet(talk)
     promises = "min_rate_bps" in request.constraints or request.objective == "min_power"
-    if not promises and act.enough_w is not None:
-        return what_if(talk, _limited(act, act.enough_w))
+    limited = None if enough_w is None else Suppose(acts=(*act.acts, Limit(kind="max_power_w", value=enough_w)))
     if not promises:
-        return Reply(decided=talk.say("needs.nothing"))
+        return Reply(decided=talk.say("needs.nothing")) if limited is None else what_if(talk, limited)
     limits: dict[str, Constraint] = {k: v for k, v in request.constraints.items() if k not in _OTHER_AIMS}
     run = talk.site.plan(talk.intent, Request(objective="min_power", constraints=limits))
     power_w = _power(run)
-    said = [*notes(run, noted=talk.state.noted), _taken(run, power_w, language)]
-    if act.enough_w is not None:
-        said.append(_judged(run, power_w, act.enough_w, act.judged, language))
-        said += _of_the_aim(talk, act, request, act.enough_w, power_w)
-    return _left_open(talk, Reply(decided=joined(language, said), run=run), request)
+    said = [*talk.notes(run), _taken(talk, run, power_w)]
+    if enough_w is not None and limited is not None:
+        said.append(_judged(talk, run, power_w, enough_w, act.judged))
+        if request.objective != "min_power" and power_w is not None and enough_w >= power_w:
+            said.append(_beside(talk, what_if(talk, limited).run))  # what such a limit makes of an aim that it serves
+    return _left_open(talk, Reply(decided=talk.joined(*said), run=run), request)
 
 
 def _left_open(talk: Talk, reply: Reply, supposed: Request | None) -> Reply:
@@ -86,7 +84,7 @@ def _left_open(talk: Talk, reply: Reply, supposed: Request | None) -> Reply:
     state, needs = talk.state, ""
     if state.planned is not None and state.request is not None:
         key = "plan.still_waits" if supposed is None else "plan.or_what_if"
-        needs = talk.say(key, request=plan_named(state.request, talk.language))
+        needs = talk.say(key, request=talk.plan(state.request))
     after = dataclasses.replace(state, question=None, supposed=supposed)
     return dataclasses.replace(reply, changed=talk.say("plan.nothing_changed"), needs=needs, state=after)
 
@@ -97,103 +95,101 @@ def _supposed(talk: Talk, act: Suppose) -> Request | None:
     named = {*(() if held is None else held.constraints), *(one.kind for one in acts if isinstance(one, Limit))}
     if isinstance(act, AskMost) and "outage_probability" not in named:
         acts = *acts, Limit(kind="outage_probability", value=ASSUMED_OUTAGE_PROBABILITY)
-    aims: tuple[Act, ...] = tuple(one for one in acts if isinstance(one, Aim))
+    aims = [one for one in acts if isinstance(one, Aim)]
     return applied(held, (*aims, *acts), radiated_w=talk.state.radiated_w)[0]
 
 
-def _planned(talk: Talk, request: Request, sight: Sight | None) -> tuple[Run, list[str]]:
-    """The run of a what-if, by the objective's own method where the one that was named does not solve it."""
-    site, intent = talk.site, talk.intent
+def _planned(talk: Talk, request: Request, sight: Sight | None) -> tuple[Run, str]:
+    """The run of a what-if, by the objective's own method where the one named does not solve it, and that it is so."""
     try:
-        return site.foreseen(site.plan(intent, request, sight=sight)), []
+        return talk.tried(request, sight=sight), ""
     except RefusedError as refusal:
         if request.method is None:
             raise
-        run = site.foreseen(site.plan(intent, dataclasses.replace(request, method=None), sight=sight))
+        run = talk.tried(dataclasses.replace(request, method=None), sight=sight)
         method = called(talk.language, run.decision.method)
-        return run, [refusal.why, talk.say("refused.solved_by", method=method)]
+        return run, talk.joined(refusal.why, talk.say("refused.solved_by", method=method))
 
 
 def _most(talk: Talk, run: Run, user: str | None) -> str:
     """The most that can be promised to everybody or to a user, with its certificate."""
-    decision, language = run.decision, talk.language
-    served = decision.served
-    who = talk.say("what_if.every_user", count=int(served.sum()))
+    decision = run.decision
+    who = talk.say("what_if.every_user", count=int(decision.served.sum()))
     if user is not None:
-        who = called(language, decision.user_names[user_number(user, decision.user_names, language)[0]])
+        who = called(talk.language, decision.user_names[user_number(user, decision.user_names, talk.language)[0]])
     said = talk.say(
         "what_if.most_promised", rate=human(decision.value, decision.unit), who=who,
         power=human(decision.problem.budget_w(decision.cell), "W"),
         sure=reliability(decision.problem.outage_probability or 0.0),
     )  # fmt: skip
     proven = talk.say("what_if.most_proven", bound=human(decision.bound, decision.unit))
-    assumed = notes(run, noted=talk.state.noted)
-    return joined(language, [said, *([] if np.isnan(decision.gap) else [proven]), *assumed, *_warned(run, language)])
+    return talk.joined(said, "" if np.isnan(decision.gap) else proven, *talk.notes(run), _warned(talk, run))
 
 
-def _warned(run: Run, language: str) -> list[str]:
-    left_out = cannot_be_served(run.decision, language)
-    return [message(language, "text.note", note=left_out)] if left_out else []
+def _warned(talk: Talk, run: Run) -> str:
+    left_out = cannot_be_served(run.decision, talk.language)
+    return talk.say("text.note", note=left_out) if left_out else ""
 
 
 def _verdict(talk: Talk, run: Run, missing: float | None) -> str:
     """Whether a request can be met, where a share of the gains were missing, and with what, or what can be met instead;
     and what was assumed only here.
     """
-    now, language = talk.state.run, talk.language
-    assumed = notes(run, noted=talk.state.noted, before=() if now is None else now.notes)
+    now, share = talk.state.run, percent(missing or 0.0)
+    assumed = talk.notes(run, before=() if now is None else now.notes)
     if not run.decision.is_usable:
-        unmet = "" if missing is None else talk.say("what_if.unseen", share=percent(missing))
-        return joined(language, [*assumed, unmet, Remedies(run.case, language).told(nearest(run.case))])
+        unmet = "" if missing is None else talk.say("what_if.unseen", share=share)
+        return talk.joined(*assumed, unmet, Remedies(run.case, talk.language).told(nearest(run.case)))
     key = "what_if.met" if missing is None else "what_if.still_met"
-    met = talk.say(key, outcome=outcome_in_words(run.decision, language), share=percent(missing or 0.0))
-    beside = _outcome_beside(now, run, language)
-    if now is not None and now.decision.is_usable and _figure_of(now, language) == _figure_of(run, language):
-        beside = talk.say("what_if.now", **_beside(now.decision, run.decision, language))
-    return joined(language, [*assumed, met, beside, *_unused(now, run, language), *_warned(run, language)])
+    met = talk.say(key, outcome=outcome_in_words(run.decision, talk.language), share=share)
+    return talk.joined(*assumed, met, _beside(talk, run, values=True), _unused(talk, run), _warned(talk, run))
 
 
-def _outcome_beside(now: Run | None, run: Run, language: str) -> str:
-    """What users get and what it takes, beside what holds now: for values that are not of one kind."""
-    if now is None or not now.decision.is_usable or not run.decision.is_usable:
+def _beside(talk: Talk, run: Run | None, *, values: bool = False) -> str:
+    """What users get and what it takes, beside what holds now; by how much the ``values`` differ where they are of one
+    kind.
+    """
+    now = talk.state.run
+    if now is None or run is None or not (now.decision.is_usable and run.decision.is_usable):
         return ""
-    then = _figures(run.decision, language)
-    return message(language, "what_if.beside_now", then=then, now=_figures(now.decision, language))
+    if values and _kind(talk, now) == _kind(talk, run):
+        return talk.say("what_if.now", change=_change(talk, now.decision, run.decision))
+    return talk.say("what_if.beside_now", then=_figures(talk, run.decision), now=_figures(talk, now.decision))
 
 
-def _figures(decision: Decision, language: str) -> str:
-    rate = decision.rate_bps[decision.served]
-    return message(
-        language, "what_if.beside_figures", total=human(float(decision.rate_bps.sum()), "bit/s"),
-        lowest=human(float(rate.min()), "bit/s"), power=human(decision.total_power_w, "W"),
+def _kind(talk: Talk, run: Run) -> tuple[str, str]:
+    """What a run's value is called, and its unit: values compare where both are the same."""
+    return value_name(run.decision, talk.language), run.decision.unit
+
+
+def _change(talk: Talk, now: Decision, then: Decision) -> str:
+    """By how much the other value differs."""
+    change, value = then.value - now.value, human(now.value, now.unit)
+    if not now.value or value == human(then.value, then.unit):
+        return talk.say("what_if.same")
+    key, size = "what_if.more" if change > 0 else "what_if.less", human(abs(change), now.unit)
+    return talk.say(key, size=size, share=percent(abs(change / now.value)))
+
+
+def _figures(talk: Talk, decision: Decision) -> str:
+    total, lowest = float(decision.rate_bps.sum()), float(decision.rate_bps[decision.served].min())
+    power = human(decision.total_power_w, "W")
+    return talk.say(
+        "what_if.beside_figures", total=human(total, "bit/s"), lowest=human(lowest, "bit/s"), power=power
     )  # fmt: skip
 
 
-def _unused(now: Run | None, run: Run, language: str) -> list[str]:
+def _unused(talk: Talk, run: Run) -> str:
     """That another budget changes nothing, where it is not what holds the value back."""
+    now = talk.state.run
     if now is None or not now.decision.is_usable:
-        return []
+        return ""
     spent, before = run.decision.total_power_w, now.decision.total_power_w
     budgets = [one.decision.problem.budget_w(one.decision.cell) for one in (run, now)]
     same = abs(spent - before) <= _SAME * before and budgets[0] != budgets[1]
     if not same or max(spent, before) >= min(budgets) * (1 - _SAME):
-        return []
-    return [message(language, "what_if.budget_unused", budget=human(budgets[0], "W"), spent=human(spent, "W"))]
-
-
-def _beside(now: Decision, then: Decision, language: str) -> dict[str, str]:
-    """By how much the other value differs."""
-    change, value = then.value - now.value, human(now.value, now.unit)
-    if not now.value or value == human(then.value, then.unit):
-        return {"change": message(language, "what_if.same")}
-    size, share = human(abs(change), now.unit), percent(abs(change / now.value))
-    key = "what_if.more" if change > 0 else "what_if.less"
-    return {"change": message(language, key, size=size, share=share)}
-
-
-def _figure_of(run: Run, language: str) -> tuple[str, str]:
-    """What a run's value is called, and its unit: values compare where both are the same."""
-    return value_name(run.decision, language), run.decision.unit
+        return ""
+    return talk.say("what_if.budget_unused", budget=human(budgets[0], "W"), spent=human(spent, "W"))
 
 
 def _power(run: Run) -> float | None:
@@ -211,35 +207,22 @@ def _least(run: Run) -> float:
     return known if known is not None and known == known else 0.0
 
 
-def _taken(run: Run, power_w: float | None, language: str) -> str:
+def _taken(talk: Talk, run: Run, power_w: float | None) -> str:
+    """The power that the promised rates take."""
     if power_w is None:
-        return message(language, "needs.too_much", reason=reason_in_words(run.decision, language))
-    power, least = human(power_w, "W"), human(_least(run), "W")
-    said = message(language, "needs.exactly" if power == least else "needs.takes", power=power, least=least)
-    limit = run.decision.cell.max_power_w
-    beyond = [] if power_w <= limit else [message(language, "needs.beyond_limit", limit=human(limit, "W"))]
-    return joined(language, [said, *beyond])
+        return talk.say("needs.too_much", reason=reason_in_words(run.decision, talk.language))
+    power, least, limit_w = human(power_w, "W"), human(_least(run), "W"), run.decision.cell.max_power_w
+    said = talk.say("needs.exactly" if power == least else "needs.takes", power=power, least=least)
+    return talk.joined(said, talk.say("needs.beyond_limit", limit=human(limit_w, "W")) if power_w > limit_w else "")
 
 
-def _judged(run: Run, power_w: float | None, enough_w: float, asked: str, language: str) -> str:
+def _judged(talk: Talk, run: Run, power_w: float | None, enough_w: float, asked: str) -> str:
     """Whether a power does."""
+    enough = human(enough_w, "W")
     if power_w is not None and enough_w >= power_w:
-        return message(language, f"needs.{asked}_enough", enough=human(enough_w, "W"), power=human(power_w, "W"))
-    key = "needs.not_enough" if enough_w < _least(run) or power_w is None else "needs.perhaps_enough"
-    return message(language, key, enough=human(enough_w, "W"))
-
-
-def _of_the_aim(talk: Talk, act: AskPower, request: Request, enough_w: float, power_w: float | None) -> list[str]:
-    """What such a limit makes of an aim that more power serves."""
-    if request.objective == "min_power" or power_w is None or enough_w < power_w:
-        return []
-    asked = what_if(talk, _limited(act, enough_w))
-    return [] if asked.run is None else [_outcome_beside(talk.state.run, asked.run, talk.language)]
-
-
-def _limited(act: AskPower, power_w: float) -> Suppose:
-    """The what-if of a budget beside what else is asked about."""
-    return Suppose(acts=(*act.acts, Limit(kind="max_power_w", value=power_w)))
+        return talk.say(f"needs.{asked}_enough", enough=enough, power=human(power_w, "W"))
+    unmet = enough_w < _least(run) or power_w is None
+    return talk.say("needs.not_enough" if unmet else "needs.perhaps_enough", enough=enough)
 
 
 REPLIES: Replies = {

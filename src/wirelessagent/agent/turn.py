@@ -13,6 +13,7 @@ from wirelessagent.agent.dialogue import Diff
 from wirelessagent.language.acts import Act, Press
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import acts_of
+from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.estimate import ChannelEstimate
@@ -21,11 +22,12 @@ from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
-from wirelessagent.telling.catalogue import joined, lines_of
+from wirelessagent.model.units import human
+from wirelessagent.telling.catalogue import joined, lines_of, message
 from wirelessagent.telling.certificates import certificate_line, summary_line
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.report import Report, report
+from wirelessagent.telling.report import Report, decision_tables, report
 from wirelessagent.telling.told import Table
 
 Stage: TypeAlias = Literal["answered", "asked", "planned", "applied", "reverted", "undone", "nothing"]
@@ -82,6 +84,19 @@ class Run(Shown):
             decision=self.decision, estimate=self.estimate, method=tools.method, options=tools.method_options
         )  # fmt: skip
 
+    @property
+    def promised_bps(self) -> FloatArray:
+        """What each user was promised, as it was read back where it was."""
+        return self.decision.rate_bps if self.outcome is None else self.outcome.promised_bps
+
+    def tables(self, language: str) -> tuple[Table, ...]:
+        """What people want to see of the decision."""
+        return tuple(decision_tables(self.report, self.estimate, language))
+
+    def is_of(self, other: Run) -> bool:
+        """Whether two runs are of one decision, applied or not."""
+        return self.decision is other.decision
+
     def with_outcome(self, outcome: Outcome | None) -> Run:
         """The run after the base station did something, with its report and its explanation."""
         made = report(self.decision, outcome)
@@ -114,7 +129,7 @@ class Run(Shown):
 
 @dataclass(frozen=True, kw_only=True)
 class Shift:
-    """What became of an allocation with another decision.
+    """What became of an allocation that held, with another decision.
 
     Attributes:
         subcarriers, total: how many of them serve another user, or nobody any more.
@@ -127,6 +142,17 @@ class Shift:
     sum_rate_bps: tuple[float, float]
     power_w: tuple[float, float]
     rate_bps: Mapping[str, tuple[float, float]]
+
+    def in_words(self, language: str) -> str:
+        """The same in a sentence; empty where nothing of it shows."""
+        said: list[str] = []
+        for name, pair, unit in (("sum_rate", self.sum_rate_bps, "bit/s"), ("power", self.power_w, "W")):
+            before, now = (human(value, unit) for value in pair)
+            said += [message(language, f"changed.{name}", before=before, now=now)] if before != now else []
+        if self.subcarriers:
+            said.append(message(language, "changed.subcarriers", moved=self.subcarriers, total=self.total))
+        listed = message(language, "text.list").join(said)
+        return message(language, "changed.allocation", changes=listed[:1].upper() + listed[1:]) if said else ""
 
 
 def shift_between(before: Decision | None, after: Decision | None) -> Shift | None:

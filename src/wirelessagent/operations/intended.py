@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wirelessagent import plugins
-from wirelessagent.agent.dialogue import Request
-from wirelessagent.agent.restating import restated
+from wirelessagent.agent.dialogue import Request, restated
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.model.errors import InputError
