@@ -13,8 +13,7 @@ from wirelessagent.deciding.objectives.max_rate import MaxRate
 from wirelessagent.deciding.objectives.proportional_fairness import ProportionalFairness
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human
-from wirelessagent.telling.certificates import certificate_line
-from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.explanation import certificate_line, explain
 
 SCENE = wa.simulate("rayleigh", num_users=4, seed=1)
 ESTIMATE = wa.perfect(SCENE)

@@ -14,7 +14,7 @@ from wirelessagent.interfaces.cli import run
 from wirelessagent.telling.explanation import explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.report import decision_tables
-from wirelessagent.telling.user_account import Accounts
+from wirelessagent.telling.roster import Accounts
 
 
 @pytest.fixture(autouse=True)

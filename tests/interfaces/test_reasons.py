@@ -9,17 +9,15 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.agent.comparing import side_by_side
 from wirelessagent.agent.session import ask
 from wirelessagent.model.decision import Bracket
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import called
-from wirelessagent.telling.certificates import certificate_line
-from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.explanation import certificate_line, explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import nearest, shortage_of
 from wirelessagent.telling.reasons import Remedies, reason_in_words
-from wirelessagent.telling.report import figures_of_infeasibility
+from wirelessagent.telling.report import figures_of_infeasibility, side_by_side
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)
@@ -46,7 +44,7 @@ def test_more_power_than_any_cell_has_is_told_alike_everywhere(language: str, ou
         *explain(SEEN, wa.report(decision), language=language),
         Remedies(case, language).told(nearest(case)),
         figures_of_infeasibility(decision, language).rows[0][1],
-        next(row[1] for row in side_by_side([("", run)], language).rows if row[1].endswith("1 MW")),
+        next(row[1] for row in side_by_side([("", run.report)], language).rows if row[1].endswith("1 MW")),
     ]
     assert [told for told in everywhere if "1 MW" not in told] == []
     assert not any(sign in "".join(everywhere) for sign in ("e+", "GW", "inf W"))
@@ -158,4 +156,4 @@ def test_who_can_be_served_is_named_where_most_are_left_out(language: str, told:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_figures_that_say_nothing_are_left_out(language: str) -> None:
     run = ask("Least power with 100 Mbit/s for each user", SCENE, wa.loss.random(0.3), seed=4)
-    assert all(set(row[1:]) != {"–"} for row in side_by_side([("a", run), ("b", run)], language).rows)
+    assert all(set(row[1:]) != {"–"} for row in side_by_side([("a", run.report), ("b", run.report)], language).rows)

@@ -18,8 +18,7 @@ from wirelessagent.deciding.methods.dual import Dual
 from wirelessagent.deciding.objectives.max_rate import MaxRate
 from wirelessagent.deciding.objectives.min_power import MinPower
 from wirelessagent.model.errors import PluginError, UnsupportedProblemError
-from wirelessagent.telling.certificates import Proofs
-from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.explanation import Proofs, explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.testing.judge import verdict_on
 from wirelessagent.testing.kinked import KinkedLogarithm

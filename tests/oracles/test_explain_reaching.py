@@ -13,7 +13,7 @@ import wirelessagent as wa
 from wirelessagent.model.units import human
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.steps import Reach, for_the_total, has_reach, rate_step, reach
-from wirelessagent.telling.step_effects import Steps
+from wirelessagent.telling.margins import Steps
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)

@@ -25,7 +25,6 @@ from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.metrics import RATE_TOLERANCE
-from wirelessagent.model.objective import Objective
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import message
@@ -80,12 +79,12 @@ def carry_out(run: Run, station: BaseStation, last_good: Run | None, tolerance: 
     faults = list(amiss)
     if outcome is not None and not amiss:
         faults = [*_broken_promises(run.decision, outcome, tolerance, language), *_worse(done, last_good, tolerance)]
-    if not faults or last_good is None:
-        return Effect(run=done, faults=tuple(faults), as_decided=not amiss)
-    try:
-        restored, trouble = put_back(last_good, station, language)
-    except InputError as error:  # something was applied before, so what is in effect has to be told
-        restored, trouble = None, message(language, "station.failed", station=station.name, why=_plain(error))
+    restored, trouble = None, ""
+    if faults and last_good is not None:
+        try:
+            restored, trouble = put_back(last_good, station, language)
+        except InputError as error:  # something was applied before, so what is in effect has to be told
+            trouble = message(language, "station.failed", station=station.name, why=_plain(error))
     return Effect(run=done, faults=tuple(faults), restored=restored, trouble=trouble, as_decided=not amiss)
 
 
@@ -115,8 +114,7 @@ def applied_line(run: Run) -> str:
 def same_allocation(one: Decision, other: Decision) -> bool:
     """Whether two decisions are the same for the base station and the users, within rounding."""
     return (
-        one.owner.shape == other.owner.shape
-        and one.rate_bps.shape == other.rate_bps.shape
+        _same_cell(one, other)
         and bool(np.array_equal(_in_use(one), _in_use(other)))
         and bool(np.allclose(one.power_w, other.power_w, rtol=0, atol=_ROUNDING * one.total_power_w))
         and bool(np.allclose(one.committed_bps, other.committed_bps, rtol=_ROUNDING, atol=0))
@@ -125,8 +123,11 @@ def same_allocation(one: Decision, other: Decision) -> bool:
 
 def respects(allocation: Decision, wanted: Decision) -> bool:
     """Whether an allocation of the same cell breaks no limit of what another decision was for."""
-    same = (allocation.owner.shape, allocation.rate_bps.shape) == (wanted.owner.shape, wanted.rate_bps.shape)
-    return same and _within_limits(allocation, wanted)
+    return _same_cell(allocation, wanted) and _within_limits(allocation, wanted)
+
+
+def _same_cell(one: Decision, other: Decision) -> bool:
+    return (one.owner.shape, one.rate_bps.shape) == (other.owner.shape, other.rate_bps.shape)
 
 
 def _applied(station: BaseStation, decision: Decision, language: str) -> tuple[Outcome | None, str]:
@@ -157,8 +158,8 @@ def _is_readable(outcome: object, decision: Decision) -> bool:
         return False
     users, achieved = decision.rate_bps.shape, outcome.achieved
     rates = [outcome.promised_bps, outcome.missed, *([] if achieved is None else [achieved.user_rate_bps])]
-    flat = _is_row(outcome.owner) and _is_row(outcome.power_w) and outcome.owner.shape == outcome.power_w.shape
-    return flat and all(_is_row(each) and each.shape == users for each in rates)
+    rows = all(map(_is_row, (outcome.owner, outcome.power_w, *rates)))
+    return rows and outcome.owner.shape == outcome.power_w.shape and all(each.shape == users for each in rates)
 
 
 def _is_row(values: object) -> bool:
@@ -191,28 +192,24 @@ def _differences(decision: Decision, outcome: Outcome, station: BaseStation, lan
 
 
 def _broken_promises(decision: Decision, outcome: Outcome, tolerance: float, language: str) -> list[str]:
+    """What the true channel carries less of than was promised."""
     if outcome.achieved is None:
         return []
     found: list[str] = []
-    promised = outcome.promised_bps
-    carried = float(np.minimum(_known(outcome.achieved.user_rate_bps), promised).sum())
-    total = float(decision.committed_bps.sum())
+    promised, achieved_bps = outcome.promised_bps, outcome.achieved.user_rate_bps
+    carried, total = float(np.minimum(_known(achieved_bps), promised).sum()), float(decision.committed_bps.sum())
     if not carried >= total * (1 - tolerance):  # NaN is not kept
         short, of = percent(1 - carried / total), human(total, "bit/s")
         found.append(message(language, "station.too_little", carried=human(carried, "bit/s"), promised=of, short=short))
-    outage = decision.problem.outage_probability
-    unknown = np.isnan(outcome.achieved.user_rate_bps) & (promised > 0)
+    outage, unknown = decision.problem.outage_probability, np.isnan(achieved_bps) & (promised > 0)
     missed, served = int(np.count_nonzero(outcome.missed | unknown)), int(np.count_nonzero(promised > 0))
-    if outage is not None and missed and _chance(missed, served, outage) < _UNLIKELY:
-        found.append(message(language, "station.too_many", missed=missed, served=served, sure=reliability(outage)))
+    if outage is not None and missed:
+        from scipy.special import bdtrc  # a quarter of a second, and few need it
+
+        if float(bdtrc(missed - 1, served, outage)) < _UNLIKELY:  # so many or more, each missed with this outage
+            sure = reliability(outage)
+            found.append(message(language, "station.too_many", missed=missed, served=served, sure=sure))
     return found
-
-
-def _chance(missed: int, served: int, outage: float) -> float:
-    """Probability of so many misses or more among as many promises as are served, each missed with this outage."""
-    from scipy.special import bdtrc  # a quarter of a second, and few need it
-
-    return float(bdtrc(missed - 1, served, outage))
 
 
 def _known(rate: FloatArray) -> FloatArray:
@@ -225,26 +222,22 @@ def _worse(run: Run, good: Run | None, tolerance: float) -> list[str]:
     if good is None or run.outcome is None or good.outcome is None or not _keeps(run, good):
         return []
     now, before = _worth(run, run.outcome), _worth(run, good.outcome)
-    objective = run.decision.problem.objective
-    assert isinstance(objective, Objective)
-    lost = before * (1 - tolerance) - now if objective.direction == "max" else now - before * (1 + tolerance)
+    lost = now - before * (1 + tolerance) if run.case.falls else before * (1 - tolerance) - now
     if lost <= 0:  # NaN is worse
         return []
     language, unit = run.intent.language, run.decision.unit
     figure = name_of_figure(run.decision, language) or message(language, "text.value")
-    return [
-        message(language, "station.worse_than_before", figure=figure, now=human(now, unit), before=human(before, unit))
-    ]
+    told = {"figure": figure, "now": human(now, unit), "before": human(before, unit)}
+    return [message(language, "station.worse_than_before", **told)]
 
 
 def _worth(run: Run, outcome: Outcome) -> float:
     """The value of what was read back, for the objective of ``run``."""
     problem, achieved = run.decision.problem, outcome.achieved
-    assert isinstance(problem.objective, Objective)
     assert achieved is not None
     users = achieved.user_rate_bps.size
     useful = np.minimum(_known(achieved.user_rate_bps), problem.max_rates_bps(users))
-    return problem.objective.value(useful, achieved.power_w, run.decision.cell, problem.weights_of(users))
+    return run.case.objective.value(useful, achieved.power_w, run.decision.cell, problem.weights_of(users))
 
 
 def _keeps(run: Run, good: Run) -> bool:
@@ -255,8 +248,7 @@ def _keeps(run: Run, good: Run) -> bool:
     earlier = good.scene.current_truth
     if run.outcome is None or run.outcome.achieved is None or earlier is None or not np.array_equal(truth, earlier):
         return False
-    users, slack = len(truth), 0.0 if outcome.slack_bps is None else outcome.slack_bps
-    least = np.where(problem.serves(users), problem.min_rates_bps(users), 0.0)
+    least, slack = run.case.promised_bps, 0.0 if outcome.slack_bps is None else outcome.slack_bps
     return bool(
         _within_limits(outcome, run.decision)
         and np.all(outcome.achieved.user_rate_bps >= least * (1 - RATE_TOLERANCE) - slack)

@@ -18,19 +18,16 @@ from wirelessagent.language import acts
 from wirelessagent.language.acts import Act, Ask
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import called, lines_of
-from wirelessagent.telling.certificates import Proofs
-from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.explanation import Proofs, explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import FewerUsers, MorePower, Nearest, Way, WithoutLimit, nearest
 from wirelessagent.telling.glossary import explained, figures_asked, is_of_now
+from wirelessagent.telling.margins import Prices, Steps
 from wirelessagent.telling.parts import Teller
-from wirelessagent.telling.prices import Prices
 from wirelessagent.telling.reasons import Remedies
 from wirelessagent.telling.report import Report, served_table, user_table
-from wirelessagent.telling.roster import Roster
-from wirelessagent.telling.step_effects import Steps
+from wirelessagent.telling.roster import Accounts, Roster
 from wirelessagent.telling.told import Table
-from wirelessagent.telling.user_account import Accounts
 
 Answer = str | tuple[str, tuple[Table, ...]]
 

@@ -23,9 +23,8 @@ from wirelessagent.language.conversation.assent import assent, is_assent, speaks
 from wirelessagent.language.conversation.open_question import Question
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said
-from wirelessagent.telling.certificates import certificate_line
+from wirelessagent.telling.explanation import certificate_line
 from wirelessagent.telling.parts import without_anything
-from wirelessagent.telling.told import Event
 
 _YES = ("apply", "confirm")
 
@@ -196,7 +195,7 @@ def _apply(talk: Talk, reply: Reply, state: State, run: Run, station: BaseStatio
     """Apply a run, or put one back that was in effect before."""
     if run.outcome is not None and run is state.planned:
         return _put_back(talk, reply, state, run, station)
-    talk.site.progress(_applying(talk, station))
+    talk.site.tell("act", talk.say("stage.applying", station=station.name), talk.language)
     effect = talk.site.carry_out(run, station, state.last_good)
     new = dataclasses.replace(state, run=effect.run, planned=None, question=None)
     reply = dataclasses.replace(reply, run=effect.run, restored=effect.restored)
@@ -218,7 +217,7 @@ def _apply(talk: Talk, reply: Reply, state: State, run: Run, station: BaseStatio
 
 def _put_back(talk: Talk, reply: Reply, state: State, good: Run, station: BaseStation) -> Reply:
     """Apply again what was in effect before, for an undo."""
-    talk.site.progress(_applying(talk, station))
+    talk.site.tell("act", talk.say("stage.applying", station=station.name), talk.language)
     outcome, trouble = talk.site.put_back(good, station)
     told = talk.say("undo.not_put_back", why=trouble) if trouble else _in_effect(talk, "undo.put_back", good)
     back = good if outcome is None else good.with_outcome(outcome)
@@ -227,11 +226,6 @@ def _put_back(talk: Talk, reply: Reply, state: State, good: Run, station: BaseSt
         on_air=None if trouble else back, last_good=state.last_good if trouble else back,
     )  # fmt: skip
     return _changing(talk, reply, told, stage="undone", state=new, run=back, restored=outcome)
-
-
-def _applying(talk: Talk, station: BaseStation) -> Event:
-    told = talk.say("stage.applying", station=station.name)
-    return Event(stage="act", message=told, language=talk.language)
 
 
 def _in_effect(talk: Talk, key: str, run: Run, **places: str) -> Said:

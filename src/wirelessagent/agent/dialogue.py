@@ -12,27 +12,9 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from wirelessagent import plugins
-from wirelessagent.language.acts import (
-    Act,
-    Aim,
-    Drop,
-    Everybody,
-    Forget,
-    LeaveOut,
-    Limit,
-    Named,
-    Prefer,
-    Scale,
-    Serve,
-    Whom,
-)  # fmt: skip
-from wirelessagent.language.intent import (
-    EVERYBODY,
-    FIGURES_OF_USERS,
-    LISTS_OF_USERS,
-    Constraint,
-    checked_constraints,
-)  # fmt: skip
+from wirelessagent.language import acts
+from wirelessagent.language.acts import Act, Everybody, Named, Whom
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, checked_constraints
 from wirelessagent.language.restating import figure_in_words, limits_in_words
 from wirelessagent.telling.catalogue import called, joined, message
 from wirelessagent.telling.parts import goal_words
@@ -108,15 +90,16 @@ class Diff:
         return Request(objective=self.objective[1], constraints=constraints_of(figures), method=self.method[1])
 
 
-def applied(before: Request | None, acts: Iterable[Act], *, radiated_w: float = 0.0) -> tuple[Request | None, Diff]:
+def applied(before: Request | None, said: Iterable[Act], *, radiated_w: float = 0.0) -> tuple[Request | None, Diff]:
     """The request after acts, and what they changed. Acts that change nothing of it, such as questions, are left out.
 
     ``radiated_w`` is the power of the last decision, which shares of the power refer to where no limit holds.
     """
-    acts = tuple(acts)
-    of_users = any(isinstance(act, Limit) and (act.kind, type(act.whom)) == ("min_rate_bps", Named) for act in acts)
+    said = tuple(said)
+    limits = [act for act in said if isinstance(act, acts.Limit)]
+    of_users = any(act.kind == "min_rate_bps" and isinstance(act.whom, Named) for act in limits)
     request = _with_the_assumed(before) if of_users else before  # which holds for the others
-    for act in acts:
+    for act in said:
         request = _after(request, act, radiated_w)
     return request, difference(before, request)
 
@@ -124,37 +107,34 @@ def applied(before: Request | None, acts: Iterable[Act], *, radiated_w: float = 
 def difference(before: Request | None, after: Request | None) -> Diff:
     """What differs between two requests."""
     old, new = _held(before), _held(after)
+    keys = [key for key in dict.fromkeys((*old, *new)) if old.get(key) != new.get(key)]
     return Diff(
         objective=(before and before.objective, after and after.objective),
         method=(before and before.method, after and after.method),
-        changes=tuple(
-            Change(kind=key[0], user=key[1], before=old.get(key), after=new.get(key))
-            for key in dict.fromkeys((*old, *new))
-            if old.get(key) != new.get(key)
-        ),
+        changes=tuple(Change(kind=key[0], user=key[1], before=old.get(key), after=new.get(key)) for key in keys),
     )
 
 
 def _after(request: Request | None, act: Act, radiated_w: float) -> Request | None:
-    if isinstance(act, Forget):
+    if isinstance(act, acts.Forget):
         return None
-    if isinstance(act, Aim):
+    if isinstance(act, acts.Aim):
         return dataclasses.replace(request or Request(objective=act.objective), objective=act.objective)
     if request is None:
         return None
-    if isinstance(act, Prefer):
+    if isinstance(act, acts.Prefer):
         return dataclasses.replace(request, method=act.method or None)
     figures = figures_of(request.constraints)
-    if isinstance(act, Limit):
-        _set(figures, act.kind, act.whom, act.value)
-    elif isinstance(act, Scale):
+    if isinstance(act, acts.Limit):
+        _set(figures, act)
+    elif isinstance(act, acts.Scale):
         _scale(figures, act, radiated_w)
-    elif isinstance(act, Drop):
+    elif isinstance(act, acts.Drop):
         _drop(figures, act)
-    elif isinstance(act, Serve):
+    elif isinstance(act, acts.Serve):
         _serve(figures, act)
-    elif isinstance(act, LeaveOut):
-        _leave_out(figures, act.whom)
+    elif isinstance(act, acts.LeaveOut) and isinstance(act.whom, Named):
+        _leave_out(figures, _names(act.whom))
     return dataclasses.replace(request, constraints=constraints_of(figures))
 
 
@@ -167,17 +147,15 @@ def _with_the_assumed(request: Request | None) -> Request | None:
     return dataclasses.replace(request, constraints={**request.constraints, "min_rate_bps": ASSUMED_MIN_RATE_BPS})
 
 
-def _set(figures: dict[Key, float], kind: str, whom: Whom, value: float) -> None:
-    if isinstance(whom, Named):
-        figures |= {(kind, _name(user)): value for user in whom.users}
-        return
-    if isinstance(whom, Everybody):
-        for key in _of(figures, kind):
+def _set(figures: dict[Key, float], act: acts.Limit) -> None:
+    if isinstance(act.whom, Everybody):
+        for key in _of(figures, act.kind):
             del figures[key]
-    figures[kind, EVERYBODY] = value
+    users = _names(act.whom) if isinstance(act.whom, Named) else [EVERYBODY]
+    figures |= {(act.kind, user): act.value for user in users}
 
 
-def _scale(figures: dict[Key, float], act: Scale, radiated_w: float) -> None:
+def _scale(figures: dict[Key, float], act: acts.Scale, radiated_w: float) -> None:
     for_all = (act.kind, EVERYBODY)
     if act.reference == "radiated":
         basis = figures.get(for_all, radiated_w)
@@ -190,36 +168,27 @@ def _scale(figures: dict[Key, float], act: Scale, radiated_w: float) -> None:
             figures[key] = held * act.factor
 
 
-def _drop(figures: dict[Key, float], act: Drop) -> None:
+def _drop(figures: dict[Key, float], act: acts.Drop) -> None:
+    own_only = act.own or not isinstance(act.whom, Named) or act.kind != "min_rate_bps"
     for key in _meant(figures, act.kind, act.whom):
         figures.pop(key, None)
-        if act.kind == "min_rate_bps" and (act.kind, EVERYBODY) in figures and not act.own:
+        if not own_only and (act.kind, EVERYBODY) in figures:
             figures[key] = 0.0  # to whom nothing is promised
 
 
-def _serve(figures: dict[Key, float], act: Serve) -> None:
-    out, alone = _of(figures, "leave_out"), _of(figures, "users")
-    if not isinstance(act.whom, Named):
-        for key in (*out, *alone):
-            del figures[key]
-        return
-    users = [_name(user) for user in act.whom.users]
-    for key in out:
-        if act.alone or key[1] in users:
-            del figures[key]
-    for key in alone:
-        if act.alone:
-            del figures[key]
-    if act.alone or alone:
+def _serve(figures: dict[Key, float], act: acts.Serve) -> None:
+    users, alone = _names(act.whom) if isinstance(act.whom, Named) else None, _of(figures, "users")
+    for kind, user in (*_of(figures, "leave_out"), *alone):
+        if act.alone or users is None or (kind == "leave_out" and user in users):
+            del figures[kind, user]
+    if users is not None and (act.alone or alone):
         figures |= {("users", user): 1.0 for user in users}
 
 
-def _leave_out(figures: dict[Key, float], whom: Whom) -> None:
+def _leave_out(figures: dict[Key, float], users: list[str]) -> None:
     """Take users off the list of who is served, or put them on that of who is not."""
-    if not isinstance(whom, Named):
-        return
-    users, served = [_name(user) for user in whom.users], [key[1] for key in _of(figures, "users")]
-    if served and set(served) - set(users):
+    served = {user for _, user in _of(figures, "users")}
+    if served - set(users):
         for user in users:
             figures.pop(("users", user), None)
     else:
@@ -233,8 +202,12 @@ def _of(figures: Mapping[Key, float], kind: str) -> list[Key]:
 def _meant(figures: Mapping[Key, float], kind: str, whom: Whom) -> list[Key]:
     """What an act on a figure is about: of users by name, whether they have one of their own, else of those held."""
     if isinstance(whom, Named):
-        return [(kind, _name(user)) for user in whom.users]
+        return [(kind, user) for user in _names(whom)]
     return [key for key in _of(figures, kind) if key[1] == EVERYBODY or isinstance(whom, Everybody)]
+
+
+def _names(whom: Named) -> list[str]:
+    return [_name(user) for user in whom.users]
 
 
 def _held(request: Request | None) -> dict[Key, float]:

@@ -1,18 +1,26 @@
-"""What was said and done so far: turns, what is in effect, the reasons of a decision, and its export as a document."""
+"""What was said and done so far: turns, decisions beside each other, what is in effect, reasons, and the export."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import datetime
 
-from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
+from wirelessagent.agent.acting import same_allocation
+from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.language.acts import AskHistory, AskReasons, AskStatus, Export, TurnReference
+from wirelessagent.language.acts import (
+    AskHistory,
+    AskReasons,
+    AskStatus,
+    CompareLast,
+    CompareTurns,
+    Export,
+    TurnReference,
+)
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said, lines_of
-from wirelessagent.telling.certificates import certificate_line
-from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.explanation import certificate_line, explain
 from wirelessagent.telling.told import Table
 
 _SHOWN = 60
@@ -125,6 +133,41 @@ def _on_air(talk: Talk) -> str:
     return talk.say(key, turn=number, served=served, power=power, rate=rate)
 
 
+def with_last(talk: Talk, _: CompareLast) -> Reply:
+    """The decision that holds beside the last other one."""
+    run = talk.state.run
+    if run is None:
+        return nothing_yet(talk)
+    turns = [turn for turn in reversed(talk.turns) if turn.intent.kind == "allocate"]
+    made = [(turn.number, turn.run) for turn in turns if turn.run is not None]
+    own = next((number for number, one in made if one.is_of(run)), len(talk.turns))
+    last = next(((number, one) for number, one in made if not one.is_of(run)), None)
+    if last is None:
+        return Reply(decided=talk.say("compared.nothing"))
+    columns = [(talk.say("turn.column", number=number), one) for number, one in ((own, run), last)]
+    said = talk.say("compared.last", turn=last[0], line=certificate_line(last[1].decision, talk.language))
+    return Reply(decided=said, tables=talk.beside(columns))
+
+
+def with_turns(talk: Talk, act: CompareTurns) -> Reply:
+    """The decision that holds beside that of a turn, or those of two turns."""
+    columns = list[Column]()
+    for reference in act.turns:
+        found = decided_by(talk, reference)
+        if isinstance(found, Reply):
+            return found
+        columns.append((talk.say("turn.column", number=found[0]), found[1]))
+    if len(columns) == 1:
+        if talk.state.run is None:
+            return nothing_yet(talk)
+        if same_allocation(columns[0][1].decision, talk.state.run.decision):
+            return Reply(decided=talk.say("compared.itself", turn=columns[0][0]))
+        columns.insert(0, (talk.say("compared.now"), talk.state.run))
+    turn, run = columns[-1]
+    said = talk.say("compared.turn", turn=turn, line=certificate_line(run.decision, talk.language))
+    return Reply(decided=said, tables=talk.beside(columns))
+
+
 def export(talk: Talk, act: Export) -> Reply:
     """The request that holds and what came of it as a document of a standard; the standards are loaded only here."""
     from wirelessagent.standards import tmf921, ts28312
@@ -164,5 +207,7 @@ REPLIES: Replies = {
     AskReasons: reasons,
     AskHistory: history,
     AskStatus: status,
+    CompareLast: with_last,
+    CompareTurns: with_turns,
     Export: export,
 }

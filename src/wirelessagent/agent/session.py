@@ -20,7 +20,7 @@ from typing import Protocol, TypeAlias, cast
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent import asking, changing, comparing, posing, recalling, supposing
+from wirelessagent.agent import asking, changing, posing, recalling, supposing
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.dialogue import Request, difference, stated_by
 from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
@@ -41,13 +41,13 @@ from wirelessagent.language.text import normalise
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.telling.catalogue import message
-from wirelessagent.telling.told import Event, Progress, silent
+from wirelessagent.telling.told import Progress, silent
 
 _NOTE = re.compile(r"[(（][^()（）]+[)）]$")
 """What a recogniser says of itself at the end of a reply."""
 
 _REPLIES = {
-    **changing.REPLIES, **supposing.REPLIES, **comparing.REPLIES, **recalling.REPLIES, **asking.REPLIES,
+    **changing.REPLIES, **supposing.REPLIES, **recalling.REPLIES, **asking.REPLIES,
 }  # fmt: skip
 
 _BUTTONS: Mapping[Press, tuple[str, Act]] = {
@@ -110,7 +110,7 @@ class Session:
             tolerance=tolerance, progress=progress, station_of=station_of, decide=decide,
         )  # fmt: skip
         self._recogniser, self._understand = recogniser or OfflineRecogniser(), understand
-        self._store, self._progress, self._raises = store, progress, raises
+        self._store, self._raises = store, raises
         self._state, self._past = State(), list[State]()
         self._turns, self._requests = list[Turn](), list[Request | None]()
         self._language = self._by = ""
@@ -149,7 +149,9 @@ class Session:
         self._by = by
         context = self._context()
         if pressed is None:
-            intent = self._taken(self._answered(text, context) or self._understand(text, context, self._recogniser))
+            missing = None if self._state.question is None else self._state.question.missing
+            named = None if missing is None else posing.completed(missing, text.strip(), context)
+            intent = self._taken(named or self._understand(text, context, self._recogniser))
         else:
             intent = _meant(pressed, text, self.language)
         self._state = dataclasses.replace(self._state, supposed=None)
@@ -161,22 +163,19 @@ class Session:
         if intent.kind == "allocate":
             reader, sure = intent.recogniser, f"{intent.confidence:.0%}"
             read = talk.say("stage.understood", reply=intent.reply, recogniser=reader, sure=sure)
-            self._progress(Event(stage="understand", message=read, language=intent.language))
+            self._site.tell("understand", read, intent.language)
         try:
             reply = changing.naming_the_plan(self._reply(talk, context), talk, acts_of(intent))
             self._take(talk, reply)
         except BaseException:  # an interruption too: the base station may have it, or a part of it
             if self._site.telling is not None:
-                reply = self._broken_off(talk, self._site.telling)
+                unknown, run = dataclasses.replace(self._state.settled, on_air=None), self._site.telling
+                told = talk.say("station.broken_off")
+                reply = Reply(changed=told, stage="nothing", state=unknown, run=run)
                 self._take(talk, reply)
                 self._kept(talk, reply)
             raise
         return self._kept(talk, reply)
-
-    def _broken_off(self, talk: Talk, run: Run) -> Reply:
-        """What holds where something ended a turn after the base station was told a run."""
-        unknown = dataclasses.replace(self._state.settled, on_air=None)
-        return Reply(changed=talk.say("station.broken_off"), stage="nothing", state=unknown, run=run)
 
     def _context(self) -> Context:
         state, request, supposed = self._state, self._state.request, self._state.supposed
@@ -251,7 +250,10 @@ class Session:
             del self._past[-reply.undone :]
         elif new.request != before.request:
             self._past.append(before.settled)
-            new = dataclasses.replace(new, stated=_stated(new, before, talk.intent))
+            taken_off = cast("Mapping[str, Constraint]", talk.intent.details.get("taken_off") or {})
+            said = stated_by(new.request, before.request) if new.request is not None else {}
+            stated = {} if new.request is None else taken_off or said or before.stated
+            new = dataclasses.replace(new, stated=stated)
         noted = before.noted_after(reply.run, requested=talk.intent.kind == "allocate")
         self._state = dataclasses.replace(new, noted=noted)
         self._requests.append(new.request)
@@ -310,12 +312,6 @@ class Session:
             intent, kind="allocate", objective=held.objective, amends=True, topic=None, details={}, acts=acts
         )  # fmt: skip
 
-    def _answered(self, text: str, context: Context) -> Intent | None:
-        """The intent that waits for a user, with the one that this line names; None where it names none."""
-        question = self._state.question
-        missing = None if question is None else question.missing
-        return None if missing is None else posing.completed(missing, text.strip(), context)
-
 
 def _meant(pressed: Press, text: str, language: str) -> Intent:
     """What a button means."""
@@ -359,14 +355,6 @@ def _read_by(intent: Intent) -> str:
     """Who read the line in the recogniser's place: in its own note at the end of the reply where it made one."""
     note = _NOTE.search(intent.reply) if " (" in intent.recogniser else None
     return message(intent.language, "stage.fallen_back", recogniser=intent.recogniser) if note is None else note[0]
-
-
-def _stated(after: State, before: State, intent: Intent) -> Mapping[str, Constraint]:
-    """What the request says now that it did not say before, or what was taken off it; else what it was."""
-    if after.request is None:
-        return {}
-    taken_off = cast("Mapping[str, Constraint]", intent.details.get("taken_off") or {})
-    return taken_off or stated_by(after.request, before.request) or before.stated
 
 
 def ask(

@@ -30,8 +30,7 @@ from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.model.units import percent
 from wirelessagent.sensing.loss import random
 from wirelessagent.telling.catalogue import message
-from wirelessagent.telling.certificates import decided_line
-from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.explanation import decided_line, explain
 from wirelessagent.telling.report import report
 from wirelessagent.telling.told import Event, Progress, silent
 
@@ -97,7 +96,7 @@ class Site:
     ) -> None:
         self._station_of, self._decide = station_of, decide
         self.scene, self.losses, self.seed, self.tools = scene, tuple(losses), seed, tools
-        self.tolerance, self.progress = tolerance, progress
+        self._tolerance, self._progress = tolerance, progress
         self._base_station, self._confirm = base_station, confirm
         self._sight: Sight | None = None
         self.touched = False
@@ -120,14 +119,15 @@ class Site:
     def _look(self, losses: Sequence[Loss], tools: Tools, language: str) -> Sight:
         """Observe the scene, with what ``losses`` leave of it, and repair what is missing."""
         seen = self.scene.observe(*losses, seed=self.seed)
-        self._tell("sense", describe(seen, language), language)
+        self.tell("sense", describe(seen, language), language)
         estimate, missing = chain.repair(seen, tools.repairer, **tools.repairer_options), int(seen.missing.sum())
         key = "stage.repaired" if missing else "stage.complete"
-        self._tell("repair", message(language, key, missing=missing, method=estimate.method), language)
+        self.tell("repair", message(language, key, missing=missing, method=estimate.method), language)
         return Sight(observation=seen, estimate=estimate)
 
-    def _tell(self, stage: str, said: str, language: str) -> None:
-        self.progress(Event(stage=stage, message=said, language=language))
+    def tell(self, stage: str, said: str, language: str) -> None:
+        """Tell who listens what was just done."""
+        self._progress(Event(stage=stage, message=said, language=language))
 
     def plan(self, intent: Intent, request: Request, *, sight: Sight | None = None, tools: Tools | None = None) -> Run:
         """The decision for a request; nothing is applied.
@@ -140,14 +140,14 @@ class Site:
         posed = pose(request, self.scene.cell, self.user_names, language)
         for note in posed.notes:
             if note.key == ABOVE_THE_LIMIT:  # contradicts what was asked, which nobody should have to wait for
-                self._tell("note", note, language)
+                self.tell("note", note, language)
         try:
             chain.check_solvable(posed.problem, tools.method)
         except UnsupportedProblemError as refusal:
             raise RefusedError(refusal, posed.problem, tools.method, language) from refusal
         seen = sight or self.sight(language)
         decision = self._decide(seen.estimate, posed.problem, posed.cell, tools)
-        self._tell("decide", decided_line(decision, language), language)
+        self.tell("decide", decided_line(decision, language), language)
         made, scene = report(decision), dataclasses.replace(self.scene, cell=posed.cell)
         return Run(
             intent=intent, scene=scene, observation=seen.observation, estimate=seen.estimate, decision=decision,
@@ -170,7 +170,7 @@ class Site:
     def carry_out(self, run: Run, station: BaseStation, last_good: Run | None) -> acting.Effect:
         """Apply a run, read back, and go back to the last good one where it is at fault."""
         with self._told(run):
-            effect = acting.carry_out(run, station, last_good, self.tolerance)
+            effect = acting.carry_out(run, station, last_good, self._tolerance)
             self.read_last = effect.restored or effect.run.outcome
         return effect
 

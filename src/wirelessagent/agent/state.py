@@ -20,7 +20,11 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Plain
 from wirelessagent.model.units import reliability
 from wirelessagent.telling.catalogue import Said, joined, message
+from wirelessagent.telling.report import side_by_side
 from wirelessagent.telling.told import Table
+
+Column: TypeAlias = tuple[str, Run]
+"""A run and what it is called."""
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -121,6 +125,10 @@ class Talk:
     def tried(self, request: Request, **by: Any) -> Run:
         """The run for a request with what it would achieve, where that is known; nothing is applied."""
         return self.site.foreseen(self.site.plan(self.intent, request, **by))
+
+    def beside(self, columns: Sequence[Column]) -> tuple[Table, ...]:
+        """A table of runs beside each other."""
+        return (side_by_side([(name, run.report) for name, run in columns], self.language),)
 
     def notes(self, run: Run, *, noted: bool = False, before: Sequence[str] = ()) -> list[str]:
         """The notes of a run as sentences, without those of ``before`` and, where they were ``noted``, the 95 %."""

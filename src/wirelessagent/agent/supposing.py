@@ -1,24 +1,38 @@
-"""Questions what would be: a decision for other circumstances beside the one that holds, and the power it takes."""
+"""Questions what would be: decisions for other circumstances, requests and tools beside the one that holds.
+
+And the power that a request takes.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 
-from wirelessagent.agent.comparing import side_by_side
+from wirelessagent import plugins
 from wirelessagent.agent.dialogue import Request, applied, restated
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
 from wirelessagent.agent.site import Sight
-from wirelessagent.agent.state import Replies, Reply, Talk, asked_back, nothing_yet
+from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
-from wirelessagent.language.acts import Aim, AskMost, AskOtherChannel, AskPower, Limit, Suppose
+from wirelessagent.language.acts import (
+    Act,
+    Aim,
+    AskMost,
+    AskOtherChannel,
+    AskPower,
+    CompareRequests,
+    CompareTools,
+    Limit,
+    Suppose,
+)
 from wirelessagent.language.intent import Constraint
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
-from wirelessagent.telling.catalogue import called
+from wirelessagent.telling.catalogue import called, lines_of, listed
 from wirelessagent.telling.facts.nearest import more_power, nearest
-from wirelessagent.telling.parts import cannot_be_served, outcome_in_words, value_name
+from wirelessagent.telling.parts import cannot_be_served, goal_words, outcome_in_words, value_name
 from wirelessagent.telling.reasons import BEYOND_W, Remedies, reason_in_words
 
 _SAME = 1e-6
@@ -55,7 +69,7 @@ def what_if(talk: Talk, act: Suppose) -> Reply:
     runs = [(talk.say("what_if.column"), run)]
     if talk.state.run is not None:
         runs.insert(0, (talk.say("compared.now"), talk.site.foreseen(talk.state.run)))
-    reply = Reply(decided=said, run=run, tables=(side_by_side(runs, talk.language),))
+    reply = Reply(decided=said, run=run, tables=talk.beside(runs))
     return _left_open(talk, reply, None if share is not None else request)
 
 
@@ -225,7 +239,79 @@ def _judged(talk: Talk, run: Run, power_w: float | None, enough_w: float, asked:
     return talk.say("needs.not_enough" if unmet else "needs.perhaps_enough", enough=enough)
 
 
+def with_requests(talk: Talk, act: CompareRequests) -> Reply:
+    """Changes of the request solved beside each other; one alone stands beside the request that holds."""
+    state = talk.state
+    if state.run is None or state.request is None:
+        return nothing_yet(talk)
+    changed = [(_label(change, talk.language), applied(state.request, change)[0]) for change in act.changes]
+    columns = [(name, talk.tried(one)) for name, one in changed if one is not None]
+    if len(columns) == 1:
+        columns.insert(0, (talk.say("compared.now"), talk.site.foreseen(state.run)))
+    assumed = [note for _, one in columns for note in talk.notes(one, before=state.run.notes)]
+    said = talk.joined(*dict.fromkeys(assumed), *_outcomes(talk, columns))
+    return Reply(decided=said, changed=talk.say("plan.nothing_changed"), tables=talk.beside(columns))
+
+
+def with_tools(talk: Talk, act: CompareTools) -> Reply:
+    """The decision that holds beside those of other methods, or on what other repairers make of the channel."""
+    site, run, request = talk.site, talk.state.run, talk.state.request
+    if run is None or request is None:
+        return nothing_yet(talk)
+    columns, refusals = [(run.decision.method, site.foreseen(run))], list[str]()
+    for name in act.names:
+        if name == run.decision.method and len(act.names) > 1:
+            continue  # it has its column already
+        if name in plugins.names("method"):
+            tools, sight = site.with_tools(method=name), None
+        elif name in plugins.names("repairer"):
+            tools = dataclasses.replace(site.tools_of(request), repairer=name, repairer_options={})
+            sight = site.sight(talk.language, tools=tools)
+        else:
+            known = {f"{kind}s": ", ".join(plugins.names(kind)) for kind in ("method", "repairer")}
+            return asked_back(talk.say("ask_back.not_installed", name=name, **known))
+        try:
+            columns.append((name, talk.tried(request, sight=sight, tools=tools)))
+        except RefusedError as refusal:
+            refusals.append(refusal.why)
+    some = len(columns) > 1
+    by = talk.say("compared.by", names=listed(talk.language, act.names))
+    said = lines_of([talk.joined(by, *(_outcomes(talk, columns) if some else [])), *refusals])
+    return Reply(decided=said, tables=talk.beside(columns) if some else ())
+
+
+def _outcomes(talk: Talk, columns: Sequence[Column]) -> list[str]:
+    """What each of the runs comes to, one sentence each."""
+    met = any(run.decision.is_usable for _, run in columns)
+    outcomes = [(called(talk.language, name), _outcome(talk, run, met=met)) for name, run in columns]
+    return [talk.say("compared.outcome", name=name, outcome=outcome) for name, outcome in outcomes]
+
+
+def _outcome(talk: Talk, run: Run, *, met: bool) -> str:
+    """What a run comes to; that a method found nothing is no news of the request where another one met it."""
+    if run.decision.is_usable:
+        return outcome_in_words(run.decision, talk.language)
+    if met and run.decision.status == "undecided":
+        return talk.say("compared.found_none")
+    because = talk.say("compared.because", reason=reason_in_words(run.decision, talk.language))
+    return talk.say(f"status.{run.decision.status}") + because
+
+
+def _label(change: Sequence[Act], language: str) -> str:
+    """What a change is called at the head of a column: its aim, or its figures, as in "95 %"."""
+    aims = [goal_words(act.objective, language) for act in change if isinstance(act, Aim)]
+    return " ".join(dict.fromkeys([*aims, *(_figure(act) for act in change if isinstance(act, Limit))]))
+
+
+def _figure(limit: Limit) -> str:
+    if limit.kind == "outage_probability":
+        return reliability(limit.value)
+    return human(limit.value, "bit/s" if limit.kind.endswith("bps") else "W")
+
+
 REPLIES: Replies = {
+    CompareRequests: with_requests,
+    CompareTools: with_tools,
     Suppose: what_if,
     AskMost: what_if,
     AskPower: needed_power,

@@ -24,8 +24,7 @@ from wirelessagent.model.scene import Scene
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import joined, lines_of, message
-from wirelessagent.telling.certificates import certificate_line, summary_line
-from wirelessagent.telling.explanation import explain
+from wirelessagent.telling.explanation import certificate_line, explain, summary_line
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.report import Report, decision_tables, report
 from wirelessagent.telling.told import Table
@@ -79,10 +78,8 @@ class Run(Shown):
     @property
     def case(self) -> Case:
         """The decision with what it was made from, to be asked what would be otherwise."""
-        tools = self.tools
-        return Case(
-            decision=self.decision, estimate=self.estimate, method=tools.method, options=tools.method_options
-        )  # fmt: skip
+        method, options = self.tools.method, self.tools.method_options
+        return Case(decision=self.decision, estimate=self.estimate, method=method, options=options)
 
     @property
     def promised_bps(self) -> FloatArray:
@@ -164,12 +161,11 @@ def shift_between(before: Decision | None, after: Decision | None) -> Shift | No
     owners = [np.where(one.power_w > 0, one.owner, -1) for one in (before, after)]
     pairs = zip(before.user_names, before.rate_bps.tolist(), after.rate_bps.tolist(), strict=True)
     return Shift(
-        subcarriers=int(np.count_nonzero(owners[0] != owners[1])),
-        total=owners[0].size,
+        subcarriers=int(np.count_nonzero(owners[0] != owners[1])), total=owners[0].size,
         sum_rate_bps=(float(before.rate_bps.sum()), float(after.rate_bps.sum())),
         power_w=(before.total_power_w, after.total_power_w),
         rate_bps={name: (then, now) for name, then, now in pairs if then != now},
-    )
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -25,7 +25,7 @@ from wirelessagent.store.plain import canonical
 from wirelessagent.store.rebuilt import decision_of, outcome_of
 from wirelessagent.store.stored import StoredTurn, number_of
 from wirelessagent.telling.catalogue import has_message, message
-from wirelessagent.telling.certificates import summary_line
+from wirelessagent.telling.explanation import summary_line
 from wirelessagent.telling.report import decision_tables, report
 
 if TYPE_CHECKING:

@@ -69,8 +69,7 @@ class SolveRecord(DecisionAnswer):
 def run(request: SolveRequest, progress: Progress) -> SolveRecord:
     from wirelessagent import chain
     from wirelessagent.acting.file import FileBaseStation
-    from wirelessagent.telling.certificates import summary_line
-    from wirelessagent.telling.explanation import explain
+    from wirelessagent.telling.explanation import explain, summary_line
     from wirelessagent.telling.report import decision_tables, report
 
     check_allocation(request.out)

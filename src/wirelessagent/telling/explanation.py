@@ -1,4 +1,7 @@
-"""A decision in a few sentences, every figure computed from the decision itself."""
+"""A decision in words, every figure computed from the decision itself: its certificate, how sure it is, and why.
+
+The certificate is told in a line, a sentence or a paragraph.
+"""
 
 from __future__ import annotations
 
@@ -7,23 +10,154 @@ from dataclasses import dataclass
 import numpy as np
 
 from wirelessagent.model.arrays import BoolArray
+from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
-from wirelessagent.model.units import db, human, percent, reliability
-from wirelessagent.telling.catalogue import Said
-from wirelessagent.telling.certificates import certificate_sentence, rests_on
+from wirelessagent.model.objective import Objective
+from wirelessagent.model.units import db, human, percent, probability, reliability
+from wirelessagent.telling.catalogue import Said, message
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.proof import measured
-from wirelessagent.telling.parts import Teller, cannot_be_served, name_of_figure
+from wirelessagent.telling.facts.proof import Certainty, Certificate, certainty, certificate, measured
+from wirelessagent.telling.parts import Teller, cannot_be_served, goal_named, name_of_figure, outcome_in_words, place
 from wirelessagent.telling.reasons import reason_in_words
 from wirelessagent.telling.report import Report
 
+_HARDLY_ANY = 0.05
+"""So few of all rates that are expected to fail are none."""
 _SURE = 0.95
 """The probability from which a promise without an outage probability goes without a warning."""
-
 _ALL_BUT_CERTAIN = 0.999
 """A probability beyond which nobody counts."""
 _NO_REGRET = 5e-4
 """A share of the rate that nobody would miss."""
+
+
+def certificate_line(decision: Decision, language: str = "en") -> str:
+    """What was decided, and how sure it is that nothing does better, in one line."""
+    if not decision.is_usable:
+        status = message(language, f"status.{decision.status}")
+        return message(language, "certificate.unusable", status=status, reason=reason_in_words(decision, language))
+    outage, bound = decision.problem.outage_probability, human(decision.bound, decision.unit)
+    figures = {"value": outcome_in_words(decision, language), "bound": bound, "gap": percent(decision.gap)}
+    best = decision.status == "optimal" or figures["gap"] == percent(0.0)
+    close = bound == human(decision.value, decision.unit)
+    proof = "no_bound" if np.isnan(decision.gap) else "best" if best else "close" if close else "line"
+    key = f"certificate.{proof}" if outage is None else f"certificate.{proof}_outage"
+    line = message(language, key, **figures, sure=reliability(outage or 0.0))
+    left_out = cannot_be_served(decision, language)
+    return message(language, "certificate.noted", line=line, note=left_out) if left_out else line
+
+
+def summary_line(decision: Decision, language: str = "en") -> str:
+    """The same with the status and the method in front, for those who look at methods."""
+    line = certificate_line(decision, language)
+    return f"{decided_line(decision, language)}: {line}" if decision.is_usable else line
+
+
+def decided_line(decision: Decision, language: str = "en") -> str:
+    """The status of a decision and what made it."""
+    status = message(language, f"status.{decision.status}")
+    return message(language, "certificate.decided", status=status, method=decision.method)
+
+
+def _how_far(decision: Decision, language: str) -> str:
+    """How far a decision is from the best, in one sentence."""
+    if np.isnan(decision.gap):
+        return message(language, "certificate.without", method=decision.method)
+    outage = "_outage" if decision.expected_rate_bps.size else ""
+    if decision.status == "optimal" and decision.gap <= OPTIMAL_GAP:
+        return message(language, f"certificate.optimal{outage}")
+    if np.isinf(decision.gap):
+        return message(language, "certificate.zero_bound")
+    bound = human(decision.bound, decision.unit)
+    if decision.gap > 1.0 and decision.value * decision.bound > 0:  # percents beyond 100 tell nothing
+        return message(language, "certificate.times", bound=bound, times=decision.value / decision.bound)
+    return message(language, f"certificate.gap{outage}", bound=bound, gap=percent(decision.gap))
+
+
+def rests_on(objective: Objective, language: str) -> str:
+    """What of the objective a bound rests on: that more rate is worth no less, the power law that it declares, or its
+    conjugate, never values of its utility that somebody asked for; empty where it is the promised rates alone.
+    """
+    if objective.measure == "power":
+        return ""
+    on = "levels" if objective.joined == "min" else "conjugate" if objective.power_law() is None else "law"
+    alpha = objective.power_law() or 0.0
+    law = {0.0: "r", 1.0: "ln r"}.get(alpha, f"r^(1 − α)/(1 − α) with α = {alpha:g}")
+    named = goal_named(objective.name, objective.name, language)
+    return message(language, f"proof.rests_on_{on}", objective=named, law=law)
+
+
+class Proofs(Teller):
+    """What is proven of a decision, and how sure it is of what it rests on."""
+
+    def proof(self) -> str:
+        """What is proven, how, and what it leaves open."""
+        decision, found, repaired = self.case.decision, certificate(self.case), self.case.estimate.repaired
+        if found.proof in ("nothing", "infeasible", "undecided"):
+            reason = reason_in_words(decision, self.language)
+            return self.say(f"proof.{found.proof}", method=decision.method, reason=reason)
+        said = [self._bound(found), self._left(found)]
+        if repaired.any():
+            said.append(self.say("proof.estimated", repaired=int(repaired.sum()), entries=repaired.size))
+        return self.joined(said)
+
+    def _bound(self, found: Certificate) -> str:
+        case, bound, outage = self.case, self.worth(found.bound), self.case.problem.outage_probability
+        if found.proof == "closed_form":
+            return self.say("proof.closed_form", bound=bound)
+        of = "outage" if outage is not None and case.decision.expected_rate_bps.size else "channel"
+        key = f"proof.{of}_{'least' if case.falls else 'most'}"
+        said = [self.say(key, bound=bound, sure=reliability(outage or 0.0)), rests_on(case.objective, self.language)]
+        if found.by != case.decision.method:
+            said.append(self.say("proof.by_dual", method=case.decision.method))
+        return self.joined(said)
+
+    def _left(self, found: Certificate) -> str:
+        if self.case.decision.status == "optimal" or found.gap <= 0:
+            return self.say("proof.reached")
+        value, left = self.worth(self.case.decision.value), self.worth(found.left)
+        key = "proof.value_least" if self.case.falls else "proof.value"
+        return self.say(key, value=value, left=left, gap=percent(found.gap))
+
+    def certainty(self) -> str:
+        """What was missing, what it was repaired by, and how sure the decision is."""
+        found = certainty(self.case)
+        if not found.repaired and not found.noisy:
+            return self.say("certainty.all_known")
+        said: list[str] = [
+            self.say(
+                "certainty.repaired" if found.repaired else "certainty.noisy",
+                repaired=found.repaired, entries=found.entries, noisy=found.noisy, method=found.method,
+                share=percent(found.repaired / found.entries), resting=found.resting, used=found.used,
+            )
+        ]  # fmt: skip
+        unseen = [user for user in found.unseen if self.case.served[user]]
+        if unseen:
+            said.append(self.say("certainty.unseen", names=self.names(unseen)))
+        if self.case.decision.is_usable and found.least_sure is None:
+            said.append(self.say("certainty.rests_on_none"))
+        return self.joined([*said, *self._sure(found)])
+
+    def _sure(self, found: Certainty) -> list[str]:
+        """How sure the rates are, and the gain that is known least."""
+        if found.least_sure is None or found.widest is None:
+            return []
+        (user, subcarrier), outage = found.widest, self.case.problem.outage_probability
+        low, high = human(found.low_bps, "bit/s"), human(found.high_bps, "bit/s")
+        told = {"user": self.name(found.least_sure), "kept": probability(found.least_kept)}
+        key = "promise" if outage is not None else "holds" if found.expected_missed < _HARDLY_ANY else "may_fail"
+        served, sure = int((self.case.decision.committed_bps > 0).sum()), reliability(outage or 0.0)
+        asked = outage is None and self.case.problem.promises_rates
+        return [
+            self.say("certainty.band", low=low, high=high) if low != high else "",
+            self.say(f"certainty.{key}", served=served, sure=sure, **told, missed=found.expected_missed),
+            self.say("certainty.asked") if asked else "",
+            self.say(
+                "certainty.widest", user=self.case.estimate.user_names[user],
+                place=place(subcarrier, subcarrier, self.language),
+                low=found.widest_low_db, high=found.widest_high_db,
+            ),
+        ]  # fmt: skip
 
 
 def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") -> list[str]:
@@ -43,12 +177,17 @@ class _Explanation(Teller):
             return [self._told(decision.status, reason=reason_in_words(decision, self.language))]
         if objective.measure == "power" and decision.problem.min_rate_bps is None and not decision.power_w.any():
             return [self._told("no_promise")]
-        proven = certificate_sentence(decision, self.language)
-        said: list[str] = [self.joined([self._allocation(), proven]), *self._goal()]
+        allocation = self._told(
+            "allocation", used=self.case.used.size, total=decision.owner.size, users=self.case.num_users,
+            served=int(np.count_nonzero(decision.rate_bps > 0)), power=self.spent, budget=self.budget,
+        )  # fmt: skip
+        said: list[str] = [self.joined([allocation, _how_far(decision, self.language)]), *self._goal()]
         if not objective.is_built_in and not np.isnan(decision.gap):
             said.append(rests_on(objective, self.language))
-        said += [self._promised_at(), *self._forecast(), self._groups(), self._remark(), self._idle_users()]
-        return [one for one in (*said, self._repair(), self._outcome(), self._regret()) if one]
+        said += [self._promised_at(), *self._forecast(), self._groups()]
+        if decision.reason and not cannot_be_served(decision):
+            said.append(self.say("text.sentence", line=reason_in_words(decision, self.language)))
+        return [one for one in (*said, self._idle_users(), self._repair(), self._outcome(), self._regret()) if one]
 
     def _told(self, key: str, **places: object) -> Said:
         return self.say(f"decision.{key}", **places)
@@ -64,20 +203,6 @@ class _Explanation(Teller):
     def _counts(self) -> BoolArray:
         """True for users whose rate counts: those who are served and have a weight."""
         return self.case.problem.weights_of(self.case.num_users) > 0
-
-    def _remark(self) -> str:
-        """What else the decision says of itself."""
-        decision = self.case.decision
-        if not decision.reason or cannot_be_served(decision):
-            return ""
-        return self.say("text.sentence", line=reason_in_words(decision, self.language))
-
-    def _allocation(self) -> str:
-        decision, served = self.case.decision, int(np.count_nonzero(self.case.decision.rate_bps > 0))
-        return self._told(
-            "allocation", used=int(np.count_nonzero(decision.power_w > 0)), total=decision.owner.size,
-            served=served, users=self.case.num_users, power=self.spent, budget=self.budget,
-        )  # fmt: skip
 
     def _promised_at(self) -> str:
         """With which probability rates are promised, and how much in all."""

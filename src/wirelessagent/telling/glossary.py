@@ -67,14 +67,12 @@ def figures_asked(text: str, report: Report, language: str) -> Said:
     rows = {row[0]: row[1:] for row in report.figures(language)}
     told = dict.fromkeys(_FIGURES[entry.key] for entry in _named(text) if entry.key in _FIGURES)
     labels = [message(language, f"label.{name}") for name in told]
-    return joined(language, [_figure(label, rows[label], language) for label in labels if label in rows])
-
-
-def _figure(label: str, figures: tuple[str, ...], language: str) -> Said:
-    """A figure as predicted and, where it is known, as achieved."""
-    predicted, achieved = figures[0], figures[1] if len(figures) > 1 else "–"
-    key = "term.figure" if achieved in ("–", predicted) else "term.figure_achieved"
-    return message(language, key, label=label, predicted=predicted, achieved=achieved)
+    said: list[Said] = []
+    for label in (label for label in labels if label in rows):
+        predicted, achieved, *_ = rows[label]
+        key = "term.figure" if achieved in ("–", predicted) else "term.figure_achieved"
+        said.append(message(language, key, label=label, predicted=predicted, achieved=achieved))
+    return joined(language, said)
 
 
 def _named(text: str) -> list[Entry]:
@@ -86,13 +84,17 @@ def _named(text: str) -> list[Entry]:
         if places:
             first, last = max(places, key=lambda place: place[1] - place[0])
             found.append((first, last, entry))
-    outer = [one for one in found if not any(_within(one, other) for other in found)]
+    outer = [
+        one for one in found
+        if not any(first <= one[0] and one[1] <= last and last - first > one[1] - one[0] for first, last, _ in found)
+    ]  # fmt: skip
     return [entry for _, _, entry in sorted(outer, key=lambda one: one[:2])]
 
 
 def entries() -> list[Entry]:
     """All terms: those of the catalogue, and all registered objectives by their names, phrases and figures."""
-    known, found = dict(_names()), list[Entry]()
+    known = {key.removeprefix(_NAMES): _words(key) for key in messages("en") if key.startswith(_NAMES)}
+    found = list[Entry]()
     for one in plugins.plugins("objective"):
         also = known.pop(one.name, ())
         if one.cls is None or not issubclass(one.cls, Objective):
@@ -105,20 +107,10 @@ def entries() -> list[Entry]:
 
 
 @functools.cache
-def _names() -> dict[str, tuple[str, ...]]:
-    """What the terms of the catalogue are called, in all languages."""
-    return {key.removeprefix(_NAMES): _words(key) for key in messages("en") if key.startswith(_NAMES)}
-
-
-@functools.cache
 def _words(key: str) -> tuple[str, ...]:
     """Words that a message lists, in all languages."""
     listed = [messages(language).get(key, "") for language in sorted(languages())]
     return tuple(word for words in listed for word in words.split(", ") if word)
-
-
-def _within(one: tuple[int, int, Entry], other: tuple[int, int, Entry]) -> bool:
-    return other[0] <= one[0] and one[1] <= other[1] and other[1] - other[0] > one[1] - one[0]
 
 
 def _plain(text: str) -> str:

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
-from wirelessagent.model.arrays import BoolArray
+from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.forecast import Forecast
@@ -22,18 +22,18 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human, percent, prefixed, probability, reliability
 from wirelessagent.telling.catalogue import called, message
-from wirelessagent.telling.facts.performance import (
+from wirelessagent.telling.facts.proof import (
     among_served,
     predicted_metrics,
     ungrouped_bound,
     with_perfect_knowledge,
 )
-from wirelessagent.telling.parts import name_of_figure
+from wirelessagent.telling.parts import goal_words, name_of_figure
 from wirelessagent.telling.reasons import power_in_words
 from wirelessagent.telling.told import Table
 
-Cells: TypeAlias = dict[str, Callable[[int], str]]
-"""What a table says of a user, by the head of the column."""
+Columns: TypeAlias = dict[str, list[str]]
+"""What a table says of each user, by the head of the column."""
 
 _FIGURES = (
     ("sum_rate_bps", "bit/s"),
@@ -80,7 +80,7 @@ class Report(Shown):
         if self.perfect is None or self.achieved is None or not self.perfect.value:
             return np.nan
         ratio = self._value(self.achieved) / self.perfect.value
-        return ratio - 1.0 if self._objective.direction == "min" else 1.0 - ratio
+        return ratio - 1.0 if self.objective.direction == "min" else 1.0 - ratio
 
     @property
     def goodput_regret(self) -> float:
@@ -99,16 +99,16 @@ class Report(Shown):
         def row(label: str, figure: Callable[[LinkMetrics], float], unit: str) -> tuple[str, ...]:
             return label, *("–" if one is None else human(figure(one), unit) for one in known)
 
-        own = [row(self._own_label(language), self._value, self.decision.unit)]
-        plain = [row(message(language, f"label.{name}"), attrgetter(name), unit) for name, unit in _FIGURES]
-        named = name_of_figure(self.decision, language)
-        return [*(own if named else []), *self._decided(language), *self._promises(language), *plain]
+        rows = [*self._decided(language), *self._promises(language)]
+        rows += [row(message(language, f"label.{name}"), attrgetter(name), unit) for name, unit in _FIGURES]
+        if not name_of_figure(self.decision, language):
+            return rows
+        return [row(self._own_label(language), self._value, self.decision.unit), *rows]
 
     def _own_label(self, language: str) -> str:
         """What the objective's own figure is called in a table."""
-        plain = {"power": "power_w", "efficiency": "energy_efficiency_bit_per_j"}.get(
-            self._objective.measure, "sum_rate_bps"
-        )
+        figures = {"power": "power_w", "efficiency": "energy_efficiency_bit_per_j"}
+        plain = figures.get(self.objective.measure, "sum_rate_bps")
         name = name_of_figure(self.decision, language) or message(language, f"label.{plain}")
         return name[:1].upper() + name[1:] if name.isascii() else name  # a capital α reads as an A
 
@@ -128,22 +128,23 @@ class Report(Shown):
         decision = self.decision
         if decision.problem.outage_probability is None:
             return []
-        served = decision.rate_bps > 0
-        count = int(served.sum())
-        kept = message(language, "label.kept_of", kept=count - len(self.missed_users), served=count)
+        count, kept = int((decision.rate_bps > 0).sum()), "–"
+        if self.achieved is not None:
+            kept = message(language, "label.kept_of", kept=count - len(self.missed_users), served=count)
         label = message(language, "label.promised_at_head", sure=reliability(decision.problem.outage_probability))
-        perfect = () if self.perfect is None else (human(float(self.perfect.rate_bps.sum()), "bit/s"),)
-        return [
-            (label, human(float(decision.rate_bps.sum()), "bit/s"), "–" if self.achieved is None else kept, *perfect)
-        ]
+        promised, *perfect = (
+            human(float(one.rate_bps.sum()), "bit/s") for one in (decision, self.perfect) if one is not None
+        )
+        return [(label, promised, kept, *perfect)]
 
     def _value(self, metrics: LinkMetrics) -> float:
         """The objective's value for these rates and power."""
         weight = self.decision.problem.weights_of(self.decision.rate_bps.size)
-        return self._objective.value(metrics.user_rate_bps, metrics.power_w, self.decision.cell, weight)
+        return self.objective.value(metrics.user_rate_bps, metrics.power_w, self.decision.cell, weight)
 
     @property
-    def _objective(self) -> Objective:
+    def objective(self) -> Objective:
+        """What was decided for."""
         objective = self.decision.problem.objective
         assert isinstance(objective, Objective)
         return objective
@@ -219,74 +220,69 @@ def served_table(report: Report, language: str = "en") -> Table:
     decision, judged = report.decision, report.decision.expected_rate_bps.size > 0
     firm = "promised_at" if judged else "committed_rate" if decision.forecast is not None else "predicted_rate"
     given = decision.rate_bps if judged else decision.committed_bps
-    cells = _cells(report, language)
-    cells[firm] = lambda user: human(float(given[user]), "bit/s")
-    cells |= _achieved(report, language)
+    columns = {**_holdings(report, language), firm: _rates(given), **_achieved(report, language)}
     served = np.flatnonzero((decision.rate_bps > 0) | (given > 0))
-    return _of_users(language, "served_title", cells, served.tolist(), decision)
+    return _of_users(language, "served_title", columns, decision, served.tolist())
 
 
 def user_table(report: Report, estimate: ChannelEstimate | None = None, language: str = "en") -> Table:
     """Each user's subcarriers, power and rates: predicted, how sure, committed and achieved."""
     decision, forecast = report.decision, report.decision.forecast
     predicted, judged = report.predicted.user_rate_bps, decision.expected_rate_bps.size > 0
-    cells = _cells(report, language, estimate)
+    columns = _holdings(report, language, estimate)
     if judged:
-        cells["promised_at"] = lambda user: human(decision.rate_bps[user], "bit/s")
+        columns["promised_at"] = _rates(decision.rate_bps)
     if forecast is None:
-        cells["predicted_rate"] = lambda user: human(predicted[user], "bit/s")
+        columns["predicted_rate"] = _rates(predicted)
     else:
         banded = [_banded(forecast, user, rate) for user, rate in enumerate(predicted)]
-        cells["predicted_band" if any("(" in rate for rate in banded) else "predicted_rate"] = banded.__getitem__
+        columns["predicted_band" if any("(" in rate for rate in banded) else "predicted_rate"] = banded
         if not judged:
             kind = "asked_for" if decision.problem.promises_rates else "committed"
-            cells[kind] = lambda user: _committed(decision, forecast, language, user)
-    cells |= _achieved(report, language)
-    return _of_users(language, "users_title", cells, range(len(decision.user_names)), decision)
+            columns[kind] = _committed(decision.committed_bps, forecast.carried, language)
+    columns |= _achieved(report, language)
+    return _of_users(language, "users_title", columns, decision, range(len(decision.user_names)))
 
 
-def _cells(report: Report, language: str, estimate: ChannelEstimate | None = None) -> Cells:
+def _holdings(report: Report, language: str, estimate: ChannelEstimate | None = None) -> Columns:
     """What each table of users begins with."""
-    decision = report.decision
-    cells: Cells = {
-        "user": lambda user: called(language, decision.user_names[user]),
-        "subcarriers": lambda user: str(int(_own(decision, user).sum())),
-    }
+    decision, users = report.decision, report.decision.user_names
+    own = [np.flatnonzero((decision.owner == user) & (decision.power_w > 0)) for user in range(len(users))]
+    columns = {"user": [called(language, name) for name in users], "subcarriers": [str(some.size) for some in own]}
     if estimate is not None:
-        cells["of_them_repaired"] = lambda user: str(int((_own(decision, user) & estimate.repaired[user]).sum()))
-    return {**cells, "power": lambda user: human(float(decision.power_w[_own(decision, user)].sum()), "W")}
+        repaired = [int(estimate.repaired[user, some].sum()) for user, some in enumerate(own)]
+        columns["of_them_repaired"] = [str(count) for count in repaired]
+    return {**columns, "power": [human(float(decision.power_w[some].sum()), "W") for some in own]}
 
 
-def _committed(decision: Decision, forecast: Forecast, language: str, user: int) -> str:
-    """A user's committed rate and, where there is one, how surely it is kept."""
-    rate, sure = human(decision.committed_bps[user], "bit/s"), probability(float(forecast.carried[user]))
-    return message(language, "label.with", value=rate, beside=sure) if decision.committed_bps[user] > 0 else rate
+def _rates(rate_bps: FloatArray) -> list[str]:
+    return [human(rate, "bit/s") for rate in rate_bps.tolist()]
 
 
-def _achieved(report: Report, language: str) -> Cells:
-    """A user's true rate, and by how much it falls short where it does; nothing where the truth is not known."""
-    achieved, committed = report.achieved, report.decision.committed_bps
-    if achieved is None:
+def _committed(committed_bps: FloatArray, carried: FloatArray, language: str) -> list[str]:
+    """Each user's committed rate and, where there is one, how surely it is kept."""
+    told = list[str]()
+    for rate, sure in zip(committed_bps.tolist(), carried.tolist(), strict=True):
+        value = human(rate, "bit/s")
+        told.append(message(language, "label.with", value=value, beside=probability(sure)) if rate > 0 else value)
+    return told
+
+
+def _achieved(report: Report, language: str) -> Columns:
+    """Each user's true rate, and by how much it falls short where it does; nothing where the truth is not known."""
+    if report.achieved is None:
         return {}
-
-    def cell(user: int) -> str:
-        rate = human(achieved.user_rate_bps[user], "bit/s")
-        if user not in report.missed_users:
-            return rate
-        short = percent(float(1 - achieved.user_rate_bps[user] / committed[user]))
-        return message(language, "label.short", value=rate, short=short)
-
-    return {"achieved_rate": cell}
+    rate_bps, told = report.achieved.user_rate_bps, _rates(report.achieved.user_rate_bps)
+    for user in report.missed_users:
+        short = percent(float(1 - rate_bps[user] / report.decision.committed_bps[user]))
+        told[user] = message(language, "label.short", value=told[user], short=short)
+    return {"achieved_rate": told}
 
 
-def _own(decision: Decision, user: int) -> BoolArray:
-    return (decision.owner == user) & (decision.power_w > 0)
-
-
-def _of_users(language: str, title: str, cells: Cells, users: Iterable[int], decision: Decision) -> Table:
-    """A table with a row for each of these users, a column for each kind of cell."""
-    rows = [tuple(cell(user) for cell in cells.values()) for user in users]
-    return _table(language, title, tuple(cells), rows, sure=reliability(decision.problem.outage_probability or 0.0))
+def _of_users(language: str, title: str, columns: Columns, decision: Decision, users: Iterable[int]) -> Table:
+    """A table with a row for each of these users."""
+    rows = [tuple(column[user] for column in columns.values()) for user in users]
+    return _table(language, title, tuple(columns), rows, sure=reliability(decision.problem.outage_probability or 0.0))
 
 
 def figures_of_infeasibility(decision: Decision, language: str = "en") -> Table:
@@ -310,6 +306,39 @@ def report_table(report: Report, language: str = "en") -> Table:
         return _table(language, "predicted_title", ("figure", "predicted"), rows)
     columns = ("figure", "predicted", "achieved", *([] if report.perfect is None else ["all_gains_known"]))
     return _table(language, "achieved_title", columns, rows)
+
+
+def side_by_side(reports: Sequence[tuple[str, Report]], language: str = "en") -> Table:
+    """Decisions by their names beside each other: what each is worth, takes and keeps."""
+    columns = [message(language, "label.figure"), *(called(language, name) for name, _ in reports)]
+    cells = [_comparable(one, language) for _, one in reports]
+    known = [label for label in cells[0] if any(cell[label] != "–" for cell in cells)]
+    rows = [(message(language, f"label.{label}"), *(cell[label] for cell in cells)) for label in known]
+    return Table(title=message(language, "label.side_by_side"), columns=tuple(columns), rows=tuple(rows))
+
+
+def _comparable(report: Report, language: str) -> dict[str, str]:
+    """The figures of one decision by their labels; "–" for what there is not."""
+    decision, need = report.decision, report.decision.needed_power_w
+    figure, value = name_of_figure(decision, language), human(decision.value, decision.unit)
+    value = message(language, "label.with", value=value, beside=figure) if figure else value
+
+    def met(cell: str) -> str:
+        return cell if decision.is_usable else "–"
+
+    return {
+        "objective": goal_words(report.objective.name, language),
+        "status": message(language, f"status.{decision.status}"),
+        "value": met(value),
+        "bound": human(decision.bound, decision.unit),
+        "gap": percent(decision.gap),
+        "power": met(human(decision.total_power_w, "W")),
+        "power_needed": "–" if need is None else power_in_words(need.at_least, language),
+        "sum_rate_bps": met(human(float(decision.rate_bps.sum()), "bit/s")),
+        "lowest_rate": met(human(float(decision.rate_bps[decision.served].min()), "bit/s")),
+        "users_served": met(str(int(np.count_nonzero(decision.rate_bps > 0)))),
+        "promises_missed": "–" if report.achieved is None else str(len(report.missed_users)),
+    }
 
 
 def _banded(forecast: Forecast, user: int, rate_bps: float) -> str:

@@ -105,17 +105,11 @@ def share(case: Case, user: int) -> Account:
     standing, promised = _standing(case, user, bool(own.any())), float(case.promised_bps[user])
     priced = standing == "served" and promised > 0
     return Account(
-        user=user,
-        standing=standing,
-        price_per_bps=abs(float(marginal_prices(case).rate[user])) if priced else 0.0,
-        rate_bps=float(case.rate_bps[user]),
-        power_w=float(decision.power_w[own].sum()),
-        subcarriers=int(own.sum()),
-        resting=int((own & estimate.repaired[user]).sum()),
-        promised_bps=promised,
-        repaired=int(estimate.repaired[user].sum()),
-        entries=estimate.num_subcarriers,
-    )
+        user=user, standing=standing, rate_bps=float(case.rate_bps[user]), power_w=float(decision.power_w[own].sum()),
+        price_per_bps=abs(float(marginal_prices(case).rate[user])) if priced else 0.0, promised_bps=promised,
+        subcarriers=int(own.sum()), resting=int((own & estimate.repaired[user]).sum()),
+        repaired=int(estimate.repaired[user].sum()), entries=estimate.num_subcarriers,
+    )  # fmt: skip
 
 
 def newcomer(case: Case) -> Account | None:

@@ -143,6 +143,11 @@ class Case:
         """The problem with other fields."""
         return dataclasses.replace(self.problem, **changes)
 
+    def radiating(self, power_w: float) -> Cell:
+        """The cell, as if it allowed a power that is beyond its limit."""
+        within = power_w <= self.cell.max_power_w * (1 + 1e-12)
+        return self.cell if within else dataclasses.replace(self.cell, max_power_w=power_w)
+
     def solved(self, problem: Problem, cell: Cell | None = None) -> Decision:
         """The same method's decision on the same channel for another problem, or another cell.
 

@@ -15,7 +15,6 @@ With the objective put aside, promised rates need a least power. These ways lead
 
 from __future__ import annotations
 
-import dataclasses
 import itertools
 import math
 from collections.abc import Sequence
@@ -119,11 +118,9 @@ class Nearest:
 def nearest(case: Case) -> Nearest:
     """The nearest feasible requests for a case whose decision found nothing."""
     return Nearest(
-        more_power=more_power(case),
-        without_limits=without_limits(case),
-        lower_rates=lower_rates(case),
-        fewer_users=fewer_users(case),
-    )
+        more_power=more_power(case), without_limits=without_limits(case),
+        lower_rates=lower_rates(case), fewer_users=fewer_users(case),
+    )  # fmt: skip
 
 
 def more_power(case: Case) -> MorePower | None:
@@ -133,12 +130,9 @@ def more_power(case: Case) -> MorePower | None:
         return None
     for margin in _MARGINS:
         power = found.total_power_w / _SAFE * margin
-        cell, allowed = case.cell, power <= case.cell.max_power_w
-        if not allowed:
-            cell = dataclasses.replace(cell, max_power_w=power)
-        decision = case.otherwise(case.but(max_power_w=power), cell)
+        decision = case.otherwise(case.but(max_power_w=power), case.radiating(power))
         if decision.is_usable:
-            return MorePower(power_w=power, decision=decision, within_limit=allowed)
+            return MorePower(power_w=power, decision=decision, within_limit=power <= case.cell.max_power_w)
     return None
 
 
@@ -254,7 +248,7 @@ def _rest(case: Case, left: Sequence[int]) -> tuple[str, ...]:
 def _least_power(case: Case, **changes: Any) -> Decision:
     """The least power that the promised rates take, where there is more than enough of it."""
     least = case.but(objective="min_power", weights=None, max_power_w=None, **changes)
-    return case.otherwise(least, dataclasses.replace(case.cell, max_power_w=case.cell.max_power_w * _AMPLE))
+    return case.otherwise(least, case.radiating(case.cell.max_power_w * _AMPLE))
 
 
 @dataclass(frozen=True, kw_only=True)

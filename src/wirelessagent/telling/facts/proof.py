@@ -1,4 +1,7 @@
-"""How a decision is proven, by what bound, and what that leaves open; and how sure it is of the channel."""
+"""How a decision is proven, by what bound, and what that leaves open; and how sure it is of the channel.
+
+And what is expected of it on the true channel, and what knowing every gain, or no groups, would have made.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +11,11 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from wirelessagent import chain, plugins
 from wirelessagent.deciding.core.closed_form import nats_worth
-from wirelessagent.model.decision import OPTIMAL_GAP
+from wirelessagent.model.decision import OPTIMAL_GAP, Decision
+from wirelessagent.model.metrics import LinkMetrics, jain_index, metrics_of_rates
+from wirelessagent.model.outcome import Outcome
 from wirelessagent.telling.facts.case import Case
 
 Proof: TypeAlias = Literal["closed_form", "bound", "nothing", "infeasible", "undecided"]
@@ -94,14 +100,11 @@ def measured(case: Case) -> Certainty:
     """How many of the gains were measured, without what that makes of the rates."""
     estimate = case.estimate
     return Certainty(
-        repaired=int(estimate.repaired.sum()),
-        entries=estimate.repaired.size,
-        noisy=int(((estimate.gain_variance > 0) & ~estimate.repaired).sum()),
-        method=estimate.method,
-        used=case.used.size,
+        repaired=int(estimate.repaired.sum()), entries=estimate.repaired.size, method=estimate.method,
+        noisy=int(((estimate.gain_variance > 0) & ~estimate.repaired).sum()), used=case.used.size,
         resting=int(estimate.repaired[case.decision.owner[case.used], case.used].sum()),
         unseen=tuple(np.flatnonzero(estimate.unobserved_users).tolist()),
-    )
+    )  # fmt: skip
 
 
 def certainty(case: Case) -> Certainty:
@@ -125,3 +128,44 @@ def certainty(case: Case) -> Certainty:
         widest=(int(owner[widest]), int(used[widest])),
         widest_low_db=float(low_db[widest]), widest_high_db=float(high_db[widest]),
     )  # fmt: skip
+
+
+def predicted_metrics(decision: Decision) -> LinkMetrics:
+    """What is expected of the decision on the true channel, by what is known of it."""
+    rate, carried = decision.rate_bps, np.ones(decision.rate_bps.size)
+    if decision.expected_rate_bps.size:
+        rate, carried = decision.expected_rate_bps, 1.0 - decision.outage
+    elif decision.forecast is not None:
+        rate, carried = decision.forecast.mean_bps, decision.forecast.carried
+    metrics = metrics_of_rates(
+        rate, goodput_bps=float((carried * decision.committed_bps).sum()), power_w=decision.total_power_w,
+        num_subcarriers=decision.owner.size, cell=decision.cell,
+    )  # fmt: skip
+    served = among_served(metrics, decision)
+    assert served is not None
+    return served
+
+
+def among_served(metrics: LinkMetrics | None, decision: Decision) -> LinkMetrics | None:
+    """The metrics with the fairness of those users that are to be served: who is left out on purpose is not starved."""
+    if metrics is None or decision.problem.users is None:
+        return metrics
+    return dataclasses.replace(metrics, jain_index=jain_index(metrics.user_rate_bps[decision.served]))
+
+
+def with_perfect_knowledge(decision: Decision, outcome: Outcome) -> Decision | None:
+    """The decision on the true channel; None where that is not known, was known, or carries no such decision."""
+    estimate, truth = decision.estimate, outcome.true_gain
+    if estimate is None or truth is None or np.array_equal(estimate.gain, truth):
+        return None
+    method = decision.method if decision.method in plugins.names("method") else None
+    made = chain.decide(chain.certain(truth, estimate.user_names), decision.problem, decision.cell, method)
+    return made if made.is_usable else None
+
+
+def ungrouped_bound(decision: Decision) -> float:
+    """What nothing does better than if subcarriers were assigned one by one; NaN where they are, or it is not known."""
+    if decision.problem.resource_block_group_size == 1 or decision.estimate is None or not decision.is_usable:
+        return np.nan
+    single = dataclasses.replace(decision.problem, resource_block_group_size=1)
+    return chain.decide(decision.estimate, single, decision.cell, "dual", restarts=0).bound

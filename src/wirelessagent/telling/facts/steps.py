@@ -17,7 +17,6 @@ import numpy as np
 
 from wirelessagent import chain
 from wirelessagent.model.arrays import FloatArray, IntArray
-from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
 from wirelessagent.telling.facts.case import Case
@@ -91,16 +90,10 @@ def power_step(case: Case, step_w: float) -> Step | None:
     budget = case.problem.budget_w(case.cell) + step_w
     if not budget > 0:
         return None
-    cell, limit_w = _radiating(case.cell, budget)
+    cell = case.radiating(budget)
+    limit_w = np.nan if cell is case.cell else case.cell.max_power_w
     after = case.solved(case.but(max_power_w=budget), cell)
     return Step(before=case.decision, after=after, step=step_w, level=budget, of_power=True, limit_w=limit_w)
-
-
-def _radiating(cell: Cell, power_w: float) -> tuple[Cell, float]:
-    """The cell as if it allowed a power, and its limit where that is beyond it, else NaN."""
-    if power_w > cell.max_power_w * (1 + 1e-12):
-        return dataclasses.replace(cell, max_power_w=power_w), cell.max_power_w
-    return cell, np.nan
 
 
 def rate_step(case: Case, step_bps: float, user: int | None = None) -> Step:
@@ -187,7 +180,7 @@ def reach(case: Case, target: float, problem: Problem | None = None) -> Reach:
         if log_power not in found:
             power_w = float(np.exp(log_power))
             at_power = dataclasses.replace(problem or case.problem, max_power_w=power_w)
-            decision = case.solved(at_power, _radiating(case.cell, power_w)[0])
+            decision = case.solved(at_power, case.radiating(power_w))
             found[log_power] = (decision.value if decision.is_usable else 0.0) / target - 1.0
         return found[log_power]
 
