@@ -16,7 +16,8 @@ from wirelessagent.telling.catalogue import called
 from wirelessagent.telling.explanation import certificate_line, explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import nearest, shortage_of
-from wirelessagent.telling.reasons import Remedies, reason_in_words
+from wirelessagent.telling.margins import Remedies
+from wirelessagent.telling.parts import reason_in_words
 from wirelessagent.telling.report import figures_of_infeasibility, side_by_side
 
 CELL = wa.Cell(max_power_w=20)

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 import wirelessagent as wa
-from wirelessagent.telling.facts.accounts import account
+from wirelessagent.telling.facts.accounts import account, bids
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.marginal_prices import bids
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)

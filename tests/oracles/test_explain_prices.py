@@ -10,8 +10,7 @@ import pytest
 
 import wirelessagent as wa
 from wirelessagent.telling.facts.case import Case
-from wirelessagent.telling.facts.marginal_prices import marginal_prices
-from wirelessagent.telling.facts.steps import power_step, promise_step, rate_step
+from wirelessagent.telling.facts.steps import marginal_prices, power_step, promise_step, rate_step
 
 CELL = wa.Cell(max_power_w=20)
 SCENE = wa.simulate("rayleigh", CELL, num_users=4, num_subcarriers=8, seed=6)

@@ -22,9 +22,8 @@ from wirelessagent.telling.explanation import Proofs, explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import FewerUsers, MorePower, Nearest, Way, WithoutLimit, nearest
 from wirelessagent.telling.glossary import explained, figures_asked, is_of_now
-from wirelessagent.telling.margins import Prices, Steps
+from wirelessagent.telling.margins import Prices, Remedies, Steps
 from wirelessagent.telling.parts import Teller
-from wirelessagent.telling.reasons import Remedies
 from wirelessagent.telling.report import Report, served_table, user_table
 from wirelessagent.telling.roster import Accounts, Roster
 from wirelessagent.telling.told import Table
@@ -124,12 +123,10 @@ def about_the_decision(talk: Talk, act: Ask) -> Reply:
         run = unmet(talk.turns) or run
     if run is None:
         return nothing_yet(talk)
-    of_it = isinstance(
-        act, acts.AskWhyNot | acts.AskStep | acts.AskDearest
-    )  # of the request, which may be one that can't be met
-    in_effect = on_air if not (of_it or run.decision.is_usable) and on_air is not None else run
-    other = in_effect is not run and in_effect.decision.is_usable
-    run = in_effect if other else run
+    # the request may be one that can't be met, and what is in effect is another one
+    of_it = isinstance(act, acts.AskWhyNot | acts.AskStep | acts.AskDearest) or run.decision.is_usable
+    other = not of_it and on_air is not None and on_air.decision.is_usable
+    run = on_air if other and on_air is not None else run
     asked = Asked(case=run.case, report=run.report, language=talk.language, text=talk.text)
     text, tables = answered(asked, act)
     state = None
@@ -172,7 +169,7 @@ def _why(asked: Asked, act: acts.AskWhy) -> Answer:
     if act.user is None:
         raise UnknownUserError("", asked.case.estimate.user_names, asked.language)
     user = asked.user(act.user)
-    return asked.joined([_corrected(asked, user), asked.by(Accounts).why(user)])
+    return asked.joined([_corrected(asked, user), asked.by(Accounts).told(user)])
 
 
 def _corrected(asked: Asked, user: int) -> str:

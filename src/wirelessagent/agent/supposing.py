@@ -32,8 +32,15 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import called, lines_of, listed
 from wirelessagent.telling.facts.nearest import more_power, nearest
-from wirelessagent.telling.parts import cannot_be_served, goal_words, outcome_in_words, value_name
-from wirelessagent.telling.reasons import BEYOND_W, Remedies, reason_in_words
+from wirelessagent.telling.margins import Remedies
+from wirelessagent.telling.parts import (
+    BEYOND_W,
+    cannot_be_served,
+    goal_words,
+    outcome_in_words,
+    reason_in_words,
+    value_name,
+)
 
 _SAME = 1e-6
 """A share of the power that nobody sees."""

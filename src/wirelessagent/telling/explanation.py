@@ -17,8 +17,15 @@ from wirelessagent.model.units import db, human, percent, probability, reliabili
 from wirelessagent.telling.catalogue import Said, message
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.proof import Certainty, Certificate, certainty, certificate, measured
-from wirelessagent.telling.parts import Teller, cannot_be_served, goal_named, name_of_figure, outcome_in_words, place
-from wirelessagent.telling.reasons import reason_in_words
+from wirelessagent.telling.parts import (
+    Teller,
+    cannot_be_served,
+    goal_named,
+    name_of_figure,
+    outcome_in_words,
+    place,
+    reason_in_words,
+)
 from wirelessagent.telling.report import Report
 
 _HARDLY_ANY = 0.05
@@ -94,7 +101,7 @@ class Proofs(Teller):
         """What is proven, how, and what it leaves open."""
         decision, found, repaired = self.case.decision, certificate(self.case), self.case.estimate.repaired
         if found.proof in ("nothing", "infeasible", "undecided"):
-            reason = reason_in_words(decision, self.language)
+            reason = self.why(decision)
             return self.say(f"proof.{found.proof}", method=decision.method, reason=reason)
         said = [self._bound(found), self._left(found)]
         if repaired.any():
@@ -174,7 +181,7 @@ class _Explanation(Teller):
     def sentences(self) -> list[str]:
         decision, objective = self.case.decision, self.case.objective
         if not decision.is_usable:
-            return [self._told(decision.status, reason=reason_in_words(decision, self.language))]
+            return [self._told(decision.status, reason=self.why(decision))]
         if objective.measure == "power" and decision.problem.min_rate_bps is None and not decision.power_w.any():
             return [self._told("no_promise")]
         allocation = self._told(
@@ -186,7 +193,7 @@ class _Explanation(Teller):
             said.append(rests_on(objective, self.language))
         said += [self._promised_at(), *self._forecast(), self._groups()]
         if decision.reason and not cannot_be_served(decision):
-            said.append(self.say("text.sentence", line=reason_in_words(decision, self.language)))
+            said.append(self.say("text.sentence", line=self.why(decision)))
         return [one for one in (*said, self._idle_users(), self._repair(), self._outcome(), self._regret()) if one]
 
     def _told(self, key: str, **places: object) -> Said:

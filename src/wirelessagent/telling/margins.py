@@ -1,4 +1,4 @@
-"""What more of something is worth, and would change: prices at the margin, what holds a decision back, finite steps."""
+"""What would be otherwise: prices at the margin and what holds a decision back, finite steps, and what can be met."""
 
 from __future__ import annotations
 
@@ -6,22 +6,23 @@ import functools
 
 import numpy as np
 
-from wirelessagent.model.units import human, percent
-from wirelessagent.telling.facts.marginal_prices import MarginalPrices, marginal_prices
+from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.telling.catalogue import Said, lines_of
+from wirelessagent.telling.facts import nearest
 from wirelessagent.telling.facts.steps import (
-    NOTHING,
+    MarginalPrices,
     Reach,
     Step,
     for_the_total,
     has_reach,
     kept_by,
+    marginal_prices,
     power_step,
     rate_step,
     reach,
     without_ceilings,
 )  # fmt: skip
-from wirelessagent.telling.parts import Teller, outcome_in_words
-from wirelessagent.telling.reasons import reason_in_words
+from wirelessagent.telling.parts import BEYOND_W, Teller, outcome_in_words
 from wirelessagent.telling.told import Table
 
 _STEP_BPS = 100e3
@@ -170,7 +171,7 @@ class Steps(Teller):
         """How the value changes, as in "raise the total rate by 1 Mbit/s (3 %), to 34 Mbit/s"."""
         before, unit = step.before.value, step.before.unit
         value, size = human(step.value_after, unit), human(abs(step.change), unit)
-        if abs(step.change) <= NOTHING * abs(before):
+        if step.changes_nothing:
             return self.say("step.keep", figure=self.figure, value=value)
         share = self.say("step.share", share=percent(abs(step.change / before))) if before else ""
         key = "step.raise" if step.change > 0 else "step.lower"
@@ -209,7 +210,7 @@ class Steps(Teller):
         if not step.before.is_usable and step.after.is_usable:
             return self.say("step.now_met", step=told, outcome=outcome_in_words(step.after, self.language))
         key = "step.no_longer" if step.before.is_usable else "step.still_not"
-        return self.say(key, step=told, reason=reason_in_words(step.after, self.language))
+        return self.say(key, step=told, reason=self.why(step.after))
 
     def _bound(self, step: Step) -> str:
         """What no allocation could do better, where the decision after the step is not proven optimal."""
@@ -229,3 +230,55 @@ class Steps(Teller):
 
 def _level(step: Step) -> str:
     return human(step.level, "W" if step.of_power else "bit/s")
+
+
+class Remedies(Teller):
+    """What can be met, of what was asked for or instead of it."""
+
+    def none_needed(self) -> str:
+        """What to say where the request can be met."""
+        return self.say("remedy.feasible", figure=self.figure, value=self.worth(self.case.decision.value))
+
+    def told(self, found: nearest.Nearest) -> Said:
+        """Why a request cannot be met, what it would need, and what can be met instead, a line each."""
+        case, more = self.case, found.more_power
+        proven = "remedy.proven" if case.decision.status == "infeasible" else "remedy.open"
+        ways = [self.say("remedy.way", number=number, way=self._way(way)) for number, way in enumerate(found.ways, 1)]
+        ways += [self._way(one) for one in found.without_limits if one not in found.ways]
+        beyond = ""
+        if more is not None and not more.within_limit and more.power_w <= BEYOND_W:
+            limit = human(case.cell.max_power_w, "W")
+            beyond = self.say("remedy.beyond", power=human(more.power_w, "W"), limit=limit)
+        instead = self.say("remedy.ways") if ways else "" if beyond else self.say("remedy.none")
+        head = self.joined([self.say(proven, reason=self.why(case.decision)), instead])
+        return lines_of([head, *ways, beyond])
+
+    def _way(self, way: nearest.Way) -> Said:
+        """What can be met instead."""
+        if isinstance(way, nearest.MorePower):
+            return self.say("remedy.power", power=human(way.power_w, "W"))
+        outcome, problem = outcome_in_words(way.decision, self.language), self.case.problem
+        if isinstance(way, nearest.LowerRates):
+            return self._rates(way, outcome)
+        if isinstance(way, nearest.FewerUsers):
+            return self._users(way, outcome)
+        sure = reliability(problem.outage_probability or 0.0)
+        return self.say(f"remedy.{way.limit}", outcome=outcome, size=problem.resource_block_group_size, sure=sure)
+
+    def _rates(self, lower: nearest.LowerRates, outcome: str) -> Said:
+        promised, known, most = self.case.promised_bps[self.case.served], np.isfinite(lower.at_most), ""
+        if np.ptp(promised) > 0:
+            most = self.say("remedy.most_factor", factor=lower.at_most) if known else ""
+            return self.say("remedy.factor", factor=lower.factor, outcome=outcome, most=most)
+        asked = float(promised[0])
+        if known:
+            most = self.say("remedy.most", rate=human(asked * lower.at_most, "bit/s"))
+        rate = human(asked * lower.factor, "bit/s")
+        return self.say("remedy.same", rate=rate, asked=human(asked, "bit/s"), outcome=outcome, most=most)
+
+    def _users(self, fewer: nearest.FewerUsers, outcome: str) -> Said:
+        kept = [int(user) for user in np.flatnonzero(self.case.served) if user not in fewer.left_out]
+        few = len(kept) < len(fewer.left_out)
+        names = self.names(kept if few else fewer.left_out)
+        fewest = self.say("remedy.fewest") if fewer.is_fewest and len(fewer.left_out) > 1 else ""
+        return self.say("remedy.only" if few else "remedy.without", names=names, outcome=outcome, fewest=fewest)

@@ -1,22 +1,29 @@
-"""Parts of sentences: what values, subcarriers, users and results are called."""
+"""Parts of sentences: what values, subcarriers, users and results are called, and why there is none.
+
+Where nothing was found that meets a request, that is the limit that is the cause.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
 from wirelessagent import plugins
+from wirelessagent.deciding.core.closed_form import APPROACHED
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
-from wirelessagent.model.units import human
+from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import Said, called, has_message, joined, listed, message
+from wirelessagent.telling.facts.case import Case
+from wirelessagent.telling.facts.nearest import shortage_of
 
-if TYPE_CHECKING:
-    from wirelessagent.telling.facts.case import Case
+BEYOND_W = 1e6
+"""Powers beyond this are not told in figures: no cell radiates them."""
+_ROUNDING = 1e-9
 
 _Teller = TypeVar("_Teller", bound="Teller")
 
@@ -47,6 +54,10 @@ class Teller:
     def names(self, users: Iterable[int]) -> str:
         """What users are called, in a row."""
         return listed(self.language, self.case.named(users))
+
+    def why(self, decision: Decision) -> str:
+        """Why there is no allocation, or what else a decision says of itself."""
+        return reason_in_words(decision, self.language)
 
     @property
     def figure(self) -> str:
@@ -142,3 +153,83 @@ def _idle(decision: Decision) -> tuple[int, int]:
         return 0, 0
     counts = decision.problem.weights_of(decision.rate_bps.size) > 0
     return int(np.count_nonzero(counts & (decision.rate_bps <= 0))), int(np.count_nonzero(counts))
+
+
+def power_in_words(power_w: float, language: str) -> str:
+    """A power that rates need; where no cell has it, that instead of its figure."""
+    if np.isinf(power_w):
+        return message(language, "reason.no_power")
+    if power_w > BEYOND_W:
+        return message(language, "reason.beyond", beyond=human(BEYOND_W, "W"))
+    return human(power_w, "W")
+
+
+def reason_in_words(decision: Decision, language: str) -> str:
+    """Why there is no allocation, or what else a decision says of itself; its own words where nothing is known here."""
+    if decision.reason == APPROACHED:
+        return message(language, "reason.approached")
+    if decision.is_usable or decision.needed_power_w is None:
+        return decision.reason
+    if decision.status != "infeasible":
+        return _open(decision, language)
+    return _short(decision, language) or _needs(decision, language)
+
+
+def _needs(decision: Decision, language: str) -> str:
+    """That the promised rates need more power than they may use."""
+    need, budget = decision.needed_power_w, decision.problem.budget_w(decision.cell)
+    assert need is not None
+    told = {"budget": human(budget, "W"), "least": human(need.at_least, "W"), "most": human(need.at_most, "W")}
+    cap = decision.problem.subcarrier_max_power_w
+    total = np.inf if cap is None else float(np.broadcast_to(cap, decision.owner.shape).sum())
+    if total < min(budget, need.at_least * (1.0 - _ROUNDING)):
+        return message(language, "reason.capped", limits=_limits(decision, language), total=human(total, "W"))
+    if np.isinf(need.at_least):
+        return message(language, "reason.needs_nothing")
+    if not need.at_least > budget:
+        return decision.reason
+    if need.at_least > BEYOND_W:
+        return message(language, "reason.needs_beyond", beyond=human(BEYOND_W, "W"), **told)
+    return message(language, "reason.needs_found" if need.at_most <= BEYOND_W else "reason.needs", **told)
+
+
+def _short(decision: Decision, language: str) -> str:
+    """That no power is enough, and why; empty where some power may be."""
+    short = shortage_of(decision)
+    if short is None:
+        return ""
+    size = decision.problem.resource_block_group_size
+    return message(
+        language, f"reason.{short.kind}", name=called(language, decision.user_names[short.user]),
+        users=short.users, served=short.served, places=short.places, needed=short.needed,
+        promised=human(short.promised_bps, "bit/s"), most=human(short.most_bps, "bit/s"),
+        kind=message(language, "part.subcarriers" if size == 1 else "reason.group", size=size),
+        limits=_limits(decision, language),
+    )  # fmt: skip
+
+
+def _open(decision: Decision, language: str) -> str:
+    """That nothing was found, how far what was found comes, and what is known of the need."""
+    need, scale = decision.needed_power_w, decision.rate_scaling
+    assert need is not None
+    outage, found = decision.problem.outage_probability, ""
+    if np.isfinite(need.at_most):
+        found = message(language, "reason.found_power", most=power_in_words(need.at_most, language))
+    elif scale is not None and scale.at_least > 0:
+        found = message(language, "reason.found_share", share=percent(scale.at_least))
+    sure = "" if outage is None else message(language, "reason.sure", sure=reliability(outage))
+    budget, least = human(decision.problem.budget_w(decision.cell), "W"), human(need.at_least, "W")
+    return message(language, "reason.open", sure=sure, budget=budget, found=found, least=least)
+
+
+def _limits(decision: Decision, language: str) -> str:
+    """The limits on what a subcarrier may carry; empty where there are none."""
+    cap, link = decision.problem.subcarrier_max_power_w, decision.cell.max_spectral_efficiency
+    limits: list[str] = []
+    if cap is not None:
+        one = np.ndim(cap) == 0 or np.ptp(cap) == 0
+        figure = human(float(np.min(cap)), "W")
+        limits.append(message(language, "reason.cap" if one else "reason.caps", cap=figure))
+    if np.isfinite(link):
+        limits.append(message(language, "reason.link", link=human(link, "bit/s/Hz")))
+    return message(language, "reason.both", cap=limits[0], link=limits[1]) if len(limits) > 1 else "".join(limits)

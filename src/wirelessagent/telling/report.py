@@ -28,8 +28,7 @@ from wirelessagent.telling.facts.proof import (
     ungrouped_bound,
     with_perfect_knowledge,
 )
-from wirelessagent.telling.parts import goal_words, name_of_figure
-from wirelessagent.telling.reasons import power_in_words
+from wirelessagent.telling.parts import goal_words, name_of_figure, power_in_words
 from wirelessagent.telling.told import Table
 
 Columns: TypeAlias = dict[str, list[str]]

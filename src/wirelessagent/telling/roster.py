@@ -10,7 +10,6 @@ from wirelessagent.telling.catalogue import called, lines_of
 from wirelessagent.telling.facts.accounts import PROMISE_BPS, Account, Loss, account, newcomer, share
 from wirelessagent.telling.margins import Steps
 from wirelessagent.telling.parts import Teller, place
-from wirelessagent.telling.reasons import reason_in_words
 
 _SAME = 1e-3
 """A share of a figure that does not show in it."""
@@ -173,7 +172,7 @@ def _size(value: float, of: str) -> str:
 class Accounts(Teller):
     """What users have, and why."""
 
-    def why(self, user: int) -> str:
+    def told(self, user: int) -> str:
         """What a user, from 0, has and why, in a paragraph."""
         found = account(self.case, user)
         losses = self._loss(found.losses[0]) if found.losses else []
@@ -195,7 +194,7 @@ class Accounts(Teller):
             f"account.{found.standing}", name=self.name(found.user), rate=self._rate(found),
             power=human(found.power_w, "W"), share=percent(found.power_w / total if total > 0 else 0.0),
             count=found.subcarriers, total=case.decision.owner.size,
-            reason=reason_in_words(case.decision, self.language),
+            reason=self.why(case.decision),
             places=case.form.start.size - 1, users=int(np.count_nonzero(case.form.weight > 0)),
         )  # fmt: skip
         return said if found.included is None else self.joined([said, self._included(found)])
@@ -204,7 +203,7 @@ class Accounts(Teller):
         included = found.included
         assert included is not None
         if not included.is_usable:
-            return self.say("account.included_none", reason=reason_in_words(included, self.language))
+            return self.say("account.included_none", reason=self.why(included))
         rate = human(float(included.rate_bps[found.user]), "bit/s")
         power = human(float(included.power_w[included.owner == found.user].sum()), "W")
         value, before = human(included.value, included.unit), self.worth(self.case.decision.value)
@@ -258,7 +257,7 @@ class Accounts(Teller):
         if step is None:
             return ""
         if not step.after.is_usable:
-            return self.say("account.promise_none", rate=rate, reason=reason_in_words(step.after, self.language))
+            return self.say("account.promise_none", rate=rate, reason=self.why(step.after))
         count = int(((step.after.owner == found.user) & (step.after.power_w > 0)).sum())
         total, change = step.after.owner.size, self.by(Steps).change(step)
         return self.say("account.promise", rate=rate, count=count, total=total, change=change)

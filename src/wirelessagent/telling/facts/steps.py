@@ -1,8 +1,9 @@
-"""Finite steps, by solving the problem anew: what a watt more, or a higher promise, really changes.
+"""What more of something changes: at the margin, by prices; and by finite steps, by solving the problem anew.
 
-The marginal price is the slope of the bound at the problem as it is; sets change in whole subcarriers, so a finite step
-is another decision with a bound of its own. As the old allocation still keeps a looser problem, the better of the two
-counts there.
+Marginal prices are the slopes of the dual bound: how the best value changes per watt more, and per bit/s more promised
+to each user. A decision of a method that knows no prices is given those of the dual for the same problem: they speak of
+the problem, not of the allocation. Sets change in whole subcarriers, so a finite step is another decision with a bound
+of its own. As the old allocation still keeps a looser problem, the better of the two counts there.
 
 What power a larger value takes is the least budget at which a problem is worth as much, by solving it again and again:
 the value never falls with the budget, and is nearly straight in its logarithm, so few budgets have to be tried.
@@ -28,6 +29,32 @@ _ACCURACY = 1e-3
 _FARTHEST = 1e4
 """How many times more or less than the budget is tried."""
 _STRIDE = 4.0
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MarginalPrices:
+    """Slopes of the bound.
+
+    Attributes:
+        power: change of the best value per watt more, in the value's unit per W; NaN if not known.
+        rate: change per bit/s more promised to each user, shape (user,), NaN if not known. Positive where what is to be
+            small grows, negative where what is to be large shrinks, 0 for a promise that does not bind.
+    """
+
+    power: float
+    rate: FloatArray
+
+
+def marginal_prices(case: Case) -> MarginalPrices:
+    """The prices of a case's problem on the channel that counts."""
+    decision = case.decision
+    power, rate = decision.price_of_power, decision.price_of_rate
+    if np.isnan(power) or (not rate.size and case.promised_bps.any()):
+        power = case.priced.price_of_power if np.isnan(power) else power
+        rate = rate if rate.size else case.priced.price_of_rate
+    if not rate.size:
+        rate = np.full(case.num_users, np.nan if case.promised_bps.any() else 0.0)
+    return MarginalPrices(power=power, rate=rate)
 
 
 @dataclass(frozen=True, kw_only=True)
