@@ -20,7 +20,7 @@ from typing import cast
 import numpy as np
 
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent.turn import Run
+from wirelessagent.agent.turn import Run, in_use
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError
@@ -115,7 +115,7 @@ def same_allocation(one: Decision, other: Decision) -> bool:
     """Whether two decisions are the same for the base station and the users, within rounding."""
     return (
         _same_cell(one, other)
-        and bool(np.array_equal(_in_use(one), _in_use(other)))
+        and bool(np.array_equal(in_use(one), in_use(other)))
         and bool(np.allclose(one.power_w, other.power_w, rtol=0, atol=_ROUNDING * one.total_power_w))
         and bool(np.allclose(one.committed_bps, other.committed_bps, rtol=_ROUNDING, atol=0))
     )
@@ -169,11 +169,6 @@ def _is_row(values: object) -> bool:
     return row.ndim == 1 and row.dtype.kind in "biuf"
 
 
-def _in_use(allocation: Decision | Outcome) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
-    """The owner of each subcarrier that carries power, −1 elsewhere."""
-    return np.where(allocation.power_w > 0, allocation.owner, -1)
-
-
 def _differences(decision: Decision, outcome: Outcome, station: BaseStation, language: str) -> list[str]:
     """How what was read back differs from what was decided, beyond the steps in which the base station sets power."""
     count = decision.owner.size
@@ -185,7 +180,7 @@ def _differences(decision: Decision, outcome: Outcome, station: BaseStation, lan
     if not off.sum() <= _SAME_POWER * decision.total_power_w:  # NaN is a difference too
         read, planned = float(outcome.power_w.sum()), decision.total_power_w
         found.append(message(language, "station.other_power", read=human(read, "W"), planned=human(planned, "W")))
-    moved = int(np.count_nonzero((_in_use(outcome) != _in_use(decision)) & (outcome.power_w > 0)))
+    moved = int(np.count_nonzero((in_use(outcome) != in_use(decision)) & (outcome.power_w > 0)))
     if moved:
         found.append(message(language, "station.other_owner", moved=moved, total=count))
     return found

@@ -104,7 +104,10 @@ class _Posing:
         for name, value in self._given.items():
             fields[name] = self._by_user(name, value) if name in FIGURES_OF_USERS else value
         self._check_order(fields, served)
-        self._check_group(fields)
+        size = fields.get("resource_block_group_size", 1)
+        if size != int(size):
+            raise UnclearRequestError(self._say("ask_back.whole_groups", size=f"{size:g}"))
+        fields["resource_block_group_size"] = int(size)
         if "weights" in fields and not np.broadcast_to(fields["weights"], len(self._names))[list(served)].any():
             raise UnclearRequestError(self._say("ask_back.no_weight"))
         try:
@@ -179,14 +182,6 @@ class _Posing:
             if rate > 0 and reference != EVERYBODY and self._number(reference) not in served:
                 user, told = self._names[self._number(reference)], human(rate, "bit/s")
                 raise UnclearRequestError(self._say("ask_back.promised_and_left_out", user=user, rate=told))
-
-    def _check_group(self, fields: dict[str, Any]) -> None:
-        size = fields.get("resource_block_group_size")
-        if size is None:
-            return
-        if size != int(size):
-            raise UnclearRequestError(self._say("ask_back.whole_groups", size=f"{size:g}"))
-        fields["resource_block_group_size"] = int(size)
 
 
 def user_number(reference: str, user_names: tuple[str, ...], language: str = "en") -> tuple[int, bool]:

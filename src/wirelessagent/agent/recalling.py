@@ -8,15 +8,7 @@ from datetime import datetime
 from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run, Turn
-from wirelessagent.language.acts import (
-    AskHistory,
-    AskReasons,
-    AskStatus,
-    CompareLast,
-    CompareTurns,
-    Export,
-    TurnReference,
-)
+from wirelessagent.language import acts
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said, lines_of
@@ -27,21 +19,21 @@ _SHOWN = 60
 """Characters of a sentence that the history shows."""
 
 
-def turn_of(turns: Sequence[Turn], reference: TurnReference) -> Turn | None:
+def turn_of(turns: Sequence[Turn], reference: acts.TurnReference) -> Turn | None:
     """The turn of this number, or the "first" with a decision; None where there is none."""
     if reference == "first":
         return next((turn for turn in turns if turn.run is not None and turn.intent.kind == "allocate"), None)
     return next((turn for turn in turns if turn.number == reference), None)
 
 
-def no_such_turn(talk: Talk, reference: TurnReference) -> Said:
+def no_such_turn(talk: Talk, reference: acts.TurnReference) -> Said:
     """What to say to a line about a turn that there is not."""
     count = len(talk.turns)
     key = "turn.no_such" if count > 1 else "turn.only_one" if count else "turn.none_yet"
     return talk.say(key, number=reference, last=count)
 
 
-def decided_by(talk: Talk, reference: TurnReference) -> tuple[int, Run] | Reply:
+def decided_by(talk: Talk, reference: acts.TurnReference) -> tuple[int, Run] | Reply:
     """The number of a turn and its run, or the reply to what needs the decision of a turn that has none."""
     chosen = turn_of(talk.turns, reference)
     if chosen is None:
@@ -51,7 +43,7 @@ def decided_by(talk: Talk, reference: TurnReference) -> tuple[int, Run] | Reply:
     return chosen.number, chosen.run
 
 
-def reasons(talk: Talk, act: AskReasons) -> Reply:
+def reasons(talk: Talk, act: acts.AskReasons) -> Reply:
     """A decision in words, with its tables."""
     run = talk.state.run
     if act.turn is not None:
@@ -65,7 +57,7 @@ def reasons(talk: Talk, act: AskReasons) -> Reply:
     return Reply(decided=lines_of(said), tables=run.tables(talk.language))
 
 
-def history(talk: Talk, act: AskHistory) -> Reply:
+def history(talk: Talk, act: acts.AskHistory) -> Reply:
     """The turns so far, or one of them."""
     turns = talk.turns
     if act.turn is not None:
@@ -96,7 +88,7 @@ def _value(turn: Turn) -> str:
     return human(turn.run.decision.value, turn.run.decision.unit)
 
 
-def status(talk: Talk, _: AskStatus) -> Reply:
+def status(talk: Talk, _: acts.AskStatus) -> Reply:
     """What is asked for, what was decided, and what is in effect."""
     state, unknown = talk.state, talk.state.on_air is None and talk.site.touched
     if state.request is None and state.on_air is None and not unknown:
@@ -133,7 +125,7 @@ def _on_air(talk: Talk) -> str:
     return talk.say(key, turn=number, served=served, power=power, rate=rate)
 
 
-def with_last(talk: Talk, _: CompareLast) -> Reply:
+def with_last(talk: Talk, _: acts.CompareLast) -> Reply:
     """The decision that holds beside the last other one."""
     run = talk.state.run
     if run is None:
@@ -149,7 +141,7 @@ def with_last(talk: Talk, _: CompareLast) -> Reply:
     return Reply(decided=said, tables=talk.beside(columns))
 
 
-def with_turns(talk: Talk, act: CompareTurns) -> Reply:
+def with_turns(talk: Talk, act: acts.CompareTurns) -> Reply:
     """The decision that holds beside that of a turn, or those of two turns."""
     columns = list[Column]()
     for reference in act.turns:
@@ -168,7 +160,7 @@ def with_turns(talk: Talk, act: CompareTurns) -> Reply:
     return Reply(decided=said, tables=talk.beside(columns))
 
 
-def export(talk: Talk, act: Export) -> Reply:
+def export(talk: Talk, act: acts.Export) -> Reply:
     """The request that holds and what came of it as a document of a standard; the standards are loaded only here."""
     from wirelessagent.standards import tmf921, ts28312
     from wirelessagent.standards.subject import Subject
@@ -204,10 +196,10 @@ def _in_effect_before(turn: Turn, turns: Sequence[Turn]) -> Outcome | None:
 
 
 REPLIES: Replies = {
-    AskReasons: reasons,
-    AskHistory: history,
-    AskStatus: status,
-    CompareLast: with_last,
-    CompareTurns: with_turns,
-    Export: export,
+    acts.AskReasons: reasons,
+    acts.AskHistory: history,
+    acts.AskStatus: status,
+    acts.CompareLast: with_last,
+    acts.CompareTurns: with_turns,
+    acts.Export: export,
 }

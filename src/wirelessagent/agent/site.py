@@ -157,7 +157,7 @@ class Site:
 
     def tools_of(self, request: Request) -> Tools:
         """The tools, with the method that the operator named."""
-        return self.tools if request.method in (None, self.tools.method) else self.with_tools(method=request.method)
+        return self.tools if request.method in (None, self.tools.method) else self.with_method(request.method)
 
     def station(self, run: Run) -> BaseStation | None:
         """The base station that a run would be applied at; None where there is none."""
@@ -197,7 +197,6 @@ class Site:
             return run
         return run.with_outcome(SimulatedBaseStation(run.scene).apply(run.decision))
 
-    def with_tools(self, **changes: str | None) -> Tools:
-        """The tools with others of a kind, at their own defaults."""
-        options = {f"{kind}_options": dict[str, object]() for kind in changes}
-        return dataclasses.replace(self.tools, **changes, **options)  # pyright: ignore[reportArgumentType]
+    def with_method(self, name: str) -> Tools:
+        """The tools with another method, at its own defaults."""
+        return dataclasses.replace(self.tools, method=name, method_options={})

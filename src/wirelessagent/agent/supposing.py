@@ -16,17 +16,8 @@ from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError,
 from wirelessagent.agent.site import Sight
 from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back, nothing_yet
 from wirelessagent.agent.turn import Run
-from wirelessagent.language.acts import (
-    Act,
-    Aim,
-    AskMost,
-    AskOtherChannel,
-    AskPower,
-    CompareRequests,
-    CompareTools,
-    Limit,
-    Suppose,
-)
+from wirelessagent.language import acts
+from wirelessagent.language.acts import Act
 from wirelessagent.language.intent import Constraint
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
@@ -49,12 +40,12 @@ _OTHER_AIMS = ("weights", "max_rate_bps", "max_power_w")
 """What the least power knows nothing of, or is asked for instead of."""
 
 
-def other_channel(talk: Talk, _: AskOtherChannel) -> Reply:
+def other_channel(talk: Talk, _: acts.AskOtherChannel) -> Reply:
     """The channel is as it was sensed."""
     return asked_back(talk.say("ask_back.channel_given"))
 
 
-def what_if(talk: Talk, act: Suppose) -> Reply:
+def what_if(talk: Talk, act: acts.Suppose) -> Reply:
     """A decision for other circumstances beside the one that holds, which the next line may take up."""
     share = act.missing_share
     if share is None and not act.acts:
@@ -66,7 +57,7 @@ def what_if(talk: Talk, act: Suppose) -> Reply:
         return asked_back(talk.say("ask_back.what_if_missing_share", share=percent(share)))
     sight = None if share is None else talk.site.sight(talk.language, missing=share)
     run, refused = _planned(talk, request, sight)
-    if isinstance(act, AskMost) and run.decision.is_usable:
+    if isinstance(act, acts.AskMost) and run.decision.is_usable:
         said = talk.joined(refused, _most(talk, run, act.user))
     else:
         said = talk.joined(refused, _verdict(talk, run, share))
@@ -80,13 +71,14 @@ def what_if(talk: Talk, act: Suppose) -> Reply:
     return _left_open(talk, reply, None if share is not None else request)
 
 
-def needed_power(talk: Talk, act: AskPower) -> Reply:
+def needed_power(talk: Talk, act: acts.AskPower) -> Reply:
     """The least power that the promised rates take; a what-if of the limit where nothing is promised."""
     request, enough_w = _supposed(talk, act), act.enough_w
     if request is None:
         return nothing_yet(talk)
     promises = "min_rate_bps" in request.constraints or request.objective == "min_power"
-    limited = None if enough_w is None else Suppose(acts=(*act.acts, Limit(kind="max_power_w", value=enough_w)))
+    within = None if enough_w is None else acts.Limit(kind="max_power_w", value=enough_w)
+    limited = None if within is None else acts.Suppose(acts=(*act.acts, within))
     if not promises:
         return Reply(decided=talk.say("needs.nothing")) if limited is None else what_if(talk, limited)
     limits: dict[str, Constraint] = {k: v for k, v in request.constraints.items() if k not in _OTHER_AIMS}
@@ -110,14 +102,14 @@ def _left_open(talk: Talk, reply: Reply, supposed: Request | None) -> Reply:
     return dataclasses.replace(reply, changed=talk.say("plan.nothing_changed"), needs=needs, state=after)
 
 
-def _supposed(talk: Talk, act: Suppose) -> Request | None:
+def _supposed(talk: Talk, act: acts.Suppose) -> Request | None:
     """The request of a what-if; one of the most that can be promised is kept with the probability that is assumed."""
-    held, acts = talk.state.request, act.acts
-    named = {*(() if held is None else held.constraints), *(one.kind for one in acts if isinstance(one, Limit))}
-    if isinstance(act, AskMost) and "outage_probability" not in named:
-        acts = *acts, Limit(kind="outage_probability", value=ASSUMED_OUTAGE_PROBABILITY)
-    aims = [one for one in acts if isinstance(one, Aim)]
-    return applied(held, (*aims, *acts), radiated_w=talk.state.radiated_w)[0]
+    held, wanted = talk.state.request, act.acts
+    named = {*(() if held is None else held.constraints), *(one.kind for one in wanted if isinstance(one, acts.Limit))}
+    if isinstance(act, acts.AskMost) and "outage_probability" not in named:
+        wanted = *wanted, acts.Limit(kind="outage_probability", value=ASSUMED_OUTAGE_PROBABILITY)
+    aims = [one for one in wanted if isinstance(one, acts.Aim)]
+    return applied(held, (*aims, *wanted), radiated_w=talk.state.radiated_w)[0]
 
 
 def _planned(talk: Talk, request: Request, sight: Sight | None) -> tuple[Run, str]:
@@ -173,14 +165,10 @@ def _beside(talk: Talk, run: Run | None, *, values: bool = False) -> str:
     now = talk.state.run
     if now is None or run is None or not (now.decision.is_usable and run.decision.is_usable):
         return ""
-    if values and _kind(talk, now) == _kind(talk, run):
+    kinds = {(value_name(one.decision, talk.language), one.decision.unit) for one in (now, run)}
+    if values and len(kinds) == 1:
         return talk.say("what_if.now", change=_change(talk, now.decision, run.decision))
     return talk.say("what_if.beside_now", then=_figures(talk, run.decision), now=_figures(talk, now.decision))
-
-
-def _kind(talk: Talk, run: Run) -> tuple[str, str]:
-    """What a run's value is called, and its unit: values compare where both are the same."""
-    return value_name(run.decision, talk.language), run.decision.unit
 
 
 def _change(talk: Talk, now: Decision, then: Decision) -> str:
@@ -246,7 +234,7 @@ def _judged(talk: Talk, run: Run, power_w: float | None, enough_w: float, asked:
     return talk.say("needs.not_enough" if unmet else "needs.perhaps_enough", enough=enough)
 
 
-def with_requests(talk: Talk, act: CompareRequests) -> Reply:
+def with_requests(talk: Talk, act: acts.CompareRequests) -> Reply:
     """Changes of the request solved beside each other; one alone stands beside the request that holds."""
     state = talk.state
     if state.run is None or state.request is None:
@@ -260,7 +248,7 @@ def with_requests(talk: Talk, act: CompareRequests) -> Reply:
     return Reply(decided=said, changed=talk.say("plan.nothing_changed"), tables=talk.beside(columns))
 
 
-def with_tools(talk: Talk, act: CompareTools) -> Reply:
+def with_tools(talk: Talk, act: acts.CompareTools) -> Reply:
     """The decision that holds beside those of other methods, or on what other repairers make of the channel."""
     site, run, request = talk.site, talk.state.run, talk.state.request
     if run is None or request is None:
@@ -270,7 +258,7 @@ def with_tools(talk: Talk, act: CompareTools) -> Reply:
         if name == run.decision.method and len(act.names) > 1:
             continue  # it has its column already
         if name in plugins.names("method"):
-            tools, sight = site.with_tools(method=name), None
+            tools, sight = site.with_method(name), None
         elif name in plugins.names("repairer"):
             tools = dataclasses.replace(site.tools_of(request), repairer=name, repairer_options={})
             sight = site.sight(talk.language, tools=tools)
@@ -306,21 +294,21 @@ def _outcome(talk: Talk, run: Run, *, met: bool) -> str:
 
 def _label(change: Sequence[Act], language: str) -> str:
     """What a change is called at the head of a column: its aim, or its figures, as in "95 %"."""
-    aims = [goal_words(act.objective, language) for act in change if isinstance(act, Aim)]
-    return " ".join(dict.fromkeys([*aims, *(_figure(act) for act in change if isinstance(act, Limit))]))
+    aims = [goal_words(act.objective, language) for act in change if isinstance(act, acts.Aim)]
+    return " ".join(dict.fromkeys([*aims, *(_figure(act) for act in change if isinstance(act, acts.Limit))]))
 
 
-def _figure(limit: Limit) -> str:
+def _figure(limit: acts.Limit) -> str:
     if limit.kind == "outage_probability":
         return reliability(limit.value)
     return human(limit.value, "bit/s" if limit.kind.endswith("bps") else "W")
 
 
 REPLIES: Replies = {
-    CompareRequests: with_requests,
-    CompareTools: with_tools,
-    Suppose: what_if,
-    AskMost: what_if,
-    AskPower: needed_power,
-    AskOtherChannel: other_channel,
+    acts.CompareRequests: with_requests,
+    acts.CompareTools: with_tools,
+    acts.Suppose: what_if,
+    acts.AskMost: what_if,
+    acts.AskPower: needed_power,
+    acts.AskOtherChannel: other_channel,
 }

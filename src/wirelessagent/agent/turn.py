@@ -152,13 +152,18 @@ class Shift:
         return message(language, "changed.allocation", changes=listed[:1].upper() + listed[1:]) if said else ""
 
 
+def in_use(allocation: Decision | Outcome) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    """The owner of each subcarrier that carries power, −1 elsewhere."""
+    return np.where(allocation.power_w > 0, allocation.owner, -1)
+
+
 def shift_between(before: Decision | None, after: Decision | None) -> Shift | None:
     """What becomes of an allocation; None where there is none before or after, or not of the same cell."""
     if before is None or after is None or before is after or not (before.is_usable and after.is_usable):
         return None
     if before.owner.shape != after.owner.shape or before.user_names != after.user_names:
         return None
-    owners = [np.where(one.power_w > 0, one.owner, -1) for one in (before, after)]
+    owners = [in_use(one) for one in (before, after)]
     pairs = zip(before.user_names, before.rate_bps.tolist(), after.rate_bps.tolist(), strict=True)
     return Shift(
         subcarriers=int(np.count_nonzero(owners[0] != owners[1])), total=owners[0].size,

@@ -8,20 +8,7 @@ import numpy as np
 
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import Said, lines_of
-from wirelessagent.telling.facts import nearest
-from wirelessagent.telling.facts.steps import (
-    MarginalPrices,
-    Reach,
-    Step,
-    for_the_total,
-    has_reach,
-    kept_by,
-    marginal_prices,
-    power_step,
-    rate_step,
-    reach,
-    without_ceilings,
-)  # fmt: skip
+from wirelessagent.telling.facts import nearest, steps
 from wirelessagent.telling.parts import BEYOND_W, Teller, outcome_in_words
 from wirelessagent.telling.told import Table
 
@@ -33,8 +20,8 @@ class Prices(Teller):
     """What more of each limit would be worth."""
 
     @functools.cached_property
-    def _slopes(self) -> MarginalPrices:
-        return marginal_prices(self.case)
+    def _slopes(self) -> steps.MarginalPrices:
+        return steps.marginal_prices(self.case)
 
     @property
     def _of_power(self) -> str:
@@ -66,9 +53,13 @@ class Prices(Teller):
             return self.say("price.power_least")
         if np.isnan(self._slopes.power):
             return self.say("price.power_unknown")
+        return self._held_by_power("price.power", "price.power_idle")
+
+    def _held_by_power(self, key: str, idle: str) -> str:
+        """What more power would be worth, or that it would be worth nothing."""
         if self._of_power:
-            return self.say("price.power", figure=self.figure, price=self._of_power, budget=self.budget)
-        return self.say("price.power_idle", spent=self.spent, budget=self.budget)
+            return self.say(key, figure=self.figure, price=self._of_power, budget=self.budget)
+        return self.say(idle, spent=self.spent, budget=self.budget)
 
     def table(self) -> tuple[Table, ...]:
         """What 100 kbit/s more would cost for each user with a promise; no table where nobody has one."""
@@ -91,25 +82,19 @@ class Prices(Teller):
         if price:
             name = self.case.estimate.user_names[user]
             promise = self.say("hindrance.promise", name=name, figure=self.figure, price=price)
-        held = self.joined([self._caps(), self._power_held(), promise, self._most_power()])
-        return held or self.say("hindrance.nothing")
+        of_power = self.case.objective.measure == "power"
+        power = "" if of_power else self._held_by_power("hindrance.power", "hindrance.power_free")
+        return self.joined([self._caps(), power, promise, self._most_power()]) or self.say("hindrance.nothing")
 
     def _caps(self) -> str:
         """Who has all that it may have, and what the value would be if it might have more, solved anew."""
-        (users, free), value = without_ceilings(self.case), self.case.decision.value
+        (users, free), value = steps.without_ceilings(self.case), self.case.decision.value
         if free is None:
             return ""
         told = {"names": self.names(users), "figure": self.figure, "value": self.worth(value)}
         if free.is_usable and abs(free.value - value) > _WORTH_TELLING * abs(value):
             return self.say("hindrance.caps", **told, free=self.worth(free.value))
         return self.say("hindrance.caps_idle", **told)
-
-    def _power_held(self) -> str:
-        if self.case.objective.measure == "power":
-            return ""
-        if self._of_power:
-            return self.say("hindrance.power", budget=self.budget, figure=self.figure, price=self._of_power)
-        return self.say("hindrance.power_free", budget=self.budget, spent=self.spent)
 
     def _most_power(self) -> str:
         """Who takes most of the power, where several take some."""
@@ -127,14 +112,14 @@ class Steps(Teller):
 
     def more_power(self, step_w: float) -> str:
         """What more power would change; less where it is below zero."""
-        step = power_step(self.case, step_w)
+        step = steps.power_step(self.case, step_w)
         if step is not None:
-            return self._stepped(step)
+            return self.told(step)
         return self.say("step.no_power", step=human(-step_w, "W"), before=self.budget)
 
     def more_rate(self, step_bps: float, user: int | None) -> str:
         """What more rate of a user, from 0, or of each user would change."""
-        return self._stepped(rate_step(self.case, step_bps, user))
+        return self.told(steps.rate_step(self.case, step_bps, user))
 
     def more_in_all(self, step_bps: float | None, share: float | None) -> str:
         """What more rate takes where nobody says whose: of the value where that is one, else of promises and in all."""
@@ -143,31 +128,30 @@ class Steps(Teller):
             return (step_bps or 0.0) if share is None else share * whole
 
         case, decision, promised = self.case, self.case.decision, float(self.case.promised_bps.max())
-        if has_reach(case):
+        if steps.has_reach(case):
             return self._more(decision.value, step_of(decision.value), case.problem.budget_w(case.cell))
         total = float(decision.rate_bps.sum()) if decision.is_usable else 0.0
         of_promises, in_all = "", ""
         if promised > 0 or not decision.is_usable:
             of_promises = self.more_rate(step_of(promised), None)
         if total > 0:
-            in_all = Steps(for_the_total(case), self.language)._more(total, step_of(total), decision.total_power_w)
+            in_all = Steps(steps.for_the_total(case), self.language)._more(
+                total, step_of(total), decision.total_power_w
+            )
         return self.joined([of_promises, in_all])
 
-    def _stepped(self, step: Step) -> str:
-        usable = step.before.is_usable and step.after.is_usable
-        return self.told(step, kept_by(self.case, step) if usable else None)
+    def told(self, step: steps.Step, kept: steps.Reach | None = None) -> str:
+        """What a step changes, and what power would keep the value (looked for if not given), in a paragraph."""
+        if not (step.before.is_usable and step.after.is_usable):
+            said = [self._unmet(step)]
+        else:
+            kept, budget_w = kept or steps.kept_by(self.case, step), self.case.problem.budget_w(self.case.cell)
+            keeping = "" if kept is None else self._reached(kept, "step.kept", before_w=budget_w)
+            said = [self._changed(step), keeping, self._bound(step)]
+        beyond = step.after.is_usable and not np.isnan(step.limit_w)
+        return self.joined([*said, self.say("step.limit", limit=human(step.limit_w, "W")) if beyond else ""])
 
-    def told(self, step: Step, kept: Reach | None) -> str:
-        """What a step changes, and what power would keep the value, in a paragraph."""
-        usable, beyond = step.before.is_usable and step.after.is_usable, ""
-        said = [self._changed(step) if usable else self._unmet(step)]
-        if usable and kept is not None:
-            said.append(self._reached(kept, "step.kept", before_w=self.case.problem.budget_w(self.case.cell)))
-        if step.after.is_usable and not np.isnan(step.limit_w):
-            beyond = self.say("step.limit", limit=human(step.limit_w, "W"))
-        return self.joined([*said, self._bound(step) if usable else "", beyond])
-
-    def change(self, step: Step) -> str:
+    def change(self, step: steps.Step) -> str:
         """How the value changes, as in "raise the total rate by 1 Mbit/s (3 %), to 34 Mbit/s"."""
         before, unit = step.before.value, step.before.unit
         value, size = human(step.value_after, unit), human(abs(step.change), unit)
@@ -177,7 +161,7 @@ class Steps(Teller):
         key = "step.raise" if step.change > 0 else "step.lower"
         return self.say(key, figure=self.figure, size=size, share=share, value=value)
 
-    def _changed(self, step: Step) -> str:
+    def _changed(self, step: steps.Step) -> str:
         if not step.of_power:
             return self.say("step.rate", who=self._who(step), level=_level(step), change=self.change(step))
         if step.changes_nothing and not self.case.spends_all:
@@ -190,9 +174,9 @@ class Steps(Teller):
         more = self.say("step.rate_more" if step > 0 else "step.rate_less", step=self.worth(abs(step)))
         if not now + step > 0:
             return self.say("step.nothing_left", step=more, figure=self.figure, before=self.worth(now))
-        return self._reached(reach(self.case, now + step), "step.reached", before_w=spent_w, step=more)
+        return self._reached(steps.reach(self.case, now + step), "step.reached", before_w=spent_w, step=more)
 
-    def _reached(self, found: Reach, key: str, *, before_w: float, step: str = "") -> str:
+    def _reached(self, found: steps.Reach, key: str, *, before_w: float, step: str = "") -> str:
         told = {"figure": self.figure, "target": self.worth(found.target), "step": step}
         if np.isnan(found.power_w):
             out = "step.out_of_reach" if step else "step.not_kept"
@@ -204,7 +188,7 @@ class Steps(Teller):
         limited = not np.isnan(found.limit_w)
         return self.joined([said, self.say("step.limit", limit=human(found.limit_w, "W")) if limited else ""])
 
-    def _unmet(self, step: Step) -> str:
+    def _unmet(self, step: steps.Step) -> str:
         who = self._who(step)
         told = self.say("step.of_power" if step.of_power else "step.of_rate", level=_level(step), who=who)
         if not step.before.is_usable and step.after.is_usable:
@@ -212,7 +196,7 @@ class Steps(Teller):
         key = "step.no_longer" if step.before.is_usable else "step.still_not"
         return self.say(key, step=told, reason=self.why(step.after))
 
-    def _bound(self, step: Step) -> str:
+    def _bound(self, step: steps.Step) -> str:
         """What no allocation could do better, where the decision after the step is not proven optimal."""
         sign = -1.0 if self.case.falls else 1.0
         most = sign * step.most_change
@@ -221,14 +205,14 @@ class Steps(Teller):
         direction = self.say("step.down" if self.case.falls else "step.up")
         return self.say("step.bound", direction=direction, size=human(most, step.before.unit))
 
-    def _who(self, step: Step) -> str:
+    def _who(self, step: steps.Step) -> str:
         if step.user is not None:
             return self.name(step.user)
         spread = np.ptp(self.case.promised_bps[self.case.served]) > 0
         return self.say("step.everybody_more" if spread else "step.everybody", step=human(step.step, "bit/s"))
 
 
-def _level(step: Step) -> str:
+def _level(step: steps.Step) -> str:
     return human(step.level, "W" if step.of_power else "bit/s")
 
 

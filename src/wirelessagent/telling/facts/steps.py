@@ -22,7 +22,7 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.problem import Problem
 from wirelessagent.telling.facts.case import Case
 
-NOTHING = 1e-9
+_NOTHING = 1e-9
 """A share of the value that is no change of it."""
 _AT_THE_CEILING = 1e-6
 _ACCURACY = 1e-3
@@ -91,7 +91,7 @@ class Step:
     @property
     def changes_nothing(self) -> bool:
         """Whether the value is the same after the step."""
-        return abs(self.change) <= NOTHING * abs(self.before.value)
+        return abs(self.change) <= _NOTHING * abs(self.before.value)
 
     @property
     def value_after(self) -> float:
@@ -193,7 +193,7 @@ def for_the_total(case: Case) -> Case:
 
 def kept_by(case: Case, step: Step) -> Reach | None:
     """What power would keep the value where it was in spite of what more is promised; None where that is no matter."""
-    if step.of_power or not has_reach(case) or step.change >= -NOTHING * abs(step.before.value):
+    if step.of_power or not has_reach(case) or step.change >= -_NOTHING * abs(step.before.value):
         return None
     found = reach(case, step.before.value, step.problem)
     return None if np.isnan(found.power_w) else found
