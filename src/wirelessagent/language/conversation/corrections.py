@@ -37,8 +37,9 @@ def moved(words: Words) -> Intent | None:
     if isinstance(act, Serve) and act.alone and not denies(words.tokens):  # "no, 1 and 3" behind "only 1 and 2"
         return words.acts([dataclasses.replace(act, whom=Named(words.users))])
     users = tuple(user for user in words.users if user not in old)
-    figures = [*words.figures, *([words.replaced] if words.replaced is not None else [])]
-    denied = {*(f"{figure.value:g}" for figure in figures), *words.users} - {*users}
+    denied = words.denied | ({*words.users} - {*users})
+    if words.has("at_most") and not users and not isinstance(act, Limit):  # "only 8" behind "1 and 8"
+        users, denied = words.users, {*old} - {*words.users}
     if not users or not denied <= {*old}:
         return None
     gone = Named(tuple(user for user in old if user in denied or not denied))
@@ -64,14 +65,18 @@ def _scaled_another(words: Words, act: Scale) -> Intent | None:
 
 
 def _of_named(words: Words) -> list[tuple[Limit | LeaveOut | Serve, tuple[str, ...]]]:
-    """What was said last of named users, with them; the same of several is said once."""
-    said: dict[Limit | LeaveOut | Serve, tuple[str, ...]] = {}
-    for act in cast("list[Limit | LeaveOut | Serve]", words.last(Limit, LeaveOut, Serve)):
-        if isinstance(act.whom, Named):
-            same = dataclasses.replace(act, whom=Everybody(), words="")
-            said[same] = (*said.get(same, ()), *act.whom.users)
+    """What was said last of named users, of those who are denied where any are; the same of several is said once."""
     first = next((act.words for act in words.last(Limit)), "")
-    return [(dataclasses.replace(act, words=first), users) for act, users in said.items()]
+    for acts in (words.line.context.acts, *words.line.context.earlier[::-1]):
+        said: dict[Limit | LeaveOut | Serve, tuple[str, ...]] = {}
+        for act in acts:
+            if isinstance(act, Limit | LeaveOut | Serve) and isinstance(act.whom, Named):
+                same = dataclasses.replace(act, whom=Everybody(), words="")
+                said[same] = (*said.get(same, ()), *act.whom.users)
+        about = [(dataclasses.replace(act, words=first), users) for act, users in said.items()]
+        if not words.denied or any(words.denied & {*users} for _, users in about):
+            return about
+    return []
 
 
 def _meant(words: Words) -> tuple[str, ...]:
@@ -80,11 +85,11 @@ def _meant(words: Words) -> tuple[str, ...]:
     if not users or len(last) != 1:
         return ()
     ((act, named),) = last
-    if isinstance(act, Serve | LeaveOut):
+    instead = bool(words.denied & {*named})
+    if isinstance(act, Serve | LeaveOut) and (instead or not words.denied):
         return users
     if len(users) != 1:
         return ()
-    instead = words.replaced is not None and f"{words.replaced.value:g}" in named
     is_figure = value_of(words.figures[0], act.kind, act) is not None
     return users if instead or words.has("whose") or not is_figure else ()
 

@@ -5,6 +5,7 @@ Which limit it is of, for whom and in which unit is as the line says it, else as
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 import re
@@ -32,16 +33,20 @@ _FAR = 20.0
 def read_figure(words: Words) -> Intent | None:
     """The limit of which a line says the one figure; None for any other line."""
     further = ["been"] if words.has("suppose") else []
-    further += ["more", "less"] if words.has("to") or _says_anew(words) else []
-    if len(words.figures) != 1 or not words.only(*_SAID, *further):
+    further += ["more", "less"] if words.has("to", "up_to") or _says_anew(words) else []
+    replaced, strict = _replaced(words), words.replaced is not None
+    holding = [] if replaced is None else _holding(words, replaced)
+    figures = [figure for figure in words.figures if figure is not replaced]
+    if len(figures) != 1 or not words.only(*_SAID, *further) or words.has("instead") or (strict and not holding):
         return None
-    figure, corrects = words.figures[0], words.has("correct")
+    figure, corrects = figures[0], words.has("correct")
     if figure.kind == "bare" and words.has("serve") and not words.has("to"):  # "bring 3 back", who is served
         return None
     supposed = [act for one in words.last(Suppose) for act in one.acts if isinstance(act, Limit)]
     before = supposed or [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
     if corrects and words.taken_off:
         before = [act for act in stated(words.taken_off) if isinstance(act, Limit)]
+    before = holding or before
     kinds = _kinds_of(words, figure, before)
     if len(kinds) != 1:
         return None
@@ -49,7 +54,7 @@ def read_figure(words: Words) -> Intent | None:
     models = [act for act in before if act.kind == kind]
     model = _model(words, figure, kind, models)
     says_whose = words.users or words.spoken_of or words.has("others", "every", "both")
-    several = len({act.whom for act in models}) > 1 and not says_whose
+    several = len({act.whom for act in models}) > 1 and not says_whose and not holding
     if several and model is not None and corrects:
         users = [user for act in models if isinstance(act.whom, Named) for user in act.whom.users]
         return words.line.ask("whose_figure", text=figure.text, users=words.line.voice.users(users))
@@ -59,22 +64,42 @@ def read_figure(words: Words) -> Intent | None:
     if _caps(words) and kind not in ("max_rate_bps", *UNITS["power"]):
         return None
     value, whom = value_of(figure, kind, model), _whom(words, kind, model)
-    if value is None or whom is None or not _leans(words, figure, model, supposes=bool(supposed)):
-        return None
-    replaced = words.replaced
-    if words.has("instead") or (
-        replaced is not None and value_of(replaced, kind, model) not in figures_of(words.held.get(kind))
-    ):
+    if value is None or whom is None or not (holding or _leans(words, figure, model, supposes=bool(supposed))):
         return None
     wondered = words.line.is_asked or words.has("suppose") or supposed
     orders = is_ordered(words.line.text) and not words.line.is_asked
     if not wondered or words.has("take", "make", "correct") or orders:
         said = f"{figure.value:g} {_unit(model)}" if _is_bare(figure, kind) and model is not None else figure.text
-        return words.acts([Limit(kind=kind, value=value, whom=whom, words=said)])
+        theirs = [act.whom for act in models] if holding and not says_whose else [whom]
+        return words.acts([Limit(kind=kind, value=value, whom=whose, words=said) for whose in theirs])
     if isinstance(whom, Others) or not (words.has("suppose") or supposed):
         return None
     users = dict.fromkeys(whom.users, value) if isinstance(whom, Named) else value
     return words.line.question("what_if", constraints={kind: users})
+
+
+def _replaced(words: Words) -> Quantity | None:
+    """The figure in whose place the line has another one: "the 800 should be 600", "14, no, 13 W"."""
+    if words.replaced is not None or words.corrected is not None:
+        return words.replaced or words.corrected
+    said = [token for token in words.tokens if not token.classes <= {"skip"} or token.figure]
+    return next((
+        first.figure for first, become, then in zip(said, said[1:], said[2:], strict=False)
+        if first.figure and then.figure and become.classes & {"make", "revise", "to"} and _holding(words, first.figure)
+    ), None)  # fmt: skip
+
+
+def _holding(words: Words, figure: Quantity) -> list[Limit]:
+    """The limits that hold with a figure."""
+    found = list[Limit]()
+    for kind, held in words.held.items():
+        own = held.items() if isinstance(held, Mapping) else [(EVERYBODY, held)]
+        for user, value in own:
+            act = Limit(kind=kind, value=value) if isinstance(value, float) else None
+            if act is not None and math.isclose(value_of(figure, kind, act) or 0.0, act.value):
+                common: Whom = Others() if isinstance(held, Mapping) else Everybody()
+                found.append(dataclasses.replace(act, whom=common if user == EVERYBODY else Named((user,))))
+    return found
 
 
 def _says_anew(words: Words) -> bool:

@@ -90,10 +90,10 @@ def read_fragment(line: Line) -> Intent | None:
 
 def _read(words: Words) -> Intent | None:
     """What the first form means that a line has and that means something."""
-    words, forms = _corrected_at_once(words), _FORMS
+    forms = _FORMS
     if words.line.is_asked:
         forms = tuple(form for form in _FORMS if form.asked)
-    elif denies(words.tokens):
+    elif denies(words.tokens) or words.denies_users:
         forms = _FORMS[:1]
     found = (form.read(words) for form in forms if form.fits(words))
     return next((intent for intent in found if intent is not None), None)
@@ -150,18 +150,6 @@ def _without_a_description(line: Line) -> Line:
     words = match["words"]
     place = line.text.lower().find(words)
     return line if place < 0 else Line.of(line.text[:place] + line.text[place + len(words) :], line.context)
-
-
-def _corrected_at_once(words: Words) -> Words:
-    """A line with what stands behind a correction in the place of what it corrects: "a bit less... no, a third"."""
-    tokens = list(enumerate(words.tokens))
-    place = next((at for at, each in tokens[::-1] if "correct" in each.classes and "instead" not in each.classes), 0)
-    ahead, behind = words.tokens[:place], words.tokens[place + 1 :]
-    users, figures = any(token.users for token in behind), any(token.figure or token.factor for token in behind)
-    gone = {*(("users",) if users else ()), *(("figure", "bare", "ratio", "factor", "vague") if figures else ())}
-    kept = [token for token in ahead if not token.classes & gone]
-    said = any(token.classes - {"skip", "correct", "lead"} for token in ahead)
-    return Words(words.line, [*kept, *behind], words.language) if said and len(kept) < len(ahead) else words
 
 
 def _takes_back(line: Line) -> bool:

@@ -88,13 +88,14 @@ def words_of(line: Line) -> Iterator[Words]:
 
 
 def speaks_of_one(plain: str, of: str = "pronoun") -> bool:
-    """Whether a pronoun, or a word of another class, is among the words."""
-    words = set(_WORD.findall(_unmarked(plain.lower())))
+    """Whether a pronoun, or words of another class, are in the text."""
+    low = plain.lower()
+    said = f" {' '.join(_WORD.findall(low))} {' '.join(_WORD.findall(_unmarked(low)))} "
     return any(
-        word in words if word.isascii() else word in plain
+        f" {' '.join(_WORD.findall(word))} " in said if word.isascii() else word in low
         for language in languages_of(plain)
         for word, token in _table(language)[0].items()
-        if of in token.classes and " " not in word
+        if of in token.classes
     )
 
 
@@ -140,30 +141,31 @@ def tokens_of(line: Line, language: str) -> list[Token] | None:
             spans[factor.start] = (factor.end, Token(frozenset({"factor"}), factor=float(factor.value)))
     for figure in figures:
         spans[figure.start] = (figure.end, Token(frozenset({_CLASS.get(figure.kind, figure.kind)}), figure=figure))
-    return _segmented(plain, spans, language)
+    return _segmented(marked.lower(), spans, language)
 
 
-def _segmented(plain: str, spans: Mapping[int, tuple[int, Token]], language: str) -> list[Token] | None:
+def _segmented(marked: str, spans: Mapping[int, tuple[int, Token]], language: str) -> list[Token] | None:
     found: list[Token] = []
     words, longest = _table(language)
-    place = 0
+    plain, place = _unmarked(marked), 0
     while place < len(plain):
         space = _SPACE.match(plain, place)
         if space is not None:
             place = space.end()
         else:
             ends = range(min(len(plain), place + longest), place, -1)
-            end = next((end for end in ends if plain[place:end] in words and _is_whole(plain, place, end)), None)
-            if place in spans and (end is None or words[plain[place:end]].factor is None or end <= spans[place][0]):
+            known = ((end, words.get(marked[place:end]) or words.get(plain[place:end])) for end in ends)
+            end, word = next(
+                ((end, word) for end, word in known if word and _is_whole(plain, place, end)), (place, None)
+            )
+            if place in spans and (word is None or word.factor is None or end <= spans[place][0]):
                 place, token = spans[place]
                 found.append(token)
                 continue
-            if end is None:
-                return None
             inside = place not in spans and any(place < start < end for start in spans)
-            if inside and words[plain[place:end]].factor is None:
+            if word is None or (inside and word.factor is None):
                 return None
-            found.append(words[plain[place:end]])
+            found.append(word)
             place = end
     return found
 
@@ -189,9 +191,11 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
     lifted = cast("Mapping[str, list[str]]", table("figures", language)["lifted"])
     of_classes = [(name, word) for name in listed.keys() - {"factors"} for word in cast("list[str]", listed[name])]
     of_classes += [(name, word) for limit, name in _LIFTED.items() for word in lifted.get(limit, ())]
+    spelt = {word for _, word in of_classes}
     for name, word in of_classes:
+        own = word if _unmarked(word) in spelt else _unmarked(word)  # "él" is no "el", and "maximo" is "máximo"
         for ending in _ENDINGS if "*" in word else ("",):
-            classes.setdefault(_unmarked(word.replace("*", ending)), set()).add(name)
+            classes.setdefault(own.replace("*", ending), set()).add(name)
     factors = {_unmarked(word): factor for word, factor in factors.items()}
     for word in factors:
         classes.setdefault(word, set()).add("factor")
@@ -199,33 +203,59 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
     return tokens, max(map(len, tokens))
 
 
-def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], Quantity | None]:
-    """The tokens without the figure that another replaces ("300 rather than 200", "500 was too much, 400"), and it.
+_COUNTED = frozenset({"figure", "bare", "ratio", "factor", "vague"})
+_NO_USER = frozenset({"make", "to", "by", "more", "less", "revise", "at_most", "instead", "undo", "change_noun"})
+_CORRECTED = Token(frozenset({"correct", "skip"}))
+"""What stays in the place of what a line denies."""
+
+
+def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], list[Token]]:
+    """The tokens without what others replace, and that: "300 rather than 200", "500 was too much, 400", "not user 3".
 
     What holds was too much in "too much, make it 9", which says nothing more.
     """
-    kept = list(tokens)
+    kept, gone = list(tokens), list[Token]()
     said = [token for token in kept if not token.classes <= {"skip"} or token.figure]
-    replaced: Quantity | None = None
     for token, behind in itertools.pairwise(said):
-        gone = behind if "instead" in token.classes else token if "too_much" in behind.classes else None
-        counted = [each for each in kept if each.figure or each.factor]
-        if gone is not None and gone in counted and len(counted) > 1:
-            kept, replaced = [each for each in kept if each is not token and each is not behind], gone.figure
+        over = behind if "instead" in token.classes else token if "too_much" in behind.classes else None
+        counted = [each for each in kept if each.figure or each.factor or each.users]
+        if over is not None and any(over is each for each in counted) and len(counted) > 1:
+            stays = [_CORRECTED] if over is behind else []
+            kept = [*(each for each in kept if each is not token and each is not behind), *stays]
+            gone.append(over)
     first = next((place for place, token in enumerate(kept) if token.figure is not None), 0)
-    return [token for token in kept[:first] if "too_much" not in token.classes] + kept[first:], replaced
+    return [token for token in kept[:first] if "too_much" not in token.classes] + kept[first:], gone
+
+
+def _corrected_at_once(tokens: Sequence[Token]) -> tuple[list[Token], list[Token]]:
+    """The tokens with what stands behind a correction in the place of what it corrects, and what that was.
+
+    "A bit less... no, a third", "I said 5 but meant 6".
+    """
+    corrects = (each is not _CORRECTED and {*each.classes} & {"correct", "instead"} == {"correct"} for each in tokens)
+    places = [at for at, it_does in enumerate(corrects) if it_does]
+    ahead, behind = (tokens[: places[-1]], tokens[places[-1] + 1 :]) if places else ((), tokens)
+    users, figures = any(token.users for token in behind), any(token.figure or token.factor for token in behind)
+    gone = {*(("users",) if users else ()), *(_COUNTED if figures else ())}
+    over = [token for token in ahead if token.classes & gone]
+    said = over and any(token.classes - {"skip", "correct", "lead"} for token in ahead)
+    return ([token for token in ahead if not token.classes & gone] + [*behind], over) if said else ([*tokens], [])
 
 
 def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:
-    """The tokens with bare numbers behind "for" as users whose another figure or share is: "triple for 5 and 6"."""
-    changed = list(tokens)
-    for place, (ahead, token) in enumerate(itertools.pairwise(tokens), start=1):
-        others = any(each.figure or each.factor for each in tokens if each is not token)
-        figure = token.figure
-        counts = figure is not None and figure.kind == "bare" and figure.value in range(1, num_users + 1)
-        listed = "lead" in ahead.classes and bool(changed[place - 2].users)
-        if counts and others and ("whose" in ahead.classes or listed) and not any(each.users for each in tokens):
-            assert figure is not None
+    """The tokens with bare numbers as users where they are whose another figure or share is: "triple for 5 and 6"."""
+    changed, nobody = list(tokens), Token(frozenset())
+    shared = any(token.factor for token in tokens)
+    several = any(token.users for token in tokens)
+    for place, token in enumerate(tokens):
+        ahead, behind = tokens[place - 1] if place else nobody, [*tokens, nobody][place + 1]
+        figure, others = token.figure, any(each.figure or each.factor for each in tokens if each is not token)
+        if figure is None or figure.kind != "bare" or figure.value not in range(1, num_users + 1):
+            continue
+        listed = "lead" in ahead.classes and place > 1 and bool(changed[place - 2].users)
+        whose = not several and ("whose" in ahead.classes or listed)
+        clear = "possessed" in behind.classes or (shared and not ahead.classes & _NO_USER)
+        if others and (whose or clear) and not behind.classes & {"change_noun"}:
             changed[place] = Token(frozenset({"users"}), users=(f"{figure.value:g}",))
     return changed
 
@@ -236,11 +266,33 @@ class Words:
     def __init__(self, line: Line, tokens: Sequence[Token], language: str) -> None:
         self.line, self.language = line, language
         self.was_too_much = any("too_much" in token.classes for token in tokens)
-        kept, self.replaced = _without_what_goes(tokens)
+        kept, gone = _without_what_goes(tokens)
+        kept, corrected = _corrected_at_once(kept)
+        self.replaced = next((token.figure for token in gone if token.figure is not None), None)
+        self.corrected = next((token.figure for token in corrected if token.figure is not None), None)
+        numbers = [token.figure for token in (*gone, *corrected) if token.figure and token.figure.kind == "bare"]
+        self.denied = {user for token in (*gone, *corrected) for user in token.users}
+        self.denies_users = any(token.users for token in gone)
+        self.denied |= {f"{figure.value:g}" for figure in numbers}
         self.tokens = tokens = _with_whose(kept, len(line.context.user_names))
         self.figures = [token.figure for token in tokens if token.figure is not None]
         self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
         self.held = line.context.constraints
+        self.users = self.users or self._all_of_them()
+        self.about: tuple[str, ...] = ()
+        """The user of whom a clause before this one tells."""
+
+    def _all_of_them(self) -> tuple[str, ...]:
+        """ "All three of those": the users with figures of their own, where they are so many."""
+        for (at, ahead), (_, token) in itertools.pairwise(enumerate(self.tokens)):
+            if token.figure is not None and "plural" in ahead.classes and not token.figure.text[:1].isdigit():
+                several = {own_users(held) for held in self.held.values()}
+                them = [users for users in several if len(users) == token.figure.value]
+                if len(them) == 1 and token.figure in self.figures[:1] and len(self.figures) > 1:
+                    del self.figures[0]
+                    self.tokens = [*self.tokens[:at], Token(frozenset({"users"}), users=them[0]), *self.tokens[at + 2 :]]
+                    return them[0]
+        return ()
 
     def has(self, *names: str) -> bool:
         """Whether a word is in one of these classes."""
@@ -290,6 +342,8 @@ class Words:
             return Named(self.users)
         if self.has("others"):
             return Others()
+        if self.has("every") and self.has("remove"):  # "forget the weights, they all count the same"
+            return Everybody()
         if self.spoken_of is not None:
             return self.spoken_of
         if self.has("pronoun") and isinstance(self.last_whom(), Named):
