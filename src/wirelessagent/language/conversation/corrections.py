@@ -22,7 +22,7 @@ def denies(tokens: Sequence[Token]) -> bool:
 def moved(words: Words) -> Intent | None:
     """ "no, user 5", "I mean user 6, not 3", "for 3": what was said last of one user, of another."""
     words.users = words.users or _meant(words)
-    if not words.users:
+    if not words.users or (words.is_unsure and not (words.denied and _of_named(words))):
         return None
     if words.taken_off:
         return _taken_off_another(words)
@@ -73,8 +73,9 @@ def _of_named(words: Words) -> list[tuple[Limit | LeaveOut | Serve, tuple[str, .
             if isinstance(act, Limit | LeaveOut | Serve) and isinstance(act.whom, Named):
                 same = dataclasses.replace(act, whom=Everybody(), words="")
                 said[same] = (*said.get(same, ()), *act.whom.users)
-        about = [(dataclasses.replace(act, words=first), users) for act, users in said.items()]
-        if not words.denied or any(words.denied & {*users} for _, users in about):
+        about = [(dataclasses.replace(act, words=first), users) for act, users in said.items()
+                 if not words.denied or words.denied & {*users}]  # fmt: skip
+        if about or not words.denied:
             return about
     return []
 

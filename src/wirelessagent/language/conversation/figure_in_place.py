@@ -166,7 +166,7 @@ def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: boo
     if len(words.named_kinds()) == 1:
         classes += ["make", "promise"] if words.users else ["make", "limit", "to"]
     says_nothing_else = all(token.figure or "skip" in token.classes for token in words.tokens)
-    alone = model is not None and words.line.context.awaits == "nothing" and says_nothing_else
+    alone = bool(words.about) or model is not None and words.line.context.awaits == "nothing" and says_nothing_else
     leans = alone or words.has(*classes) or (words.has("limit", "power") and figure.kind == "power")
     if not leans or (words.has("by") and words.has("make")):
         return False

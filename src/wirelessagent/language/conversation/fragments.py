@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from wirelessagent.language.acts import (
@@ -27,22 +27,22 @@ from wirelessagent.language.acts import (
 from wirelessagent.language.conversation.corrections import denies, moved
 from wirelessagent.language.conversation.figure_in_place import figures_of, read_figure
 from wirelessagent.language.conversation.limits_off import dropped, restored
-from wirelessagent.language.conversation.line import Line, begins, is_all
-from wirelessagent.language.conversation.relative import read_relative, read_repeated
-from wirelessagent.language.conversation.tokens import NOUNS, Words, speaks_of_one, tokens_of, words_of
+from wirelessagent.language.conversation.line import Line, is_all
+from wirelessagent.language.conversation.relative import read_of_another, read_relative, read_repeated
+from wirelessagent.language.conversation.tokens import NOUNS, Token, Words, changed_by, speaks_of_one, words_of
 from wirelessagent.language.conversation.who_is_served import all_served, both_served, left_out, of_whom, served
 from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
 from wirelessagent.language.moods import is_ordered
-from wirelessagent.language.text import languages_of, normalise
+from wirelessagent.language.text import normalise
 
 _LONGEST = 120
-_SHORT = 40
 _MOST_STEPS = 20
-_FIRST_NUMBER = re.compile(r"\s*(\d{1,3})\s+(?=[^\W\d_]{2,}\s)")
+_FIRST_NUMBER = re.compile(r"\s*(?:[^\W\d_]{2,3}\s)?(\d{1,3})\s+(?=[^\W\d_]\S+\s)")
 _NUMBER = re.compile(r"(?<![A-Za-z\d.])\d++(?:\.\d+)?+(?![A-Za-z])")  # "7", and no "4K"
-_BUT = re.compile(r"(?:\s(?=(?:but|and)\s)|(?=但|而))(.+)$")
-_LAST_CLAUSE = re.compile(r"(?:[,;.!](?!\d)|[，；。！])\s*((?:[^,，;；.。!！]|[,.](?=\d))+)[.。!！\s]*$")
+_STOP = re.compile(r"\s*(?:[,;.!:](?!\d)|[，；。！：])\s*")
+_AND = re.compile(rf"{_STOP.pattern}|\s+(?=(?:and|but|und|aber|y|pero|et|mais)\s)|(?=但|而)")
+_ENDS = " .!。！"
 
 
 @dataclass(frozen=True)
@@ -75,16 +75,7 @@ def read_fragment(line: Line) -> Intent | None:
     open_ = context.pending or context.pending_objective or whose or context.offered or context.guess
     if context.objective is None or (context.awaits == "clarification" and open_) or len(line.text) > _LONGEST:
         return None
-    if _takes_back(line):
-        return line.command("undo", steps=1.0)
-    line = _without_a_description(_without_what_stays(line))
-    order = _order_about_one(line)
-    found = [_read(words) for words in words_of(line)]
-    if order is not None:
-        found += [_read(words) for words in words_of(order) if words.spoken_of is not None]
-    figure = _behind_a_story(line)
-    if figure is not None:
-        found += [read_figure(words) or read_relative(words) for words in words_of(figure)]
+    found = (_read_told(story, rest) for story, rest in _told(_without_what_stays(line)))
     return next((intent for intent in found if intent is not None), None)
 
 
@@ -93,10 +84,78 @@ def _read(words: Words) -> Intent | None:
     forms = _FORMS
     if words.line.is_asked:
         forms = tuple(form for form in _FORMS if form.asked)
-    elif denies(words.tokens) or words.denies_users:
+    elif words.is_unsure or denies(words.tokens) or words.denies_users:
         forms = _FORMS[:1]
     found = (form.read(words) for form in forms if form.fits(words))
     return next((intent for intent in found if intent is not None), None)
+
+
+def _told(line: Line) -> Iterator[tuple[Line, Line]]:
+    """What a line only tells, and what it says behind that: nothing and all of it, or its last clauses.
+
+    A correction ahead is of what is said last: "sorry, I was half asleep, user 5".
+    """
+    yield Line.of("", line.context), line
+    stops = [] if line.is_asked else list(_STOP.finditer(line.text.rstrip(_ENDS)))
+    head = line.text[: stops[0].end()] if stops else ""
+    heads = (words.only("correct", "lead") for words in words_of(Line.of(head, line.context)))
+    head = head if any(heads) else ""
+    for stop in stops:
+        story = Line.of(line.text[len(head) : stop.start()], line.context)
+        if stop.start() >= len(head) and (users := _only_told(story)) is not None:
+            context = dataclasses.replace(line.context, spoken_of=users or line.context.spoken_of)
+            yield dataclasses.replace(story, users=users), Line.of(head + line.text[stop.end() :], context)
+
+
+def _only_told(story: Line) -> tuple[str, ...] | None:
+    """The users of whom a clause only tells, and asks for nothing: "user 7 has paid"; None for any other clause."""
+    first, context = _FIRST_NUMBER.match(story.text), story.context
+    numbered = first is not None and int(first[1]) in range(1, len(context.user_names) + 1)
+    users = story.users or ((first[1],) if first is not None and numbered else ())
+    if is_ordered(story.text) or any(True for _ in words_of(story)) or tells_no_mere_fact(story.text):
+        return None
+    held = {figure for limit in context.constraints.values() for figure in figures_of(limit)}
+    known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)} | {*users}
+    new = {figure.value for figure in story.figures} - held or {*_NUMBER.findall(story.text)} - known
+    return None if story.is_asked or new or story.sentence.goal.objective else users
+
+
+def _read_told(story: Line, rest: Line) -> Intent | None:
+    """What a line does behind what it tells: "user 7 has paid, let him back in", "power's too high, halve it"."""
+    each = _clause_by_clause(rest)
+    if each is not None:
+        return each
+    for words in words_of(rest, lenient=not (story.text or rest.is_asked)):
+        if story.text:
+            words.is_told = True
+            if words.has("it"):
+                words.tokens += [Token(frozenset({noun, "skip"})) for noun in NOUNS if speaks_of_one(story.text, noun)]
+            if story.users and words.spoken_of is None:
+                if words.users or words.has("others", "every", "both", "power", "certainty"):
+                    continue
+                words.about = story.users
+                if {figure.kind for figure in words.figures} == {"rate"}:
+                    words.users = story.users
+                elif not words.has("leave", "serve", "too"):
+                    continue
+        intent = _read(words)
+        if intent is not None:
+            return intent
+    return None
+
+
+def _clause_by_clause(line: Line) -> Intent | None:
+    """What a line does that says several things, each of its clauses one of them: "4 in, 1 out"."""
+    clauses = [Line.of(each, line.context) for each in _AND.split(line.text.rstrip(_ENDS)) if each.strip()]
+    acts = list[Act]()
+    for clause in clauses if len(clauses) > 1 and not line.is_asked else ():
+        context = dataclasses.replace(line.context, acts=tuple(acts) or line.context.acts)
+        found = [(words, _read(words)) for words in words_of(dataclasses.replace(clause, context=context))]
+        done = [each for words, each in found if each and each.acts and not words.has("correct", "instead", "it")]
+        if not done:
+            return None
+        acts += done[0].acts
+    return changed_by(line, acts) if acts else None
 
 
 def read_wondered(line: Line) -> Intent | None:
@@ -105,61 +164,11 @@ def read_wondered(line: Line) -> Intent | None:
     return next((intent for intent in found if intent is not None), None)
 
 
-def _order_about_one(line: Line) -> Line | None:
-    """What is ordered of one user behind a clause that only tells of that user: "user 7 has paid, let him back in"."""
-    clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or line.is_asked:
-        return None
-    story = Line.of(line.text[: clause.start()], line.context)
-    first = _FIRST_NUMBER.match(story.text)
-    numbered = first is not None and int(first[1]) in range(1, len(line.context.user_names) + 1)
-    users = story.users or ((first[1],) if first is not None and numbered else ())
-    acts = story.figures or is_ordered(story.text) or any(True for _ in words_of(story))
-    if len(users) != 1 or acts or story.is_asked or tells_no_mere_fact(story.text):
-        return None
-    return Line.of(clause[1], dataclasses.replace(line.context, spoken_of=users))
-
-
-def _behind_a_story(line: Line) -> Line | None:
-    """What is said last behind a clause that only tells of nobody, or of what holds: "ouch. 95 will do"."""
-    clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or line.is_asked:
-        return None
-    story = Line.of(line.text[: clause.start()], line.context)
-    held = {figure for limit in line.context.constraints.values() for figure in figures_of(limit)}
-    known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)}
-    new = {figure.value for figure in story.figures} - held or set(_NUMBER.findall(story.text)) - known
-    acts = is_ordered(story.text) or any(True for _ in words_of(story))
-    if story.users or acts or new or story.is_asked or tells_no_mere_fact(story.text):
-        return None
-    return None if story.sentence.goal.objective else Line.of(clause[1], line.context)
-
-
 def _without_what_stays(line: Line) -> Line:
     """The line without a last clause that only says what stays: "…, but keep the promise to user 3"."""
-    clause = _LAST_CLAUSE.search(line.text) or _BUT.search(line.text)
-    stays = clause is not None and is_all("kept", Line.of(clause[1], line.context).shape.rstrip(".!。 "))
-    return Line.of(line.text[: clause.start()], line.context) if clause is not None and stays else line
-
-
-def _without_a_description(line: Line) -> Line:
-    """The line without what it says about its user beside what it wants: "oops, the hospital is user 8, not 3"."""
-    match = begins("described", line.shape)
-    if match is None or not line.users:
-        return line
-    words = match["words"]
-    place = line.text.lower().find(words)
-    return line if place < 0 else Line.of(line.text[:place] + line.text[place + len(words) :], line.context)
-
-
-def _takes_back(line: Line) -> bool:
-    """Whether the last clause of a short line is an undo and nothing else: "call's over, undo that"."""
-    clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or len(line.text) > _SHORT or line.is_asked:
-        return False
-    last = Line.of(clause[1], line.context)
-    read = ((tokens_of(last, language), language) for language in languages_of(line.text))
-    return any(_is_undo(Words(last, tokens, language), "again") for tokens, language in read if tokens)
+    stops = list(_AND.finditer(line.text.rstrip(_ENDS)))
+    stays = stops and is_all("kept", Line.of(line.text[stops[-1].end() :], line.context).shape.rstrip(_ENDS))
+    return Line.of(line.text[: stops[-1].start()], line.context) if stays else line
 
 
 def _is_undo(words: Words, *further: str) -> bool:
@@ -179,26 +188,8 @@ def _steps_undone(words: Words) -> Intent | None:
 def _undone(words: Words) -> Intent | None:
     """ "nah, undo that", "undo the raise"."""
     further = ("correct", "lead", "again", "too", "remove", *(NOUNS if words.has("remove") else ()))
-    says_more = words.has("make", "more", "less", "correct", "too") or not words.is_read  # else a command is known
+    says_more = words.is_told or words.has("make", "more", "less", "correct", "too") or not words.is_read
     return words.line.command("undo", steps=1.0) if says_more and _is_undo(words, *further) else None
-
-
-def _as_another(words: Words) -> Intent | None:
-    """ "user 8 the same as user 3", "user 5 like the others": the one figure of a user, or that of all, for another."""
-    if words.has("others", "every"):
-        own = [kind for kind in FIGURES_OF_USERS if words.users and isinstance(held := words.held.get(kind), Mapping)
-               and EVERYBODY in held and set(words.users) <= held.keys()]  # fmt: skip
-        return words.acts([Drop(kind=kind, whom=Named(words.users), own=True) for kind in own]) if own else None
-    named = [token.users for token in words.tokens if token.users]
-    named += [words.counted()] if len(named) == 1 and words.counted() else []
-    if len(named) == 1 and len(named[0]) == 2:  # "用户5和用户2一样", one list of two
-        named = [(user,) for user in named[0]]
-    if len(named) != 2 or len(named[1]) != 1:
-        return None
-    figures = [(kind, value[named[1][0]]) for kind in FIGURES_OF_USERS
-               if isinstance(value := words.held.get(kind), Mapping) and named[1][0] in value]  # fmt: skip
-    acts = [Limit(kind=kind, value=value, whom=Named(named[0])) for kind, value in figures]
-    return words.acts(acts) if len(acts) == 1 else None
 
 
 def _again(words: Words) -> Intent | None:
@@ -266,6 +257,7 @@ def _corrected(words: Words) -> Intent | None:
     return None if "outage_probability" in words.line.context.stated else words.line.ask("what_changes")
 
 
+_ANOTHER = "users bare lead weight rate promise again others every make it"
 _OF_USERS = "users bare lead again pronoun one"
 _GONE = "it users bare every others both pronoun one own again lead correct more by"
 _NOUNS = " ".join(NOUNS)
@@ -273,7 +265,7 @@ _FORMS = (
     Form("correct", "users bare lead it revise whose", moved),
     Form("undo", "bare factor change_noun lead again", _steps_undone),
     Form("undo", "correct it lead again make more less factor rate limit promise power weight too remove", _undone),
-    Form("too|equal", "users bare lead weight rate promise again others every make it", _as_another),
+    Form("too|equal|factor|ratio", f"{_ANOTHER} more less both pronoun one than grant possessed limit", read_of_another),
     Form("again", "lead", _again),
     Form("again", "lead it take", read_repeated),
     Form("take", "it", _taken_up),

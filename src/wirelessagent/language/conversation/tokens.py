@@ -19,7 +19,7 @@ from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.numerals import factors, numbers
 from wirelessagent.language.quantities import Quantity, parse_quantities
-from wirelessagent.language.text import CJK, languages_of, normalise, unaccented
+from wirelessagent.language.text import CJK, has_chinese, languages_of, normalise, unaccented
 from wirelessagent.language.word_tables import table
 
 UNITS: Mapping[str, tuple[str, ...]] = {
@@ -78,11 +78,11 @@ class Token:
     factor: float | None = None
 
 
-def words_of(line: Line) -> Iterator[Words]:
-    """The line word by word in each language that it may be in and that knows all of its words."""
+def words_of(line: Line, *, lenient: bool = False) -> Iterator[Words]:
+    """The line word by word in each language that it may be in and that knows all of its words, or is ``lenient``."""
     spoken = [line.context.language] if line.context.language else []
     for language in dict.fromkeys([*spoken, *languages_of(line.text)]):
-        tokens = tokens_of(line, language)
+        tokens = tokens_of(line, language, lenient=lenient)
         if tokens:
             yield Words(line, tokens, language)
 
@@ -104,8 +104,8 @@ def own_users(held: Constraint | None) -> tuple[str, ...]:
     return tuple(user for user in held if user != EVERYBODY) if isinstance(held, Mapping) else ()
 
 
-def tokens_of(line: Line, language: str) -> list[Token] | None:
-    """The line as words that are known here; None where one is not."""
+def tokens_of(line: Line, language: str, *, lenient: bool = False) -> list[Token] | None:
+    """The line as words that are known here; None where one is not, unless it is told of who is meant instead."""
     marked = normalise(line.text)
     plain = _unmarked(marked.lower())
     figures = [
@@ -141,10 +141,12 @@ def tokens_of(line: Line, language: str) -> list[Token] | None:
             spans[factor.start] = (factor.end, Token(frozenset({"factor"}), factor=float(factor.value)))
     for figure in figures:
         spans[figure.start] = (figure.end, Token(frozenset({_CLASS.get(figure.kind, figure.kind)}), figure=figure))
-    return _segmented(marked.lower(), spans, language)
+    return _segmented(marked.lower(), spans, language, lenient)
 
 
-def _segmented(marked: str, spans: Mapping[int, tuple[int, Token]], language: str) -> list[Token] | None:
+def _segmented(
+    marked: str, spans: Mapping[int, tuple[int, Token]], language: str, lenient: bool
+) -> list[Token] | None:
     found: list[Token] = []
     words, longest = _table(language)
     plain, place = _unmarked(marked), 0
@@ -163,7 +165,9 @@ def _segmented(marked: str, spans: Mapping[int, tuple[int, Token]], language: st
                 found.append(token)
                 continue
             inside = place not in spans and any(place < start < end for start in spans)
-            if word is None or (inside and word.factor is None):
+            if word is None and lenient and (unknown := _WORD.match(plain, place)) is not None:
+                word, end = _UNKNOWN, place + 1 if has_chinese(unknown[0]) else unknown.end()
+            elif word is None or (inside and word.factor is None):
                 return None
             found.append(word)
             place = end
@@ -205,6 +209,7 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
 
 _COUNTED = frozenset({"figure", "bare", "ratio", "factor", "vague"})
 _NO_USER = frozenset({"make", "to", "by", "more", "less", "revise", "at_most", "instead", "undo", "change_noun"})
+_UNKNOWN = Token(frozenset({"unknown", "skip"}))
 _CORRECTED = Token(frozenset({"correct", "skip"}))
 """What stays in the place of what a line denies."""
 
@@ -280,7 +285,9 @@ class Words:
         self.held = line.context.constraints
         self.users = self.users or self._all_of_them()
         self.about: tuple[str, ...] = ()
-        """The user of whom a clause before this one tells."""
+        """The users of whom a clause before this one tells."""
+        self.is_told = False
+        self.is_unsure = any(token is _UNKNOWN for token in tokens)
 
     def _all_of_them(self) -> tuple[str, ...]:
         """ "All three of those": the users with figures of their own, where they are so many."""
@@ -364,14 +371,18 @@ class Words:
         return [act for act in self.line.context.acts if isinstance(act, kinds)]
 
     def acts(self, acts: Sequence[Act], details: Mapping[str, Detail] | None = None) -> Intent:
-        """A change of the request by these acts."""
-        stated: dict[str, Constraint] = {}
-        for act in acts:
-            if isinstance(act, Limit):
-                named = act.whom.users if isinstance(act.whom, Named) else None
-                stated[act.kind] = act.value if named is None else dict.fromkeys(named, act.value)
-            elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
-                stated["leave_out"] = act.whom.users
-        dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
-        intent = self.line.amend(stated, dropped=dropped, details=details)
-        return dataclasses.replace(intent, acts=tuple(acts))
+        return changed_by(self.line, acts, details)
+
+
+def changed_by(line: Line, acts: Sequence[Act], details: Mapping[str, Detail] | None = None) -> Intent:
+    """A change of the request by these acts."""
+    stated: dict[str, Constraint] = {}
+    for act in acts:
+        if isinstance(act, Limit):
+            named = act.whom.users if isinstance(act.whom, Named) else None
+            stated[act.kind] = act.value if named is None else dict.fromkeys(named, act.value)
+        elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
+            stated["leave_out"] = act.whom.users
+    dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
+    intent = line.amend(stated, dropped=dropped, details=details)
+    return dataclasses.replace(intent, acts=tuple(acts))

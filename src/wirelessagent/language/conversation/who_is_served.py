@@ -28,7 +28,7 @@ def of_whom(words: Words) -> tuple[str, ...]:
     """The users of a line that says no figure: by name, by number, or the one who was spoken of."""
     if words.users:
         return () if words.figures else words.users
-    return words.counted() or (words.spoken_of.users if words.spoken_of else ())
+    return words.counted() or (words.spoken_of.users if words.spoken_of else words.about)
 
 
 def served(words: Words) -> Intent | None:
