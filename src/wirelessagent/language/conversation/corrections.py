@@ -8,7 +8,7 @@ from typing import cast
 
 from wirelessagent.language.acts import Act, Drop, Everybody, LeaveOut, Limit, Named, Scale, Serve
 from wirelessagent.language.conversation.figure_in_place import value_of
-from wirelessagent.language.conversation.tokens import Token, Words
+from wirelessagent.language.conversation.tokens import Token, Words, own_users
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
 
 
@@ -111,3 +111,16 @@ def _taken_off_another(words: Words) -> Intent | None:
     back = [Limit(kind=kind, value=value, whom=Named((user,))) for user, value in stated.items()]
     off = Drop(kind=kind, whom=Named(tuple(gone)))
     return words.acts([*back, off], {"taken_off": {kind: gone}}) if len(gone) == len(words.users) else None
+
+
+def swapped(words: Words) -> Intent | None:
+    """ "The other way round": two users, with figures of their own, have each other's."""
+    last = [act for act in words.last(Limit, Scale) if act.kind in FIGURES_OF_USERS]
+    for kind in words.named_kinds() or [act.kind for act in last] or FIGURES_OF_USERS:
+        held, named = words.held.get(kind), [act.whom.users for act in last if isinstance(act.whom, Named)]
+        users = words.users or tuple(dict.fromkeys(user for users in named for user in users))
+        users = own_users(held) if len(users) != 2 and not words.users else users
+        if len(users) == 2 and isinstance(held, Mapping) and {*users} <= held.keys():
+            each = zip(users, users[::-1], strict=True)
+            return words.acts([Limit(kind=kind, value=held[other], whom=Named((user,))) for user, other in each])
+    return None

@@ -21,7 +21,7 @@ from wirelessagent.model.units import human
 
 _SAID = (
     "users", "every", "others", "pronoun", "one", "it", "lead", "make", "correct", "suppose", "take", "figure",
-    "ratio", "bare", "with", "grant", "too", "by", "to", "revise", "both", "at_most", *NOUNS,
+    "ratio", "bare", "with", "grant", "too", "by", "to", "revise", "both", "at_most", "up_to", "moves", "except", *NOUNS,
 )  # fmt: skip
 _COUNTS = ("weights", "resource_block_group_size")
 """Limits without a unit."""
@@ -128,6 +128,8 @@ def _kinds_of(words: Words, figure: Quantity, before: Sequence[Limit]) -> list[s
     known = [act.kind for act in before if (not (named or fitting) or act.kind in possible) and act.kind in whose]
     if not named and words.has(*NOUNS):
         return []
+    if words.has("up_to") and words.users and figure.kind in ("rate", "bare"):  # "user 3 may go up to 8"
+        return ["max_rate_bps"] if "max_rate_bps" in words.held else []
     if figure.kind == "bare" and not named:
         return known[-1:]
     held = [kind for kind in possible if kind in words.held]
@@ -157,7 +159,10 @@ def _caps(words: Words) -> bool:
 def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: bool) -> bool:
     """Whether a line says no more than what a figure is to be now, and so leans on what was said before."""
     classes = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
+    classes += ["up_to", "except"] if words.users or words.spoken_of else []
     classes += ["whose"] if not words.is_read else []
+    says_what = words.is_read and words.has(*NOUNS)  # whose sentences are the recogniser's
+    classes += ["moves"] if model is not None and model.kind in words.held and not says_what else []
     unread = not words.is_read or words.was_too_much or figure.kind == "ratio"
     classes += ["make"] if model is not None and unread else []
     classes += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposes else []
@@ -171,7 +176,7 @@ def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: boo
     if not leans or (words.has("by") and words.has("make")):
         return False
     pairs = itertools.pairwise(words.tokens)
-    led = words.has("lead", "correct", "with", "make", "at_most", "grant", "to")
+    led = words.has("lead", "correct", "with", "make", "at_most", "grant", "to", "up_to", "moves", "except")
     led = led or any(token.figure and "promise" in behind.classes for token, behind in pairs)  # "1 Mbit/s promised"
     return led or not words.users or not words.is_read
 

@@ -24,7 +24,7 @@ from wirelessagent.language.acts import (
     Serve,
     Undo,
 )  # fmt: skip
-from wirelessagent.language.conversation.corrections import denies, moved
+from wirelessagent.language.conversation.corrections import denies, moved, swapped
 from wirelessagent.language.conversation.figure_in_place import figures_of, read_figure
 from wirelessagent.language.conversation.limits_off import dropped, restored
 from wirelessagent.language.conversation.line import Line, is_all
@@ -117,7 +117,8 @@ def _only_told(story: Line) -> tuple[str, ...] | None:
     held = {figure for limit in context.constraints.values() for figure in figures_of(limit)}
     known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)} | {*users}
     new = {figure.value for figure in story.figures} - held or {*_NUMBER.findall(story.text)} - known
-    return None if story.is_asked or new or story.sentence.goal.objective else users
+    aims = story.sentence.goal.objective and not speaks_of_one(story.text, "too_much")
+    return None if story.is_asked or new or aims else users
 
 
 def _read_told(story: Line, rest: Line) -> Intent | None:
@@ -266,12 +267,13 @@ _FORMS = (
     Form("undo", "bare factor change_noun lead again", _steps_undone),
     Form("undo", "correct it lead again make more less factor rate limit promise power weight too remove", _undone),
     Form("too|equal|factor|ratio", f"{_ANOTHER} more less both pronoun one than grant possessed limit", read_of_another),
-    Form("again", "lead", _again),
+    Form("swap", f"{_ANOTHER} correct both pronoun take own", swapped),
+    Form("again", "lead too it", _again),
     Form("again", "lead it take", read_repeated),
     Form("take", "it", _taken_up),
     Form("as_it_was", f"before after users lead correct make undo told leave first {_NOUNS}", _as_it_was),
     Form("equal weight", "every make again lead", _weighed_equally),
-    Form("remove|too", f"{_GONE} {_NOUNS} figure", dropped),
+    Form("remove|too|lead", f"{_GONE} take {_NOUNS} figure", dropped),
     Form("restore", f"it correct lead take make again {_NOUNS}", restored),
     Form("every serve", "again lead take make correct bare it", all_served),
     Form("others serve", "again lead too make bare", all_served),

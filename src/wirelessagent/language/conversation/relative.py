@@ -228,17 +228,18 @@ def read_of_another(words: Words) -> Intent | None:
     models = [users for place, users in groups if _is_model(words, place)] or [users for _, users in groups[1:] if not shares]
     theirs = [users for _, users in groups if users not in models]
     spoken = words.spoken_of.users if words.spoken_of else ()
-    if spoken and len(groups) == 1:
-        theirs, models = (theirs or [spoken]), (models or [spoken])
+    if spoken and len(groups) < 2:
+        theirs, models = (theirs or [spoken]), (models or [spoken] if theirs else [])
     if len(theirs) != 1 or (models and (len(models) != 1 or len(models[0]) != 1)):
         return None
     common = words.has("others", "every")
-    last = [act for act in [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]]
+    last = [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
     found: dict[str, float] = {}
     for kind in [kind for kind in words.named_kinds() or FIGURES_OF_USERS if kind in FIGURES_OF_USERS]:
         held = words.held.get(kind)
         own = held if isinstance(held, Mapping) else {EVERYBODY: held} if isinstance(held, float) else {}
-        those = {act.value for act in last if act.kind == kind} if words.has("it") and shares else set[float]()
+        anew = [act for act in last if act.kind == kind and words.has("it") and shares]
+        those = {act.value for act in anew if not isinstance(act.whom, Named) or not {*theirs[0]} & {*act.whom.users}}
         those = {own[user] for user in own_users(held)} if words.has("both") else those
         model = (models[0][0] if models else EVERYBODY) if models or common else ""
         figure = own.get(model, own.get(EVERYBODY) if shares and model else None)

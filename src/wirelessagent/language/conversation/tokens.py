@@ -164,7 +164,7 @@ def _segmented(
                 place, token = spans[place]
                 found.append(token)
                 continue
-            inside = place not in spans and any(place < start < end for start in spans)
+            inside = place not in spans and any(place < start < end < last for start, (last, _) in spans.items())
             if word is None and lenient and (unknown := _WORD.match(plain, place)) is not None:
                 word, end = _UNKNOWN, place + 1 if has_chinese(unknown[0]) else unknown.end()
             elif word is None or (inside and word.factor is None):
@@ -228,7 +228,7 @@ def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], list[Token
             stays = [_CORRECTED] if over is behind else []
             kept = [*(each for each in kept if each is not token and each is not behind), *stays]
             gone.append(over)
-    first = next((place for place, token in enumerate(kept) if token.figure is not None), 0)
+    first = next((place for place, token in enumerate(kept) if token.figure or token.factor), 0)
     return [token for token in kept[:first] if "too_much" not in token.classes] + kept[first:], gone
 
 
