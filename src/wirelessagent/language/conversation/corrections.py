@@ -37,6 +37,11 @@ def moved(words: Words) -> Intent | None:
     if isinstance(act, Serve) and act.alone and not denies(words.tokens):  # "no, 1 and 3" behind "only 1 and 2"
         return words.acts([dataclasses.replace(act, whom=Named(words.users))])
     users = tuple(user for user in words.users if user not in old)
+    value = act.value if isinstance(act, Limit) else None
+    given = {value_of(figure, act.kind, act) for figure in words.figures} if isinstance(act, Limit) else set[float]()
+    given |= {token.factor for token in words.tokens if token.factor}
+    if given - {value} and not words.counted():  # "not 3, 5 counts double" says again what it moves
+        return None
     denied = words.denied | ({*words.users} - {*users})
     if words.has("at_most") and not users and not isinstance(act, Limit):  # "only 8" behind "1 and 8"
         users, denied = words.users, {*old} - {*words.users}

@@ -169,9 +169,10 @@ def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: boo
     classes += (["to"] if words.users else ["more", "less"]) if figure.kind == "bare" and words.has("to") else []
     classes += ["revise"] if model is not None and isinstance(model.whom, Named) else []
     if len(words.named_kinds()) == 1:
-        classes += ["make", "promise"] if words.users else ["make", "limit", "to"]
+        classes += ["make", "promise"] if words.users or not words.is_read else ["make", "limit", "to"]
     says_nothing_else = all(token.figure or "skip" in token.classes for token in words.tokens)
-    alone = bool(words.about) or model is not None and words.line.context.awaits == "nothing" and says_nothing_else
+    alone = model is not None and words.line.context.awaits == "nothing" and says_nothing_else
+    alone = alone or bool(words.about)
     leans = alone or words.has(*classes) or (words.has("limit", "power") and figure.kind == "power")
     if not leans or (words.has("by") and words.has("make")):
         return False

@@ -38,7 +38,8 @@ from wirelessagent.language.text import normalise
 
 _LONGEST = 120
 _MOST_STEPS = 20
-_FIRST_NUMBER = re.compile(r"\s*(?:[^\W\d_]{2,3}\s)?(\d{1,3})\s+(?=[^\W\d_]\S+\s)")
+_OF_A_USER = re.compile(r"(?i)(?:^\s*|\b(?:el|al|la|le|du|au|der|die|den|dem|number)\s)(\d{1,3})\s*(?=$|[^\W\d_]\S+\s)")
+_NUMBER = re.compile(r"\s*(?:[^\W\d_]{2,3}\s)?(\d{1,3})\s+(?=[^\W\d_]\S+\s)")
 _NUMBER = re.compile(r"(?<![A-Za-z\d.])\d++(?:\.\d+)?+(?![A-Za-z])")  # "7", and no "4K"
 _STOP = re.compile(r"\s*(?:[,;.!:](?!\d)|[，；。！：])\s*")
 _AND = re.compile(rf"{_STOP.pattern}|\s+(?=(?:and|but|und|aber|y|pero|et|mais)\s)|(?=但|而)")
@@ -109,14 +110,16 @@ def _told(line: Line) -> Iterator[tuple[Line, Line]]:
 
 def _only_told(story: Line) -> tuple[str, ...] | None:
     """The users of whom a clause only tells, and asks for nothing: "user 7 has paid"; None for any other clause."""
-    first, context = _FIRST_NUMBER.match(story.text), story.context
-    numbered = first is not None and int(first[1]) in range(1, len(context.user_names) + 1)
-    users = story.users or ((first[1],) if first is not None and numbered else ())
-    if is_ordered(story.text) or any(True for _ in words_of(story)) or tells_no_mere_fact(story.text):
+    context, counted = story.context, _NUMBER.findall(story.text)
+    numbered = _OF_A_USER.search(story.text) if len(counted) == 1 else None
+    numbered = numbered if numbered and int(numbered[1]) in range(1, len(context.user_names) + 1) else None
+    users = story.users or ((numbered[1],) if numbered else ())
+    does = any(_read(words) for words in words_of(story))
+    if is_ordered(story.text) or does or tells_no_mere_fact(story.text):
         return None
     held = {figure for limit in context.constraints.values() for figure in figures_of(limit)}
-    known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)} | {*users}
-    new = {figure.value for figure in story.figures} - held or {*_NUMBER.findall(story.text)} - known
+    known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)}
+    new = {figure.value for figure in story.figures} - held or {*counted} - known - {*users, *context.spoken_of}
     aims = story.sentence.goal.objective and not speaks_of_one(story.text, "too_much")
     return None if story.is_asked or new or aims else users
 
@@ -151,7 +154,10 @@ def _clause_by_clause(line: Line) -> Intent | None:
     acts = list[Act]()
     for clause in clauses if len(clauses) > 1 and not line.is_asked else ():
         context = dataclasses.replace(line.context, acts=tuple(acts) or line.context.acts)
-        found = [(words, _read(words)) for words in words_of(dataclasses.replace(clause, context=context))]
+        found = list[tuple[Words, Intent | None]]()
+        for words in words_of(dataclasses.replace(clause, context=context)):
+            words.about = next((act.whom.users for act in acts if isinstance(getattr(act, "whom", None), Named)), ())
+            found.append((words, _read(words)))
         done = [each for words, each in found if each and each.acts and not words.has("correct", "instead", "it")]
         if not done:
             return None
@@ -181,7 +187,8 @@ def _is_undo(words: Words, *further: str) -> bool:
 def _steps_undone(words: Words) -> Intent | None:
     """ "undo the last two changes"; a bare command is a sentence of its own where recognisers read it."""
     counts = [figure.value for figure in words.figures] + [token.factor for token in words.tokens if token.factor]
-    if words.is_read or len(counts) != 1 or counts[0] not in range(1, _MOST_STEPS):
+    counts += [2.0] if words.has("both") else []
+    if (words.is_read and not words.has("both")) or len(counts) != 1 or counts[0] not in range(1, _MOST_STEPS):
         return None
     return words.line.command("undo", steps=float(counts[0]))
 
@@ -258,15 +265,16 @@ def _corrected(words: Words) -> Intent | None:
     return None if "outage_probability" in words.line.context.stated else words.line.ask("what_changes")
 
 
+_MOVED = "users bare lead it revise whose"
 _ANOTHER = "users bare lead weight rate promise again others every make it"
 _OF_USERS = "users bare lead again pronoun one"
 _GONE = "it users bare every others both pronoun one own again lead correct more by"
 _NOUNS = " ".join(NOUNS)
 _FORMS = (
-    Form("correct", "users bare lead it revise whose", moved),
-    Form("undo", "bare factor change_noun lead again", _steps_undone),
+    Form("correct", f"{_MOVED} leave remove serve at_most factor weight figure make rate promise too", moved),
+    Form("undo", "bare factor change_noun lead again both it", _steps_undone),
     Form("undo", "correct it lead again make more less factor rate limit promise power weight too remove", _undone),
-    Form("too|equal|factor|ratio", f"{_ANOTHER} more less both pronoun one than grant possessed limit", read_of_another),
+    Form("too|equal|factor|ratio|than", f"{_ANOTHER} more less both pronoun one than grant possessed limit", read_of_another),
     Form("swap", f"{_ANOTHER} correct both pronoun take own", swapped),
     Form("again", "lead too it", _again),
     Form("again", "lead it take", read_repeated),

@@ -20,6 +20,7 @@ from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constrain
 from wirelessagent.language.quantities import Quantity
 
 _SAID = (
+    "than", "possessed",
     "users", "every", "each", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
     "promise", "power", "limit", "again", "by", "to", "figure", "decibel", "bare", "at_most", "suppose", "worth",
     "spend", "effect", "been", "with", "one", "grant", "group", "circuit", "subcarrier", "further",

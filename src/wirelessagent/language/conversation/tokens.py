@@ -156,7 +156,7 @@ def _segmented(
             place = space.end()
         else:
             ends = range(min(len(plain), place + longest), place, -1)
-            known = ((end, words.get(marked[place:end]) or words.get(plain[place:end])) for end in ends)
+            known = ((end, words.get(marked[place:end])) for end in ends)
             end, word = next(
                 ((end, word) for end, word in known if word and _is_whole(plain, place, end)), (place, None)
             )
@@ -195,12 +195,12 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
     lifted = cast("Mapping[str, list[str]]", table("figures", language)["lifted"])
     of_classes = [(name, word) for name in listed.keys() - {"factors"} for word in cast("list[str]", listed[name])]
     of_classes += [(name, word) for limit, name in _LIFTED.items() for word in lifted.get(limit, ())]
-    spelt = {word for _, word in of_classes}
+    spelt = {word for _, word in of_classes} | factors.keys()
     for name, word in of_classes:
-        own = word if _unmarked(word) in spelt else _unmarked(word)  # "él" is no "el", and "maximo" is "máximo"
-        for ending in _ENDINGS if "*" in word else ("",):
-            classes.setdefault(own.replace("*", ending), set()).add(name)
-    factors = {_unmarked(word): factor for word, factor in factors.items()}
+        for own in {word, *({_unmarked(word)} - spelt)}:  # "maximo" is "máximo", and "él" is no "el"
+            for ending in _ENDINGS if "*" in word else ("",):
+                classes.setdefault(own.replace("*", ending), set()).add(name)
+    factors = {own: factor for word, factor in factors.items() for own in (word, _unmarked(word))}
     for word in factors:
         classes.setdefault(word, set()).add("factor")
     tokens = {word: Token(frozenset(names), factor=factors.get(word)) for word, names in classes.items()}
@@ -250,15 +250,16 @@ def _corrected_at_once(tokens: Sequence[Token]) -> tuple[list[Token], list[Token
 def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:
     """The tokens with bare numbers as users where they are whose another figure or share is: "triple for 5 and 6"."""
     changed, nobody = list(tokens), Token(frozenset())
-    shared = any(token.factor for token in tokens)
+    shared = any(token.factor or "equal" in token.classes for token in tokens)
+    shared = shared and not any(token.classes & {"figure", "ratio"} for token in tokens)
     several = any(token.users for token in tokens)
     for place, token in enumerate(tokens):
         ahead, behind = tokens[place - 1] if place else nobody, [*tokens, nobody][place + 1]
-        figure, others = token.figure, any(each.figure or each.factor for each in tokens if each is not token)
+        figure, others = token.figure, shared or any(each.figure for each in tokens if each is not token)
         if figure is None or figure.kind != "bare" or figure.value not in range(1, num_users + 1):
             continue
         listed = "lead" in ahead.classes and place > 1 and bool(changed[place - 2].users)
-        whose = not several and ("whose" in ahead.classes or listed)
+        whose = not several and (bool(ahead.classes & {"whose", "except"}) or listed)
         clear = "possessed" in behind.classes or (shared and not ahead.classes & _NO_USER)
         if others and (whose or clear) and not behind.classes & {"change_noun"}:
             changed[place] = Token(frozenset({"users"}), users=(f"{figure.value:g}",))
