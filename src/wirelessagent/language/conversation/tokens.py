@@ -273,14 +273,14 @@ class Words:
         self.line, self.language = line, language
         self.was_too_much = any("too_much" in token.classes for token in tokens)
         kept, gone = _without_what_goes(tokens)
-        kept, corrected = _corrected_at_once(kept)
+        kept, corrected = _corrected_at_once(_with_whose(kept, len(line.context.user_names)))
         self.replaced = next((token.figure for token in gone if token.figure is not None), None)
         self.corrected = next((token.figure for token in corrected if token.figure is not None), None)
         numbers = [token.figure for token in (*gone, *corrected) if token.figure and token.figure.kind == "bare"]
         self.denied = {user for token in (*gone, *corrected) for user in token.users}
         self.denies_users = any(token.users for token in gone)
         self.denied |= {f"{figure.value:g}" for figure in numbers}
-        self.tokens = tokens = _with_whose(kept, len(line.context.user_names))
+        self.tokens = tokens = kept
         self.figures = [token.figure for token in tokens if token.figure is not None]
         self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
         self.held = line.context.constraints
@@ -361,7 +361,8 @@ class Words:
     @property
     def spoken_of(self) -> Named | None:
         """The one user who was spoken of before, where a pronoun stands for somebody."""
-        users = self.line.context.spoken_of
+        users, last = self.line.context.spoken_of, self.last_whom()
+        users = users or (last.users if isinstance(last, Named) else ())
         return Named(users) if len(users) == 1 and (self.has("pronoun", "one")) else None
 
     def last_whom(self) -> Whom:
