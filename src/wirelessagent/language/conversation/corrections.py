@@ -16,7 +16,7 @@ def denies(tokens: Sequence[Token]) -> bool:
     """Whether a word that corrects what was said before stands where it denies what this line says."""
     said = [place for place, token in enumerate(tokens) if not token.classes & {"correct", "skip", "lead"}]
     behind = tokens[said[0] :] if said else ()
-    return any("correct" in token.classes and not token.classes & {"skip", "lead"} for token in behind)
+    return any("correct" in token.classes and not token.classes & {"skip", "lead", "meant"} for token in behind)
 
 
 def moved(words: Words) -> Intent | None:
@@ -100,9 +100,11 @@ def _meant(words: Words) -> tuple[str, ...]:
     return users if instead or words.has("whose") or not is_figure else ()
 
 
-def _for_all_moved(words: Words) -> Intent:
+def _for_all_moved(words: Words) -> Intent | None:
     """What was said last for everybody, for these users alone; where nothing was, what is meant is asked."""
     last = [act for act in words.last(Limit) if act.kind in FIGURES_OF_USERS and isinstance(act.whom, Everybody)]
+    if words.replaced or words.is_unsure:
+        return None
     if len(last) != 1 or words.figures:
         return words.line.ask("what_of_user", users=words.line.voice.users(words.users))
     return words.acts([Drop(kind=last[0].kind), dataclasses.replace(last[0], whom=Named(words.users))])

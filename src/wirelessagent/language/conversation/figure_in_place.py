@@ -82,11 +82,8 @@ def _replaced(words: Words) -> Quantity | None:
     """The figure in whose place the line has another one: "the 800 should be 600", "14, no, 13 W"."""
     if words.replaced is not None or words.corrected is not None:
         return words.replaced or words.corrected
-    said = [token for token in words.tokens if not token.classes <= {"skip"} or token.figure]
-    return next((
-        first.figure for first, become, then in zip(said, said[1:], said[2:], strict=False)
-        if first.figure and then.figure and become.classes & {"make", "revise", "to"} and _holding(words, first.figure)
-    ), None)  # fmt: skip
+    becomes = len(words.figures) == 2 and words.has("make", "revise", "to", "correct")
+    return words.figures[0] if becomes and _holding(words, words.figures[0]) else None
 
 
 def _holding(words: Words, figure: Quantity) -> list[Limit]:

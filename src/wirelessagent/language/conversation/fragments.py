@@ -38,10 +38,10 @@ from wirelessagent.language.text import normalise
 
 _LONGEST = 120
 _MOST_STEPS = 20
-_OF_A_USER = re.compile(r"(?i)(?:^\s*|\b(?:el|al|la|le|du|au|der|die|den|dem|number)\s)(\d{1,3})\s*(?=$|[^\W\d_]\S+\s)")
+_OF_A_USER = re.compile(r"(?i)(?:^\s*|\b(?:el|al|la|le|du|au|der|die|den|dem|number)\s)(\d{1,3})\s*(?=$|[^\W\d_])")
 _NUMBER = re.compile(r"\s*(?:[^\W\d_]{2,3}\s)?(\d{1,3})\s+(?=[^\W\d_]\S+\s)")
 _NUMBER = re.compile(r"(?<![A-Za-z\d.])\d++(?:\.\d+)?+(?![A-Za-z])")  # "7", and no "4K"
-_STOP = re.compile(r"\s*(?:[,;.!:](?!\d)|[，；。！：])\s*")
+_STOP = re.compile(r"\s*(?:[,;.!:](?!\d)|(?<!\d),|[，；。！：])\s*")
 _AND = re.compile(rf"{_STOP.pattern}|\s+(?=(?:and|but|und|aber|y|pero|et|mais)\s)|(?=但|而)")
 _ENDS = " .!。！"
 
@@ -111,7 +111,7 @@ def _told(line: Line) -> Iterator[tuple[Line, Line]]:
 def _only_told(story: Line) -> tuple[str, ...] | None:
     """The users of whom a clause only tells, and asks for nothing: "user 7 has paid"; None for any other clause."""
     context, counted = story.context, _NUMBER.findall(story.text)
-    numbered = _OF_A_USER.search(story.text) if len(counted) == 1 else None
+    numbered = _OF_A_USER.search(story.text) if len(counted) == 1 and not story.figures else None
     numbered = numbered if numbered and int(numbered[1]) in range(1, len(context.user_names) + 1) else None
     users = story.users or ((numbered[1],) if numbered else ())
     does = any(_read(words) for words in words_of(story))
@@ -120,7 +120,7 @@ def _only_told(story: Line) -> tuple[str, ...] | None:
     held = {figure for limit in context.constraints.values() for figure in figures_of(limit)}
     known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)}
     new = {figure.value for figure in story.figures} - held or {*counted} - known - {*users, *context.spoken_of}
-    aims = story.sentence.goal.objective and not speaks_of_one(story.text, "too_much")
+    aims = story.sentence.goal.verdict not in ("none", "weak") and not speaks_of_one(story.text, "too_much")
     return None if story.is_asked or new or aims else users
 
 
@@ -135,15 +135,19 @@ def _read_told(story: Line, rest: Line) -> Intent | None:
             if words.has("it"):
                 words.tokens += [Token(frozenset({noun, "skip"})) for noun in NOUNS if speaks_of_one(story.text, noun)]
             if story.users and words.spoken_of is None:
-                if words.users or words.has("others", "every", "both", "power", "certainty"):
+                likened = words.has("than", "equal", "too") and not words.figures
+                if likened and (words.users or words.has("others")):  # "6 has paid, too, so like user 2"
+                    words.tokens = [Token(frozenset({"users"}), users=story.users), *words.tokens]
+                    words.users = (*story.users, *words.users)
+                elif words.users or words.has("others", "every", "both", "power", "certainty"):
                     continue
                 words.about = story.users
                 if {figure.kind for figure in words.figures} == {"rate"}:
                     words.users = story.users
-                elif not words.has("leave", "serve", "too"):
+                elif not likened and not words.has("leave", "serve"):
                     continue
         intent = _read(words)
-        if intent is not None:
+        if intent is not None and not (story.text and intent.kind == "clarify"):
             return intent
     return None
 
@@ -158,7 +162,7 @@ def _clause_by_clause(line: Line) -> Intent | None:
         for words in words_of(dataclasses.replace(clause, context=context)):
             words.about = next((act.whom.users for act in acts if isinstance(getattr(act, "whom", None), Named)), ())
             found.append((words, _read(words)))
-        done = [each for words, each in found if each and each.acts and not words.has("correct", "instead", "it")]
+        done = [each for words, each in found if each and each.acts and not words.has("correct", "instead")]
         if not done:
             return None
         acts += done[0].acts
@@ -268,13 +272,17 @@ def _corrected(words: Words) -> Intent | None:
 _MOVED = "users bare lead it revise whose"
 _ANOTHER = "users bare lead weight rate promise again others every make it"
 _OF_USERS = "users bare lead again pronoun one"
-_GONE = "it users bare every others both pronoun one own again lead correct more by"
+_GONE = "it equal users bare every others both pronoun one own again lead correct more by"
 _NOUNS = " ".join(NOUNS)
 _FORMS = (
     Form("correct", f"{_MOVED} leave remove serve at_most factor weight figure make rate promise too", moved),
     Form("undo", "bare factor change_noun lead again both it", _steps_undone),
     Form("undo", "correct it lead again make more less factor rate limit promise power weight too remove", _undone),
-    Form("too|equal|factor|ratio|than", f"{_ANOTHER} more less both pronoun one than grant possessed limit", read_of_another),
+    Form(
+        "too|equal|factor|ratio|than",
+        f"{_ANOTHER} more less both pronoun one than grant possessed limit",
+        read_of_another,
+    ),
     Form("swap", f"{_ANOTHER} correct both pronoun take own", swapped),
     Form("again", "lead too it", _again),
     Form("again", "lead it take", read_repeated),
@@ -287,7 +295,7 @@ _FORMS = (
     Form("others serve", "again lead too make bare", all_served),
     Form("both serve", "again lead every", both_served),
     Form("serve", f"too take make it correct {_OF_USERS}", served),
-    Form("leave", f"too take make {_OF_USERS}", left_out),
+    Form("leave", f"too take make correct {_OF_USERS}", left_out),
     Form("too|lead", f"it correct promise rate {_OF_USERS}", _same_of_others),
     Form("", "", read_relative, asked=True),
     Form("limit power", "make", _asks_what_changes, asked=True),

@@ -20,7 +20,7 @@ from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constrain
 from wirelessagent.language.quantities import Quantity
 
 _SAID = (
-    "than", "possessed",
+    "than", "possessed", "both",
     "users", "every", "each", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
     "promise", "power", "limit", "again", "by", "to", "figure", "decibel", "bare", "at_most", "suppose", "worth",
     "spend", "effect", "been", "with", "one", "grant", "group", "circuit", "subcarrier", "further",
@@ -59,6 +59,8 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
     corrects = words.has("correct") and (bool(words.line.context.share_of) or weighed)
     change = _change(words, corrects=corrects)
     if change is None or not words.only(*_SAID, *(("correct",) if corrects else ())):
+        return None
+    if len(_groups(words)) > 1:  # one of whom has what the other is to have a share of
         return None
     asked = words.line.is_asked and not has("polite", words.line.shape)
     supposes = wonders or words.has("suppose") or words.has("worth")
@@ -218,15 +220,12 @@ def read_of_another(words: Words) -> Intent | None:
         return None
     more = words.has("more") - words.has("less")
     factor = (1 + more * shares[0] if more else shares[0]) if shares else 1.0
-    groups = list[tuple[int, tuple[str, ...]]]()
-    for place, token in enumerate(words.tokens):
-        if token.users and place > 1 and "lead" in words.tokens[place - 1].classes and words.tokens[place - 2].users:
-            groups[-1] = (groups[-1][0], groups[-1][1] + token.users)  # "1 and 3"
-        elif token.users:
-            groups.append((place, token.users))
+    groups = _groups(words)
     if len(groups) == 1 and len(groups[0][1]) == 2 and not shares:  # "用户5和用户2一样", one list of two
         groups = [(0, (groups[0][1][0],)), (0, (groups[0][1][1],))]
-    models = [users for place, users in groups if _is_model(words, place)] or [users for _, users in groups[1:] if not shares]
+    models = [users for place, users in groups if _is_model(words, place)] or [
+        users for _, users in groups[1:] if not shares
+    ]
     theirs = [users for _, users in groups if users not in models]
     spoken = words.spoken_of.users if words.spoken_of else ()
     if spoken and len(groups) < 2:
@@ -255,6 +254,20 @@ def read_of_another(words: Words) -> Intent | None:
     kinds = [*latest] if len(latest) == 1 else [*found]
     acts = [Limit(kind=kind, value=found[kind], whom=Named(theirs[0])) for kind in kinds]
     return words.acts(acts) if len(acts) == 1 else None
+
+
+def _groups(words: Words) -> list[tuple[int, tuple[str, ...]]]:
+    """The users of a line with their places, those that are listed together."""
+    groups, listed = list[tuple[int, tuple[str, ...]]](), False
+    for place, token in enumerate(words.tokens):
+        if token.users:
+            groups = (
+                [*groups[:-1], (groups[-1][0], groups[-1][1] + token.users)]
+                if listed
+                else [*groups, (place, token.users)]
+            )
+        listed = bool(token.users) or (listed and "lead" in token.classes)
+    return groups
 
 
 def _is_model(words: Words, place: int) -> bool:

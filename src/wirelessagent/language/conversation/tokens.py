@@ -141,37 +141,44 @@ def tokens_of(line: Line, language: str, *, lenient: bool = False) -> list[Token
             spans[factor.start] = (factor.end, Token(frozenset({"factor"}), factor=float(factor.value)))
     for figure in figures:
         spans[figure.start] = (figure.end, Token(frozenset({_CLASS.get(figure.kind, figure.kind)}), figure=figure))
-    return _segmented(marked.lower(), spans, language, lenient)
+    known = _segmented(marked.lower(), spans, language, lenient=False)
+    return _segmented(marked.lower(), spans, language, lenient=True) if known is None and lenient else known
 
 
 def _segmented(
-    marked: str, spans: Mapping[int, tuple[int, Token]], language: str, lenient: bool
+    marked: str, spans: Mapping[int, tuple[int, Token]], language: str, *, lenient: bool
 ) -> list[Token] | None:
-    found: list[Token] = []
+    """The tokens of a text from end to end, the longest words first; None where no words cover it."""
     words, longest = _table(language)
-    plain, place = _unmarked(marked), 0
-    while place < len(plain):
-        space = _SPACE.match(plain, place)
+
+    @functools.cache
+    def behind(place: int) -> list[Token] | None:
+        space = _SPACE.match(marked, place)
         if space is not None:
             place = space.end()
-        else:
-            ends = range(min(len(plain), place + longest), place, -1)
-            known = ((end, words.get(marked[place:end])) for end in ends)
-            end, word = next(
-                ((end, word) for end, word in known if word and _is_whole(plain, place, end)), (place, None)
-            )
-            if place in spans and (word is None or word.factor is None or end <= spans[place][0]):
-                place, token = spans[place]
-                found.append(token)
-                continue
-            inside = place not in spans and any(place < start < end < last for start, (last, _) in spans.items())
-            if word is None and lenient and (unknown := _WORD.match(plain, place)) is not None:
-                word, end = _UNKNOWN, place + 1 if has_chinese(unknown[0]) else unknown.end()
-            elif word is None or (inside and word.factor is None):
-                return None
-            found.append(word)
-            place = end
-    return found
+        if place == len(marked):
+            return []
+        for end, token in found(place):
+            rest = behind(end)
+            if rest is not None:
+                return [token, *rest]
+        return None
+
+    def found(place: int) -> Iterator[tuple[int, Token]]:
+        inside = [(start, last) for start, (last, _) in spans.items() if place < start]
+        for end in range(min(len(marked), place + longest), place, -1):
+            word = words.get(marked[place:end])
+            cut = any(start < end < last for start, last in inside) and word and not word.factor
+            of_a_figure = place in spans and not (word and word.factor and end > spans[place][0])
+            if word and not cut and not of_a_figure and _is_whole(marked, place, end):
+                yield end, word
+        if place in spans:
+            yield spans[place]
+        unknown = _WORD.match(marked, place) if lenient else None
+        if unknown is not None:
+            yield (place + 1 if has_chinese(unknown[0]) else unknown.end()), _UNKNOWN
+
+    return behind(0)
 
 
 def _unmarked(text: str) -> str:
@@ -261,7 +268,8 @@ def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:
         listed = "lead" in ahead.classes and place > 1 and bool(changed[place - 2].users)
         whose = not several and (bool(ahead.classes & {"whose", "except"}) or listed)
         clear = "possessed" in behind.classes or (shared and not ahead.classes & _NO_USER)
-        if others and (whose or clear) and not behind.classes & {"change_noun"}:
+        several_of = "plural" in ahead.classes and not figure.text[:1].isdigit()  # "all three"
+        if others and (whose or clear) and not several_of and "change_noun" not in behind.classes:
             changed[place] = Token(frozenset({"users"}), users=(f"{figure.value:g}",))
     return changed
 
@@ -292,19 +300,28 @@ class Words:
 
     def _all_of_them(self) -> tuple[str, ...]:
         """ "All three of those": the users with figures of their own, where they are so many."""
-        for (at, ahead), (_, token) in itertools.pairwise(enumerate(self.tokens)):
-            if token.figure is not None and "plural" in ahead.classes and not token.figure.text[:1].isdigit():
-                several = {own_users(held) for held in self.held.values()}
-                them = [users for users in several if len(users) == token.figure.value]
-                if len(them) == 1 and token.figure in self.figures[:1] and len(self.figures) > 1:
-                    del self.figures[0]
-                    self.tokens = [*self.tokens[:at], Token(frozenset({"users"}), users=them[0]), *self.tokens[at + 2 :]]
-                    return them[0]
+        last = {act.kind for act in self.last(Limit, Scale)}
+        for at, token in enumerate(self.tokens):
+            ahead, figure = self.tokens[at - 1].classes if at else frozenset[str](), token.figure
+            counted = figure is not None and "plural" in ahead and not figure.text[:1].isdigit()
+            count = 2 if "both" in token.classes else figure.value if figure is not None and counted else 0
+            several = {kind: users for kind, held in self.held.items() if len(users := own_users(held)) == count}
+            them = {users for kind, users in several.items() if kind in last} or {*several.values()}
+            if count and len(them) == 1:
+                self.figures = [each for each in self.figures if each is not figure]
+                start = at - 1 if counted else at
+                self.tokens = [*self.tokens[:start], Token(token.classes - {"bare"} | {"users"}, users=(users := them.pop())),
+                               *self.tokens[at + 1 :]]  # fmt: skip
+                return users
         return ()
 
     def has(self, *names: str) -> bool:
         """Whether a word is in one of these classes."""
         return any(token.classes.intersection(names) for token in self.tokens)
+
+    def has_another(self, name: str, beside: str) -> bool:
+        """Whether a word is in this class, and says neither nothing nor what the other class does."""
+        return any(name in token.classes and not token.classes & {beside, "skip", "lead"} for token in self.tokens)
 
     @property
     def is_read(self) -> bool:
@@ -328,7 +345,8 @@ class Words:
         users = tuple(f"{figure.value:g}" for figure in found)
         if not users or len(found) != len(self.figures) or not set(users) <= names:
             return ()
-        named = any(isinstance(act.whom, Named) for act in self.last(Limit, Drop, LeaveOut, Serve, Scale))
+        acts = self.last(Limit, Drop, LeaveOut, Serve, Scale)
+        named = any(isinstance(act.whom, Named) for act in acts) or bool(self.denied)
         return users if named or self.has("leave", "serve") else ()
 
     def listed(self, name: str) -> tuple[str, ...]:
@@ -381,8 +399,9 @@ def changed_by(line: Line, acts: Sequence[Act], details: Mapping[str, Detail] | 
     stated: dict[str, Constraint] = {}
     for act in acts:
         if isinstance(act, Limit):
-            named = act.whom.users if isinstance(act.whom, Named) else None
-            stated[act.kind] = act.value if named is None else dict.fromkeys(named, act.value)
+            named, own = (act.whom.users if isinstance(act.whom, Named) else None), stated.get(act.kind)
+            theirs = dict.fromkeys(named or (), act.value)
+            stated[act.kind] = act.value if named is None else {**(own if isinstance(own, Mapping) else {}), **theirs}
         elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
             stated["leave_out"] = act.whom.users
     dropped = tuple(act.kind for act in acts if isinstance(act, Drop))

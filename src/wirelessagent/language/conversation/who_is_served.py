@@ -38,7 +38,7 @@ def served(words: Words) -> Intent | None:
         if len(out) > 1:
             return words.line.ask("who_is_back", users=words.line.voice.users(out))
         users = out
-    if words.has("at_most"):  # "serve only user 2"
+    if words.has("at_most") or words.has_another("leave", "serve"):  # "serve only user 2"
         return None
     served = set(users) <= {*alone} if alone else not set(users) & {*out}
     if users and served and words.users:
@@ -52,4 +52,5 @@ def left_out(words: Words) -> Intent | None:
     if words.figures and words.has("step") and {act.kind for act in words.last(Limit, Scale)} & {*UNITS["power"]}:
         return None  # "enlève 2" behind a power
     leans = bool(lists) or not words.is_read or words.spoken_of is not None
+    leans = leans and not words.has_another("serve", "leave")
     return words.acts([LeaveOut(whom=Named(users))]) if users and leans else None
