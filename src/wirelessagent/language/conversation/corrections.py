@@ -37,10 +37,10 @@ def moved(words: Words) -> Intent | None:
     if isinstance(act, Serve) and act.alone and not denies(words.tokens):  # "no, 1 and 3" behind "only 1 and 2"
         return words.acts([dataclasses.replace(act, whom=Named(words.users))])
     users = tuple(user for user in words.users if user not in old)
-    value = act.value if isinstance(act, Limit) else None
-    given = {value_of(figure, act.kind, act) for figure in words.figures} if isinstance(act, Limit) else set[float]()
-    given |= {token.factor for token in words.tokens if token.factor}
-    if given - {value} and not words.counted():  # "not 3, 5 counts double" says again what it moves
+    given: set[float | None] = {token.factor for token in words.tokens if token.factor}
+    if isinstance(act, Limit):
+        given = (given | {value_of(figure, act.kind, act) for figure in words.figures}) - {act.value}
+    if given and not words.counted():  # "not 3, 5 counts double" says again what it moves
         return None
     denied = words.denied | ({*words.users} - {*users})
     if words.has("at_most") and not users and not isinstance(act, Limit):  # "only 8" behind "1 and 8"
@@ -92,8 +92,8 @@ def _meant(words: Words) -> tuple[str, ...]:
         return ()
     ((act, named),) = last
     instead = bool(words.denied & {*named})
-    if isinstance(act, Serve | LeaveOut) and (instead or not words.denied):
-        return users
+    if isinstance(act, Serve | LeaveOut):
+        return users if instead or not words.denied else ()
     if len(users) != 1:
         return ()
     is_figure = value_of(words.figures[0], act.kind, act) is not None

@@ -21,7 +21,8 @@ from wirelessagent.model.units import human
 
 _SAID = (
     "users", "every", "others", "pronoun", "one", "it", "lead", "make", "correct", "suppose", "take", "figure",
-    "ratio", "bare", "with", "grant", "too", "by", "to", "revise", "both", "at_most", "up_to", "moves", "except", *NOUNS,
+    "ratio", "bare", "with", "grant", "too", "by", "to", "revise", "both", "at_most", "up_to", "moves", "except",
+    *NOUNS,
 )  # fmt: skip
 _COUNTS = ("weights", "resource_block_group_size")
 """Limits without a unit."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from wirelessagent.language.acts import (
@@ -32,14 +32,13 @@ from wirelessagent.language.conversation.relative import read_of_another, read_r
 from wirelessagent.language.conversation.tokens import NOUNS, Token, Words, changed_by, speaks_of_one, words_of
 from wirelessagent.language.conversation.who_is_served import all_served, both_served, left_out, of_whom, served
 from wirelessagent.language.guard import tells_no_mere_fact
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
+from wirelessagent.language.intent import Intent
 from wirelessagent.language.moods import is_ordered
 from wirelessagent.language.text import normalise
 
 _LONGEST = 120
 _MOST_STEPS = 20
 _OF_A_USER = re.compile(r"(?i)(?:^\s*|\b(?:el|al|la|le|du|au|der|die|den|dem|number)\s)(\d{1,3})\s*(?=$|[^\W\d_])")
-_NUMBER = re.compile(r"\s*(?:[^\W\d_]{2,3}\s)?(\d{1,3})\s+(?=[^\W\d_]\S+\s)")
 _NUMBER = re.compile(r"(?<![A-Za-z\d.])\d++(?:\.\d+)?+(?![A-Za-z])")  # "7", and no "4K"
 _STOP = re.compile(r"\s*(?:[,;.!:](?!\d)|(?<!\d),|[，；。！：])\s*")
 _AND = re.compile(rf"{_STOP.pattern}|\s+(?=(?:and|but|und|aber|y|pero|et|mais)\s)|(?=但|而)")
@@ -160,7 +159,8 @@ def _clause_by_clause(line: Line) -> Intent | None:
         context = dataclasses.replace(line.context, acts=tuple(acts) or line.context.acts)
         found = list[tuple[Words, Intent | None]]()
         for words in words_of(dataclasses.replace(clause, context=context)):
-            words.about = next((act.whom.users for act in acts if isinstance(getattr(act, "whom", None), Named)), ())
+            whom = words.last_whom()
+            words.about = whom.users if acts and isinstance(whom, Named) else ()
             found.append((words, _read(words)))
         done = [each for words, each in found if each and each.acts and not words.has("correct", "instead")]
         if not done:

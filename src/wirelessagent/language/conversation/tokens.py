@@ -309,9 +309,9 @@ class Words:
             them = {users for kind, users in several.items() if kind in last} or {*several.values()}
             if count and len(them) == 1:
                 self.figures = [each for each in self.figures if each is not figure]
-                start = at - 1 if counted else at
-                self.tokens = [*self.tokens[:start], Token(token.classes - {"bare"} | {"users"}, users=(users := them.pop())),
-                               *self.tokens[at + 1 :]]  # fmt: skip
+                users, start = them.pop(), at - 1 if counted else at
+                together = Token(token.classes - {"bare"} | {"users"}, users=users)
+                self.tokens = [*self.tokens[:start], together, *self.tokens[at + 1 :]]
                 return users
         return ()
 
