@@ -94,7 +94,7 @@ OF_ANOTHER: Talks = [
 ]
 EXCEPTIONS: Talks = [
     (
-        (f"{EN}, nobody over 4 Mbit/s", "except user 2, 6 Mbit/s is fine there"),
+        (f"{EN}, nobody over 4 Mbit/s", "user 2 is allowed 6 Mbit/s"),
         {"max_rate_bps": {"all": 4e6, "2": 6e6}},
     ),
     ((f"{DE}, keiner über 4 Mbit/s", "Nutzer 2 darf bis 6 Mbit/s"), {"max_rate_bps": {"all": 4e6, "2": 6e6}}),

@@ -12,7 +12,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language.acts import Drop, Everybody, Limit, Named, Others, Scale, Suppose, Whom
-from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words, own_users
+from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.intent_acts import stated
 from wirelessagent.language.moods import is_ordered
@@ -34,7 +34,7 @@ _FAR = 20.0
 def read_figure(words: Words) -> Intent | None:
     """The limit of which a line says the one figure; None for any other line."""
     further = ["been"] if words.has("suppose") else []
-    further += ["more", "less"] if words.has("to", "up_to") or _says_anew(words) else []
+    further += ["more", "less"] if words.has("to", "up_to", "make") else []
     replaced, strict = _replaced(words), words.replaced is not None
     holding = [] if replaced is None else _holding(words, replaced)
     figures = [figure for figure in words.figures if figure is not replaced]
@@ -98,15 +98,6 @@ def _holding(words: Words, figure: Quantity) -> list[Limit]:
                 common: Whom = Others() if isinstance(held, Mapping) else Everybody()
                 found.append(dataclasses.replace(act, whom=common if user == EVERYBODY else Named((user,))))
     return found
-
-
-def _says_anew(words: Words) -> bool:
-    """Whether a figure is what something is to be, and not by how much: "a bit more for everyone, say 350"."""
-    pairs = itertools.pairwise(words.tokens)
-    return any(
-        behind.figure is not None and "make" in token.classes and not token.classes & {"more", "less"}
-        for token, behind in pairs
-    )
 
 
 def as_held(words: Words, act: Scale) -> Limit:
@@ -182,11 +173,9 @@ def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: boo
 
 def _whom(words: Words, kind: str, model: Limit | None) -> Whom | None:
     """For whom a limit is; None where no such limit is for whom the line says."""
-    both, whom = own_users(words.held.get(kind)), words.whom() or (model.whom if model is not None else Everybody())
-    if words.has("both"):
-        if len(both) != 2:
-            return None
-        whom = Named(both)
+    whom = words.whom() or (model.whom if model is not None else Everybody())
+    if words.has("both") and not words.users:
+        return None
     if kind not in FIGURES_OF_USERS:
         if words.users or words.has("others"):
             return None

@@ -30,7 +30,7 @@ from wirelessagent.language.conversation.limits_off import dropped, restored
 from wirelessagent.language.conversation.line import Line, is_all
 from wirelessagent.language.conversation.relative import read_of_another, read_relative, read_repeated
 from wirelessagent.language.conversation.tokens import NOUNS, Token, Words, changed_by, speaks_of_one, words_of
-from wirelessagent.language.conversation.who_is_served import all_served, both_served, left_out, of_whom, served
+from wirelessagent.language.conversation.who_is_served import all_served, left_out, of_whom, served
 from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.moods import is_ordered
@@ -293,7 +293,6 @@ _FORMS = (
     Form("restore", f"it correct lead take make again {_NOUNS}", restored),
     Form("every serve", "again lead take make correct bare it", all_served),
     Form("others serve", "again lead too make bare", all_served),
-    Form("both serve", "again lead every", both_served),
     Form("serve", f"too take make it correct {_OF_USERS}", served),
     Form("leave", f"too take make correct {_OF_USERS}", left_out),
     Form("too|lead", f"it correct promise rate {_OF_USERS}", _same_of_others),

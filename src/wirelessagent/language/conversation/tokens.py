@@ -305,8 +305,10 @@ class Words:
             ahead, figure = self.tokens[at - 1].classes if at else frozenset[str](), token.figure
             counted = figure is not None and "plural" in ahead and not figure.text[:1].isdigit()
             count = 2 if "both" in token.classes else figure.value if figure is not None and counted else 0
-            several = {kind: users for kind, held in self.held.items() if len(users := own_users(held)) == count}
-            them = {users for kind, users in several.items() if kind in last} or {*several.values()}
+            own = {kind: held if isinstance(held, tuple) else own_users(held) for kind, held in self.held.items()}
+            several = {kind: users for kind, users in own.items() if len(users) == count}
+            back = {several["leave_out"]} if "leave_out" in several and self.has("serve") else set[tuple[str, ...]]()
+            them = back or {users for kind, users in several.items() if kind in last} or {*several.values()}
             if count and len(them) == 1:
                 self.figures = [each for each in self.figures if each is not figure]
                 users, start = them.pop(), at - 1 if counted else at

@@ -18,12 +18,6 @@ def all_served(words: Words) -> Intent | None:
     return words.acts([Serve(whom=Everybody())]) if some and counted in ([], [missing], [names]) else None
 
 
-def both_served(words: Words) -> Intent | None:
-    """ "both back in": the two who are left out."""
-    out = words.listed("leave_out")
-    return words.acts([Serve(whom=Named(out))]) if len(out) == 2 else None
-
-
 def of_whom(words: Words) -> tuple[str, ...]:
     """The users of a line that says no figure: by name, by number, or the one who was spoken of."""
     if words.users:
