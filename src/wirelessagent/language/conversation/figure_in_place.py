@@ -5,13 +5,14 @@ Which limit it is of, for whom and in which unit is as the line says it, else as
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 import re
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language.acts import Drop, Everybody, Limit, Named, Others, Scale, Suppose, Whom
-from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words, own_users
+from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Intent
 from wirelessagent.language.intent_acts import stated
 from wirelessagent.language.moods import is_ordered
@@ -20,7 +21,8 @@ from wirelessagent.model.units import human
 
 _SAID = (
     "users", "every", "others", "pronoun", "one", "it", "lead", "make", "correct", "suppose", "take", "figure",
-    "ratio", "bare", "with", "grant", "too", "by", "to", "revise", "both", "at_most", *NOUNS,
+    "ratio", "bare", "with", "grant", "too", "by", "to", "revise", "both", "at_most", "up_to", "moves", "except",
+    *NOUNS,
 )  # fmt: skip
 _COUNTS = ("weights", "resource_block_group_size")
 """Limits without a unit."""
@@ -32,16 +34,20 @@ _FAR = 20.0
 def read_figure(words: Words) -> Intent | None:
     """The limit of which a line says the one figure; None for any other line."""
     further = ["been"] if words.has("suppose") else []
-    further += ["more", "less"] if words.has("to") or _says_anew(words) else []
-    if len(words.figures) != 1 or not words.only(*_SAID, *further):
+    further += ["more", "less"] if words.has("to", "up_to", "make") else []
+    replaced, strict = _replaced(words), words.replaced is not None
+    holding = [] if replaced is None else _holding(words, replaced)
+    figures = [figure for figure in words.figures if figure is not replaced]
+    if len(figures) != 1 or not words.only(*_SAID, *further) or words.has("instead") or (strict and not holding):
         return None
-    figure, corrects = words.figures[0], words.has("correct")
+    figure, corrects = figures[0], words.has("correct")
     if figure.kind == "bare" and words.has("serve") and not words.has("to"):  # "bring 3 back", who is served
         return None
     supposed = [act for one in words.last(Suppose) for act in one.acts if isinstance(act, Limit)]
     before = supposed or [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
     if corrects and words.taken_off:
         before = [act for act in stated(words.taken_off) if isinstance(act, Limit)]
+    before = holding or before
     kinds = _kinds_of(words, figure, before)
     if len(kinds) != 1:
         return None
@@ -49,7 +55,7 @@ def read_figure(words: Words) -> Intent | None:
     models = [act for act in before if act.kind == kind]
     model = _model(words, figure, kind, models)
     says_whose = words.users or words.spoken_of or words.has("others", "every", "both")
-    several = len({act.whom for act in models}) > 1 and not says_whose
+    several = len({act.whom for act in models}) > 1 and not says_whose and not holding
     if several and model is not None and corrects:
         users = [user for act in models if isinstance(act.whom, Named) for user in act.whom.users]
         return words.line.ask("whose_figure", text=figure.text, users=words.line.voice.users(users))
@@ -59,31 +65,39 @@ def read_figure(words: Words) -> Intent | None:
     if _caps(words) and kind not in ("max_rate_bps", *UNITS["power"]):
         return None
     value, whom = value_of(figure, kind, model), _whom(words, kind, model)
-    if value is None or whom is None or not _leans(words, figure, model, supposes=bool(supposed)):
-        return None
-    replaced = words.replaced
-    if words.has("instead") or (
-        replaced is not None and value_of(replaced, kind, model) not in figures_of(words.held.get(kind))
-    ):
+    if value is None or whom is None or not (holding or _leans(words, figure, model, supposes=bool(supposed))):
         return None
     wondered = words.line.is_asked or words.has("suppose") or supposed
     orders = is_ordered(words.line.text) and not words.line.is_asked
     if not wondered or words.has("take", "make", "correct") or orders:
         said = f"{figure.value:g} {_unit(model)}" if _is_bare(figure, kind) and model is not None else figure.text
-        return words.acts([Limit(kind=kind, value=value, whom=whom, words=said)])
+        theirs = [act.whom for act in models] if holding and not says_whose else [whom]
+        return words.acts([Limit(kind=kind, value=value, whom=whose, words=said) for whose in theirs])
     if isinstance(whom, Others) or not (words.has("suppose") or supposed):
         return None
     users = dict.fromkeys(whom.users, value) if isinstance(whom, Named) else value
     return words.line.question("what_if", constraints={kind: users})
 
 
-def _says_anew(words: Words) -> bool:
-    """Whether a figure is what something is to be, and not by how much: "a bit more for everyone, say 350"."""
-    pairs = itertools.pairwise(words.tokens)
-    return any(
-        behind.figure is not None and "make" in token.classes and not token.classes & {"more", "less"}
-        for token, behind in pairs
-    )
+def _replaced(words: Words) -> Quantity | None:
+    """The figure in whose place the line has another one: "the 800 should be 600", "14, no, 13 W"."""
+    if words.replaced is not None or words.corrected is not None:
+        return words.replaced or words.corrected
+    becomes = len(words.figures) == 2 and words.has("make", "revise", "to", "correct")
+    return words.figures[0] if becomes and _holding(words, words.figures[0]) else None
+
+
+def _holding(words: Words, figure: Quantity) -> list[Limit]:
+    """The limits that hold with a figure."""
+    found = list[Limit]()
+    for kind, held in words.held.items():
+        own = held.items() if isinstance(held, Mapping) else [(EVERYBODY, held)]
+        for user, value in own:
+            act = Limit(kind=kind, value=value) if isinstance(value, float) else None
+            if act is not None and math.isclose(value_of(figure, kind, act) or 0.0, act.value):
+                common: Whom = Others() if isinstance(held, Mapping) else Everybody()
+                found.append(dataclasses.replace(act, whom=common if user == EVERYBODY else Named((user,))))
+    return found
 
 
 def as_held(words: Words, act: Scale) -> Limit:
@@ -103,6 +117,8 @@ def _kinds_of(words: Words, figure: Quantity, before: Sequence[Limit]) -> list[s
     known = [act.kind for act in before if (not (named or fitting) or act.kind in possible) and act.kind in whose]
     if not named and words.has(*NOUNS):
         return []
+    if words.has("up_to") and words.users and figure.kind in ("rate", "bare"):  # "user 3 may go up to 8"
+        return ["max_rate_bps"] if "max_rate_bps" in words.held else []
     if figure.kind == "bare" and not named:
         return known[-1:]
     held = [kind for kind in possible if kind in words.held]
@@ -132,32 +148,34 @@ def _caps(words: Words) -> bool:
 def _leans(words: Words, figure: Quantity, model: Limit | None, *, supposes: bool) -> bool:
     """Whether a line says no more than what a figure is to be now, and so leans on what was said before."""
     classes = ["correct", "take", "others", "both", "at_most", "subcarrier", "group", "pronoun", "one"]
+    classes += ["up_to", "except"] if words.users or words.spoken_of else []
     classes += ["whose"] if not words.is_read else []
+    says_what = words.is_read and words.has(*NOUNS)  # whose sentences are the recogniser's
+    classes += ["moves"] if model is not None and model.kind in words.held and not says_what else []
     unread = not words.is_read or words.was_too_much or figure.kind == "ratio"
     classes += ["make"] if model is not None and unread else []
     classes += ["make", "lead", "with", "suppose", "grant"] if figure.kind == "bare" or supposes else []
     classes += (["to"] if words.users else ["more", "less"]) if figure.kind == "bare" and words.has("to") else []
     classes += ["revise"] if model is not None and isinstance(model.whom, Named) else []
     if len(words.named_kinds()) == 1:
-        classes += ["make", "promise"] if words.users else ["make", "limit", "to"]
+        classes += ["make", "promise"] if words.users or not words.is_read else ["make", "limit", "to"]
     says_nothing_else = all(token.figure or "skip" in token.classes for token in words.tokens)
     alone = model is not None and words.line.context.awaits == "nothing" and says_nothing_else
+    alone = alone or bool(words.about)
     leans = alone or words.has(*classes) or (words.has("limit", "power") and figure.kind == "power")
     if not leans or (words.has("by") and words.has("make")):
         return False
     pairs = itertools.pairwise(words.tokens)
-    led = words.has("lead", "correct", "with", "make", "at_most", "grant", "to")
+    led = words.has("lead", "correct", "with", "make", "at_most", "grant", "to", "up_to", "moves", "except")
     led = led or any(token.figure and "promise" in behind.classes for token, behind in pairs)  # "1 Mbit/s promised"
     return led or not words.users or not words.is_read
 
 
 def _whom(words: Words, kind: str, model: Limit | None) -> Whom | None:
     """For whom a limit is; None where no such limit is for whom the line says."""
-    both, whom = own_users(words.held.get(kind)), words.whom() or (model.whom if model is not None else Everybody())
-    if words.has("both"):
-        if len(both) != 2:
-            return None
-        whom = Named(both)
+    whom = words.whom() or (model.whom if model is not None else Everybody())
+    if words.has("both") and not words.users:
+        return None
     if kind not in FIGURES_OF_USERS:
         if words.users or words.has("others"):
             return None

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from wirelessagent.language.acts import (
@@ -24,25 +24,25 @@ from wirelessagent.language.acts import (
     Serve,
     Undo,
 )  # fmt: skip
-from wirelessagent.language.conversation.corrections import denies, moved
+from wirelessagent.language.conversation.corrections import denies, moved, swapped
 from wirelessagent.language.conversation.figure_in_place import figures_of, read_figure
 from wirelessagent.language.conversation.limits_off import dropped, restored
-from wirelessagent.language.conversation.line import Line, begins, is_all
-from wirelessagent.language.conversation.relative import read_relative, read_repeated
-from wirelessagent.language.conversation.tokens import NOUNS, Words, speaks_of_one, tokens_of, words_of
-from wirelessagent.language.conversation.who_is_served import all_served, both_served, left_out, of_whom, served
+from wirelessagent.language.conversation.line import Line, is_all
+from wirelessagent.language.conversation.relative import read_of_another, read_relative, read_repeated
+from wirelessagent.language.conversation.tokens import NOUNS, Token, Words, changed_by, speaks_of_one, words_of
+from wirelessagent.language.conversation.who_is_served import all_served, left_out, of_whom, served
 from wirelessagent.language.guard import tells_no_mere_fact
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Intent
+from wirelessagent.language.intent import Intent
 from wirelessagent.language.moods import is_ordered
-from wirelessagent.language.text import languages_of, normalise
+from wirelessagent.language.text import normalise
 
 _LONGEST = 120
-_SHORT = 40
 _MOST_STEPS = 20
-_FIRST_NUMBER = re.compile(r"\s*(\d{1,3})\s+(?=[^\W\d_]{2,}\s)")
+_OF_A_USER = re.compile(r"(?i)(?:^\s*|\b(?:el|al|la|le|du|au|der|die|den|dem|number)\s)(\d{1,3})\s*(?=$|[^\W\d_])")
 _NUMBER = re.compile(r"(?<![A-Za-z\d.])\d++(?:\.\d+)?+(?![A-Za-z])")  # "7", and no "4K"
-_BUT = re.compile(r"(?:\s(?=(?:but|and)\s)|(?=但|而))(.+)$")
-_LAST_CLAUSE = re.compile(r"(?:[,;.!](?!\d)|[，；。！])\s*((?:[^,，;；.。!！]|[,.](?=\d))+)[.。!！\s]*$")
+_STOP = re.compile(r"\s*(?:[,;.!:](?!\d)|(?<!\d),|[，；。！：])\s*")
+_AND = re.compile(rf"{_STOP.pattern}|\s+(?=(?:and|but|und|aber|y|pero|et|mais)\s)|(?=但|而)")
+_ENDS = " .!。！"
 
 
 @dataclass(frozen=True)
@@ -75,28 +75,98 @@ def read_fragment(line: Line) -> Intent | None:
     open_ = context.pending or context.pending_objective or whose or context.offered or context.guess
     if context.objective is None or (context.awaits == "clarification" and open_) or len(line.text) > _LONGEST:
         return None
-    if _takes_back(line):
-        return line.command("undo", steps=1.0)
-    line = _without_a_description(_without_what_stays(line))
-    order = _order_about_one(line)
-    found = [_read(words) for words in words_of(line)]
-    if order is not None:
-        found += [_read(words) for words in words_of(order) if words.spoken_of is not None]
-    figure = _behind_a_story(line)
-    if figure is not None:
-        found += [read_figure(words) or read_relative(words) for words in words_of(figure)]
+    found = (_read_told(story, rest) for story, rest in _told(_without_what_stays(line)))
     return next((intent for intent in found if intent is not None), None)
 
 
 def _read(words: Words) -> Intent | None:
     """What the first form means that a line has and that means something."""
-    words, forms = _corrected_at_once(words), _FORMS
+    forms = _FORMS
     if words.line.is_asked:
         forms = tuple(form for form in _FORMS if form.asked)
-    elif denies(words.tokens):
+    elif words.is_unsure or denies(words.tokens) or words.denies_users:
         forms = _FORMS[:1]
     found = (form.read(words) for form in forms if form.fits(words))
     return next((intent for intent in found if intent is not None), None)
+
+
+def _told(line: Line) -> Iterator[tuple[Line, Line]]:
+    """What a line only tells, and what it says behind that: nothing and all of it, or its last clauses.
+
+    A correction ahead is of what is said last: "sorry, I was half asleep, user 5".
+    """
+    yield Line.of("", line.context), line
+    stops = [] if line.is_asked else list(_STOP.finditer(line.text.rstrip(_ENDS)))
+    head = line.text[: stops[0].end()] if stops else ""
+    heads = (words.only("correct", "lead") for words in words_of(Line.of(head, line.context)))
+    head = head if any(heads) else ""
+    for stop in stops:
+        story = Line.of(line.text[len(head) : stop.start()], line.context)
+        if stop.start() >= len(head) and (users := _only_told(story)) is not None:
+            context = dataclasses.replace(line.context, spoken_of=users or line.context.spoken_of)
+            yield dataclasses.replace(story, users=users), Line.of(head + line.text[stop.end() :], context)
+
+
+def _only_told(story: Line) -> tuple[str, ...] | None:
+    """The users of whom a clause only tells, and asks for nothing: "user 7 has paid"; None for any other clause."""
+    context, counted = story.context, _NUMBER.findall(story.text)
+    numbered = _OF_A_USER.search(story.text) if len(counted) == 1 and not story.figures else None
+    numbered = numbered if numbered and int(numbered[1]) in range(1, len(context.user_names) + 1) else None
+    users = story.users or ((numbered[1],) if numbered else ())
+    does = any(_read(words) for words in words_of(story))
+    if is_ordered(story.text) or does or tells_no_mere_fact(story.text):
+        return None
+    held = {figure for limit in context.constraints.values() for figure in figures_of(limit)}
+    known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)}
+    new = {figure.value for figure in story.figures} - held or {*counted} - known - {*users, *context.spoken_of}
+    aims = story.sentence.goal.verdict not in ("none", "weak") and not speaks_of_one(story.text, "too_much")
+    return None if story.is_asked or new or aims else users
+
+
+def _read_told(story: Line, rest: Line) -> Intent | None:
+    """What a line does behind what it tells: "user 7 has paid, let him back in", "power's too high, halve it"."""
+    each = _clause_by_clause(rest)
+    if each is not None:
+        return each
+    for words in words_of(rest, lenient=not (story.text or rest.is_asked)):
+        if story.text:
+            words.is_told = True
+            if words.has("it"):
+                words.tokens += [Token(frozenset({noun, "skip"})) for noun in NOUNS if speaks_of_one(story.text, noun)]
+            if story.users and words.spoken_of is None:
+                likened = words.has("than", "equal", "too") and not words.figures
+                if likened and (words.users or words.has("others")):  # "6 has paid, too, so like user 2"
+                    words.tokens = [Token(frozenset({"users"}), users=story.users), *words.tokens]
+                    words.users = (*story.users, *words.users)
+                elif words.users or words.has("others", "every", "both", "power", "certainty"):
+                    continue
+                words.about = story.users
+                if {figure.kind for figure in words.figures} == {"rate"}:
+                    words.users = story.users
+                elif not likened and not words.has("leave", "serve"):
+                    continue
+        intent = _read(words)
+        if intent is not None and not (story.text and intent.kind == "clarify"):
+            return intent
+    return None
+
+
+def _clause_by_clause(line: Line) -> Intent | None:
+    """What a line does that says several things, each of its clauses one of them: "4 in, 1 out"."""
+    clauses = [Line.of(each, line.context) for each in _AND.split(line.text.rstrip(_ENDS)) if each.strip()]
+    acts = list[Act]()
+    for clause in clauses if len(clauses) > 1 and not line.is_asked else ():
+        context = dataclasses.replace(line.context, acts=tuple(acts) or line.context.acts)
+        found = list[tuple[Words, Intent | None]]()
+        for words in words_of(dataclasses.replace(clause, context=context)):
+            whom = words.last_whom()
+            words.about = whom.users if acts and isinstance(whom, Named) else ()
+            found.append((words, _read(words)))
+        done = [each for words, each in found if each and each.acts and not words.has("correct", "instead")]
+        if not done:
+            return None
+        acts += done[0].acts
+    return changed_by(line, acts) if acts else None
 
 
 def read_wondered(line: Line) -> Intent | None:
@@ -105,73 +175,11 @@ def read_wondered(line: Line) -> Intent | None:
     return next((intent for intent in found if intent is not None), None)
 
 
-def _order_about_one(line: Line) -> Line | None:
-    """What is ordered of one user behind a clause that only tells of that user: "user 7 has paid, let him back in"."""
-    clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or line.is_asked:
-        return None
-    story = Line.of(line.text[: clause.start()], line.context)
-    first = _FIRST_NUMBER.match(story.text)
-    numbered = first is not None and int(first[1]) in range(1, len(line.context.user_names) + 1)
-    users = story.users or ((first[1],) if first is not None and numbered else ())
-    acts = story.figures or is_ordered(story.text) or any(True for _ in words_of(story))
-    if len(users) != 1 or acts or story.is_asked or tells_no_mere_fact(story.text):
-        return None
-    return Line.of(clause[1], dataclasses.replace(line.context, spoken_of=users))
-
-
-def _behind_a_story(line: Line) -> Line | None:
-    """What is said last behind a clause that only tells of nobody, or of what holds: "ouch. 95 will do"."""
-    clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or line.is_asked:
-        return None
-    story = Line.of(line.text[: clause.start()], line.context)
-    held = {figure for limit in line.context.constraints.values() for figure in figures_of(limit)}
-    known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)}
-    new = {figure.value for figure in story.figures} - held or set(_NUMBER.findall(story.text)) - known
-    acts = is_ordered(story.text) or any(True for _ in words_of(story))
-    if story.users or acts or new or story.is_asked or tells_no_mere_fact(story.text):
-        return None
-    return None if story.sentence.goal.objective else Line.of(clause[1], line.context)
-
-
 def _without_what_stays(line: Line) -> Line:
     """The line without a last clause that only says what stays: "…, but keep the promise to user 3"."""
-    clause = _LAST_CLAUSE.search(line.text) or _BUT.search(line.text)
-    stays = clause is not None and is_all("kept", Line.of(clause[1], line.context).shape.rstrip(".!。 "))
-    return Line.of(line.text[: clause.start()], line.context) if clause is not None and stays else line
-
-
-def _without_a_description(line: Line) -> Line:
-    """The line without what it says about its user beside what it wants: "oops, the hospital is user 8, not 3"."""
-    match = begins("described", line.shape)
-    if match is None or not line.users:
-        return line
-    words = match["words"]
-    place = line.text.lower().find(words)
-    return line if place < 0 else Line.of(line.text[:place] + line.text[place + len(words) :], line.context)
-
-
-def _corrected_at_once(words: Words) -> Words:
-    """A line with what stands behind a correction in the place of what it corrects: "a bit less... no, a third"."""
-    tokens = list(enumerate(words.tokens))
-    place = next((at for at, each in tokens[::-1] if "correct" in each.classes and "instead" not in each.classes), 0)
-    ahead, behind = words.tokens[:place], words.tokens[place + 1 :]
-    users, figures = any(token.users for token in behind), any(token.figure or token.factor for token in behind)
-    gone = {*(("users",) if users else ()), *(("figure", "bare", "ratio", "factor", "vague") if figures else ())}
-    kept = [token for token in ahead if not token.classes & gone]
-    said = any(token.classes - {"skip", "correct", "lead"} for token in ahead)
-    return Words(words.line, [*kept, *behind], words.language) if said and len(kept) < len(ahead) else words
-
-
-def _takes_back(line: Line) -> bool:
-    """Whether the last clause of a short line is an undo and nothing else: "call's over, undo that"."""
-    clause = _LAST_CLAUSE.search(line.text)
-    if clause is None or len(line.text) > _SHORT or line.is_asked:
-        return False
-    last = Line.of(clause[1], line.context)
-    read = ((tokens_of(last, language), language) for language in languages_of(line.text))
-    return any(_is_undo(Words(last, tokens, language), "again") for tokens, language in read if tokens)
+    stops = list(_AND.finditer(line.text.rstrip(_ENDS)))
+    stays = stops and is_all("kept", Line.of(line.text[stops[-1].end() :], line.context).shape.rstrip(_ENDS))
+    return Line.of(line.text[: stops[-1].start()], line.context) if stays else line
 
 
 def _is_undo(words: Words, *further: str) -> bool:
@@ -183,7 +191,8 @@ def _is_undo(words: Words, *further: str) -> bool:
 def _steps_undone(words: Words) -> Intent | None:
     """ "undo the last two changes"; a bare command is a sentence of its own where recognisers read it."""
     counts = [figure.value for figure in words.figures] + [token.factor for token in words.tokens if token.factor]
-    if words.is_read or len(counts) != 1 or counts[0] not in range(1, _MOST_STEPS):
+    counts += [2.0] if words.has("both") else []
+    if (words.is_read and not words.has("both")) or len(counts) != 1 or counts[0] not in range(1, _MOST_STEPS):
         return None
     return words.line.command("undo", steps=float(counts[0]))
 
@@ -191,26 +200,8 @@ def _steps_undone(words: Words) -> Intent | None:
 def _undone(words: Words) -> Intent | None:
     """ "nah, undo that", "undo the raise"."""
     further = ("correct", "lead", "again", "too", "remove", *(NOUNS if words.has("remove") else ()))
-    says_more = words.has("make", "more", "less", "correct", "too") or not words.is_read  # else a command is known
+    says_more = words.is_told or words.has("make", "more", "less", "correct", "too") or not words.is_read
     return words.line.command("undo", steps=1.0) if says_more and _is_undo(words, *further) else None
-
-
-def _as_another(words: Words) -> Intent | None:
-    """ "user 8 the same as user 3", "user 5 like the others": the one figure of a user, or that of all, for another."""
-    if words.has("others", "every"):
-        own = [kind for kind in FIGURES_OF_USERS if words.users and isinstance(held := words.held.get(kind), Mapping)
-               and EVERYBODY in held and set(words.users) <= held.keys()]  # fmt: skip
-        return words.acts([Drop(kind=kind, whom=Named(words.users), own=True) for kind in own]) if own else None
-    named = [token.users for token in words.tokens if token.users]
-    named += [words.counted()] if len(named) == 1 and words.counted() else []
-    if len(named) == 1 and len(named[0]) == 2:  # "用户5和用户2一样", one list of two
-        named = [(user,) for user in named[0]]
-    if len(named) != 2 or len(named[1]) != 1:
-        return None
-    figures = [(kind, value[named[1][0]]) for kind in FIGURES_OF_USERS
-               if isinstance(value := words.held.get(kind), Mapping) and named[1][0] in value]  # fmt: skip
-    acts = [Limit(kind=kind, value=value, whom=Named(named[0])) for kind, value in figures]
-    return words.acts(acts) if len(acts) == 1 else None
 
 
 def _again(words: Words) -> Intent | None:
@@ -278,26 +269,32 @@ def _corrected(words: Words) -> Intent | None:
     return None if "outage_probability" in words.line.context.stated else words.line.ask("what_changes")
 
 
+_MOVED = "users bare lead it revise whose"
+_ANOTHER = "users bare lead weight rate promise again others every make it"
 _OF_USERS = "users bare lead again pronoun one"
-_GONE = "it users bare every others both pronoun one own again lead correct more by"
+_GONE = "it equal users bare every others both pronoun one own again lead correct more by"
 _NOUNS = " ".join(NOUNS)
 _FORMS = (
-    Form("correct", "users bare lead it revise whose", moved),
-    Form("undo", "bare factor change_noun lead again", _steps_undone),
+    Form("correct", f"{_MOVED} leave remove serve at_most factor weight figure make rate promise too", moved),
+    Form("undo", "bare factor change_noun lead again both it", _steps_undone),
     Form("undo", "correct it lead again make more less factor rate limit promise power weight too remove", _undone),
-    Form("too|equal", "users bare lead weight rate promise again others every make it", _as_another),
-    Form("again", "lead", _again),
+    Form(
+        "too|equal|factor|ratio|than",
+        f"{_ANOTHER} more less both pronoun one than grant possessed limit",
+        read_of_another,
+    ),
+    Form("swap", f"{_ANOTHER} correct both pronoun take own", swapped),
+    Form("again", "lead too it", _again),
     Form("again", "lead it take", read_repeated),
     Form("take", "it", _taken_up),
     Form("as_it_was", f"before after users lead correct make undo told leave first {_NOUNS}", _as_it_was),
     Form("equal weight", "every make again lead", _weighed_equally),
-    Form("remove|too", f"{_GONE} {_NOUNS} figure", dropped),
+    Form("remove|too|lead", f"{_GONE} take {_NOUNS} figure", dropped),
     Form("restore", f"it correct lead take make again {_NOUNS}", restored),
     Form("every serve", "again lead take make correct bare it", all_served),
     Form("others serve", "again lead too make bare", all_served),
-    Form("both serve", "again lead every", both_served),
     Form("serve", f"too take make it correct {_OF_USERS}", served),
-    Form("leave", f"too take make {_OF_USERS}", left_out),
+    Form("leave", f"too take make correct {_OF_USERS}", left_out),
     Form("too|lead", f"it correct promise rate {_OF_USERS}", _same_of_others),
     Form("", "", read_relative, asked=True),
     Form("limit power", "make", _asks_what_changes, asked=True),

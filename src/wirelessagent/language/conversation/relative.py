@@ -12,14 +12,15 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from wirelessagent.language.acts import Act, Everybody, Limit, Named, Scale
+from wirelessagent.language.acts import Act, Drop, Everybody, Limit, Named, Scale
 from wirelessagent.language.conversation.figure_in_place import as_held, value_of
 from wirelessagent.language.conversation.line import has
-from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words
+from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words, own_users
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint, Detail, Intent
 from wirelessagent.language.quantities import Quantity
 
 _SAID = (
+    "than", "possessed", "both",
     "users", "every", "each", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
     "promise", "power", "limit", "again", "by", "to", "figure", "decibel", "bare", "at_most", "suppose", "worth",
     "spend", "effect", "been", "with", "one", "grant", "group", "circuit", "subcarrier", "further",
@@ -59,6 +60,8 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
     change = _change(words, corrects=corrects)
     if change is None or not words.only(*_SAID, *(("correct",) if corrects else ())):
         return None
+    if len(_groups(words)) > 1:  # one of whom has what the other is to have a share of
+        return None
     asked = words.line.is_asked and not has("polite", words.line.shape)
     supposes = wonders or words.has("suppose") or words.has("worth")
     if (asked or words.has("been") or (words.has("effect") and not words.has("less"))) and not supposes:
@@ -82,9 +85,6 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
     if basis is None:
         if words.has("worth") and name == "min_rate_bps":
             return words.line.question("step", rate_share=change.factor - 1.0)
-        said = [act for act in words.last(Limit) if act.kind == name]
-        if len(said) == 1 and not change.step and not supposes:  # "half of that for user 6", who has no such figure
-            return words.acts([Limit(kind=name, value=said[0].value * change.factor, whom=Named(users))])
         return words.line.ask("no_rate_to_change")
     return _result(words, name, basis, change, supposes=supposes, users=users)
 
@@ -203,7 +203,82 @@ def _weighed(words: Words, factor: float) -> Intent | None:
     if not (words.has("weight") or (weights and alone and factor > 1)):
         return None
     whom = words.whom() or (weights[-1].whom if len(weights) == 1 else None)
-    return words.acts([Limit(kind="weights", value=factor, whom=whom)]) if isinstance(whom, Named) else None
+    if not isinstance(whom, Named):
+        return None
+    own, scaled = own_users(words.held.get("weights")), Scale(kind="weights", factor=factor, whom=whom)
+    places = [at for at, token in enumerate(words.tokens) if "weight" in token.classes or token.factor]
+    of_what_holds = factor < 1 or places[-1] - places[0] > 1  # "double his weight", and no "double weight"
+    anew = not {*whom.users} <= {*own} or words.has("correct", "make") or not of_what_holds
+    return words.acts([Limit(kind="weights", value=factor, whom=whom) if anew else scaled])
+
+
+def read_of_another(words: Words) -> Intent | None:
+    """ "User 8 the same as user 3", "half of that for 6", "5 like the others": by the figure of somebody else."""
+    figures = [figure for figure in words.figures if figure.kind == "ratio"]
+    shares = [*(figure.value for figure in figures), *(token.factor for token in words.tokens if token.factor)]
+    if len(shares) > 1 or figures != words.figures:
+        return None
+    more = words.has("more") - words.has("less")
+    factor = (1 + more * shares[0] if more else shares[0]) if shares else 1.0
+    groups = _groups(words)
+    if len(groups) == 1 and len(groups[0][1]) == 2 and not shares:  # "用户5和用户2一样", one list of two
+        groups = [(0, (groups[0][1][0],)), (0, (groups[0][1][1],))]
+    models = [users for place, users in groups if _is_model(words, place)] or [
+        users for _, users in groups[1:] if not shares
+    ]
+    theirs = [users for _, users in groups if users not in models]
+    spoken = words.spoken_of.users if words.spoken_of else ()
+    if spoken and len(groups) < 2:
+        theirs, models = (theirs or [spoken]), (models or [spoken] if theirs else [])
+    if len(theirs) != 1 or (models and (len(models) != 1 or len(models[0]) != 1)):
+        return None
+    common = words.has("others", "every")
+    last = [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
+    found: dict[str, float] = {}
+    for kind in [kind for kind in words.named_kinds() or FIGURES_OF_USERS if kind in FIGURES_OF_USERS]:
+        held = words.held.get(kind)
+        own = held if isinstance(held, Mapping) else {EVERYBODY: held} if isinstance(held, float) else {}
+        anew = [act for act in last if act.kind == kind and words.has("it") and shares]
+        those = {act.value for act in anew if not isinstance(act.whom, Named) or not {*theirs[0]} & {*act.whom.users}}
+        those = {own[user] for user in own_users(held)} if words.has("both") else those
+        model = (models[0][0] if models else EVERYBODY) if models or common else ""
+        figure = own.get(model, own.get(EVERYBODY) if shares and model else None)
+        figure = those.pop() if not model and len(those) == 1 else figure
+        if common and not shares and not (isinstance(held, Mapping) and {*theirs[0]} <= held.keys()):
+            continue
+        if figure is not None:
+            found[kind] = figure * factor
+    if common and not shares:
+        return words.acts([Drop(kind=kind, whom=Named(theirs[0]), own=True) for kind in found]) if found else None
+    latest = {act.kind for act in last} & found.keys()
+    kinds = [*latest] if len(latest) == 1 else [*found]
+    acts = [Limit(kind=kind, value=found[kind], whom=Named(theirs[0])) for kind in kinds]
+    return words.acts(acts) if len(acts) == 1 else None
+
+
+def _groups(words: Words) -> list[tuple[int, tuple[str, ...]]]:
+    """The users of a line with their places, those that are listed together."""
+    groups, listed = list[tuple[int, tuple[str, ...]]](), False
+    for place, token in enumerate(words.tokens):
+        if token.users:
+            groups = (
+                [*groups[:-1], (groups[-1][0], groups[-1][1] + token.users)]
+                if listed
+                else [*groups, (place, token.users)]
+            )
+        listed = bool(token.users) or (listed and "lead" in token.classes)
+    return groups
+
+
+def _is_model(words: Words, place: int) -> bool:
+    """Whether the users at a place are those whose figure is taken: "half of what 1 gets", "1号的一半"."""
+    for token in words.tokens[:place][::-1]:
+        if "than" in token.classes:
+            return True
+        if "skip" not in token.classes:
+            break
+    behind = next((token for token in words.tokens[place + 1 :] if "possessed" not in token.classes), None)
+    return words.language == "zh" and behind is not None and bool(behind.factor)
 
 
 def _worth(words: Words, figure: Quantity, step: float) -> Intent:
@@ -218,7 +293,7 @@ def _changed_limit(words: Words, change: _Change) -> str | None:
     """The limit that is changed: what is named, or what was stated last."""
     if words.has("power"):
         return "max_power_w"
-    kinds = words.named_kinds() or [act.kind for act in words.last(Limit)]
+    kinds = words.named_kinds() or [act.kind for act in words.last(Limit, Scale)]
     if change.figure is not None:
         kinds = [kind for kind in dict.fromkeys(kinds) if kind in UNITS[change.figure.kind]]
     if change.figure is not None and change.figure.kind == "power":

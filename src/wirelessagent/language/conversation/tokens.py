@@ -19,7 +19,7 @@ from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.numerals import factors, numbers
 from wirelessagent.language.quantities import Quantity, parse_quantities
-from wirelessagent.language.text import CJK, languages_of, normalise, unaccented
+from wirelessagent.language.text import CJK, has_chinese, languages_of, normalise, unaccented
 from wirelessagent.language.word_tables import table
 
 UNITS: Mapping[str, tuple[str, ...]] = {
@@ -78,23 +78,24 @@ class Token:
     factor: float | None = None
 
 
-def words_of(line: Line) -> Iterator[Words]:
-    """The line word by word in each language that it may be in and that knows all of its words."""
+def words_of(line: Line, *, lenient: bool = False) -> Iterator[Words]:
+    """The line word by word in each language that it may be in and that knows all of its words, or is ``lenient``."""
     spoken = [line.context.language] if line.context.language else []
     for language in dict.fromkeys([*spoken, *languages_of(line.text)]):
-        tokens = tokens_of(line, language)
+        tokens = tokens_of(line, language, lenient=lenient)
         if tokens:
             yield Words(line, tokens, language)
 
 
 def speaks_of_one(plain: str, of: str = "pronoun") -> bool:
-    """Whether a pronoun, or a word of another class, is among the words."""
-    words = set(_WORD.findall(_unmarked(plain.lower())))
+    """Whether a pronoun, or words of another class, are in the text."""
+    low = plain.lower()
+    said = f" {' '.join(_WORD.findall(low))} {' '.join(_WORD.findall(_unmarked(low)))} "
     return any(
-        word in words if word.isascii() else word in plain
+        f" {' '.join(_WORD.findall(word))} " in said if word.isascii() else word in low
         for language in languages_of(plain)
         for word, token in _table(language)[0].items()
-        if of in token.classes and " " not in word
+        if of in token.classes
     )
 
 
@@ -103,8 +104,8 @@ def own_users(held: Constraint | None) -> tuple[str, ...]:
     return tuple(user for user in held if user != EVERYBODY) if isinstance(held, Mapping) else ()
 
 
-def tokens_of(line: Line, language: str) -> list[Token] | None:
-    """The line as words that are known here; None where one is not."""
+def tokens_of(line: Line, language: str, *, lenient: bool = False) -> list[Token] | None:
+    """The line as words that are known here; None where one is not, unless it is told of who is meant instead."""
     marked = normalise(line.text)
     plain = _unmarked(marked.lower())
     figures = [
@@ -140,32 +141,44 @@ def tokens_of(line: Line, language: str) -> list[Token] | None:
             spans[factor.start] = (factor.end, Token(frozenset({"factor"}), factor=float(factor.value)))
     for figure in figures:
         spans[figure.start] = (figure.end, Token(frozenset({_CLASS.get(figure.kind, figure.kind)}), figure=figure))
-    return _segmented(plain, spans, language)
+    known = _segmented(marked.lower(), spans, language, lenient=False)
+    return _segmented(marked.lower(), spans, language, lenient=True) if known is None and lenient else known
 
 
-def _segmented(plain: str, spans: Mapping[int, tuple[int, Token]], language: str) -> list[Token] | None:
-    found: list[Token] = []
+def _segmented(
+    marked: str, spans: Mapping[int, tuple[int, Token]], language: str, *, lenient: bool
+) -> list[Token] | None:
+    """The tokens of a text from end to end, the longest words first; None where no words cover it."""
     words, longest = _table(language)
-    place = 0
-    while place < len(plain):
-        space = _SPACE.match(plain, place)
+
+    @functools.cache
+    def behind(place: int) -> list[Token] | None:
+        space = _SPACE.match(marked, place)
         if space is not None:
             place = space.end()
-        else:
-            ends = range(min(len(plain), place + longest), place, -1)
-            end = next((end for end in ends if plain[place:end] in words and _is_whole(plain, place, end)), None)
-            if place in spans and (end is None or words[plain[place:end]].factor is None or end <= spans[place][0]):
-                place, token = spans[place]
-                found.append(token)
-                continue
-            if end is None:
-                return None
-            inside = place not in spans and any(place < start < end for start in spans)
-            if inside and words[plain[place:end]].factor is None:
-                return None
-            found.append(words[plain[place:end]])
-            place = end
-    return found
+        if place == len(marked):
+            return []
+        for end, token in found(place):
+            rest = behind(end)
+            if rest is not None:
+                return [token, *rest]
+        return None
+
+    def found(place: int) -> Iterator[tuple[int, Token]]:
+        inside = [(start, last) for start, (last, _) in spans.items() if place < start]
+        for end in range(min(len(marked), place + longest), place, -1):
+            word = words.get(marked[place:end])
+            cut = any(start < end < last for start, last in inside) and word and not word.factor
+            of_a_figure = place in spans and not (word and word.factor and end > spans[place][0])
+            if word and not cut and not of_a_figure and _is_whole(marked, place, end):
+                yield end, word
+        if place in spans:
+            yield spans[place]
+        unknown = _WORD.match(marked, place) if lenient else None
+        if unknown is not None:
+            yield (place + 1 if has_chinese(unknown[0]) else unknown.end()), _UNKNOWN
+
+    return behind(0)
 
 
 def _unmarked(text: str) -> str:
@@ -189,43 +202,74 @@ def _table(language: str) -> tuple[Mapping[str, Token], int]:
     lifted = cast("Mapping[str, list[str]]", table("figures", language)["lifted"])
     of_classes = [(name, word) for name in listed.keys() - {"factors"} for word in cast("list[str]", listed[name])]
     of_classes += [(name, word) for limit, name in _LIFTED.items() for word in lifted.get(limit, ())]
+    spelt = {word for _, word in of_classes} | factors.keys()
     for name, word in of_classes:
-        for ending in _ENDINGS if "*" in word else ("",):
-            classes.setdefault(_unmarked(word.replace("*", ending)), set()).add(name)
-    factors = {_unmarked(word): factor for word, factor in factors.items()}
+        for own in {word, *({_unmarked(word)} - spelt)}:  # "maximo" is "máximo", and "él" is no "el"
+            for ending in _ENDINGS if "*" in word else ("",):
+                classes.setdefault(own.replace("*", ending), set()).add(name)
+    factors = {own: factor for word, factor in factors.items() for own in (word, _unmarked(word))}
     for word in factors:
         classes.setdefault(word, set()).add("factor")
     tokens = {word: Token(frozenset(names), factor=factors.get(word)) for word, names in classes.items()}
     return tokens, max(map(len, tokens))
 
 
-def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], Quantity | None]:
-    """The tokens without the figure that another replaces ("300 rather than 200", "500 was too much, 400"), and it.
+_COUNTED = frozenset({"figure", "bare", "ratio", "factor", "vague"})
+_NO_USER = frozenset({"make", "to", "by", "more", "less", "revise", "at_most", "instead", "undo", "change_noun"})
+_UNKNOWN = Token(frozenset({"unknown", "skip"}))
+_CORRECTED = Token(frozenset({"correct", "skip"}))
+"""What stays in the place of what a line denies."""
+
+
+def _without_what_goes(tokens: Sequence[Token]) -> tuple[list[Token], list[Token]]:
+    """The tokens without what others replace, and that: "300 rather than 200", "500 was too much, 400", "not user 3".
 
     What holds was too much in "too much, make it 9", which says nothing more.
     """
-    kept = list(tokens)
+    kept, gone = list(tokens), list[Token]()
     said = [token for token in kept if not token.classes <= {"skip"} or token.figure]
-    replaced: Quantity | None = None
     for token, behind in itertools.pairwise(said):
-        gone = behind if "instead" in token.classes else token if "too_much" in behind.classes else None
-        counted = [each for each in kept if each.figure or each.factor]
-        if gone is not None and gone in counted and len(counted) > 1:
-            kept, replaced = [each for each in kept if each is not token and each is not behind], gone.figure
-    first = next((place for place, token in enumerate(kept) if token.figure is not None), 0)
-    return [token for token in kept[:first] if "too_much" not in token.classes] + kept[first:], replaced
+        over = behind if "instead" in token.classes else token if "too_much" in behind.classes else None
+        counted = [each for each in kept if each.figure or each.factor or each.users]
+        if over is not None and any(over is each for each in counted) and len(counted) > 1:
+            stays = [_CORRECTED] if over is behind else []
+            kept = [*(each for each in kept if each is not token and each is not behind), *stays]
+            gone.append(over)
+    first = next((place for place, token in enumerate(kept) if token.figure or token.factor), 0)
+    return [token for token in kept[:first] if "too_much" not in token.classes] + kept[first:], gone
+
+
+def _corrected_at_once(tokens: Sequence[Token]) -> tuple[list[Token], list[Token]]:
+    """The tokens with what stands behind a correction in the place of what it corrects, and what that was.
+
+    "A bit less... no, a third", "I said 5 but meant 6".
+    """
+    corrects = (each is not _CORRECTED and {*each.classes} & {"correct", "instead"} == {"correct"} for each in tokens)
+    places = [at for at, it_does in enumerate(corrects) if it_does]
+    ahead, behind = (tokens[: places[-1]], tokens[places[-1] + 1 :]) if places else ((), tokens)
+    users, figures = any(token.users for token in behind), any(token.figure or token.factor for token in behind)
+    gone = {*(("users",) if users else ()), *(_COUNTED if figures else ())}
+    over = [token for token in ahead if token.classes & gone]
+    said = over and any(token.classes - {"skip", "correct", "lead"} for token in ahead)
+    return ([token for token in ahead if not token.classes & gone] + [*behind], over) if said else ([*tokens], [])
 
 
 def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:
-    """The tokens with bare numbers behind "for" as users whose another figure or share is: "triple for 5 and 6"."""
-    changed = list(tokens)
-    for place, (ahead, token) in enumerate(itertools.pairwise(tokens), start=1):
-        others = any(each.figure or each.factor for each in tokens if each is not token)
-        figure = token.figure
-        counts = figure is not None and figure.kind == "bare" and figure.value in range(1, num_users + 1)
-        listed = "lead" in ahead.classes and bool(changed[place - 2].users)
-        if counts and others and ("whose" in ahead.classes or listed) and not any(each.users for each in tokens):
-            assert figure is not None
+    """The tokens with bare numbers as users where they are whose another figure or share is: "triple for 5 and 6"."""
+    changed, nobody = list(tokens), Token(frozenset())
+    shared = any(token.factor or "equal" in token.classes for token in tokens)
+    shared = shared and not any(token.classes & {"figure", "ratio"} for token in tokens)
+    several = any(token.users for token in tokens)
+    for place, token in enumerate(tokens):
+        ahead, behind = tokens[place - 1] if place else nobody, [*tokens, nobody][place + 1]
+        figure, others = token.figure, shared or any(each.figure for each in tokens if each is not token)
+        if figure is None or figure.kind != "bare" or figure.value not in range(1, num_users + 1):
+            continue
+        listed = "lead" in ahead.classes and place > 1 and bool(changed[place - 2].users)
+        whose = not several and (bool(ahead.classes & {"whose", "except"}) or listed)
+        clear = "possessed" in behind.classes or (shared and not ahead.classes & _NO_USER)
+        several_of = "plural" in ahead.classes and not figure.text[:1].isdigit()  # "all three"
+        if others and (whose or clear) and not several_of and "change_noun" not in behind.classes:
             changed[place] = Token(frozenset({"users"}), users=(f"{figure.value:g}",))
     return changed
 
@@ -236,15 +280,50 @@ class Words:
     def __init__(self, line: Line, tokens: Sequence[Token], language: str) -> None:
         self.line, self.language = line, language
         self.was_too_much = any("too_much" in token.classes for token in tokens)
-        kept, self.replaced = _without_what_goes(tokens)
-        self.tokens = tokens = _with_whose(kept, len(line.context.user_names))
+        kept, gone = _without_what_goes(tokens)
+        kept, corrected = _corrected_at_once(_with_whose(kept, len(line.context.user_names)))
+        self.replaced = next((token.figure for token in gone if token.figure is not None), None)
+        self.corrected = next((token.figure for token in corrected if token.figure is not None), None)
+        numbers = [token.figure for token in (*gone, *corrected) if token.figure and token.figure.kind == "bare"]
+        self.denied = {user for token in (*gone, *corrected) for user in token.users}
+        self.denies_users = any(token.users for token in gone)
+        self.denied |= {f"{figure.value:g}" for figure in numbers}
+        self.tokens = tokens = kept
         self.figures = [token.figure for token in tokens if token.figure is not None]
         self.users = tuple(dict.fromkeys(user for token in tokens for user in token.users))
         self.held = line.context.constraints
+        self.users = self.users or self._all_of_them()
+        self.about: tuple[str, ...] = ()
+        """The users of whom a clause before this one tells."""
+        self.is_told = False
+        self.is_unsure = any(token is _UNKNOWN for token in tokens)
+
+    def _all_of_them(self) -> tuple[str, ...]:
+        """ "All three of those": the users with figures of their own, where they are so many."""
+        last = {act.kind for act in self.last(Limit, Scale)}
+        for at, token in enumerate(self.tokens):
+            ahead, figure = self.tokens[at - 1].classes if at else frozenset[str](), token.figure
+            counted = figure is not None and "plural" in ahead and not figure.text[:1].isdigit()
+            count = 2 if "both" in token.classes else figure.value if figure is not None and counted else 0
+            own = {kind: held if isinstance(held, tuple) else own_users(held) for kind, held in self.held.items()}
+            several = {kind: users for kind, users in own.items() if len(users) == count}
+            back = {several["leave_out"]} if "leave_out" in several and self.has("serve") else set[tuple[str, ...]]()
+            them = back or {users for kind, users in several.items() if kind in last} or {*several.values()}
+            if count and len(them) == 1:
+                self.figures = [each for each in self.figures if each is not figure]
+                users, start = them.pop(), at - 1 if counted else at
+                together = Token(token.classes - {"bare"} | {"users"}, users=users)
+                self.tokens = [*self.tokens[:start], together, *self.tokens[at + 1 :]]
+                return users
+        return ()
 
     def has(self, *names: str) -> bool:
         """Whether a word is in one of these classes."""
         return any(token.classes.intersection(names) for token in self.tokens)
+
+    def has_another(self, name: str, beside: str) -> bool:
+        """Whether a word is in this class, and says neither nothing nor what the other class does."""
+        return any(name in token.classes and not token.classes & {beside, "skip", "lead"} for token in self.tokens)
 
     @property
     def is_read(self) -> bool:
@@ -268,7 +347,8 @@ class Words:
         users = tuple(f"{figure.value:g}" for figure in found)
         if not users or len(found) != len(self.figures) or not set(users) <= names:
             return ()
-        named = any(isinstance(act.whom, Named) for act in self.last(Limit, Drop, LeaveOut, Serve, Scale))
+        acts = self.last(Limit, Drop, LeaveOut, Serve, Scale)
+        named = any(isinstance(act.whom, Named) for act in acts) or bool(self.denied)
         return users if named or self.has("leave", "serve") else ()
 
     def listed(self, name: str) -> tuple[str, ...]:
@@ -290,6 +370,8 @@ class Words:
             return Named(self.users)
         if self.has("others"):
             return Others()
+        if self.has("every") and self.has("remove"):  # "forget the weights, they all count the same"
+            return Everybody()
         if self.spoken_of is not None:
             return self.spoken_of
         if self.has("pronoun") and isinstance(self.last_whom(), Named):
@@ -299,7 +381,8 @@ class Words:
     @property
     def spoken_of(self) -> Named | None:
         """The one user who was spoken of before, where a pronoun stands for somebody."""
-        users = self.line.context.spoken_of
+        users, last = self.line.context.spoken_of, self.last_whom()
+        users = users or (last.users if isinstance(last, Named) else ())
         return Named(users) if len(users) == 1 and (self.has("pronoun", "one")) else None
 
     def last_whom(self) -> Whom:
@@ -310,14 +393,19 @@ class Words:
         return [act for act in self.line.context.acts if isinstance(act, kinds)]
 
     def acts(self, acts: Sequence[Act], details: Mapping[str, Detail] | None = None) -> Intent:
-        """A change of the request by these acts."""
-        stated: dict[str, Constraint] = {}
-        for act in acts:
-            if isinstance(act, Limit):
-                named = act.whom.users if isinstance(act.whom, Named) else None
-                stated[act.kind] = act.value if named is None else dict.fromkeys(named, act.value)
-            elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
-                stated["leave_out"] = act.whom.users
-        dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
-        intent = self.line.amend(stated, dropped=dropped, details=details)
-        return dataclasses.replace(intent, acts=tuple(acts))
+        return changed_by(self.line, acts, details)
+
+
+def changed_by(line: Line, acts: Sequence[Act], details: Mapping[str, Detail] | None = None) -> Intent:
+    """A change of the request by these acts."""
+    stated: dict[str, Constraint] = {}
+    for act in acts:
+        if isinstance(act, Limit):
+            named, own = (act.whom.users if isinstance(act.whom, Named) else None), stated.get(act.kind)
+            theirs = dict.fromkeys(named or (), act.value)
+            stated[act.kind] = act.value if named is None else {**(own if isinstance(own, Mapping) else {}), **theirs}
+        elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
+            stated["leave_out"] = act.whom.users
+    dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
+    intent = line.amend(stated, dropped=dropped, details=details)
+    return dataclasses.replace(intent, acts=tuple(acts))

@@ -18,17 +18,11 @@ def all_served(words: Words) -> Intent | None:
     return words.acts([Serve(whom=Everybody())]) if some and counted in ([], [missing], [names]) else None
 
 
-def both_served(words: Words) -> Intent | None:
-    """ "both back in": the two who are left out."""
-    out = words.listed("leave_out")
-    return words.acts([Serve(whom=Named(out))]) if len(out) == 2 else None
-
-
 def of_whom(words: Words) -> tuple[str, ...]:
     """The users of a line that says no figure: by name, by number, or the one who was spoken of."""
     if words.users:
         return () if words.figures else words.users
-    return words.counted() or (words.spoken_of.users if words.spoken_of else ())
+    return words.counted() or (words.spoken_of.users if words.spoken_of else words.about)
 
 
 def served(words: Words) -> Intent | None:
@@ -38,7 +32,7 @@ def served(words: Words) -> Intent | None:
         if len(out) > 1:
             return words.line.ask("who_is_back", users=words.line.voice.users(out))
         users = out
-    if words.has("at_most"):  # "serve only user 2"
+    if words.has("at_most") or words.has_another("leave", "serve"):  # "serve only user 2"
         return None
     served = set(users) <= {*alone} if alone else not set(users) & {*out}
     if users and served and words.users:
@@ -52,4 +46,5 @@ def left_out(words: Words) -> Intent | None:
     if words.figures and words.has("step") and {act.kind for act in words.last(Limit, Scale)} & {*UNITS["power"]}:
         return None  # "enlève 2" behind a power
     leans = bool(lists) or not words.is_read or words.spoken_of is not None
+    leans = leans and not words.has_another("serve", "leave")
     return words.acts([LeaveOut(whom=Named(users))]) if users and leans else None
