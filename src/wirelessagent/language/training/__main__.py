@@ -27,7 +27,7 @@ def main(path: Path) -> None:
     start = time.perf_counter()
     folder = Path(__file__).parent
     drawn = sorted(set(sentences(folder)))
-    said = [(each.text, each.label) for each in spoken() if not each.near and not _asked_about_anyway(each)]
+    said = [(each.text, _kind(each)) for each in spoken() if _kind(each) and not _asked_about_anyway(each)]
     names = sorted({label for _, label in drawn})
     texts, labels = [text for text, _ in (*drawn, *said)], [label for _, label in (*drawn, *said)]
     weight = np.array([1.0] * len(drawn) + [SPOKEN_WEIGHT] * len(said))
@@ -45,9 +45,17 @@ def main(path: Path) -> None:
              time.perf_counter() - start)  # fmt: skip
 
 
+def _kind(each: Spoken) -> str:
+    """The label that a sentence teaches; "" where it was only written to be mistaken for an order, or for none."""
+    if each.label == "clarify" and each.constraints:
+        return "clarify.limits"
+    return "" if each.label in ("none", "order") else each.label
+
+
 def _asked_about_anyway(each: Spoken) -> bool:
     """Whether an impossible figure or the like is asked about whatever the model says: it is to learn wishes alone."""
-    return each.label == "clarify" and bool(Sentence(each.text, own_words()).reading.doubts)
+    doubtful = each.label == "clarify" and not each.constraints
+    return doubtful and bool(Sentence(each.text, own_words()).reading.doubts)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,6 @@ from wirelessagent.language.looks import BORROWING, Look, figures_of
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.training.compose import OBJECTIVES
 from wirelessagent.language.training.spoken import spoken
 
 MEANINGS = Path(__file__).with_name("meanings")
@@ -30,7 +29,7 @@ def sentences() -> Iterator[tuple[str, Mapping[str, Any]]]:
             text, _, meaning = line.partition("\t")
             yield text, json.loads(meaning)
     for each in spoken():
-        if (each.label in OBJECTIVES or each.near) and each.constraints is not None:
+        if each.constraints is not None:
             yield each.text, each.constraints
 
 

@@ -37,14 +37,14 @@ FRAMES = Path(__file__).with_name("frames")
 ORDERS, NONE = (*OBJECTIVES, "command.undo", "command.reset"), ("question", "clarify.negated")
 """Labels of the templates' sentences that order something, and how those begin that order nothing."""
 
-FILLED, _LONGEST = 8, 60
+FILLED, _LONGEST = 4, 60
 """How often each frame is filled, in turns with what people said, in so many letters, and with what is drawn."""
 
-DRAWN, MILD, FRAME = 0.03, 0.2, 3.0
+DRAWN, MILD, FRAME = 0.03, 0.6, 3.0
 """What a drawn sentence counts, one that was not written to be mistaken, and a frame, beside a sentence that was."""
 
 _RIDGE = 1e-6
-_OFTEN, _HARDLY = 1.9, 0.1
+_OFTEN, _HARDLY = 3.9, 0.1
 """How much is said, at least, with a phrase that orders hardly have, and how much of it orders, at most."""
 
 
