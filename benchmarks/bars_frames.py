@@ -12,15 +12,16 @@ from __future__ import annotations
 import argparse
 import json
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, cast
 
-from wirelessagent.experiments.evaluate_intents import same_constraints
+from bars_talks import is_same, plain
+
 from wirelessagent.language.conversation import understood
 from wirelessagent.language.followups import numbers_of, users_in
 from wirelessagent.language.guard import CHANGING
-from wirelessagent.language.intent import Constraint, Intent, checked_constraints
+from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 
@@ -53,13 +54,15 @@ def verdict(row: dict[str, Any], intent: Intent) -> str:
         return "right"
     if intent.kind != "allocate":
         return "asked"
-    meant = {name: _value(value) for name, value in row.get("constraints", {}).items()}
+    meant, found = (_plain(given) for given in (row.get("constraints", {}), intent.constraints))
     aim = row.get("objective") in (None, intent.objective)
-    return "right" if aim and same_constraints(intent.constraints, checked_constraints(meant)) else "wrong figures"
+    same = meant.keys() == found.keys() and all(is_same(value, found[name]) for name, value in meant.items())
+    return "right" if aim and same else "wrong figures"
 
 
-def _value(value: Any) -> Constraint:
-    return tuple(str(user) for user in cast("list[Any]", value)) if isinstance(value, list) else value
+def _plain(constraints: Mapping[str, Any]) -> dict[str, Any]:
+    """Constraints in one form; people round what a dBm is in watts."""
+    return {name: plain(value, 0.0) for name, value in constraints.items()}
 
 
 def score(rows: list[dict[str, Any]], context: Context = FIRST) -> list[tuple[dict[str, Any], str]]:

@@ -190,8 +190,8 @@ def test_words_that_no_order_has_must_be_outweighed_and_are_quoted() -> None:
 
     said = {"{}, forget that": "no", "no, forget that: {}": "no", "please {}": "yes", "{}, please": "yes"}
     frames = [frame(form.format("max rate")) for form in said]
-    fitted = orders.made(frames, list(said.values()), np.ones(len(said)))
-    likely = dataclasses.replace(fitted, weights=np.zeros_like(fitted.weights), intercept=1.0)  # 73 % whatever is said
+    fitted = orders.made(frames, list(said.values()), np.full(len(said), 2.0))
+    likely = dataclasses.replace(fitted, weights=np.zeros_like(fitted.weights), intercept=0.8)  # 69 % whatever is said
     assert likely.is_order(frame("please max rate"))
     doubtful = "please max rate, forget that"
     assert not likely.is_order(frame(doubtful))

@@ -12,8 +12,10 @@ from wirelessagent.language.mentions import Mention, Role
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 
-_SURE_OF_A_ROLE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.5, 0.45
+_SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.8, 0.5, 0.45
 _SAID = 0.4
+_SILENT = ("kept", "stale")
+"""Roles of somebody who is only spoken of."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +75,7 @@ class Allotments:
         self._used.update([self._meant_by(mention).mention or mention] if mention.role == "pronoun" else [])
         start, end = self._judged.telling(mention, role)
         self.spans.append((start, end))
-        if role in ("kept", "stale"):
+        if role in _SILENT:
             return
         self._roles[mention] = role
         for user in users:
@@ -111,7 +113,8 @@ class Allotments:
         if said["exempt"] > _SURE_OF_A_ROLE:  # whatever rate stands beside it is that of all others
             return "exempt"
         role = max(chances, key=lambda each: chances[each])
-        if role == "given" or (chances[role] > _SURE_OF_A_ROLE and said[role] > _SAID):
+        sure = _SURE_OF_SILENCE if role in _SILENT else _SURE_OF_A_ROLE  # nobody is to be dropped unheard
+        if role == "given" or (chances[role] > sure and said[role] > _SAID):
             return role
         return "unclear" if mention.role == "named" and chances["given"] < _SURE_OF_NO_ROLE else "given"
 

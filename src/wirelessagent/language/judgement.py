@@ -21,7 +21,7 @@ _ENOUGH_FOR_THE_SLOWEST = 0.8
 _OWN_PHRASE_ASKED = 0.8
 _FAMILIAR = 0.25
 _OTHER_KINDS = ("question", "command", "clarify", "out_of_scope")
-_WHAT_IF = "question.what_if"
+_WHAT_IF, _LIMITS = "question.what_if", "clarify.limits"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,6 +32,7 @@ class Judgement:
         kind: the likeliest kind; "allocate" only where ``acts``.
         topic: of a question, a command or what to clarify; "" otherwise.
         objective: the likeliest objective, whatever the kind; its share is ``likeliest``.
+        limits: how likely the sentence only sets limits and names no objective.
         certainty: 0 to 1, of what was decided.
         acts: whether the objective is likely enough to act on it.
         objective_clear: whether the operator named an objective by its own phrase.
@@ -41,6 +42,7 @@ class Judgement:
     topic: str
     objective: str
     likeliest: float
+    limits: float
     certainty: float
     acts: bool
     objective_clear: bool = False
@@ -60,14 +62,17 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     """What the sentence wants, among the registered objectives."""
     goal, shares = sentence.goal, _shares(sentence)
     objective = max(BUILT_IN, key=lambda name: shares.labels[name])
-    share = shares.labels[objective]
+    share, limits = shares.labels[objective], shares.labels[_LIMITS]
     command = forms.plain_command(sentence.plain)
     if command:
-        return Judgement(kind="command", topic=command, objective=objective, likeliest=share, certainty=1.0, acts=False)
+        return Judgement(
+            kind="command", topic=command, objective=objective, likeliest=share, limits=limits, certainty=1.0,
+            acts=False,
+        )  # fmt: skip
     own_phrase = goal.verdict == "clear" and (goal.objective not in BUILT_IN or _is_all_said(sentence))
     if own_phrase and shares.kinds["question"] + shares.kinds["command"] < _OWN_PHRASE_ASKED:
         return Judgement(
-            kind="allocate", topic="", objective=goal.objective, likeliest=1.0, certainty=goal.confidence,
+            kind="allocate", topic="", objective=goal.objective, likeliest=1.0, limits=0.0, certainty=goal.confidence,
             acts=goal.objective in registered, objective_clear=True,
         )  # fmt: skip
     kind = _kind(sentence, shares, objective)
@@ -78,8 +83,9 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     agreed = goal.confidence if goal.verdict == "clear" and goal.objective == objective else 0.0
     sure = max(agreed, share) if acts else shares.kinds[kind]
     return Judgement(
-        kind=kind, topic=topic, objective=objective, likeliest=share, certainty=round(min(1.0, sure), 4), acts=acts
-    )
+        kind=kind, topic=topic, objective=objective, likeliest=share, limits=limits,
+        certainty=round(min(1.0, sure), 4), acts=acts,
+    )  # fmt: skip
 
 
 def _is_all_said(sentence: Sentence) -> bool:

@@ -41,9 +41,6 @@ _UNFAIR_OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency")
 _FAIR_WORDS = {"fair", "same", "fairly"}
 _ONLY_ORDERED = {"users", "weights", "subcarrier_max_power_w", "resource_block_group_size"}
 """What hardly anybody speaks of but to order it."""
-_WITH_A_LEXICON = ("en", "zh")
-_PERHAPS, _SURE, _SURE_TO_SAVE = 0.7, 0.85, 0.95
-"""How sure an aim must be beside figures where a request holds, which else only change that one; by frames_dev*."""
 _ASKED = deferred(r"[?\uff1f]\s*$")
 
 
@@ -110,18 +107,12 @@ class _Understanding:
                 return None  # "exclude user 7, he is only testing" is an order, whatever it is like
         elif asked:
             return None
-        saves = judged.objective == "min_power" and "max_power_w" in reading.values  # a limit of it, more likely
-        if judged.acts and (self._goal.verdict != "none" or judged.certainty > (_SURE_TO_SAVE if saves else _SURE)):
-            return None
-        unsure = judged.acts and judged.certainty > _PERHAPS and judged.objective != context.objective and not saves
-        if unsure and reading.values and self._voice.language not in _WITH_A_LEXICON:
-            others = self._voice.choices(without=judged.objective)
-            label = self._voice.label(judged.objective)
-            return self._answer.ask("weak", 0.6, reading.values, judged.objective, goal=label, choices=others)
-        if self._goal.verdict == "contradiction" or (
-            self._goal.verdict == "clear" and self._goal.objective != context.objective
-        ):
+        other = self._goal.verdict == "clear" and self._goal.objective != context.objective
+        wished = judged.likeliest > judged.limits
+        if (judged.acts and wished) or other or self._goal.verdict == "contradiction":
             return None  # "fair, at most 5 W": a wish that is not sure is no mere limit
+        if wished and judged.objective != context.objective:
+            return self._whether(judged.objective)
         doubt = self._unfulfillable()
         if doubt is not None:
             return doubt
@@ -137,6 +128,11 @@ class _Understanding:
         reply = self._voice.amended(values, dropped)
         request = self._answer.allocate(context.objective, values, reading.evidence, reply, 0.85)
         return dataclasses.replace(request, amends=True, dropped=dropped)
+
+    def _whether(self, objective: str) -> Intent:
+        """Whether an aim was meant beside what was read."""
+        goal, others = self._voice.label(objective), self._voice.choices(without=objective)
+        return self._answer.ask("weak", 0.6, self._reading.values, objective, goal=goal, choices=others)
 
     def _is_plain(self) -> bool:
         """Whether what looks like a supposition has no word of one, and does not ask: "never over 14 W, clear?"."""
@@ -242,8 +238,10 @@ class _Understanding:
         return dataclasses.replace(request, amends=amends, dropped=dropped if amends else ())
 
     def _default(self) -> Intent | None:
-        """A promised rate under a power limit has one sensible reading."""
-        values, goal = self._reading.values, self._goal
+        """A promised rate under a power limit has one sensible reading, where nothing else is likely to be wished."""
+        values, goal, judged = self._reading.values, self._goal, self._judged
+        if judged.likeliest > judged.limits and judged.objective != "max_rate":
+            return None
         free = goal.verdict in ("none", "weak") and goal.objective in ("", "max_rate") and self._sentence.worded
         if {"min_rate_bps", "max_power_w"} <= set(values) and free and "max_rate" in self._voice.labels:
             return self._allocate("max_rate", "", _DEFAULT_CONFIDENCE)
@@ -264,8 +262,7 @@ class _Understanding:
         found = self._goal.verdict in ("weak", "clear")
         guess = self._goal.objective if found else self._judged.objective
         if guess in self._voice.labels and (found or self._judged.likeliest > 0.4):
-            others = self._voice.choices(without=guess)
-            return self._answer.ask("weak", 0.6, values, guess, goal=self._voice.label(guess), choices=others)
+            return self._whether(guess)
         return self._answer.ask("greeting" if "greeting" in self._sentence.concepts else "unclear", 0.5, values)
 
     def _quoted(self, values: Mapping[str, Constraint]) -> str:
