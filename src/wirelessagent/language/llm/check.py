@@ -46,7 +46,7 @@ ACTING = ("apply", "confirm")
 _AGREED, _ALONE = 0.95, 0.8  # how sure: both recognisers read the same kind, objective and topic, or the LLM alone
 _POSSIBLE = 0.1
 """The least chance that the rules' model gives what an LLM may see; by the development sets, with LLMs that lie."""
-_SOMETHING_ELSE = 0.7
+_SOMETHING_ELSE = 0.6
 """The chance of a question, or of something else, from which an LLM may see no request in it; by the same."""
 _NUMBERED = deferred(r"[^0-9]*([0-9]{1,9})[^0-9]*")
 

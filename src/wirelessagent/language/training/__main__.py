@@ -27,7 +27,7 @@ def main(path: Path) -> None:
     start = time.perf_counter()
     folder = Path(__file__).parent
     drawn = sorted(set(sentences(folder)))
-    said = [(each.text, _kind(each)) for each in spoken() if _kind(each) and not _asked_about_anyway(each)]
+    said = [(each.text, label) for each in spoken() if (label := _kind(each)) and not _asked_about_anyway(each)]
     names = sorted({label for _, label in drawn})
     texts, labels = [text for text, _ in (*drawn, *said)], [label for _, label in (*drawn, *said)]
     weight = np.array([1.0] * len(drawn) + [SPOKEN_WEIGHT] * len(said))
