@@ -23,7 +23,7 @@ from wirelessagent.language.linear_model import MODEL_FILE, shipped_model
 from wirelessagent.language.order_model import LIKELY, Frame, OrderModel, frame_of
 from wirelessagent.language.sentence import BUILT_IN, Sentence, own_words
 from wirelessagent.language.spelling import nearest, respelt
-from wirelessagent.language.training import meant, orders
+from wirelessagent.language.training import meant, orders, talk
 from wirelessagent.language.training.compose import LANGUAGES, SLOTS, SURROUNDINGS, sentences
 from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save
 from wirelessagent.language.training.grammar import Grammar
@@ -102,7 +102,8 @@ def test_no_long_sentence_of_the_test_sets_is_drawn(drawn: list[tuple[str, str]]
 
 def test_no_sentence_of_the_test_sets_was_written_for_training(tested: set[str]) -> None:
     by_name = (unmarked(line)[0] for path in NAMED.glob("*.txt") for line in path.read_text("utf-8").splitlines())
-    written = [*(each.text for each in spoken()), *(text for text, _ in meant.sentences()), *by_name]
+    in_talks = (line for line, *_ in talk.lines())
+    written = [*(each.text for each in spoken()), *(text for text, _ in meant.sentences()), *by_name, *in_talks]
     assert len(written) > 30_000
     assert [text for text in written if letters(text) in tested] == []
 

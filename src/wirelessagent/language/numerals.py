@@ -107,13 +107,17 @@ class Number:
 
 
 @functools.lru_cache(maxsize=64)
-def numbers(text: str) -> tuple[Number, ...]:
-    """Every number in normalised text, from left to right, not overlapping."""
-    return tuple(_numbers(text))
+def numbers(text: str, language: str = "") -> tuple[Number, ...]:
+    """Every number in normalised text, from left to right, not overlapping; of the language that its words tell, or of
+    the one given.
+
+    >>> [number.value for number in numbers("siete", "es")]
+    [Decimal('7')]
+    """
+    return tuple(_numbers(text, language or language_of(text)))
 
 
-def _numbers(text: str) -> Iterator[Number]:
-    language = language_of(text)
+def _numbers(text: str, language: str) -> Iterator[Number]:
     own, position = "en" if language == "zh" else language, 0
     while match := _NUMBER.search(text, position):
         position = match.end()

@@ -20,6 +20,7 @@ from wirelessagent.language.conversation.commands import (
     with_method,
 )
 from wirelessagent.language.conversation.fragments import read_fragment, read_wondered
+from wirelessagent.language.conversation.leaning import LIKELY, SURE, read_leaning
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.nicknames import called, only_called, with_users
 from wirelessagent.language.conversation.open_question import leaves_the_question, read_answer, unanswered
@@ -86,7 +87,9 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         context = dataclasses.replace(
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
         )  # fmt: skip
-    intent = recogniser.read(text, context)
+    intent = read_leaning(line, SURE) or recogniser.read(text, context)
+    if intent.kind in ("clarify", "out_of_scope"):
+        intent = read_leaning(line, LIKELY) or intent
     read = asked_instead(line, intent) or by_method(line, intent)
     return given_instead(line, read)
 

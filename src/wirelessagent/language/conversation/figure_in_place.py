@@ -36,9 +36,9 @@ def read_figure(words: Words) -> Intent | None:
     further = ["been"] if words.has("suppose") else []
     further += ["more", "less"] if words.has("to", "up_to", "make") else []
     replaced, strict = _replaced(words), words.replaced is not None
-    holding = [] if replaced is None else _holding(words, replaced)
+    stands = [] if replaced is None else holding(words, replaced)
     figures = [figure for figure in words.figures if figure is not replaced]
-    if len(figures) != 1 or not words.only(*_SAID, *further) or words.has("instead") or (strict and not holding):
+    if len(figures) != 1 or not words.only(*_SAID, *further) or words.has("instead") or (strict and not stands):
         return None
     figure, corrects = figures[0], words.has("correct")
     if figure.kind == "bare" and words.has("serve") and not words.has("to"):  # "bring 3 back", who is served
@@ -47,7 +47,7 @@ def read_figure(words: Words) -> Intent | None:
     before = supposed or [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
     if corrects and words.taken_off:
         before = [act for act in stated(words.taken_off) if isinstance(act, Limit)]
-    before = holding or before
+    before = stands or before
     kinds = _kinds_of(words, figure, before)
     if len(kinds) != 1:
         return None
@@ -55,7 +55,7 @@ def read_figure(words: Words) -> Intent | None:
     models = [act for act in before if act.kind == kind]
     model = _model(words, figure, kind, models)
     says_whose = words.users or words.spoken_of or words.has("others", "every", "both")
-    several = len({act.whom for act in models}) > 1 and not says_whose and not holding
+    several = len({act.whom for act in models}) > 1 and not says_whose and not stands
     if several and model is not None and corrects:
         users = [user for act in models if isinstance(act.whom, Named) for user in act.whom.users]
         return words.line.ask("whose_figure", text=figure.text, users=words.line.voice.users(users))
@@ -65,13 +65,13 @@ def read_figure(words: Words) -> Intent | None:
     if _caps(words) and kind not in ("max_rate_bps", *UNITS["power"]):
         return None
     value, whom = value_of(figure, kind, model), _whom(words, kind, model)
-    if value is None or whom is None or not (holding or _leans(words, figure, model, supposes=bool(supposed))):
+    if value is None or whom is None or not (stands or _leans(words, figure, model, supposes=bool(supposed))):
         return None
     wondered = words.line.is_asked or words.has("suppose") or supposed
     orders = is_ordered(words.line.text) and not words.line.is_asked
     if not wondered or words.has("take", "make", "correct") or orders:
         said = f"{figure.value:g} {_unit(model)}" if _is_bare(figure, kind) and model is not None else figure.text
-        theirs = [act.whom for act in models] if holding and not says_whose else [whom]
+        theirs = [act.whom for act in models] if stands and not says_whose else [whom]
         return words.acts([Limit(kind=kind, value=value, whom=whose, words=said) for whose in theirs])
     if isinstance(whom, Others) or not (words.has("suppose") or supposed):
         return None
@@ -84,10 +84,10 @@ def _replaced(words: Words) -> Quantity | None:
     if words.replaced is not None or words.corrected is not None:
         return words.replaced or words.corrected
     becomes = len(words.figures) == 2 and words.has("make", "revise", "to", "correct")
-    return words.figures[0] if becomes and _holding(words, words.figures[0]) else None
+    return words.figures[0] if becomes and holding(words, words.figures[0]) else None
 
 
-def _holding(words: Words, figure: Quantity) -> list[Limit]:
+def holding(words: Words, figure: Quantity) -> list[Limit]:
     """The limits that hold with a figure."""
     found = list[Limit]()
     for kind, held in words.held.items():
@@ -113,6 +113,8 @@ def _kinds_of(words: Words, figure: Quantity, before: Sequence[Limit]) -> list[s
     fitting = UNITS.get(figure.kind, ())
     named = words.named_kinds()
     possible = [kind for kind in named if not fitting or kind in fitting] if named else list(fitting)
+    if _caps(words):  # what the hardware draws is no limit
+        before = [act for act in before if act.kind != "circuit_power_w"]
     whose = FIGURES_OF_USERS if words.users and figure.kind == "bare" else [act.kind for act in before]
     known = [act.kind for act in before if (not (named or fitting) or act.kind in possible) and act.kind in whose]
     if not named and words.has(*NOUNS):

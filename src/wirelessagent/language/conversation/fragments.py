@@ -33,6 +33,7 @@ from wirelessagent.language.conversation.tokens import NOUNS, Token, Words, chan
 from wirelessagent.language.conversation.who_is_served import all_served, left_out, of_whom, served
 from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.judgement import judge
 from wirelessagent.language.moods import is_ordered
 from wirelessagent.language.text import normalise
 
@@ -119,7 +120,8 @@ def _only_told(story: Line) -> tuple[str, ...] | None:
     held = {figure for limit in context.constraints.values() for figure in figures_of(limit)}
     known = {f"{figure * scale:g}" for figure in held for scale in (1.0, 1e3, 1e-3, 1e-6)}
     new = {figure.value for figure in story.figures} - held or {*counted} - known - {*users, *context.spoken_of}
-    aims = story.sentence.goal.verdict not in ("none", "weak") and not speaks_of_one(story.text, "too_much")
+    judged = judge(story.sentence, {*story.voice.labels})
+    aims = (judged.acts or judged.objective_clear) and not speaks_of_one(story.text, "too_much")
     return None if story.is_asked or new or aims else users
 
 
@@ -159,8 +161,8 @@ def _clause_by_clause(line: Line) -> Intent | None:
         context = dataclasses.replace(line.context, acts=tuple(acts) or line.context.acts)
         found = list[tuple[Words, Intent | None]]()
         for words in words_of(dataclasses.replace(clause, context=context)):
-            whom = words.last_whom()
-            words.about = whom.users if acts and isinstance(whom, Named) else ()
+            whom = getattr(acts[-1], "whom", None) if acts else None
+            words.about = whom.users if isinstance(whom, Named) else ()
             found.append((words, _read(words)))
         done = [each for words, each in found if each and each.acts and not words.has("correct", "instead")]
         if not done:

@@ -97,3 +97,9 @@ def restored(words: Words) -> Intent | None:
     gone, named = {act.kind for act in words.last(Drop)}, words.named_kinds()
     back = gone & {*named} if words.has(*NOUNS) else gone
     return words.line.command("undo", steps=1.0) if back and not words.last(Limit) else None
+
+
+def exempted(words: Words) -> Intent | None:
+    """ "Not for seven, he's fine without": the limit that was said last, taken off these users."""
+    users, kinds = words.users, {act.kind for act in words.last(Limit, Scale)}
+    return _taken_off(words, kinds.pop(), users) if users and len(kinds) == 1 and kinds <= {*UNITS["rate"]} else None

@@ -12,7 +12,7 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from wirelessagent.language.acts import Act, Drop, Everybody, Limit, Named, Scale
+from wirelessagent.language.acts import Act, Drop, Everybody, Limit, Named, Others, Scale
 from wirelessagent.language.conversation.figure_in_place import as_held, value_of
 from wirelessagent.language.conversation.line import has
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words, own_users
@@ -21,9 +21,9 @@ from wirelessagent.language.quantities import Quantity
 
 _SAID = (
     "than", "possessed", "both",
-    "users", "every", "each", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight", "rate",
-    "promise", "power", "limit", "again", "by", "to", "figure", "decibel", "bare", "at_most", "suppose", "worth",
-    "spend", "effect", "been", "with", "one", "grant", "group", "circuit", "subcarrier", "further",
+    "users", "every", "others", "each", "pronoun", "it", "lead", "make", "more", "less", "ratio", "factor", "weight",
+    "rate", "promise", "power", "limit", "again", "by", "to", "figure", "decibel", "bare", "at_most", "suppose",
+    "worth", "spend", "effect", "been", "with", "one", "grant", "group", "circuit", "subcarrier", "further",
 )  # fmt: skip
 _SCALED = (
     "max_power_w", "min_rate_bps", "max_rate_bps", "circuit_power_w", "subcarrier_max_power_w",
@@ -81,6 +81,8 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
     if words.users and name not in FIGURES_OF_USERS:
         return None
     users = whom.users if isinstance(whom, Named) and name in FIGURES_OF_USERS else ()
+    if isinstance(whom, Others):  # "bump all the others up by a fifth"
+        users = (EVERYBODY,)
     basis = _of_users(_held(words, name), users)
     if basis is None:
         if words.has("worth") and name == "min_rate_bps":
@@ -233,6 +235,9 @@ def read_of_another(words: Words) -> Intent | None:
     if len(theirs) != 1 or (models and (len(models) != 1 or len(models[0]) != 1)):
         return None
     common = words.has("others", "every")
+    weighed = {act.kind for act in words.last(Limit)} == {"weights"}
+    if shares and weighed and not words.has("than", "it", "too", "equal"):  # "7 double", behind another weight
+        return None
     last = [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
     found: dict[str, float] = {}
     for kind in [kind for kind in words.named_kinds() or FIGURES_OF_USERS if kind in FIGURES_OF_USERS]:

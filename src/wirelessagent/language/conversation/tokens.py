@@ -54,12 +54,12 @@ _ENDINGS = ("", "s", "n", "en", "e")
 _CLASS = {"power": "figure", "rate": "figure"}
 """What a figure with a unit is called, beside nouns."""
 
-_SPACE = re.compile(r"[\s,，.。!！?？;；:：'\"“”()（）…=>→-]+")
+_SPACE = re.compile(r"[\s,，、.。!！?？¿¡;；:：'\"“”„«»()（）…=>→+&/–—-]+")
 _PREFIXED = re.compile(r"[0-9]\s?[kMG]$")
 _SCALE = re.compile(r"[kKMG](?![^\W_])")
 _SCALES = {"": 1.0, "K": 1e3, "M": 1e6, "G": 1e9}
 _WORD = re.compile(r"[^\W\d_]+")
-_ONES = frozenset(
+ONES = frozenset(
     {
         "one", "a", "an", "un", "uno", "una", "une", "ein", "eine", "einen", "eins", "一", "两", "half", "demi",
         "medio", "halb",
@@ -120,10 +120,10 @@ def tokens_of(line: Line, language: str, *, lenient: bool = False) -> list[Token
         each.start: (each.end, Token(frozenset({"users"}), users=each.users)) for each in named
     }
     taken += [(each.start, each.end) for each in named]
-    for number in numbers(plain):
+    for number in numbers(plain, language):
         clear = not any(start < number.end and number.start < end for start, end in taken)
         text = plain[number.start : number.end]
-        if number.value is None or not clear or text in _ONES:
+        if number.value is None or not clear or text in ONES:
             continue
         if number.value < 1 and not text[0].isdigit():  # "a quarter"
             spans[number.start] = (number.end, Token(frozenset({"factor"}), factor=float(number.value)))
@@ -271,6 +271,8 @@ def _with_whose(tokens: Sequence[Token], num_users: int) -> list[Token]:
         several_of = "plural" in ahead.classes and not figure.text[:1].isdigit()  # "all three"
         if others and (whose or clear) and not several_of and "change_noun" not in behind.classes:
             changed[place] = Token(frozenset({"users"}), users=(f"{figure.value:g}",))
+            if place:  # "al 4 un 20 % más"
+                changed[place - 1] = dataclasses.replace(ahead, classes=ahead.classes - {"to"})
     return changed
 
 

@@ -81,6 +81,7 @@ def save(
     """Write the model, the weights as int8 with a scale per label."""
     scales = np.asarray(np.abs(weights).max(axis=0) / 127, dtype=np.float32)
     rounded = np.asarray(np.rint(weights / scales), dtype=np.int8)
+    rounded[np.abs(rounded) < 2] = 0  # what says next to nothing
     np.savez_compressed(
         path, labels=np.array(names), weights=rounded, scales=scales, intercepts=intercepts, known=known
     )
