@@ -114,20 +114,13 @@ def _hash(text: str) -> int:
 
 
 def _grams(frame: Frame, known: frozenset[int]) -> Iterator[str]:
-    """What is said of a frame: four views of its words, and where each class of mood stands."""
+    """What is said of a frame: four views of its words."""
     said = [token if token == WISH or _hash(token) in known else UNKNOWN for token in frame.tokens]
     classes = list(_classes(frame))
     yield from _view("w", said, 3)
     yield from _view("b", based(frame.tokens, frame.language), 3)
     yield from _view("c", classes, 4)
     yield from _view("e", [name for name in classes if name != UNKNOWN], 4)
-    sides, names = _sides(frame.tokens), [name for name, *_ in frame.moods]
-    for place, (name, first, last) in enumerate(frame.moods):
-        yield "M" + name
-        yield f"P{name}{sides[first]}"
-        yield f"Q{name}{sides[first][0]}{first == 0}{last == len(frame.tokens) - 1}"
-        for other in names[place + 1 : place + 3]:
-            yield f"N{name} {other}"
 
 
 def _classes(frame: Frame) -> Iterator[str]:

@@ -26,6 +26,7 @@ class Context:
         pending: constraints that were read before a clarifying question, for its answer to use.
         pending_objective: the aim that was named before it; None where none was.
         pending_users: users who were named before it, and of whom nothing was understood.
+        pending_caps: whether the most of something was named before it, without its figure.
         offered: the objective or the command that a yes to the question means; None where it has no such meaning.
         guess: what a yes to the question carries out; None where it has no such meaning.
         stated: what the last request stated, which "it" and "that" refer to.
@@ -49,6 +50,7 @@ class Context:
     pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     pending_objective: str | None = None
     pending_users: tuple[str, ...] = ()
+    pending_caps: bool = False
     offered: str | None = None
     guess: Intent | None = None
     stated: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])

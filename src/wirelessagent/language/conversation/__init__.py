@@ -20,7 +20,7 @@ from wirelessagent.language.conversation.commands import (
     with_method,
 )
 from wirelessagent.language.conversation.fragments import read_fragment, read_wondered
-from wirelessagent.language.conversation.leaning import LIKELY, SURE, read_leaning
+from wirelessagent.language.conversation.leaning import LIKELY, SURE, read_exempt, read_leaning
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.nicknames import called, only_called, with_users
 from wirelessagent.language.conversation.open_question import leaves_the_question, read_answer, unanswered
@@ -51,6 +51,9 @@ _READERS = (
 )  # fmt: skip
 """What a line may be because of its conversation, the closest first."""
 
+_ABOUT_THE_LAST = ("undo", "confirm", "reject")
+"""Commands that only mean something behind an act, and may be meant of another one."""
+
 
 def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     """What a line means in its conversation; never raises, whatever the text.
@@ -76,7 +79,7 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         by = with_method(line, _read(rest, Line.of(rest, context), context, recogniser), name)
         if by is not None:
             return by
-    for read in (read_fragment, *_READERS):
+    for read in (read_exempt, read_fragment, *_READERS):
         intent = read(line)
         if intent is not None:
             return intent
@@ -88,7 +91,7 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
         )  # fmt: skip
     intent = read_leaning(line, SURE) or recogniser.read(text, context)
-    if intent.kind in ("clarify", "out_of_scope"):
+    if intent.kind in ("clarify", "out_of_scope") or intent.topic in _ABOUT_THE_LAST:
         intent = read_leaning(line, LIKELY) or intent
     read = asked_instead(line, intent) or by_method(line, intent)
     return given_instead(line, read)

@@ -29,7 +29,16 @@ from wirelessagent.language.conversation.figure_in_place import figures_of, read
 from wirelessagent.language.conversation.limits_off import dropped, restored
 from wirelessagent.language.conversation.line import Line, is_all
 from wirelessagent.language.conversation.relative import read_of_another, read_relative, read_repeated
-from wirelessagent.language.conversation.tokens import NOUNS, Token, Words, changed_by, speaks_of_one, words_of
+from wirelessagent.language.conversation.tokens import (
+    NOUNS,
+    NUMBER,
+    Token,
+    Words,
+    changed_by,
+    numbered,
+    speaks_of_one,
+    words_of,
+)
 from wirelessagent.language.conversation.who_is_served import all_served, left_out, of_whom, served
 from wirelessagent.language.guard import tells_no_mere_fact
 from wirelessagent.language.intent import Intent
@@ -39,8 +48,6 @@ from wirelessagent.language.text import normalise
 
 _LONGEST = 120
 _MOST_STEPS = 20
-_OF_A_USER = re.compile(r"(?i)(?:^\s*|\b(?:el|al|la|le|du|au|der|die|den|dem|number)\s)(\d{1,3})\s*(?=$|[^\W\d_])")
-_NUMBER = re.compile(r"(?<![A-Za-z\d.])\d++(?:\.\d+)?+(?![A-Za-z])")  # "7", and no "4K"
 _STOP = re.compile(r"\s*(?:[,;.!:](?!\d)|(?<!\d),|[，；。！：])\s*")
 _AND = re.compile(rf"{_STOP.pattern}|\s+(?=(?:and|but|und|aber|y|pero|et|mais)\s)|(?=但|而)")
 _ENDS = " .!。！"
@@ -110,10 +117,7 @@ def _told(line: Line) -> Iterator[tuple[Line, Line]]:
 
 def _only_told(story: Line) -> tuple[str, ...] | None:
     """The users of whom a clause only tells, and asks for nothing: "user 7 has paid"; None for any other clause."""
-    context, counted = story.context, _NUMBER.findall(story.text)
-    numbered = _OF_A_USER.search(story.text) if len(counted) == 1 and not story.figures else None
-    numbered = numbered if numbered and int(numbered[1]) in range(1, len(context.user_names) + 1) else None
-    users = story.users or ((numbered[1],) if numbered else ())
+    context, counted, users = story.context, NUMBER.findall(story.text), story.users or numbered(story)
     does = any(_read(words) for words in words_of(story))
     if is_ordered(story.text) or does or tells_no_mere_fact(story.text):
         return None
@@ -163,8 +167,12 @@ def _clause_by_clause(line: Line) -> Intent | None:
         for words in words_of(dataclasses.replace(clause, context=context)):
             whom = getattr(acts[-1], "whom", None) if acts else None
             words.about = whom.users if isinstance(whom, Named) else ()
+            rates = bool(words.figures) and {figure.kind for figure in words.figures} == {"rate"}
+            if rates and not words.users and not words.has("others", "every", "each"):
+                words.users = words.about
             found.append((words, _read(words)))
-        done = [each for words, each in found if each and each.acts and not words.has("correct", "instead")]
+        done = [each for words, each in found if each and each.acts and not words.has("correct", "instead")
+                and not (words.figures and words.only("bare", "it", "whose"))]  # "le 1, un quart de moins"  # fmt: skip
         if not done:
             return None
         acts += done[0].acts

@@ -7,9 +7,9 @@ it does it to, and by how much, is read by the readers of lines whose words are 
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from wirelessagent.language.acts import Drop, LeaveOut, Limit, Named, Others, Scale, Serve, Suppose
@@ -23,6 +23,7 @@ from wirelessagent.language.conversation.who_is_served import all_served, of_who
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.linear_model import TALK_FILE, shipped_model
 from wirelessagent.language.numerals import numbers
+from wirelessagent.language.order_model import frame_of, shipped_order_model
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.text import language_in_a_talk, normalise
 
@@ -31,28 +32,35 @@ LIKELY, SURE = 0.6, 0.85
 """How likely a line has to do something, among what it may do here: where a recogniser of sentences would ask, and
 before one is asked."""
 
+_UNLIKELY = 0.25
+"""How likely its frame is one of an order, below which a line has to do something surely."""
+
 _LEANS = ("exempt", "figure", "less", "more", "swap", "too", "user")
 """What no sentence of its own does."""
 
 _LONGEST, _MOST_STEPS = 80, 10
 
 
-def read_leaning(line: Line, needed: float) -> Intent | None:
-    """What a short line does; None where nothing is so likely as ``needed``.
+def read_leaning(line: Line, needed: float, among: Sequence[str] = ()) -> Intent | None:
+    """What a short line does, ``among`` some labels where they are given; None where nothing is so likely as needed.
 
     A label that the talk does not bear out, such as another user where none was named, is left out of account.
     """
     context = line.context
-    if context.objective is None or context.awaits == "clarification" or len(line.text) > _LONGEST or line.is_asked:
+    if context.objective is None or context.awaits != "nothing" or len(line.text) > _LONGEST or line.is_asked:
         return None
     language = language_in_a_talk(line.text, context.language)
     tokens = tokens_of(line, language, lenient=True)
     if not tokens or any("denial" in token.classes for token in tokens):
         return None
+    early = needed == SURE
+    order = shipped_order_model().probability(frame_of(line.sentence))
+    needed = needed if order >= _UNLIKELY else SURE
+    unknown = any("unknown" in token.classes for token in tokens)
     left, likely = 1.0, shipped_model(TALK_FILE).probabilities(*seen(line, tokens, language))
     for label in sorted(likely, key=lambda label: -likely[label]):
-        early = needed == SURE and label not in _LEANS
-        if label == NONE or early or likely[label] < (SURE if label == "undo" else needed) * left:
+        other = label not in (among or (_LEANS if early else _READERS)) or (label == "undo" and not unknown)
+        if label == NONE or other or likely[label] < (SURE if label == "undo" else needed) * left:
             return None
         intent = _read(label, line, tokens, language)
         if intent is not None and intent.kind in ("allocate", "command"):
@@ -61,11 +69,18 @@ def read_leaning(line: Line, needed: float) -> Intent | None:
     return None
 
 
+def read_exempt(line: Line) -> Intent | None:
+    """ "User 4 doesn't need it", behind what everybody is promised: served without it, and not left out."""
+    last = [act for act in line.context.acts if isinstance(act, Limit) and act.kind in UNITS["rate"]]
+    return read_leaning(line, LIKELY, ("exempt",)) if any(not isinstance(act.whom, Named) for act in last) else None
+
+
 def _read(label: str, line: Line, tokens: Sequence[Token], language: str) -> Intent | None:
     """What a line with a label does."""
     classes, read = _READERS[label]
-    tokens = _with_users(tokens, len(line.context.user_names), alone=label in _OF_USERS)
-    tokens = [dataclasses.replace(token, classes=token.classes | {"skip"}) for token in tokens]  # each was judged
+    if label == "user" or not any(token.users for token in tokens):
+        tokens = _with_users(tokens, len(line.context.user_names), alone=label in _OF_USERS)
+    tokens = [replace(token, classes=token.classes | {"skip"}) for token in tokens]  # each was judged
     words = Words(line, [*tokens, Token(frozenset({*classes.split(), "skip"}))], language)
     words.is_unsure = False
     return read(words)
@@ -74,8 +89,6 @@ def _read(label: str, line: Line, tokens: Sequence[Token], language: str) -> Int
 def _with_users(tokens: Sequence[Token], num_users: int, *, alone: bool) -> list[Token]:
     """The tokens with bare numbers as users, where they stand ``alone`` or beside a figure with a unit, or a share."""
     counted = any(token.classes & {"figure", "ratio", "factor"} for token in tokens)
-    if any(token.users for token in tokens):
-        return [*tokens]
     return [
         Token(frozenset({"users"}), users=(f"{token.figure.value:g}",))
         if (alone or counted) and token.figure and token.figure.kind == "bare"
@@ -100,6 +113,7 @@ def _undone(words: Words) -> Intent:
 
 def _figure(words: Words) -> Intent | None:
     """Another figure, another weight ("hmm, triple rather"), or the same figure in another unit ("kilobits, sorry")."""
+    words.tokens = [replace(token, classes=token.classes - {"by", "instead"}) for token in words.tokens]
     last, factors = words.last(Limit), [token.factor for token in words.tokens if token.factor]
     if words.figures and not last and not words.users and not words.last(Suppose):  # "he needs 500", behind "5 is back"
         words.users = next((act.whom.users for act in words.last(Serve, Drop) if isinstance(act.whom, Named)), ())
@@ -115,7 +129,7 @@ def _figure(words: Words) -> Intent | None:
         for word in words.line.text.split() if number
         for figure in parse_quantities(f"{number} {word.strip(',.!')}") if kind in UNITS.get(figure.kind, ())
     }  # fmt: skip
-    return words.acts([dataclasses.replace(act, value=meant.pop()) for act in last]) if len(meant) == 1 else None
+    return words.acts([replace(act, value=meant.pop()) for act in last]) if len(meant) == 1 else None
 
 
 def _by(words: Words) -> Intent | None:
@@ -134,8 +148,9 @@ def _by(words: Words) -> Intent | None:
             return None
         words.figures = [Quantity(value=1.0, kind="bare", text="1", start=0, end=0, phrase_start=0, phrase_end=0)]
         words.tokens = [Token(frozenset({"bare", "skip"}), figure=words.figures[0]), *words.tokens]
-    whose = _of_users_last(words)
-    if not words.users and whose and not words.last(Limit, Scale) and not words.has("others", "every"):
+    whose, last = _of_users_last(words), {act.kind for act in words.last(Limit, Scale)}
+    fitting = {kind for figure in words.figures for kind in UNITS.get(figure.kind, last)} or last
+    if not words.users and whose and not last & fitting and not words.has("others", "every"):
         words.users = whose[0].whom.users
     return read_relative(words)
 
@@ -174,9 +189,16 @@ def _is_common(words: Words) -> bool:
 def _too(words: Words) -> Intent | None:
     """The same of further users."""
     users, last = of_whom(words), _of_users_last(words)
-    again = [dataclasses.replace(act, whom=Named(users)) for act in last if users]
-    again = [dataclasses.replace(act, alone=False) if isinstance(act, Serve) else act for act in again]
+    again = [replace(act, whom=Named(users)) for act in last if users]
+    again = [replace(act, alone=False) if isinstance(act, Serve) else act for act in again]
     return words.acts(again[:1]) if len(set(again)) == 1 else None
+
+
+def _back(words: Words) -> Intent | None:
+    """Users who are served again, or whose weight is what it was: "user 3 back to his normal weight"."""
+    if words.has("weight") and words.users:
+        return words.acts([Drop(kind="weights", whom=Named(words.users), own=True)])
+    return served(words)
 
 
 def _out(words: Words) -> Intent | None:
@@ -200,7 +222,7 @@ _READERS: Mapping[str, tuple[str, Callable[[Words], Intent | None]]] = {
     "user": ("whose correct", _another),
     "too": ("too", _too),
     "out": ("leave", _out),
-    "back": ("serve", served),
+    "back": ("serve", _back),
     "everyone": ("every serve", all_served),
     "exempt": ("except", exempted),
     "more": ("more by", _by),

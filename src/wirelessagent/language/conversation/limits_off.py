@@ -102,4 +102,7 @@ def restored(words: Words) -> Intent | None:
 def exempted(words: Words) -> Intent | None:
     """ "Not for seven, he's fine without": the limit that was said last, taken off these users."""
     users, kinds = words.users, {act.kind for act in words.last(Limit, Scale)}
-    return _taken_off(words, kinds.pop(), users) if users and len(kinds) == 1 and kinds <= {*UNITS["rate"]} else None
+    shared = any(token.factor for token in words.tokens)
+    if not users or words.figures or shared or len(kinds) != 1 or not kinds <= {*UNITS["rate"]}:
+        return None
+    return _taken_off(words, kinds.pop(), users)

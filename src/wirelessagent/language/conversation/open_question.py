@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.assent import is_assent
 from wirelessagent.language.conversation.line import NAME, Line, has, is_all
+from wirelessagent.language.conversation.tokens import numbered, speaks_of_one, words_of
 from wirelessagent.language.followups import merged, users_in
 from wirelessagent.language.intent import (
     COMMANDS,
@@ -40,6 +41,7 @@ class Question:
         pending: constraints.
         objective: the aim that was named; None where none was.
         users: users who were named, and of whom nothing was understood.
+        caps: whether the most of something was named, without its figure: "cap user 3".
         offered: the objective or the command that a yes means; None where it is no question of yes or no.
         guess: what a yes carries out; None where it is no question of yes or no.
         missing: the user who is not there, where the question is about one.
@@ -48,6 +50,7 @@ class Question:
     pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     objective: str | None = None
     users: tuple[str, ...] = ()
+    caps: bool = False
     offered: str | None = None
     guess: Intent | None = None
     missing: Missing | None = None
@@ -77,11 +80,11 @@ def _answered(line: Line) -> Intent | None:
     asked_about = context.pending_users or _users_with_rates(context.pending)
     if not (asked_about or context.pending_objective) or line.users:
         return None
-    if not is_all("only_figures", line.wish) or any(figure.doubtful or figure.value <= 0 for figure in line.figures):
+    if not _only_figures(line) or any(figure.doubtful or figure.value <= 0 for figure in line.figures):
         return None
     values: dict[str, Constraint] = {}
     for figure in line.figures:
-        rate = "max_rate_bps" if figure.comparator == "at_most" else "min_rate_bps"
+        rate = "max_rate_bps" if figure.comparator == "at_most" or context.pending_caps else "min_rate_bps"
         name = rate if figure.kind == "rate" else "max_power_w"
         if name in values:
             return None
@@ -92,6 +95,13 @@ def _answered(line: Line) -> Intent | None:
         key = "rate_only" if "min_rate_bps" in values else "limits_only"
         return line.ask(key, values, constraints=line.voice.constraints(values))
     return line.allocate(objective, values, amends=context.objective is not None)
+
+
+def _only_figures(line: Line) -> bool:
+    """Whether a line says figures, and at most what they bound."""
+    around = {"figure", "lead", "at_most", "make", "to", "moves", "up_to", "limit", "promise", "correct", "take"}
+    bound = any(all(token.classes & around for token in words.tokens) for words in words_of(line))
+    return bool(line.figures) and (bound or is_all("only_figures", line.wish) is not None)
 
 
 def _users_with_rates(pending: Mapping[str, Constraint]) -> tuple[str, ...]:
@@ -108,14 +118,14 @@ def unanswered(text: str, intent: Intent, context: Context) -> Question:
         return Question(pending=intent.pending)
     goal = Sentence(text, own_words()).goal
     settled = users_in(intent.pending)
-    users = tuple(user for user in line.users if user not in settled)
+    users = tuple(user for user in line.users or numbered(line) if user not in settled)
     objective = goal.objective if goal.verdict == "clear" else None
-    offered = intent.offered
+    offered, caps = intent.offered, any(speaks_of_one(line.text, name) for name in ("limit", "rate_limit"))
     if context.awaits != "clarification" or leaves_the_question(line):
-        return Question(pending=intent.pending, objective=objective, users=users, offered=offered)
+        return Question(pending=intent.pending, objective=objective, users=users, caps=caps, offered=offered)
     return Question(
         pending=merged(context.pending, intent.pending), objective=objective or context.pending_objective,
-        users=users or context.pending_users, offered=offered,
+        users=users or context.pending_users, caps=caps or context.pending_caps, offered=offered,
     )  # fmt: skip
 
 

@@ -236,7 +236,7 @@ def read_of_another(words: Words) -> Intent | None:
         return None
     common = words.has("others", "every")
     weighed = {act.kind for act in words.last(Limit)} == {"weights"}
-    if shares and weighed and not words.has("than", "it", "too", "equal"):  # "7 double", behind another weight
+    if shares and weighed and not words.has("than", "too", "equal"):  # "7 double", behind another weight
         return None
     last = [*words.last(Limit), *(as_held(words, act) for act in words.last(Scale))]
     found: dict[str, float] = {}

@@ -59,6 +59,9 @@ _PREFIXED = re.compile(r"[0-9]\s?[kMG]$")
 _SCALE = re.compile(r"[kKMG](?![^\W_])")
 _SCALES = {"": 1.0, "K": 1e3, "M": 1e6, "G": 1e9}
 _WORD = re.compile(r"[^\W\d_]+")
+_OF_A_USER = re.compile(r"(?i)(?:^\s*|\b(?:el|al|la|le|du|au|der|die|den|dem|number)\s)(\d{1,3})\s*(?=$|[^\W\d_])")
+NUMBER = re.compile(r"(?<![A-Za-z\d.])\d++(?:\.\d+)?+(?![A-Za-z])")
+"""A number in digits: "7", and no "4K"."""
 ONES = frozenset(
     {
         "one", "a", "an", "un", "uno", "una", "une", "ein", "eine", "einen", "eins", "一", "两", "half", "demi",
@@ -97,6 +100,12 @@ def speaks_of_one(plain: str, of: str = "pronoun") -> bool:
         for word, token in _table(language)[0].items()
         if of in token.classes
     )
+
+
+def numbered(line: Line) -> tuple[str, ...]:
+    """The user whom the one number of a line is said of, behind an article: "le 3 a payé", "den bei der 4 deckeln"."""
+    said = _OF_A_USER.search(line.text) if len(NUMBER.findall(line.text)) == 1 and not line.figures else None
+    return (said[1],) if said and int(said[1]) in range(1, len(line.context.user_names) + 1) else ()
 
 
 def own_users(held: Constraint | None) -> tuple[str, ...]:

@@ -28,20 +28,17 @@ from wirelessagent.language.order_model import (
     word_hashes,
 )  # fmt: skip
 from wirelessagent.language.sentence import Sentence, own_words
-from wirelessagent.language.training.compose import OBJECTIVES, sentences, wishes
+from wirelessagent.language.training.compose import OBJECTIVES, wishes
 from wirelessagent.language.training.fit import fit, known_words, matrix_of
 from wirelessagent.language.training.spoken import spoken
 from wirelessagent.model.errors import InputError
 
 FRAMES = Path(__file__).with_name("frames")
-ORDERS, NONE = (*OBJECTIVES, "command.undo", "command.reset"), ("question", "clarify.negated")
-"""Labels of the templates' sentences that order something, and how those begin that order nothing."""
-
 FILLED, _LONGEST = 4, 60
 """How often each frame is filled, in turns with what people said, in so many letters, and with what is drawn."""
 
-DRAWN, MILD, FRAME = 0.03, 0.6, 3.0
-"""What a drawn sentence counts, one that was not written to be mistaken, and a frame, beside a sentence that was."""
+MILD, FRAME = 0.6, 3.0
+"""What a sentence counts that was not written to be mistaken, and a frame, beside a sentence that was."""
 
 _RIDGE = 1e-6
 _OFTEN, _HARDLY = 3.9, 0.1
@@ -68,17 +65,11 @@ def framed(folder: Path = FRAMES, seed: int = 1) -> Iterator[tuple[str, bool]]:
                 yield frame.replace("{}", wish[:1].lower() + wish[1:]), label == "order"
 
 
-def drawn() -> list[tuple[str, str]]:
-    """The sentences of the templates, with their labels."""
-    return sorted(set(sentences(FRAMES.parent)))
-
-
 def main(path: Path) -> None:
     """Read, fit, write, and say how well the sentences are told apart that were written to be mistaken."""
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     log, start, own = logging.getLogger(__name__), time.perf_counter(), own_words()
     said = [(each.text, each.is_order, 1.0 if each.near else MILD) for each in spoken() if each.is_order is not None]
-    said += [(text, label in ORDERS, DRAWN) for text, label in drawn() if label in ORDERS or label.startswith(NONE)]
     said += [(text, orders, FRAME / FILLED) for text, orders in framed()]
     frames = [frame_of(Sentence(text, own)) for text, *_ in said]
     log.info("%d sentences (%.0f s)", len(said), time.perf_counter() - start)
