@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from wirelessagent.agent.posing import UnknownUserError, able, user_number
-from wirelessagent.agent.state import Replies, Reply, Talk, nothing_yet
+from wirelessagent.agent.state import Replies, Reply, Talk
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act, Ask
@@ -95,11 +95,6 @@ def answered(asked: Asked, act: Ask) -> tuple[str, tuple[Table, ...]]:
     return (answer, ()) if isinstance(answer, str) else answer
 
 
-def help_with(talk: Talk, _: acts.AskHelp) -> Reply:
-    """What can be said."""
-    return Reply(decided=talk.say("about.help"))
-
-
 def meaning(talk: Talk, _: acts.AskMeaning) -> Reply:
     """What the terms in a line mean; their figures, where it asks for those of now."""
     run = talk.state.run
@@ -109,20 +104,16 @@ def meaning(talk: Talk, _: acts.AskMeaning) -> Reply:
 
 def methods(talk: Talk, _: acts.AskMethods) -> Reply:
     """Which method decided, and which could."""
-    if talk.state.run is None:
-        return nothing_yet(talk)
-    decision = talk.state.run.decision
+    decision = talk.needed(talk.state.run).decision
     used = talk.say("about.method_in_use", method=called(talk.language, decision.method))
     return Reply(decided=talk.joined(used, able(decision.problem, talk.language)))
 
 
 def about_the_decision(talk: Talk, act: Ask) -> Reply:
     """A question about the decision that holds, or about what could not be met right before."""
-    run, on_air = talk.state.run, talk.state.on_air
-    if isinstance(act, acts.AskWhyNot) or (isinstance(act, acts.AskWhy) and on_air is None):
-        run = unmet(talk.turns) or run
-    if run is None:
-        return nothing_yet(talk)
+    on_air = talk.state.on_air
+    of_the_unmet = isinstance(act, acts.AskWhyNot) or (isinstance(act, acts.AskWhy) and on_air is None)
+    run = talk.needed((unmet(talk.turns) if of_the_unmet else None) or talk.state.run)
     # the request may be one that can't be met, and what is in effect is another one
     of_it = isinstance(act, acts.AskWhyNot | acts.AskStep | acts.AskDearest) or run.decision.is_usable
     other = not of_it and on_air is not None and on_air.decision.is_usable
@@ -169,7 +160,7 @@ def _why(asked: Asked, act: acts.AskWhy) -> Answer:
     if act.user is None:
         raise UnknownUserError("", asked.case.estimate.user_names, asked.language)
     user = asked.user(act.user)
-    return asked.joined([_corrected(asked, user), asked.by(Accounts).told(user)])
+    return asked.joined(_corrected(asked, user), asked.by(Accounts).told(user))
 
 
 def _corrected(asked: Asked, user: int) -> str:
@@ -254,7 +245,7 @@ _ANSWERS: Mapping[type[Ask], Callable[[Asked, Any], Answer]] = {
     acts.AskDuration: lambda asked, _: asked.say("about.no_duration", method=asked.case.decision.method),
 }
 REPLIES: Replies = {
-    acts.AskHelp: help_with,
+    acts.AskHelp: lambda talk, _: Reply(decided=talk.say("about.help")),
     acts.AskMeaning: meaning,
     acts.AskMethods: methods,
     **dict.fromkeys(_ANSWERS, about_the_decision),

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from datetime import datetime
 
 from wirelessagent.agent.acting import same_allocation
-from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back, nothing_yet
+from wirelessagent.agent.state import Column, InsteadError, Replies, Reply, Talk, asked_back
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language import acts
 from wirelessagent.model.outcome import Outcome
@@ -19,13 +19,6 @@ _SHOWN = 60
 """Characters of a sentence that the history shows."""
 
 
-def turn_of(turns: Sequence[Turn], reference: acts.TurnReference) -> Turn | None:
-    """The turn of this number, or the "first" with a decision; None where there is none."""
-    if reference == "first":
-        return next((turn for turn in turns if turn.run is not None and turn.intent.kind == "allocate"), None)
-    return next((turn for turn in turns if turn.number == reference), None)
-
-
 def no_such_turn(talk: Talk, reference: acts.TurnReference) -> Said:
     """What to say to a line about a turn that there is not."""
     count = len(talk.turns)
@@ -33,26 +26,27 @@ def no_such_turn(talk: Talk, reference: acts.TurnReference) -> Said:
     return talk.say(key, number=reference, last=count)
 
 
-def decided_by(talk: Talk, reference: acts.TurnReference) -> tuple[int, Run] | Reply:
-    """The number of a turn and its run, or the reply to what needs the decision of a turn that has none."""
-    chosen = turn_of(talk.turns, reference)
-    if chosen is None:
-        return asked_back(no_such_turn(talk, reference))
+def found_turn(talk: Talk, reference: acts.TurnReference) -> Turn:
+    """The turn of this number, or the "first" with a decision; where there is none, that is replied instead."""
+    fits = [turn for turn in talk.turns if turn.number == reference]
+    if reference == "first":
+        fits = [turn for turn in talk.turns if turn.run is not None and turn.intent.kind == "allocate"]
+    if not fits:
+        raise InsteadError(asked_back(no_such_turn(talk, reference)))
+    return fits[0]
+
+
+def decided_by(talk: Talk, reference: acts.TurnReference) -> tuple[int, Run]:
+    """The number of a turn and its run; where it has none, that is replied instead."""
+    chosen = found_turn(talk, reference)
     if chosen.run is None:
-        return asked_back(talk.say("turn.without_decision", number=chosen.number))
+        raise InsteadError(asked_back(talk.say("turn.without_decision", number=chosen.number)))
     return chosen.number, chosen.run
 
 
 def reasons(talk: Talk, act: acts.AskReasons) -> Reply:
     """A decision in words, with its tables."""
-    run = talk.state.run
-    if act.turn is not None:
-        found = decided_by(talk, act.turn)
-        if isinstance(found, Reply):
-            return found
-        run = found[1]
-    if run is None:
-        return nothing_yet(talk)
+    run = talk.needed(talk.state.run) if act.turn is None else decided_by(talk, act.turn)[1]
     said = explain(run.estimate, run.report, language=talk.language)
     return Reply(decided=lines_of(said), tables=run.tables(talk.language))
 
@@ -61,9 +55,7 @@ def history(talk: Talk, act: acts.AskHistory) -> Reply:
     """The turns so far, or one of them."""
     turns = talk.turns
     if act.turn is not None:
-        chosen = turn_of(turns, act.turn)
-        if chosen is None:
-            return asked_back(no_such_turn(talk, act.turn))
+        chosen = found_turn(talk, act.turn)
         said = talk.say("turn.said", number=chosen.number, text=_short(chosen.text), reply=chosen.reply)
         return Reply(decided=said, tables=chosen.tables)
     if not turns:
@@ -117,19 +109,14 @@ def _on_air(talk: Talk) -> str:
     if run is None:
         return talk.say("in_effect.off_air")
     number = next((turn.number for turn in reversed(talk.turns) if turn.run is run), len(talk.turns))
-    served, power = int((run.promised_bps > 0).sum()), human(run.decision.total_power_w, "W")
-    key, rate = (
-        "in_effect.on_air_one" if served == 1 else "in_effect.on_air",
-        human(float(run.promised_bps.sum()), "bit/s"),
-    )
+    served, rate = int((run.promised_bps > 0).sum()), human(float(run.promised_bps.sum()), "bit/s")
+    key, power = "in_effect.on_air_one" if served == 1 else "in_effect.on_air", human(run.decision.total_power_w, "W")
     return talk.say(key, turn=number, served=served, power=power, rate=rate)
 
 
 def with_last(talk: Talk, _: acts.CompareLast) -> Reply:
     """The decision that holds beside the last other one."""
-    run = talk.state.run
-    if run is None:
-        return nothing_yet(talk)
+    run = talk.needed(talk.state.run)
     turns = [turn for turn in reversed(talk.turns) if turn.intent.kind == "allocate"]
     made = [(turn.number, turn.run) for turn in turns if turn.run is not None]
     own = next((number for number, one in made if one.is_of(run)), len(talk.turns))
@@ -143,18 +130,13 @@ def with_last(talk: Talk, _: acts.CompareLast) -> Reply:
 
 def with_turns(talk: Talk, act: acts.CompareTurns) -> Reply:
     """The decision that holds beside that of a turn, or those of two turns."""
-    columns = list[Column]()
-    for reference in act.turns:
-        found = decided_by(talk, reference)
-        if isinstance(found, Reply):
-            return found
-        columns.append((talk.say("turn.column", number=found[0]), found[1]))
+    found = [decided_by(talk, reference) for reference in act.turns]
+    columns: list[Column] = [(talk.say("turn.column", number=number), run) for number, run in found]
     if len(columns) == 1:
-        if talk.state.run is None:
-            return nothing_yet(talk)
-        if same_allocation(columns[0][1].decision, talk.state.run.decision):
+        now = talk.needed(talk.state.run)
+        if same_allocation(columns[0][1].decision, now.decision):
             return Reply(decided=talk.say("compared.itself", turn=columns[0][0]))
-        columns.insert(0, (talk.say("compared.now"), talk.state.run))
+        columns.insert(0, (talk.say("compared.now"), now))
     turn, run = columns[-1]
     said = talk.say("compared.turn", turn=turn, line=certificate_line(run.decision, talk.language))
     return Reply(decided=said, tables=talk.beside(columns))
@@ -170,8 +152,7 @@ def export(talk: Talk, act: acts.Export) -> Reply:
         return asked_back(talk.say("ask_back.export_unknown", format=act.format))
     done = [turn for turn in turns if turn.stage not in ("answered", "asked")]
     made = [turn for turn in done if run is not None and turn.run is not None and turn.run.is_of(run)]
-    if run is None or not made:
-        return nothing_yet(talk)
+    run = talk.needed(run if made else None)
     last, on_air = made[-1], talk.state.on_air
     subject = Subject(
         name=f"{last.session}-{last.number}", text=made[0].text, decision=run.decision,

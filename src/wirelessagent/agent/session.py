@@ -25,7 +25,7 @@ from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.dialogue import Request, difference, stated_by
 from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
 from wirelessagent.agent.site import Decide, Site, decided, station_of
-from wirelessagent.agent.state import Reply, State, Talk, asked_back
+from wirelessagent.agent.state import InsteadError, Reply, State, Talk, asked_back
 from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
 from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Press, Suppose, Undo, Yes
 from wirelessagent.language.conversation import NAME as READ_HERE
@@ -158,7 +158,7 @@ class Session:
         self._language = intent.language
         talk = Talk(
             site=self._site, state=self._state, past=self._past, turns=self._turns, intent=intent, text=text,
-            pressed=pressed,
+            language=intent.language, pressed=pressed,
         )  # fmt: skip
         if intent.kind == "allocate":
             reader, sure = intent.recogniser, f"{intent.confidence:.0%}"
@@ -225,6 +225,8 @@ class Session:
             if reply.run is None or reply.stage == "answered":  # an answer has tables of its own
                 return reply
             return dataclasses.replace(reply, tables=reply.run.tables(talk.language))
+        except InsteadError as instead:
+            return instead.reply
         except UnclearRequestError as question:
             reference = question.reference if isinstance(question, UnknownUserError) else None
             missing = None if reference is None else Missing(intent=intent, reference=reference)

@@ -14,7 +14,7 @@ from wirelessagent import plugins
 from wirelessagent.agent.dialogue import Request, applied, restated
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
 from wirelessagent.agent.site import Sight
-from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back, nothing_yet
+from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back
 from wirelessagent.agent.turn import Run
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act
@@ -40,19 +40,12 @@ _OTHER_AIMS = ("weights", "max_rate_bps", "max_power_w")
 """What the least power knows nothing of, or is asked for instead of."""
 
 
-def other_channel(talk: Talk, _: acts.AskOtherChannel) -> Reply:
-    """The channel is as it was sensed."""
-    return asked_back(talk.say("ask_back.channel_given"))
-
-
 def what_if(talk: Talk, act: acts.Suppose) -> Reply:
     """A decision for other circumstances beside the one that holds, which the next line may take up."""
     share = act.missing_share
     if share is None and not act.acts:
         return asked_back(talk.say("ask_back.what_if_nothing"))
     request = _supposed(talk, act)
-    if request is None:
-        return nothing_yet(talk)
     if share is not None and not 0 <= share < 1:
         return asked_back(talk.say("ask_back.what_if_missing_share", share=percent(share)))
     sight = None if share is None else talk.site.sight(talk.language, missing=share)
@@ -74,8 +67,6 @@ def what_if(talk: Talk, act: acts.Suppose) -> Reply:
 def needed_power(talk: Talk, act: acts.AskPower) -> Reply:
     """The least power that the promised rates take; a what-if of the limit where nothing is promised."""
     request, enough_w = _supposed(talk, act), act.enough_w
-    if request is None:
-        return nothing_yet(talk)
     promises = "min_rate_bps" in request.constraints or request.objective == "min_power"
     within = None if enough_w is None else acts.Limit(kind="max_power_w", value=enough_w)
     limited = None if within is None else acts.Suppose(acts=(*act.acts, within))
@@ -102,14 +93,14 @@ def _left_open(talk: Talk, reply: Reply, supposed: Request | None) -> Reply:
     return dataclasses.replace(reply, changed=talk.say("plan.nothing_changed"), needs=needs, state=after)
 
 
-def _supposed(talk: Talk, act: acts.Suppose) -> Request | None:
+def _supposed(talk: Talk, act: acts.Suppose) -> Request:
     """The request of a what-if; one of the most that can be promised is kept with the probability that is assumed."""
     held, wanted = talk.state.request, act.acts
     named = {*(() if held is None else held.constraints), *(one.kind for one in wanted if isinstance(one, acts.Limit))}
     if isinstance(act, acts.AskMost) and "outage_probability" not in named:
         wanted = *wanted, acts.Limit(kind="outage_probability", value=ASSUMED_OUTAGE_PROBABILITY)
     aims = [one for one in wanted if isinstance(one, acts.Aim)]
-    return applied(held, (*aims, *wanted), radiated_w=talk.state.radiated_w)[0]
+    return talk.needed(applied(held, (*aims, *wanted), radiated_w=talk.state.radiated_w)[0])
 
 
 def _planned(talk: Talk, request: Request, sight: Sight | None) -> tuple[Run, str]:
@@ -236,23 +227,19 @@ def _judged(talk: Talk, run: Run, power_w: float | None, enough_w: float, asked:
 
 def with_requests(talk: Talk, act: acts.CompareRequests) -> Reply:
     """Changes of the request solved beside each other; one alone stands beside the request that holds."""
-    state = talk.state
-    if state.run is None or state.request is None:
-        return nothing_yet(talk)
-    changed = [(_label(change, talk.language), applied(state.request, change)[0]) for change in act.changes]
+    now, request = talk.needed(talk.state.run), talk.needed(talk.state.request)
+    changed = [(_label(change, talk.language), applied(request, change)[0]) for change in act.changes]
     columns = [(name, talk.tried(one)) for name, one in changed if one is not None]
     if len(columns) == 1:
-        columns.insert(0, (talk.say("compared.now"), talk.site.foreseen(state.run)))
-    assumed = [note for _, one in columns for note in talk.notes(one, before=state.run.notes)]
+        columns.insert(0, (talk.say("compared.now"), talk.site.foreseen(now)))
+    assumed = [note for _, one in columns for note in talk.notes(one, before=now.notes)]
     said = talk.joined(*dict.fromkeys(assumed), *_outcomes(talk, columns))
     return Reply(decided=said, changed=talk.say("plan.nothing_changed"), tables=talk.beside(columns))
 
 
 def with_tools(talk: Talk, act: acts.CompareTools) -> Reply:
     """The decision that holds beside those of other methods, or on what other repairers make of the channel."""
-    site, run, request = talk.site, talk.state.run, talk.state.request
-    if run is None or request is None:
-        return nothing_yet(talk)
+    site, run, request = talk.site, talk.needed(talk.state.run), talk.needed(talk.state.request)
     columns, refusals = [(run.decision.method, site.foreseen(run))], list[str]()
     for name in act.names:
         if name == run.decision.method and len(act.names) > 1:
@@ -310,5 +297,5 @@ REPLIES: Replies = {
     acts.Suppose: what_if,
     acts.AskMost: what_if,
     acts.AskPower: needed_power,
-    acts.AskOtherChannel: other_channel,
+    acts.AskOtherChannel: lambda talk, _: asked_back(talk.say("ask_back.channel_given")),
 }

@@ -104,6 +104,20 @@ def joined(language: str, sentences: Iterable[str]) -> Said:
     return _together(_text(language, "text.gap"), sentences)
 
 
+class Voice:
+    """Whoever speaks one language: says messages in it, and puts sentences together."""
+
+    language: str
+
+    def say(self, key: str, /, **places: object) -> Said:
+        """A message in the operator's language."""
+        return message(self.language, key, **places)
+
+    def joined(self, *sentences: str) -> Said:
+        """Sentences one after the other; those that are empty are left out."""
+        return joined(self.language, sentences)
+
+
 def lines_of(sentences: Iterable[str]) -> Said:
     """Sentences, a line each."""
     return _together("\n", sentences)
