@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias, TypeVar
 
-from wirelessagent.agent.dialogue import Request, plan_named
+from wirelessagent.agent.dialogue import Request, restated
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Lines, Run, Stage, Turn
@@ -117,7 +117,8 @@ class Talk(Voice):
 
     def plan(self, request: Request | None) -> str:
         """What is asked for, as a part of a sentence."""
-        return plan_named(request, self.language)
+        plan = "–" if request is None else restated(request, self.language).rstrip(".。")
+        return plan[:1].lower() + plan[1:]
 
     def tried(self, request: Request, **by: Any) -> Run:
         """The run for a request with what it would achieve, where that is known; nothing is applied."""
