@@ -14,8 +14,8 @@ from typing import Any
 
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import applied_line, respects, same_allocation
+from wirelessagent.agent.asking import no_such_turn
 from wirelessagent.agent.dialogue import applied, changes_in_words, restated
-from wirelessagent.agent.recalling import no_such_turn
 from wirelessagent.agent.state import InsteadError, Replies, Reply, State, Talk, asked_back
 from wirelessagent.agent.turn import Run, shift_between
 from wirelessagent.language.acts import Act, Apply, AskStatus, Export, Forget, No, Undo, Yes
@@ -134,14 +134,13 @@ def undo(talk: Talk, act: Undo) -> Reply:
         text = talk.say("undo.undone", request=talk.plan(before.request))
     if act.steps is not None and act.steps > count:
         text = talk.joined(talk.say("undo.undone_fewer", count=count), text)
-    return dataclasses.replace(_undone(talk, before, text), undone=count)
+    held = dataclasses.replace(before, on_air=talk.state.on_air, last_good=talk.state.last_good)
+    return _undone(talk, before, Reply(decided=text, stage="undone", state=held, run=before.run, undone=count), held)
 
 
-def _undone(talk: Talk, before: State, text: str) -> Reply:
+def _undone(talk: Talk, before: State, reply: Reply, held: State) -> Reply:
     """Put back what was in effect for the request that holds again, or plan for it anew where it never was."""
     site, state, good, wanted = talk.site, talk.state, before.on_air, before.run
-    held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
-    reply = Reply(decided=text, stage="undone", state=held, run=wanted)
     if wanted is not None and _never_applied(before) and site.station(wanted) is not None:
         if _same_on_air(state, wanted) is not None:
             return reply

@@ -1,6 +1,6 @@
 """Questions what would be: decisions for other circumstances, requests and tools beside the one that holds.
 
-And the power that a request takes.
+And those of other turns beside it, and the power that a request takes.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from wirelessagent import plugins
+from wirelessagent.agent.acting import same_allocation
+from wirelessagent.agent.asking import decided_by
 from wirelessagent.agent.dialogue import Request, applied, restated
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
 from wirelessagent.agent.site import Sight
@@ -22,6 +24,7 @@ from wirelessagent.language.intent import Constraint
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling.catalogue import called, lines_of, listed
+from wirelessagent.telling.explanation import certificate_line
 from wirelessagent.telling.facts.nearest import more_power, nearest
 from wirelessagent.telling.margins import Remedies
 from wirelessagent.telling.parts import (
@@ -50,13 +53,11 @@ def what_if(talk: Talk, act: acts.Suppose) -> Reply:
         return asked_back(talk.say("ask_back.what_if_missing_share", share=percent(share)))
     sight = None if share is None else talk.site.sight(talk.language, missing=share)
     run, refused = _planned(talk, request, sight)
-    if isinstance(act, acts.AskMost) and run.decision.is_usable:
-        said = talk.joined(refused, _most(talk, run, act.user))
-    else:
-        said = talk.joined(refused, _verdict(talk, run, share))
-        if share is None:
-            asked = restated(request, talk.language)
-            said = talk.say("what_if.answer", request=asked[:1].lower() + asked[1:], answer=said)
+    most = isinstance(act, acts.AskMost) and run.decision.is_usable
+    said = talk.joined(refused, _most(talk, run, act.user) if most else _verdict(talk, run, share))
+    if share is None and not most:
+        asked = restated(request, talk.language)
+        said = talk.say("what_if.answer", request=asked[:1].lower() + asked[1:], answer=said)
     runs = [(talk.say("what_if.column"), run)]
     if talk.state.run is not None:
         runs.insert(0, (talk.say("compared.now"), talk.site.foreseen(talk.state.run)))
@@ -74,7 +75,10 @@ def needed_power(talk: Talk, act: acts.AskPower) -> Reply:
         return Reply(decided=talk.say("needs.nothing")) if limited is None else what_if(talk, limited)
     limits: dict[str, Constraint] = {k: v for k, v in request.constraints.items() if k not in _OTHER_AIMS}
     run = talk.site.plan(talk.intent, Request(objective="min_power", constraints=limits))
-    power_w = _power(run)
+    power_w = run.decision.total_power_w if run.decision.is_usable else None
+    if power_w is None:
+        more = more_power(run.case)
+        power_w = None if more is None or more.power_w > BEYOND_W else more.power_w
     said = [*talk.notes(run), _taken(talk, run, power_w)]
     if enough_w is not None and limited is not None:
         said.append(_judged(talk, run, power_w, enough_w, act.judged))
@@ -158,25 +162,23 @@ def _beside(talk: Talk, run: Run | None, *, values: bool = False) -> str:
         return ""
     kinds = {(value_name(one.decision, talk.language), one.decision.unit) for one in (now, run)}
     if values and len(kinds) == 1:
-        return talk.say("what_if.now", change=_change(talk, now.decision, run.decision))
-    return talk.say("what_if.beside_now", then=_figures(talk, run.decision), now=_figures(talk, now.decision))
+        return talk.say("what_if.now", change=_difference(talk, now.decision, run.decision))
+    figures = list[str]()
+    for decision in (run.decision, now.decision):
+        rates = decision.rate_bps.sum(), decision.rate_bps[decision.served].min()
+        total, lowest = (human(float(rate), "bit/s") for rate in rates)
+        power = human(decision.total_power_w, "W")
+        figures.append(talk.say("what_if.beside_figures", total=total, lowest=lowest, power=power))
+    return talk.say("what_if.beside_now", then=figures[0], now=figures[1])
 
 
-def _change(talk: Talk, now: Decision, then: Decision) -> str:
+def _difference(talk: Talk, now: Decision, then: Decision) -> str:
     """By how much the other value differs."""
     change, value = then.value - now.value, human(now.value, now.unit)
     if not now.value or value == human(then.value, then.unit):
         return talk.say("what_if.same")
     key, size = "what_if.more" if change > 0 else "what_if.less", human(abs(change), now.unit)
     return talk.say(key, size=size, share=percent(abs(change / now.value)))
-
-
-def _figures(talk: Talk, decision: Decision) -> str:
-    total, lowest = float(decision.rate_bps.sum()), float(decision.rate_bps[decision.served].min())
-    power = human(decision.total_power_w, "W")
-    return talk.say(
-        "what_if.beside_figures", total=human(total, "bit/s"), lowest=human(lowest, "bit/s"), power=power
-    )  # fmt: skip
 
 
 def _unused(talk: Talk, run: Run) -> str:
@@ -190,14 +192,6 @@ def _unused(talk: Talk, run: Run) -> str:
     if not same or max(spent, before) >= min(budgets) * (1 - _SAME):
         return ""
     return talk.say("what_if.budget_unused", budget=human(budgets[0], "W"), spent=human(spent, "W"))
-
-
-def _power(run: Run) -> float | None:
-    """The power that was found to do; None where none was."""
-    if run.decision.is_usable:
-        return run.decision.total_power_w
-    more = more_power(run.case)
-    return None if more is None or more.power_w > BEYOND_W else more.power_w
 
 
 def _least(run: Run) -> float:
@@ -223,6 +217,34 @@ def _judged(talk: Talk, run: Run, power_w: float | None, enough_w: float, asked:
         return talk.say(f"needs.{asked}_enough", enough=enough, power=human(power_w, "W"))
     unmet = enough_w < _least(run) or power_w is None
     return talk.say("needs.not_enough" if unmet else "needs.perhaps_enough", enough=enough)
+
+
+def with_last(talk: Talk, _: acts.CompareLast) -> Reply:
+    """The decision that holds beside the last other one."""
+    run = talk.needed(talk.state.run)
+    turns = [turn for turn in reversed(talk.turns) if turn.intent.kind == "allocate"]
+    made = [(turn.number, turn.run) for turn in turns if turn.run is not None]
+    own = next((number for number, one in made if one.is_of(run)), len(talk.turns))
+    last = next(((number, one) for number, one in made if not one.is_of(run)), None)
+    if last is None:
+        return Reply(decided=talk.say("compared.nothing"))
+    columns = [(talk.say("turn.column", number=number), one) for number, one in ((own, run), last)]
+    said = talk.say("compared.last", turn=last[0], line=certificate_line(last[1].decision, talk.language))
+    return Reply(decided=said, tables=talk.beside(columns))
+
+
+def with_turns(talk: Talk, act: acts.CompareTurns) -> Reply:
+    """The decision that holds beside that of a turn, or those of two turns."""
+    found = [decided_by(talk, reference) for reference in act.turns]
+    columns: list[Column] = [(talk.say("turn.column", number=number), run) for number, run in found]
+    if len(columns) == 1:
+        now = talk.needed(talk.state.run)
+        if same_allocation(columns[0][1].decision, now.decision):
+            return Reply(decided=talk.say("compared.itself", turn=columns[0][0]))
+        columns.insert(0, (talk.say("compared.now"), now))
+    turn, run = columns[-1]
+    said = talk.say("compared.turn", turn=turn, line=certificate_line(run.decision, talk.language))
+    return Reply(decided=said, tables=talk.beside(columns))
 
 
 def with_requests(talk: Talk, act: acts.CompareRequests) -> Reply:
@@ -265,18 +287,16 @@ def with_tools(talk: Talk, act: acts.CompareTools) -> Reply:
 def _outcomes(talk: Talk, columns: Sequence[Column]) -> list[str]:
     """What each of the runs comes to, one sentence each."""
     met = any(run.decision.is_usable for _, run in columns)
-    outcomes = [(called(talk.language, name), _outcome(talk, run, met=met)) for name, run in columns]
-    return [talk.say("compared.outcome", name=name, outcome=outcome) for name, outcome in outcomes]
-
-
-def _outcome(talk: Talk, run: Run, *, met: bool) -> str:
-    """What a run comes to; that a method found nothing is no news of the request where another one met it."""
-    if run.decision.is_usable:
-        return outcome_in_words(run.decision, talk.language)
-    if met and run.decision.status == "undecided":
-        return talk.say("compared.found_none")
-    because = talk.say("compared.because", reason=reason_in_words(run.decision, talk.language))
-    return talk.say(f"status.{run.decision.status}") + because
+    said = list[str]()
+    for name, run in columns:
+        because = talk.say("compared.because", reason=reason_in_words(run.decision, talk.language))
+        outcome = talk.say(f"status.{run.decision.status}") + because
+        if run.decision.is_usable:
+            outcome = outcome_in_words(run.decision, talk.language)
+        elif met and run.decision.status == "undecided":  # no news of a request that another one met
+            outcome = talk.say("compared.found_none")
+        said.append(talk.say("compared.outcome", name=called(talk.language, name), outcome=outcome))
+    return said
 
 
 def _label(change: Sequence[Act], language: str) -> str:
@@ -292,6 +312,8 @@ def _figure(limit: acts.Limit) -> str:
 
 
 REPLIES: Replies = {
+    acts.CompareLast: with_last,
+    acts.CompareTurns: with_turns,
     acts.CompareRequests: with_requests,
     acts.CompareTools: with_tools,
     acts.Suppose: what_if,
