@@ -103,21 +103,21 @@ class Site:
 
     def sight(self, language: str, *, missing: float | None = None, tools: Tools | None = None) -> Sight:
         """What is known of the channel, if another share of the gains were ``missing``, or by other ``tools``."""
-        if missing is not None or tools is not None:
-            losses = self.losses if missing is None else [random(missing)] if missing > 0 else []
-            return self._look(losses, tools or self.tools, language)
-        if self._sight is None:
-            self._sight = self._look(self.losses, self.tools, language)
-        return self._sight
-
-    def _look(self, losses: Sequence[Loss], tools: Tools, language: str) -> Sight:
-        """Observe the scene, with what ``losses`` leave of it, and repair what is missing."""
+        own = missing is None and tools is None
+        if own and self._sight is not None:
+            return self._sight
+        losses, tools = (
+            self.losses if missing is None else [random(missing)] if missing > 0 else [],
+            tools or self.tools,
+        )
         seen = self.scene.observe(*losses, seed=self.seed)
         self.tell("sense", describe(seen, language), language)
-        estimate, missing = chain.repair(seen, tools.repairer, **tools.repairer_options), int(seen.missing.sum())
-        key = "stage.repaired" if missing else "stage.complete"
-        self.tell("repair", message(language, key, missing=missing, method=estimate.method), language)
-        return Sight(observation=seen, estimate=estimate)
+        estimate, gaps = chain.repair(seen, tools.repairer, **tools.repairer_options), int(seen.missing.sum())
+        key = "stage.repaired" if gaps else "stage.complete"
+        self.tell("repair", message(language, key, missing=gaps, method=estimate.method), language)
+        found = Sight(observation=seen, estimate=estimate)
+        self._sight = found if own else self._sight
+        return found
 
     def tell(self, stage: str, said: str, language: str) -> None:
         """Tell who listens what was just done."""

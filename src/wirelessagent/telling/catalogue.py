@@ -65,13 +65,10 @@ def message(language: str, key: str, /, **places: object) -> Said:
     }
     text = _text(language, key)
     said = text.format(**filled)
-    return Said(_begun(said) if text.startswith("{") and text.endswith((".", "?")) else said, key, places)
-
-
-def _begun(sentence: str) -> str:
-    """A sentence that a name or a value begins, with a capital; an identifier such as "ue_3" stays as it is."""
-    word = _FIRST_WORD.match(sentence)
-    return sentence[0].upper() + sentence[1:] if word is not None and word[0].islower() else sentence
+    if text.startswith("{") and text.endswith((".", "?")):
+        word = _FIRST_WORD.match(said)  # a sentence begins with a capital; an identifier such as "ue_3" stays as it is
+        said = said[0].upper() + said[1:] if word is not None and word[0].islower() else said
+    return Said(said, key, places)
 
 
 def has_message(language: str, key: str) -> bool:
