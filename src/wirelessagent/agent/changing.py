@@ -284,10 +284,4 @@ def naming_the_plan(reply: Reply, talk: Talk, acts: tuple[Act, ...]) -> Reply:
     return dataclasses.replace(reply, needs=talk.say("plan.still_waits", request=talk.plan(after.request)))
 
 
-REPLIES: Replies = {
-    Apply: apply,
-    Yes: confirm,
-    No: reject,
-    Undo: undo,
-    Forget: reset,
-}
+REPLIES: Replies = {Apply: apply, Yes: confirm, No: reject, Undo: undo, Forget: reset}

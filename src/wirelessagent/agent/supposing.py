@@ -23,18 +23,11 @@ from wirelessagent.language.acts import Act
 from wirelessagent.language.intent import Constraint
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.telling import parts
 from wirelessagent.telling.catalogue import called, lines_of, listed
 from wirelessagent.telling.explanation import certificate_line
 from wirelessagent.telling.facts.nearest import more_power, nearest
 from wirelessagent.telling.margins import Remedies
-from wirelessagent.telling.parts import (
-    BEYOND_W,
-    cannot_be_served,
-    goal_words,
-    outcome_in_words,
-    reason_in_words,
-    value_name,
-)
 
 _SAME = 1e-6
 """A share of the power that nobody sees."""
@@ -54,7 +47,9 @@ def what_if(talk: Talk, act: acts.Suppose) -> Reply:
     sight = None if share is None else talk.site.sight(talk.language, missing=share)
     run, refused = _planned(talk, request, sight)
     most = isinstance(act, acts.AskMost) and run.decision.is_usable
-    said = talk.joined(refused, _most(talk, run, act.user) if most else _verdict(talk, run, share))
+    left_out = parts.cannot_be_served(run.decision, talk.language)
+    warned = talk.say("text.note", note=left_out) if left_out else ""
+    said = talk.joined(refused, _most(talk, run, act.user) if most else _verdict(talk, run, share), warned)
     if share is None and not most:
         asked = restated(request, talk.language)
         said = talk.say("what_if.answer", request=asked[:1].lower() + asked[1:], answer=said)
@@ -78,12 +73,17 @@ def needed_power(talk: Talk, act: acts.AskPower) -> Reply:
     power_w = run.decision.total_power_w if run.decision.is_usable else None
     if power_w is None:
         more = more_power(run.case)
-        power_w = None if more is None or more.power_w > BEYOND_W else more.power_w
+        power_w = None if more is None or more.power_w > parts.BEYOND_W else more.power_w
     said = [*talk.notes(run), _taken(talk, run, power_w)]
     if enough_w is not None and limited is not None:
-        said.append(_judged(talk, run, power_w, enough_w, act.judged))
-        if request.objective != "min_power" and power_w is not None and enough_w >= power_w:
-            said.append(_beside(talk, what_if(talk, limited).run))  # what such a limit makes of an aim that it serves
+        enough = human(enough_w, "W")
+        if power_w is not None and enough_w >= power_w:
+            said.append(talk.say(f"needs.{act.judged}_enough", enough=enough, power=human(power_w, "W")))
+            if request.objective != "min_power":  # what such a limit makes of an aim that it serves
+                said.append(_beside(talk, what_if(talk, limited).run))
+        else:
+            key = "needs.not_enough" if enough_w < _least(run) or power_w is None else "needs.perhaps_enough"
+            said.append(talk.say(key, enough=enough))
     return _left_open(talk, Reply(decided=talk.joined(*said), run=run), request)
 
 
@@ -131,12 +131,7 @@ def _most(talk: Talk, run: Run, user: str | None) -> str:
         sure=reliability(decision.problem.outage_probability or 0.0),
     )  # fmt: skip
     proven = talk.say("what_if.most_proven", bound=human(decision.bound, decision.unit))
-    return talk.joined(said, "" if np.isnan(decision.gap) else proven, *talk.notes(run), _warned(talk, run))
-
-
-def _warned(talk: Talk, run: Run) -> str:
-    left_out = cannot_be_served(run.decision, talk.language)
-    return talk.say("text.note", note=left_out) if left_out else ""
+    return talk.joined(said, "" if np.isnan(decision.gap) else proven, *talk.notes(run))
 
 
 def _verdict(talk: Talk, run: Run, missing: float | None) -> str:
@@ -149,8 +144,8 @@ def _verdict(talk: Talk, run: Run, missing: float | None) -> str:
         unmet = "" if missing is None else talk.say("what_if.unseen", share=share)
         return talk.joined(*assumed, unmet, Remedies(run.case, talk.language).told(nearest(run.case)))
     key = "what_if.met" if missing is None else "what_if.still_met"
-    met = talk.say(key, outcome=outcome_in_words(run.decision, talk.language), share=share)
-    return talk.joined(*assumed, met, _beside(talk, run, values=True), _unused(talk, run), _warned(talk, run))
+    met = talk.say(key, outcome=parts.outcome_in_words(run.decision, talk.language), share=share)
+    return talk.joined(*assumed, met, _beside(talk, run, values=True), _unused(talk, run))
 
 
 def _beside(talk: Talk, run: Run | None, *, values: bool = False) -> str:
@@ -160,7 +155,7 @@ def _beside(talk: Talk, run: Run | None, *, values: bool = False) -> str:
     now = talk.state.run
     if now is None or run is None or not (now.decision.is_usable and run.decision.is_usable):
         return ""
-    kinds = {(value_name(one.decision, talk.language), one.decision.unit) for one in (now, run)}
+    kinds = {(parts.value_name(one.decision, talk.language), one.decision.unit) for one in (now, run)}
     if values and len(kinds) == 1:
         return talk.say("what_if.now", change=_difference(talk, now.decision, run.decision))
     figures = list[str]()
@@ -204,19 +199,10 @@ def _least(run: Run) -> float:
 def _taken(talk: Talk, run: Run, power_w: float | None) -> str:
     """The power that the promised rates take."""
     if power_w is None:
-        return talk.say("needs.too_much", reason=reason_in_words(run.decision, talk.language))
+        return talk.say("needs.too_much", reason=parts.reason_in_words(run.decision, talk.language))
     power, least, limit_w = human(power_w, "W"), human(_least(run), "W"), run.decision.cell.max_power_w
     said = talk.say("needs.exactly" if power == least else "needs.takes", power=power, least=least)
     return talk.joined(said, talk.say("needs.beyond_limit", limit=human(limit_w, "W")) if power_w > limit_w else "")
-
-
-def _judged(talk: Talk, run: Run, power_w: float | None, enough_w: float, asked: str) -> str:
-    """Whether a power does."""
-    enough = human(enough_w, "W")
-    if power_w is not None and enough_w >= power_w:
-        return talk.say(f"needs.{asked}_enough", enough=enough, power=human(power_w, "W"))
-    unmet = enough_w < _least(run) or power_w is None
-    return talk.say("needs.not_enough" if unmet else "needs.perhaps_enough", enough=enough)
 
 
 def with_last(talk: Talk, _: acts.CompareLast) -> Reply:
@@ -289,10 +275,10 @@ def _outcomes(talk: Talk, columns: Sequence[Column]) -> list[str]:
     met = any(run.decision.is_usable for _, run in columns)
     said = list[str]()
     for name, run in columns:
-        because = talk.say("compared.because", reason=reason_in_words(run.decision, talk.language))
+        because = talk.say("compared.because", reason=parts.reason_in_words(run.decision, talk.language))
         outcome = talk.say(f"status.{run.decision.status}") + because
         if run.decision.is_usable:
-            outcome = outcome_in_words(run.decision, talk.language)
+            outcome = parts.outcome_in_words(run.decision, talk.language)
         elif met and run.decision.status == "undecided":  # no news of a request that another one met
             outcome = talk.say("compared.found_none")
         said.append(talk.say("compared.outcome", name=called(talk.language, name), outcome=outcome))
@@ -301,7 +287,7 @@ def _outcomes(talk: Talk, columns: Sequence[Column]) -> list[str]:
 
 def _label(change: Sequence[Act], language: str) -> str:
     """What a change is called at the head of a column: its aim, or its figures, as in "95 %"."""
-    aims = [goal_words(act.objective, language) for act in change if isinstance(act, acts.Aim)]
+    aims = [parts.goal_words(act.objective, language) for act in change if isinstance(act, acts.Aim)]
     return " ".join(dict.fromkeys([*aims, *(_figure(act) for act in change if isinstance(act, acts.Limit))]))
 
 

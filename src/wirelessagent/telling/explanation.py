@@ -15,18 +15,11 @@ from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import db, human, percent, probability, reliability
+from wirelessagent.telling import parts
 from wirelessagent.telling.catalogue import Said, message
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.proof import Certainty, Certificate, certainty, certificate, measured
-from wirelessagent.telling.parts import (
-    Teller,
-    cannot_be_served,
-    goal_named,
-    name_of_figure,
-    outcome_in_words,
-    place,
-    reason_in_words,
-)
+from wirelessagent.telling.parts import Teller
 from wirelessagent.telling.report import Report
 
 _HARDLY_ANY = 0.05
@@ -42,16 +35,16 @@ _NO_REGRET = 5e-4
 def certificate_line(decision: Decision, language: str = "en") -> str:
     """What was decided, and how sure it is that nothing does better, in one line."""
     if not decision.is_usable:
-        status = message(language, f"status.{decision.status}")
-        return message(language, "certificate.unusable", status=status, reason=reason_in_words(decision, language))
+        status, why = message(language, f"status.{decision.status}"), parts.reason_in_words(decision, language)
+        return message(language, "certificate.unusable", status=status, reason=why)
     outage, bound = decision.problem.outage_probability, human(decision.bound, decision.unit)
-    figures = {"value": outcome_in_words(decision, language), "bound": bound, "gap": percent(decision.gap)}
+    figures = {"value": parts.outcome_in_words(decision, language), "bound": bound, "gap": percent(decision.gap)}
     best = decision.status == "optimal" or figures["gap"] == percent(0.0)
     close = bound == human(decision.value, decision.unit)
     proof = "no_bound" if np.isnan(decision.gap) else "best" if best else "close" if close else "line"
     key = f"certificate.{proof}" if outage is None else f"certificate.{proof}_outage"
     line = message(language, key, **figures, sure=reliability(outage or 0.0))
-    left_out = cannot_be_served(decision, language)
+    left_out = parts.cannot_be_served(decision, language)
     return message(language, "certificate.noted", line=line, note=left_out) if left_out else line
 
 
@@ -91,7 +84,7 @@ def rests_on(objective: Objective, language: str) -> str:
     on = "levels" if objective.joined == "min" else "conjugate" if objective.power_law() is None else "law"
     alpha = objective.power_law() or 0.0
     law = {0.0: "r", 1.0: "ln r"}.get(alpha, f"r^(1 − α)/(1 − α) with α = {alpha:g}")
-    named = goal_named(objective.name, objective.name, language)
+    named = parts.goal_named(objective.name, objective.name, language)
     return message(language, f"proof.rests_on_{on}", objective=named, law=law)
 
 
@@ -152,7 +145,7 @@ class Proofs(Teller):
         key = "promise" if outage is not None else "holds" if found.expected_missed < _HARDLY_ANY else "may_fail"
         served, sure = int((self.case.decision.committed_bps > 0).sum()), reliability(outage or 0.0)
         asked = outage is None and self.case.problem.promises_rates
-        at = {"user": self.case.estimate.user_names[user], "place": place(subcarrier, subcarrier, self.language)}
+        at = {"user": self.case.estimate.user_names[user], "place": parts.place(subcarrier, subcarrier, self.language)}
         return [
             self.say("certainty.band", low=low, high=high) if low != high else "",
             self.say(f"certainty.{key}", served=served, sure=sure, **told, missed=found.expected_missed),
@@ -183,7 +176,7 @@ class _Explanation(Proofs):
             served=int(np.count_nonzero(decision.rate_bps > 0)), power=self.spent, budget=self.budget,
         )  # fmt: skip
         proven = not objective.is_built_in and not np.isnan(decision.gap)
-        because = decision.reason and not cannot_be_served(decision)
+        because = decision.reason and not parts.cannot_be_served(decision)
         known = measured(self.case)
         said = [
             self.joined(allocation, _how_far(decision, self.language)),
@@ -205,7 +198,7 @@ class _Explanation(Proofs):
     @property
     def _own_figure(self) -> str:
         """What the value is called; empty where its unit says it all."""
-        return name_of_figure(self.case.decision, self.language)
+        return parts.name_of_figure(self.case.decision, self.language)
 
     @property
     def _without_rate(self) -> BoolArray:

@@ -22,12 +22,7 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human, percent, prefixed, probability, reliability
 from wirelessagent.telling.catalogue import called, message
-from wirelessagent.telling.facts.proof import (
-    among_served,
-    predicted_metrics,
-    ungrouped_bound,
-    with_perfect_knowledge,
-)
+from wirelessagent.telling.facts import proof
 from wirelessagent.telling.parts import goal_words, name_of_figure, power_in_words
 from wirelessagent.telling.told import Table
 
@@ -93,7 +88,8 @@ class Report(Shown):
 
         Where perfect knowledge would have decided otherwise, what it would have achieved comes last.
         """
-        known = [self.predicted, self.achieved, *([] if self.perfect is None else [predicted_metrics(self.perfect)])]
+        known = [self.predicted, self.achieved]
+        known += [] if self.perfect is None else [proof.predicted_metrics(self.perfect)]
 
         def row(label: str, figure: Callable[[LinkMetrics], float], unit: str) -> tuple[str, ...]:
             return label, *("–" if one is None else human(figure(one), unit) for one in known)
@@ -201,11 +197,11 @@ def report(decision: Decision, outcome: Outcome | None = None) -> Report:
     """
     return Report(
         decision=decision,
-        predicted=predicted_metrics(decision),
-        achieved=None if outcome is None else among_served(outcome.achieved, decision),
+        predicted=proof.predicted_metrics(decision),
+        achieved=None if outcome is None else proof.among_served(outcome.achieved, decision),
         missed_users=() if outcome is None else tuple(int(user) for user in np.flatnonzero(outcome.missed)),
-        perfect=None if outcome is None else with_perfect_knowledge(decision, outcome),
-        ungrouped_bound=ungrouped_bound(decision),
+        perfect=None if outcome is None else proof.with_perfect_knowledge(decision, outcome),
+        ungrouped_bound=proof.ungrouped_bound(decision),
     )
 
 

@@ -73,22 +73,16 @@ class Roster(Teller):
         if user is not None:
             key, places = "roster.has" if own[user].size else "roster.has_none", self._places(own[user])
             return self.say(key, name=self.name(user), count=own[user].size, total=total, places=places)
-        rows = [
-            self.say("roster.row", name=self.name(each), places=self._places(some), count=some.size)
-            for each, some in enumerate(own)
-            if some.size
-        ]
+        told = ((self.name(each), self._places(some), some.size) for each, some in enumerate(own) if some.size)
+        rows = [self.say("roster.row", name=name, places=places, count=count) for name, places, count in told]
         unused = self.say("roster.unused", places=self._places(free), count=free.size) if free.size else ""
         return lines_of([self.say("roster.all", total=total), *rows, unused])
 
     def _places(self, subcarriers: IntArray) -> str:
         """Subcarriers counted from 1, neighbours together: "1–3, 7"."""
-        runs = np.split(subcarriers, np.flatnonzero(np.diff(subcarriers) > 1) + 1)
-        said = [
-            str(run[0] + 1) if run.size == 1 else self.say("roster.range", first=run[0] + 1, last=run[-1] + 1)
-            for run in runs
-            if run.size
-        ]
+        runs = np.split(subcarriers + 1, np.flatnonzero(np.diff(subcarriers) > 1) + 1)
+        ends = [(run[0], run[-1]) for run in runs if run.size]
+        said = [str(one) if one == end else self.say("roster.range", first=one, last=end) for one, end in ends]
         return self.say("text.comma").join(said)
 
     def owner(self, place: int) -> str:
@@ -112,11 +106,7 @@ class Roster(Teller):
         if user is None:
             user = int(decision.owner[place - 1]) if decision.is_usable else -1
             user = user if user >= 0 else int(estimate.gain[:, place - 1].argmax())
-        return self._at(user, place)
-
-    def _at(self, user: int, place: int) -> str:
-        estimate, name, at = self.case.estimate, self.name(user), (user, place - 1)
-        gain = float(estimate.gain[at])
+        name, at, gain = self.name(user), (user, place - 1), float(estimate.gain[user, place - 1])
         if gain <= 0:
             return self.say("gain.none_at", name=name, place=place)
         low, high = (float(db(estimate.posterior.quantile(each)[at], floor_db=-200)) for each in (0.05, 0.95))
