@@ -46,10 +46,10 @@ def what_if(talk: Talk, act: acts.Suppose) -> Reply:
         return asked_back(talk.say("ask_back.what_if_missing_share", share=percent(share)))
     sight = None if share is None else talk.site.sight(talk.language, missing=share)
     run, refused = _planned(talk, request, sight)
-    most = isinstance(act, acts.AskMost) and run.decision.is_usable
+    most = _most(talk, run, act.user) if isinstance(act, acts.AskMost) and run.decision.is_usable else ""
     left_out = parts.cannot_be_served(run.decision, talk.language)
     warned = talk.say("text.note", note=left_out) if left_out else ""
-    said = talk.joined(refused, _most(talk, run, act.user) if most else _verdict(talk, run, share), warned)
+    said = talk.joined(refused, most or _verdict(talk, run, share), warned)
     if share is None and not most:
         asked = restated(request, talk.language)
         said = talk.say("what_if.answer", request=asked[:1].lower() + asked[1:], answer=said)

@@ -129,9 +129,8 @@ class Report(Shown):
         if self.achieved is not None:
             kept = message(language, "label.kept_of", kept=count - len(self.missed_users), served=count)
         label = message(language, "label.promised_at_head", sure=reliability(decision.problem.outage_probability))
-        promised, *perfect = (
-            human(float(one.rate_bps.sum()), "bit/s") for one in (decision, self.perfect) if one is not None
-        )
+        made = [decision] if self.perfect is None else [decision, self.perfect]
+        promised, *perfect = (human(float(one.rate_bps.sum()), "bit/s") for one in made)
         return [(label, promised, kept, *perfect)]
 
     def _value(self, metrics: LinkMetrics) -> float:
@@ -195,10 +194,11 @@ def report(decision: Decision, outcome: Outcome | None = None) -> Report:
     Where the base station knows the true channel and the decision did not, the report also has what the method, with
     its default options, would have decided with every gain known.
     """
+    achieved = None if outcome is None else outcome.achieved
     return Report(
         decision=decision,
         predicted=proof.predicted_metrics(decision),
-        achieved=None if outcome is None else proof.among_served(outcome.achieved, decision),
+        achieved=None if achieved is None else proof.among_served(achieved, decision),
         missed_users=() if outcome is None else tuple(int(user) for user in np.flatnonzero(outcome.missed)),
         perfect=None if outcome is None else proof.with_perfect_knowledge(decision, outcome),
         ungrouped_bound=proof.ungrouped_bound(decision),
