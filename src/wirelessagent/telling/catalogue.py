@@ -98,7 +98,7 @@ def called(language: str, name: str) -> str:
 
 def joined(language: str, sentences: Iterable[str]) -> Said:
     """Sentences one after the other, as the language sets them."""
-    return _together(_text(language, "text.gap"), sentences)
+    return lines_of(sentences, gap=_text(language, "text.gap"))
 
 
 class Voice:
@@ -115,13 +115,8 @@ class Voice:
         return joined(self.language, sentences)
 
 
-def lines_of(sentences: Iterable[str]) -> Said:
-    """Sentences, a line each."""
-    return _together("\n", sentences)
-
-
-def _together(gap: str, sentences: Iterable[str]) -> Said:
-    """Sentences with a gap between them; those that are empty are left out."""
+def lines_of(sentences: Iterable[str], *, gap: str = "\n") -> Said:
+    """Sentences, a line each, or with another gap between them; those that are empty are left out."""
     said = [one for one in sentences if one]
     return Said(gap.join(said), parts=tuple(one for one in said if isinstance(one, Said)))
 

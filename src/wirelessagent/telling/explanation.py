@@ -96,8 +96,12 @@ class Proofs(Teller):
         decision, found, repaired = self.case.decision, certificate(self.case), self.case.estimate.repaired
         if found.proof in ("nothing", "infeasible", "undecided"):
             return self.say(f"proof.{found.proof}", method=decision.method, reason=self.why(decision))
+        value, left = self.worth(decision.value), self.worth(found.left)
+        key = "proof.value_least" if self.case.falls else "proof.value"
+        reached = decision.status == "optimal" or found.gap <= 0
+        left = self.say("proof.reached") if reached else self.say(key, value=value, left=left, gap=percent(found.gap))
         estimated = self.say("proof.estimated", repaired=int(repaired.sum()), entries=repaired.size)
-        return self.joined(self._bound(found), self._left(found), estimated if repaired.any() else "")
+        return self.joined(self._bound(found), left, estimated if repaired.any() else "")
 
     def _bound(self, found: Certificate) -> str:
         case, bound, outage = self.case, self.worth(found.bound), self.case.problem.outage_probability
@@ -108,13 +112,6 @@ class Proofs(Teller):
         said = self.say(key, bound=bound, sure=reliability(outage or 0.0))
         by_dual = "" if found.by == case.decision.method else self.say("proof.by_dual", method=case.decision.method)
         return self.joined(said, rests_on(case.objective, self.language), by_dual)
-
-    def _left(self, found: Certificate) -> str:
-        if self.case.decision.status == "optimal" or found.gap <= 0:
-            return self.say("proof.reached")
-        value, left = self.worth(self.case.decision.value), self.worth(found.left)
-        key = "proof.value_least" if self.case.falls else "proof.value"
-        return self.say(key, value=value, left=left, gap=percent(found.gap))
 
     def certainty(self) -> str:
         """What was missing, what it was repaired by, and how sure the decision is."""
