@@ -75,8 +75,7 @@ def carry_out(run: Run, station: BaseStation, last_good: Run | None, tolerance: 
             done = run.with_outcome(outcome)
         except Exception:  # noqa: BLE001  # figures of any kind may be read back
             outcome, failure = None, message(language, "station.misread", station=station.name)
-    amiss = [failure] if outcome is None else _differences(run.decision, outcome, station, language)
-    faults = list(amiss)
+    faults = amiss = [failure] if outcome is None else _differences(run.decision, outcome, station, language)
     if outcome is not None and not amiss:
         faults = [*_broken_promises(run.decision, outcome, tolerance, language), *_worse(done, last_good, tolerance)]
     restored, trouble = None, ""
@@ -114,20 +113,28 @@ def applied_line(run: Run) -> str:
 def same_allocation(one: Decision, other: Decision) -> bool:
     """Whether two decisions are the same for the base station and the users, within rounding."""
     return (
-        _same_cell(one, other)
+        (one.owner.shape, one.rate_bps.shape) == (other.owner.shape, other.rate_bps.shape)
         and bool(np.array_equal(in_use(one), in_use(other)))
         and bool(np.allclose(one.power_w, other.power_w, rtol=0, atol=_ROUNDING * one.total_power_w))
         and bool(np.allclose(one.committed_bps, other.committed_bps, rtol=_ROUNDING, atol=0))
     )
 
 
-def respects(allocation: Decision, wanted: Decision) -> bool:
-    """Whether an allocation of the same cell breaks no limit of what another decision was for."""
-    return _same_cell(allocation, wanted) and _within_limits(allocation, wanted)
-
-
-def _same_cell(one: Decision, other: Decision) -> bool:
-    return (one.owner.shape, one.rate_bps.shape) == (other.owner.shape, other.rate_bps.shape)
+def respects(allocation: Decision | Outcome, wanted: Decision) -> bool:
+    """Whether an allocation keeps the limits on power and on who is served where that another decision of the same cell
+    had to keep.
+    """
+    problem, users = wanted.problem, wanted.rate_bps.size
+    used = np.flatnonzero(allocation.power_w > 0)
+    owner = allocation.owner[used]
+    cap = np.inf if problem.subcarrier_max_power_w is None else problem.subcarrier_max_power_w
+    return bool(
+        allocation.owner.shape == wanted.owner.shape
+        and allocation.power_w.sum() <= problem.budget_w(wanted.cell) * (1 + RATE_TOLERANCE)
+        and np.all(allocation.power_w <= np.asarray(cap) * (1 + RATE_TOLERANCE))
+        and np.all(problem.serves(users)[owner])
+        and np.all(problem.allows((users, allocation.owner.size))[owner, used])
+    )
 
 
 def _applied(station: BaseStation, decision: Decision, language: str) -> tuple[Outcome | None, str]:
@@ -214,7 +221,7 @@ def _known(rate: FloatArray) -> FloatArray:
 
 def _worse(run: Run, good: Run | None, tolerance: float) -> list[str]:
     """What the last good allocation, where it keeps the same request, gives more than the new one."""
-    if good is None or run.outcome is None or good.outcome is None or not _keeps(run, good):
+    if good is None or not _keeps(run, good):
         return []
     now, before = _worth(run, run.outcome), _worth(run, good.outcome)
     lost = now - before * (1 + tolerance) if run.case.falls else before * (1 - tolerance) - now
@@ -226,9 +233,9 @@ def _worse(run: Run, good: Run | None, tolerance: float) -> list[str]:
     return [message(language, "station.worse_than_before", **told)]
 
 
-def _worth(run: Run, outcome: Outcome) -> float:
+def _worth(run: Run, outcome: Outcome | None) -> float:
     """The value of what was read back, for the objective of ``run``."""
-    problem, achieved = run.decision.problem, outcome.achieved
+    problem, achieved = run.decision.problem, outcome and outcome.achieved
     assert achieved is not None
     users = achieved.user_rate_bps.size
     useful = np.minimum(_known(achieved.user_rate_bps), problem.max_rates_bps(users))
@@ -237,29 +244,19 @@ def _worth(run: Run, outcome: Outcome) -> float:
 
 def _keeps(run: Run, good: Run) -> bool:
     """Whether an earlier allocation, as it was read back on the same channel, keeps the constraints of ``run``."""
-    problem, outcome, truth = run.decision.problem, good.outcome, run.scene.current_truth
-    if outcome is None or outcome.achieved is None or truth is None:
+    problem, outcome, truth, earlier = (
+        run.decision.problem,
+        good.outcome,
+        run.scene.current_truth,
+        good.scene.current_truth,
+    )
+    if outcome is None or outcome.achieved is None or run.outcome is None or run.outcome.achieved is None:
         return False
-    earlier = good.scene.current_truth
-    if run.outcome is None or run.outcome.achieved is None or earlier is None or not np.array_equal(truth, earlier):
+    if truth is None or earlier is None or not np.array_equal(truth, earlier):
         return False
     least, slack = run.case.promised_bps, 0.0 if outcome.slack_bps is None else outcome.slack_bps
     return bool(
-        _within_limits(outcome, run.decision)
+        respects(outcome, run.decision)
         and np.all(outcome.achieved.user_rate_bps >= least * (1 - RATE_TOLERANCE) - slack)
         and problem.resource_block_group_size in (1, good.decision.problem.resource_block_group_size)
-    )
-
-
-def _within_limits(allocation: Decision | Outcome, wanted: Decision) -> bool:
-    """Whether an allocation keeps the limits on power and on who is served where that another decision had to keep."""
-    problem, users = wanted.problem, wanted.rate_bps.size
-    used = np.flatnonzero(allocation.power_w > 0)
-    owner = allocation.owner[used]
-    cap = np.inf if problem.subcarrier_max_power_w is None else problem.subcarrier_max_power_w
-    return bool(
-        allocation.power_w.sum() <= problem.budget_w(wanted.cell) * (1 + RATE_TOLERANCE)
-        and np.all(allocation.power_w <= np.asarray(cap) * (1 + RATE_TOLERANCE))
-        and np.all(problem.serves(users)[owner])
-        and np.all(problem.allows((users, allocation.owner.size))[owner, used])
     )

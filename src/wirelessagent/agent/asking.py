@@ -1,4 +1,7 @@
-"""Questions about a decision, each answered by what is computed for it."""
+"""Questions about a decision, each answered by what is computed for it; and what was said and done so far.
+
+Of the latter are the turns, what is in effect, the reasons of a decision, and the export.
+"""
 
 from __future__ import annotations
 
@@ -7,18 +10,20 @@ import functools
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from datetime import datetime
 from typing import Any
 
 import numpy as np
 
 from wirelessagent.agent.posing import UnknownUserError, able, user_number
-from wirelessagent.agent.state import Replies, Reply, Talk, nothing_yet
+from wirelessagent.agent.state import InsteadError, Replies, Reply, Talk, asked_back
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act, Ask
+from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
-from wirelessagent.telling.catalogue import called, lines_of
-from wirelessagent.telling.explanation import Proofs, explain
+from wirelessagent.telling.catalogue import Said, called, lines_of
+from wirelessagent.telling.explanation import Proofs, certificate_line, explain
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import FewerUsers, MorePower, Nearest, Way, WithoutLimit, nearest
 from wirelessagent.telling.glossary import explained, figures_asked, is_of_now
@@ -39,6 +44,8 @@ _NOTHING = re.compile(
     r"没有?(?:分到|得到|拿到)?(?:速率|服务|任何|东西)|什么[都也]没|没被?服务|一点[都也]没|为零|断"
 )
 _SAME = 1e-3
+_SHOWN = 60
+"""Characters of a sentence that the history shows."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,11 +102,6 @@ def answered(asked: Asked, act: Ask) -> tuple[str, tuple[Table, ...]]:
     return (answer, ()) if isinstance(answer, str) else answer
 
 
-def help_with(talk: Talk, _: acts.AskHelp) -> Reply:
-    """What can be said."""
-    return Reply(decided=talk.say("about.help"))
-
-
 def meaning(talk: Talk, _: acts.AskMeaning) -> Reply:
     """What the terms in a line mean; their figures, where it asks for those of now."""
     run = talk.state.run
@@ -109,20 +111,16 @@ def meaning(talk: Talk, _: acts.AskMeaning) -> Reply:
 
 def methods(talk: Talk, _: acts.AskMethods) -> Reply:
     """Which method decided, and which could."""
-    if talk.state.run is None:
-        return nothing_yet(talk)
-    decision = talk.state.run.decision
+    decision = talk.needed(talk.state.run).decision
     used = talk.say("about.method_in_use", method=called(talk.language, decision.method))
     return Reply(decided=talk.joined(used, able(decision.problem, talk.language)))
 
 
 def about_the_decision(talk: Talk, act: Ask) -> Reply:
     """A question about the decision that holds, or about what could not be met right before."""
-    run, on_air = talk.state.run, talk.state.on_air
-    if isinstance(act, acts.AskWhyNot) or (isinstance(act, acts.AskWhy) and on_air is None):
-        run = unmet(talk.turns) or run
-    if run is None:
-        return nothing_yet(talk)
+    on_air = talk.state.on_air
+    of_the_unmet = isinstance(act, acts.AskWhyNot) or (isinstance(act, acts.AskWhy) and on_air is None)
+    run = talk.needed((unmet(talk.turns) if of_the_unmet else None) or talk.state.run)
     # the request may be one that can't be met, and what is in effect is another one
     of_it = isinstance(act, acts.AskWhyNot | acts.AskStep | acts.AskDearest) or run.decision.is_usable
     other = not of_it and on_air is not None and on_air.decision.is_usable
@@ -169,7 +167,7 @@ def _why(asked: Asked, act: acts.AskWhy) -> Answer:
     if act.user is None:
         raise UnknownUserError("", asked.case.estimate.user_names, asked.language)
     user = asked.user(act.user)
-    return asked.joined([_corrected(asked, user), asked.by(Accounts).told(user)])
+    return asked.joined(_corrected(asked, user), asked.by(Accounts).told(user))
 
 
 def _corrected(asked: Asked, user: int) -> str:
@@ -232,8 +230,121 @@ def _subcarriers(asked: Asked, act: acts.AskSubcarriers) -> Answer:
     return told, () if act.user is not None else asked.served()
 
 
-def _result(asked: Asked, _: acts.AskResult) -> Answer:
-    return figures_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained())
+def no_such_turn(talk: Talk, reference: acts.TurnReference) -> Said:
+    """What to say to a line about a turn that there is not."""
+    count = len(talk.turns)
+    key = "turn.no_such" if count > 1 else "turn.only_one" if count else "turn.none_yet"
+    return talk.say(key, number=reference, last=count)
+
+
+def found_turn(talk: Talk, reference: acts.TurnReference) -> Turn:
+    """The turn of this number, or the "first" with a decision; where there is none, that is replied instead."""
+    fits = [turn for turn in talk.turns if turn.number == reference]
+    if reference == "first":
+        fits = [turn for turn in talk.turns if turn.run is not None and turn.intent.kind == "allocate"]
+    if not fits:
+        raise InsteadError(asked_back(no_such_turn(talk, reference)))
+    return fits[0]
+
+
+def decided_by(talk: Talk, reference: acts.TurnReference) -> tuple[int, Run]:
+    """The number of a turn and its run; where it has none, that is replied instead."""
+    chosen = found_turn(talk, reference)
+    if chosen.run is None:
+        raise InsteadError(asked_back(talk.say("turn.without_decision", number=chosen.number)))
+    return chosen.number, chosen.run
+
+
+def reasons(talk: Talk, act: acts.AskReasons) -> Reply:
+    """A decision in words, with its tables."""
+    run = talk.needed(talk.state.run) if act.turn is None else decided_by(talk, act.turn)[1]
+    said = explain(run.estimate, run.report, language=talk.language)
+    return Reply(decided=lines_of(said), tables=run.tables(talk.language))
+
+
+def history(talk: Talk, act: acts.AskHistory) -> Reply:
+    """The turns so far, or one of them."""
+    turns = talk.turns
+    if act.turn is not None:
+        chosen = found_turn(talk, act.turn)
+        said = talk.say("turn.said", number=chosen.number, text=_short(chosen.text), reply=chosen.reply)
+        return Reply(decided=said, tables=chosen.tables)
+    if not turns:
+        return Reply(decided=talk.say("turn.none"))
+    rows = list[tuple[str, ...]]()
+    for turn in turns:
+        made = turn.run.decision if turn.run is not None and turn.stage not in ("answered", "asked") else None
+        value = "–" if made is None else human(made.value, made.unit)
+        rows.append((str(turn.number), _short(turn.text), talk.say(f"came_to.{turn.stage}"), value))
+    columns = tuple(talk.say(f"label.{label}") for label in ("turn", "said", "came_to", "value"))
+    table = Table(title=talk.say("turn.title"), columns=columns, rows=tuple(rows))
+    return Reply(decided=talk.say("turn.so_far", count=len(turns)), tables=(table,))
+
+
+def _short(text: str) -> str:
+    plain = " ".join(text.split())
+    return plain if len(plain) <= _SHOWN else f"{plain[: _SHOWN - 1]}…"
+
+
+def status(talk: Talk, _: acts.AskStatus) -> Reply:
+    """What is asked for, what was decided, and what is in effect."""
+    state = talk.state
+    if state.request is None and state.on_air is None and not talk.site.touched:
+        return Reply(decided=talk.say("in_effect.none"))
+    said: list[str] = []
+    if state.request is not None:
+        said.append(talk.say("request.asked_for", request=talk.plan(state.request)))
+    if state.run is not None:
+        line = certificate_line(state.run.decision, talk.language)
+        said.append(talk.say("in_effect.decided", certificate=line))
+    said.append(_in_effect(talk))
+    return Reply(decided=lines_of(said), needs=talk.say("in_effect.waits") if state.planned is not None else "")
+
+
+def _in_effect(talk: Talk) -> str:
+    """What is in effect or, where that is not known, what was read back last."""
+    run, last = talk.state.on_air, talk.site.read_last
+    if run is None and not talk.site.touched:
+        return talk.say("in_effect.off_air")
+    if run is None:
+        read = talk.say("in_effect.read_nothing")
+        if last is not None:
+            used, power = int((last.power_w > 0).sum()), human(float(last.power_w.sum()), "W")
+            read = talk.say("in_effect.read", power=power, used=used, total=last.power_w.size)
+        return talk.say("in_effect.unknown", read=read)
+    number = next((turn.number for turn in reversed(talk.turns) if turn.run is run), len(talk.turns))
+    served, rate = int((run.promised_bps > 0).sum()), human(float(run.promised_bps.sum()), "bit/s")
+    key, power = "in_effect.on_air_one" if served == 1 else "in_effect.on_air", human(run.decision.total_power_w, "W")
+    return talk.say(key, turn=number, served=served, power=power, rate=rate)
+
+
+def export(talk: Talk, act: acts.Export) -> Reply:
+    """The request that holds and what came of it as a document of a standard; the standards are loaded only here."""
+    from wirelessagent.standards import tmf921, ts28312
+    from wirelessagent.standards.subject import Subject
+
+    run, turns = talk.state.run, talk.turns
+    if act.format not in ("ts28312", "tmf921"):
+        return asked_back(talk.say("ask_back.export_unknown", format=act.format))
+    done = [turn for turn in turns if turn.stage not in ("answered", "asked")]
+    made = [turn for turn in done if run is not None and turn.run is not None and turn.run.is_of(run)]
+    run = talk.needed(run if made else None)
+    last, on_air = made[-1], talk.state.on_air
+    read_before: Outcome | None = None
+    for earlier in turns[: last.number - 1]:
+        if earlier.restored is not None:
+            read_before = earlier.restored
+        elif earlier.stage == "applied" and earlier.run is not None:
+            read_before = earlier.run.outcome
+    subject = Subject(
+        name=f"{last.session}-{last.number}", text=made[0].text, decision=run.decision,
+        at=datetime.fromisoformat(last.at_utc), language=run.intent.language,
+        outcome=on_air.outcome if on_air is not None and on_air.is_of(run) else None,
+        current=read_before, taken_back=last.stage == "reverted",
+    )  # fmt: skip
+    if act.format == "ts28312":
+        return Reply(decided=ts28312.to_json(ts28312.document(subject)))
+    return Reply(decided=tmf921.to_json(tmf921.document(subject)))
 
 
 _ANSWERS: Mapping[type[Ask], Callable[[Asked, Any], Answer]] = {
@@ -249,13 +360,19 @@ _ANSWERS: Mapping[type[Ask], Callable[[Asked, Any], Answer]] = {
     acts.AskOwner: lambda asked, act: asked.by(Roster).owner(act.subcarrier),
     acts.AskGain: lambda asked, act: asked.by(Roster).gain(asked.someone(act.user), act.subcarrier),
     acts.AskDearest: _dearest,
-    acts.AskResult: _result,
+    acts.AskResult: lambda asked, _: (
+        figures_asked(asked.text, asked.report, asked.language) or lines_of(asked.explained())
+    ),
     acts.AskLimits: lambda asked, _: asked.by(Prices).limits(),
     acts.AskDuration: lambda asked, _: asked.say("about.no_duration", method=asked.case.decision.method),
 }
 REPLIES: Replies = {
-    acts.AskHelp: help_with,
+    acts.AskHelp: lambda talk, _: Reply(decided=talk.say("about.help")),
     acts.AskMeaning: meaning,
     acts.AskMethods: methods,
+    acts.AskReasons: reasons,
+    acts.AskHistory: history,
+    acts.AskStatus: status,
+    acts.Export: export,
     **dict.fromkeys(_ANSWERS, about_the_decision),
 }

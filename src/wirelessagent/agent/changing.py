@@ -14,9 +14,9 @@ from typing import Any
 
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import applied_line, respects, same_allocation
+from wirelessagent.agent.asking import no_such_turn
 from wirelessagent.agent.dialogue import applied, changes_in_words, restated
-from wirelessagent.agent.recalling import no_such_turn
-from wirelessagent.agent.state import Replies, Reply, State, Talk, asked_back, nothing_yet
+from wirelessagent.agent.state import InsteadError, Replies, Reply, State, Talk, asked_back
 from wirelessagent.agent.turn import Run, shift_between
 from wirelessagent.language.acts import Act, Apply, AskStatus, Export, Forget, No, Undo, Yes
 from wirelessagent.language.conversation.assent import assent, is_assent, speaks_of_applying
@@ -69,16 +69,10 @@ def _changing(talk: Talk, reply: Reply, said: str, **fields: Any) -> Reply:
     return dataclasses.replace(reply, changed=talk.joined(reply.changed, said), **fields)
 
 
-def apply(talk: Talk, _: Apply) -> Reply:
-    """Apply what was decided, where the line says so and nothing else."""
-    return _doubted(talk) or _applied(talk)
-
-
-def _applied(talk: Talk) -> Reply:
-    """Apply what was decided and name it; the operator said so, which is the confirmation."""
-    state, run = talk.state, talk.state.planned or talk.state.run
-    if run is None:
-        return nothing_yet(talk)
+def apply(talk: Talk, _: Apply | Yes) -> Reply:
+    """Apply what was decided and name it, where the line says so and nothing else, which is the confirmation."""
+    _check_assent(talk)
+    state, run = talk.state, talk.needed(talk.state.planned or talk.state.run)
     if run is state.on_air:
         return Reply(decided=talk.say("plan.already"), stage="nothing")
     if not run.decision.is_usable:
@@ -95,7 +89,7 @@ def _applied(talk: Talk) -> Reply:
 def confirm(talk: Talk, act: Yes) -> Reply:
     """A yes: apply what waits for it."""
     if talk.state.planned is not None:
-        return _doubted(talk) or _applied(talk)
+        return apply(talk, act)
     if act.chooses or act.choice is not None:
         return asked_back(talk.say("ask_back.which_way"))
     return Reply(decided=talk.say("plan.nothing_to_confirm"))
@@ -140,14 +134,13 @@ def undo(talk: Talk, act: Undo) -> Reply:
         text = talk.say("undo.undone", request=talk.plan(before.request))
     if act.steps is not None and act.steps > count:
         text = talk.joined(talk.say("undo.undone_fewer", count=count), text)
-    return dataclasses.replace(_undone(talk, before, text), undone=count)
+    held = dataclasses.replace(before, on_air=talk.state.on_air, last_good=talk.state.last_good)
+    return _undone(talk, before, Reply(decided=text, stage="undone", state=held, run=before.run, undone=count), held)
 
 
-def _undone(talk: Talk, before: State, text: str) -> Reply:
+def _undone(talk: Talk, before: State, reply: Reply, held: State) -> Reply:
     """Put back what was in effect for the request that holds again, or plan for it anew where it never was."""
     site, state, good, wanted = talk.site, talk.state, before.on_air, before.run
-    held = dataclasses.replace(before, on_air=state.on_air, last_good=state.last_good)
-    reply = Reply(decided=text, stage="undone", state=held, run=wanted)
     if wanted is not None and _never_applied(before) and site.station(wanted) is not None:
         if _same_on_air(state, wanted) is not None:
             return reply
@@ -239,17 +232,16 @@ def _whole(talk: Talk, line: str) -> Said:
     return talk.say("text.sentence", line=line[:1].upper() + line[1:])
 
 
-def _doubted(talk: Talk) -> Reply | None:
-    """What is said to a line that was taken for a yes or for a command to apply and is none; None where it is one."""
+def _check_assent(talk: Talk) -> None:
+    """Doubt a line that was taken for a yes or for a command to apply and is none."""
     if talk.pressed:
-        return None
+        return
     later, waits = assent(talk.text) == "later", talk.state.planned is not None
     if later and waits:
         needs = talk.say("plan.left_waiting", request=talk.plan(talk.state.request))
-        return Reply(needs=needs, stage="nothing", state=dataclasses.replace(talk.state, question=None))
+        raise InsteadError(Reply(needs=needs, stage="nothing", state=dataclasses.replace(talk.state, question=None)))
     if later or not is_assent(talk.text) or (waits and not _follows(talk)):
-        return asked_again(talk)
-    return None
+        raise InsteadError(asked_again(talk))
 
 
 def _follows(talk: Talk) -> bool:
@@ -271,16 +263,15 @@ def is_about_the_plan(talk: Talk, left: Question) -> bool:
 
 def asked_again(talk: Talk) -> Reply:
     """The question whether to apply what waits, or what was decided and never applied, by its name."""
-    state, run = talk.state, talk.state.planned or talk.state.run
-    if run is None or state.request is None:
-        return nothing_yet(talk)
+    state, run = talk.state, talk.needed(talk.state.planned or talk.state.run)
+    request = talk.plan(talk.needed(state.request))
     if run is state.on_air:
         return Reply(decided=talk.say("plan.already"), stage="nothing")
     fresh = run.outcome is None and run.decision.is_usable and talk.site.station(run) is not None
     if state.planned is None and not fresh:
         return Reply(decided=talk.say("plan.nothing_to_confirm"))
     waiting = dataclasses.replace(state, planned=run, question=None)
-    return asked_back(talk.say("ask_back.shall_i_apply", request=talk.plan(state.request)), waiting)
+    return asked_back(talk.say("ask_back.shall_i_apply", request=request), waiting)
 
 
 def naming_the_plan(reply: Reply, talk: Talk, acts: tuple[Act, ...]) -> Reply:
@@ -293,10 +284,4 @@ def naming_the_plan(reply: Reply, talk: Talk, acts: tuple[Act, ...]) -> Reply:
     return dataclasses.replace(reply, needs=talk.say("plan.still_waits", request=talk.plan(after.request)))
 
 
-REPLIES: Replies = {
-    Apply: apply,
-    Yes: confirm,
-    No: reject,
-    Undo: undo,
-    Forget: reset,
-}
+REPLIES: Replies = {Apply: apply, Yes: confirm, No: reject, Undo: undo, Forget: reset}

@@ -125,16 +125,7 @@ def _after(request: Request | None, act: Act, radiated_w: float) -> Request | No
     if isinstance(act, acts.Prefer):
         return dataclasses.replace(request, method=act.method or None)
     figures = figures_of(request.constraints)
-    if isinstance(act, acts.Limit):
-        _set(figures, act)
-    elif isinstance(act, acts.Scale):
-        _scale(figures, act, radiated_w)
-    elif isinstance(act, acts.Drop):
-        _drop(figures, act)
-    elif isinstance(act, acts.Serve):
-        _serve(figures, act)
-    elif isinstance(act, acts.LeaveOut) and isinstance(act.whom, Named):
-        _leave_out(figures, _names(act.whom))
+    _change(figures, act, radiated_w)
     return dataclasses.replace(request, constraints=constraints_of(figures))
 
 
@@ -147,52 +138,46 @@ def _with_the_assumed(request: Request | None) -> Request | None:
     return dataclasses.replace(request, constraints={**request.constraints, "min_rate_bps": ASSUMED_MIN_RATE_BPS})
 
 
-def _set(figures: dict[Key, float], act: acts.Limit) -> None:
-    if isinstance(act.whom, Everybody):
-        for key in _of(figures, act.kind):
-            del figures[key]
-    users = _names(act.whom) if isinstance(act.whom, Named) else [EVERYBODY]
-    figures |= {(act.kind, user): act.value for user in users}
-
-
-def _scale(figures: dict[Key, float], act: acts.Scale, radiated_w: float) -> None:
-    for_all = (act.kind, EVERYBODY)
-    if act.reference == "radiated":
-        basis = figures.get(for_all, radiated_w)
-        if basis > 0:
-            figures[for_all] = act.factor * basis
-        return
-    for key in _meant(figures, act.kind, act.whom):
-        held = figures.get(key, figures.get(for_all))
-        if held is not None:
-            figures[key] = held * act.factor
-
-
-def _drop(figures: dict[Key, float], act: acts.Drop) -> None:
-    own_only = act.own or not isinstance(act.whom, Named) or act.kind != "min_rate_bps"
-    for key in _meant(figures, act.kind, act.whom):
-        figures.pop(key, None)
-        if not own_only and (act.kind, EVERYBODY) in figures:
-            figures[key] = 0.0  # to whom nothing is promised
-
-
-def _serve(figures: dict[Key, float], act: acts.Serve) -> None:
-    users, alone = _names(act.whom) if isinstance(act.whom, Named) else None, _of(figures, "users")
-    for kind, user in (*_of(figures, "leave_out"), *alone):
-        if act.alone or users is None or (kind == "leave_out" and user in users):
-            del figures[kind, user]
-    if users is not None and (act.alone or alone):
-        figures |= {("users", user): 1.0 for user in users}
-
-
-def _leave_out(figures: dict[Key, float], users: list[str]) -> None:
-    """Take users off the list of who is served, or put them on that of who is not."""
-    served = {user for _, user in _of(figures, "users")}
-    if served - set(users):
-        for user in users:
-            figures.pop(("users", user), None)
-    else:
-        figures |= {("leave_out", user): 1.0 for user in users}
+def _change(figures: dict[Key, float], act: Act, radiated_w: float) -> None:
+    """What each act makes of the figures that hold."""
+    match act:
+        case acts.Limit():
+            if isinstance(act.whom, Everybody):
+                for key in _of(figures, act.kind):
+                    del figures[key]
+            users = _names(act.whom) if isinstance(act.whom, Named) else [EVERYBODY]
+            figures |= {(act.kind, user): act.value for user in users}
+        case acts.Scale(reference="radiated"):
+            basis = figures.get((act.kind, EVERYBODY), radiated_w)
+            if basis > 0:
+                figures[act.kind, EVERYBODY] = act.factor * basis
+        case acts.Scale():
+            for key in _meant(figures, act.kind, act.whom):
+                held = figures.get(key, figures.get((act.kind, EVERYBODY)))
+                if held is not None:
+                    figures[key] = held * act.factor
+        case acts.Drop():
+            own_only = act.own or not isinstance(act.whom, Named) or act.kind != "min_rate_bps"
+            for key in _meant(figures, act.kind, act.whom):
+                figures.pop(key, None)
+                if not own_only and (act.kind, EVERYBODY) in figures:
+                    figures[key] = 0.0  # to whom nothing is promised
+        case acts.Serve():
+            users, alone = _names(act.whom) if isinstance(act.whom, Named) else None, _of(figures, "users")
+            for kind, user in (*_of(figures, "leave_out"), *alone):
+                if act.alone or users is None or (kind == "leave_out" and user in users):
+                    del figures[kind, user]
+            if users is not None and (act.alone or alone):
+                figures |= {("users", user): 1.0 for user in users}
+        case acts.LeaveOut(whom=Named() as whom):
+            users, served = _names(whom), {user for _, user in _of(figures, "users")}
+            if served - set(users):  # the list of who is served is shortened
+                for user in users:
+                    figures.pop(("users", user), None)
+            else:
+                figures |= {("leave_out", user): 1.0 for user in users}
+        case _:
+            pass
 
 
 def _of(figures: Mapping[Key, float], kind: str) -> list[Key]:
@@ -210,14 +195,14 @@ def _names(whom: Named) -> list[str]:
     return [_name(user) for user in whom.users]
 
 
-def _held(request: Request | None) -> dict[Key, float]:
-    return {} if request is None else figures_of(request.constraints)
-
-
 def _name(user: str) -> str:
     """One name for a user who can be named by number: "user 3" is "3"."""
     numbered = _NUMBERED.fullmatch(user.strip())
     return numbered[1] if numbered else user
+
+
+def _held(request: Request | None) -> dict[Key, float]:
+    return {} if request is None else figures_of(request.constraints)
 
 
 def figures_of(constraints: Mapping[str, Constraint]) -> dict[Key, float]:
@@ -271,12 +256,6 @@ def restated(request: Request, language: str = "en") -> str:
         limits = message(language, "text.between").join(part for part in (limits, by) if part)
     goal = goal[:1].upper() + goal[1:]
     return message(language, "request.whole" if limits else "request.aim_alone", goal=goal, limits=limits)
-
-
-def plan_named(request: Request | None, language: str) -> str:
-    """What is asked for, as a part of a sentence."""
-    plan = "–" if request is None else restated(request, language).rstrip(".。")
-    return plan[:1].lower() + plan[1:]
 
 
 def changes_in_words(diff: Diff, language: str) -> str:

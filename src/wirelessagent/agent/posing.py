@@ -26,7 +26,7 @@ from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError, UnclearRequestError, UnsupportedProblemError
 from wirelessagent.model.problem import Problem
 from wirelessagent.model.units import human, reliability
-from wirelessagent.telling.catalogue import Said, called, joined, listed, message
+from wirelessagent.telling.catalogue import Said, Voice, called, joined, listed, message
 from wirelessagent.telling.parts import goal_words
 
 ASSUMED_OUTAGE_PROBABILITY = 0.05
@@ -83,11 +83,11 @@ def pose(request: Request, cell: Cell, user_names: tuple[str, ...], language: st
     return _Posing(request, cell, user_names, language).posed()
 
 
-class _Posing:
+class _Posing(Voice):
     """One request on its way to a problem."""
 
     def __init__(self, request: Request, cell: Cell, user_names: tuple[str, ...], language: str) -> None:
-        self._request, self._cell, self._names, self._language = request, cell, user_names, language
+        self._cell, self._names, self.language = cell, user_names, language
         self._given: dict[str, Constraint] = dict(request.constraints)
         self._objective = plugins.objective(request.objective)
         self._notes: dict[Said, None] = {}
@@ -106,22 +106,22 @@ class _Posing:
         self._check_order(fields, served)
         size = fields.get("resource_block_group_size", 1)
         if size != int(size):
-            raise UnclearRequestError(self._say("ask_back.whole_groups", size=f"{size:g}"))
+            raise self._unclear("whole_groups", size=f"{size:g}")
         fields["resource_block_group_size"] = int(size)
         if "weights" in fields and not np.broadcast_to(fields["weights"], len(self._names))[list(served)].any():
-            raise UnclearRequestError(self._say("ask_back.no_weight"))
+            raise self._unclear("no_weight")
         try:
             problem = Problem(self._objective, **fields).for_users(self._names)
             problem.weights_of(len(self._names))
         except InputError as error:
-            raise UnclearRequestError(self._say("ask_back.impossible", why=error)) from error
+            raise self._unclear("impossible", why=error) from error
         return Posed(problem=problem, cell=self._cell, notes=tuple(self._notes))
 
-    def _say(self, key: str, **names: object) -> Said:
-        return message(self._language, key, **names)
-
     def _note(self, key: str, **names: object) -> None:
-        self._notes[self._say(key, **names)] = None
+        self._notes[self.say(key, **names)] = None
+
+    def _unclear(self, key: str, **places: object) -> UnclearRequestError:
+        return UnclearRequestError(self.say(f"ask_back.{key}", **places))
 
     def _assume(self) -> None:
         """Keep the cell's limit, and fill in what is assumed where nobody named it."""
@@ -145,11 +145,11 @@ class _Posing:
         numbers = {*range(len(self._names))} if wanted is None else {self._number(user) for user in wanted}
         numbers -= {self._number(user) for user in unwanted or ()}
         if not numbers:
-            raise UnclearRequestError(self._say("ask_back.nobody_left"))
+            raise self._unclear("nobody_left")
         return tuple(sorted(numbers))
 
     def _number(self, reference: str) -> int:
-        number, by_place = user_number(reference, self._names, self._language)
+        number, by_place = user_number(reference, self._names, self.language)
         if by_place:
             self._note("assumed.user_by_place", number=reference, name=self._names[number])
         return number
@@ -167,11 +167,10 @@ class _Posing:
         """Refuse rates of which the least is above the most, for a user who is served."""
         least = np.broadcast_to(fields.get("min_rate_bps", 0.0), len(self._names))
         most = np.broadcast_to(fields.get("max_rate_bps", np.inf), len(self._names))
-        crossed = [user for user in served if least[user] > most[user]]
-        if crossed:
-            user = crossed[0]
-            low, high = (human(float(rate[user]), "bit/s") for rate in (least, most))
-            raise UnclearRequestError(self._say("ask_back.rates_crossed", user=self._names[user], low=low, high=high))
+        for user in served:
+            if least[user] > most[user]:
+                low, high = (human(float(rate[user]), "bit/s") for rate in (least, most))
+                raise self._unclear("rates_crossed", user=self._names[user], low=low, high=high)
 
     def _check_promised(self, served: tuple[int, ...]) -> None:
         """Refuse a rate that is promised by name to somebody who is not served."""
@@ -181,7 +180,7 @@ class _Posing:
         for reference, rate in promised.items():
             if rate > 0 and reference != EVERYBODY and self._number(reference) not in served:
                 user, told = self._names[self._number(reference)], human(rate, "bit/s")
-                raise UnclearRequestError(self._say("ask_back.promised_and_left_out", user=user, rate=told))
+                raise self._unclear("promised_and_left_out", user=user, rate=told)
 
 
 def user_number(reference: str, user_names: tuple[str, ...], language: str = "en") -> tuple[int, bool]:

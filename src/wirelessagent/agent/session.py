@@ -16,16 +16,16 @@ import re
 import uuid
 from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
-from typing import Protocol, TypeAlias, cast
+from typing import Any, Protocol, TypeAlias, cast
 
 from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
-from wirelessagent.agent import asking, changing, posing, recalling, supposing
+from wirelessagent.agent import asking, changing, posing, supposing
 from wirelessagent.agent.acting import TOLERANCE
 from wirelessagent.agent.dialogue import Request, difference, stated_by
 from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
 from wirelessagent.agent.site import Decide, Site, decided, station_of
-from wirelessagent.agent.state import Reply, State, Talk, asked_back
+from wirelessagent.agent.state import InsteadError, Reply, State, Talk, asked_back
 from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
 from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Press, Suppose, Undo, Yes
 from wirelessagent.language.conversation import NAME as READ_HERE
@@ -44,11 +44,9 @@ from wirelessagent.telling.catalogue import message
 from wirelessagent.telling.told import Progress, silent
 
 _NOTE = re.compile(r"[(（][^()（）]+[)）]$")
-"""What a recogniser says of itself at the end of a reply."""
+"""What a recogniser that read a line in another one's place says of itself at the end of a reply."""
 
-_REPLIES = {
-    **changing.REPLIES, **supposing.REPLIES, **recalling.REPLIES, **asking.REPLIES,
-}  # fmt: skip
+_REPLIES = {**changing.REPLIES, **supposing.REPLIES, **asking.REPLIES}
 
 _BUTTONS: Mapping[Press, tuple[str, Act]] = {
     "yes": ("confirm", Yes()), "no": ("reject", No()), "undo": ("undo", Undo()),
@@ -153,12 +151,16 @@ class Session:
             named = None if missing is None else posing.completed(missing, text.strip(), context)
             intent = self._taken(named or self._understand(text, context, self._recogniser))
         else:
-            intent = _meant(pressed, text, self.language)
+            topic, act = _BUTTONS[pressed]
+            intent = Intent(
+                kind="command", objective=None, constraints={}, language=self.language, confidence=1.0, evidence={},
+                reply=text, recogniser=READ_HERE, topic=topic, acts=(act,),
+            )  # fmt: skip
         self._state = dataclasses.replace(self._state, supposed=None)
         self._language = intent.language
         talk = Talk(
             site=self._site, state=self._state, past=self._past, turns=self._turns, intent=intent, text=text,
-            pressed=pressed,
+            language=intent.language, pressed=pressed,
         )  # fmt: skip
         if intent.kind == "allocate":
             reader, sure = intent.recogniser, f"{intent.confidence:.0%}"
@@ -169,9 +171,8 @@ class Session:
             self._take(talk, reply)
         except BaseException:  # an interruption too: the base station may have it, or a part of it
             if self._site.telling is not None:
-                unknown, run = dataclasses.replace(self._state.settled, on_air=None), self._site.telling
-                told = talk.say("station.broken_off")
-                reply = Reply(changed=told, stage="nothing", state=unknown, run=run)
+                unknown, told = dataclasses.replace(self._state.settled, on_air=None), talk.say("station.broken_off")
+                reply = Reply(changed=told, stage="nothing", state=unknown, run=self._site.telling)
                 self._take(talk, reply)
                 self._kept(talk, reply)
             raise
@@ -226,6 +227,8 @@ class Session:
             if reply.run is None or reply.stage == "answered":  # an answer has tables of its own
                 return reply
             return dataclasses.replace(reply, tables=reply.run.tables(talk.language))
+        except InsteadError as instead:
+            return instead.reply
         except UnclearRequestError as question:
             reference = question.reference if isinstance(question, UnknownUserError) else None
             missing = None if reference is None else Missing(intent=intent, reference=reference)
@@ -251,9 +254,10 @@ class Session:
             del self._past[-reply.undone :]
         elif new.request != before.request:
             self._past.append(before.settled)
-            taken_off = cast("Mapping[str, Constraint]", talk.intent.details.get("taken_off") or {})
-            said = stated_by(new.request, before.request) if new.request is not None else {}
-            stated = {} if new.request is None else taken_off or said or before.stated
+            stated: Mapping[str, Constraint] = {}
+            if new.request is not None:
+                taken_off = cast("Mapping[str, Constraint]", talk.intent.details.get("taken_off") or {})
+                stated = taken_off or stated_by(new.request, before.request) or before.stated
             new = dataclasses.replace(new, stated=stated)
         noted = before.noted_after(reply.run, requested=talk.intent.kind == "allocate")
         self._state = dataclasses.replace(new, noted=noted)
@@ -265,7 +269,9 @@ class Session:
         lines = Lines(decided=reply.decided, changed=reply.changed, needs=reply.needs)
         by_another = intent.recogniser not in (self._recogniser.name, READ_HERE)
         if by_another and not (intent.reply and intent.reply in str(lines)):
-            lines = lines.ending_with(_read_by(intent), intent.language)
+            own = _NOTE.search(intent.reply) if " (" in intent.recogniser else None
+            fallen_back = talk.say("stage.fallen_back", recogniser=intent.recogniser)
+            lines = lines.ending_with(fallen_back if own is None else own[0], intent.language)
         run = reply.run if reply.stage != "answered" else None
         then, now = before.run and before.run.decision, run and run.decision
         turn = Turn(
@@ -287,40 +293,25 @@ class Session:
 
     def _taken(self, intent: Intent) -> Intent:
         """The request of an earlier turn, or one that was offered, for a line that takes it; any other as it is."""
-        act = next(iter(acts_of(intent)), None)
-        if isinstance(act, Yes) and act.choice is not None:
-            return self._chosen(intent, act.choice)
-        back = act.turn if isinstance(act, Undo) else None
-        if not isinstance(back, int) or back not in range(1, len(self._requests) + 1):
+        taken: dict[str, Any] = {}
+        match next(iter(acts_of(intent)), None):
+            case Undo(turn=int(number)) if number in range(1, len(self._requests) + 1):
+                request = self._requests[number - 1]
+                if request is not None:
+                    reply = message(intent.language, "request.back_to_turn", number=number)
+                    details = {"turn": number, "method": request.method or OWN_CHOICE}
+                    taken = {"constraints": request.constraints, "reply": reply, "details": details}
+            case Yes(choice=int(choice)):
+                request, offers = self.request, self._state.offers
+                place = choice - 1 if choice > 0 else len(offers) - 1
+                if request is not None and 0 <= place < len(offers):
+                    acts = (Aim(objective=request.objective), *offers[place])
+                    taken = {"amends": True, "details": {}, "acts": acts}
+            case _:
+                return intent
+        if request is None or not taken:
             return intent
-        request = self._requests[back - 1]
-        if request is None:
-            return intent
-        reply = message(intent.language, "request.back_to_turn", number=back)
-        return dataclasses.replace(
-            intent, kind="allocate", objective=request.objective, constraints=request.constraints, topic=None,
-            reply=reply, details={"turn": back, "method": request.method or OWN_CHOICE},
-        )  # fmt: skip
-
-    def _chosen(self, intent: Intent, choice: int) -> Intent:
-        """The request that a choice among the offers asks for; a choice of nothing offered as it is."""
-        held, offers = self.request, self._state.offers
-        place = choice - 1 if choice > 0 else len(offers) - 1
-        if held is None or not 0 <= place < len(offers):
-            return intent
-        acts = (Aim(objective=held.objective), *offers[place])
-        return dataclasses.replace(
-            intent, kind="allocate", objective=held.objective, amends=True, topic=None, details={}, acts=acts
-        )  # fmt: skip
-
-
-def _meant(pressed: Press, text: str, language: str) -> Intent:
-    """What a button means."""
-    topic, act = _BUTTONS[pressed]
-    return Intent(
-        kind="command", objective=None, constraints={}, language=language, confidence=1.0, evidence={}, reply=text,
-        recogniser=READ_HERE, topic=topic, acts=(act,),
-    )  # fmt: skip
+        return dataclasses.replace(intent, kind="allocate", objective=request.objective, topic=None, **taken)
 
 
 def _changes_or_supposes(act: Act) -> bool:
@@ -350,12 +341,6 @@ def _open_question(talk: Talk, context: Context) -> Reply:
         return changing.asked_again(talk)
     question = left if intent.guess is None else Question(guess=intent.guess)
     return asked_back(intent.reply, dataclasses.replace(talk.state, planned=None, question=question))
-
-
-def _read_by(intent: Intent) -> str:
-    """Who read the line in the recogniser's place: in its own note at the end of the reply where it made one."""
-    note = _NOTE.search(intent.reply) if " (" in intent.recogniser else None
-    return message(intent.language, "stage.fallen_back", recogniser=intent.recogniser) if note is None else note[0]
 
 
 def ask(

@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 from collections.abc import Callable, Generator, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass, field
 from typing import TypeAlias, cast
 
 from wirelessagent import chain, plugins
@@ -69,8 +69,9 @@ def station_of(tools: Tools, scene: Scene) -> BaseStation | None:
     return cast(BaseStation, plugins.create("base_station", name, tools.base_station_options, scene))
 
 
+@dataclass(eq=False)
 class Site:
-    """One scene with its losses, the tools that work on it, and the rules of acting.
+    """One scene with its losses, the tools that work on it, and the rules of acting; see the session's arguments.
 
     The channel is looked at once, when it is first needed.
 
@@ -80,28 +81,21 @@ class Site:
         telling: the run that the base station is being told; until its turn is over, what is in effect is not known.
     """
 
-    def __init__(
-        self,
-        scene: Scene,
-        losses: Sequence[Loss],
-        *,
-        seed: int,
-        tools: Tools,
-        base_station: BaseStation | None = None,
-        confirm: bool | None = None,
-        tolerance: float = acting.TOLERANCE,
-        progress: Progress = silent,
-        station_of: Callable[[Tools, Scene], BaseStation | None] = station_of,
-        decide: Decide = decided,
-    ) -> None:
-        self._station_of, self._decide = station_of, decide
-        self.scene, self.losses, self.seed, self.tools = scene, tuple(losses), seed, tools
-        self._tolerance, self._progress = tolerance, progress
-        self._base_station, self._confirm = base_station, confirm
-        self._sight: Sight | None = None
-        self.touched = False
-        self.read_last: Outcome | None = None
-        self.telling: Run | None = None
+    scene: Scene
+    losses: Sequence[Loss]
+    _: KW_ONLY
+    seed: int
+    tools: Tools
+    base_station: BaseStation | None = None
+    confirm: bool | None = None
+    tolerance: float = acting.TOLERANCE
+    progress: Progress = silent
+    station_of: Callable[[Tools, Scene], BaseStation | None] = station_of
+    decide: Decide = decided
+    touched: bool = field(default=False, init=False)
+    read_last: Outcome | None = field(default=None, init=False)
+    telling: Run | None = field(default=None, init=False)
+    _sight: Sight | None = field(default=None, init=False)
 
     @property
     def user_names(self) -> tuple[str, ...]:
@@ -109,25 +103,25 @@ class Site:
 
     def sight(self, language: str, *, missing: float | None = None, tools: Tools | None = None) -> Sight:
         """What is known of the channel, if another share of the gains were ``missing``, or by other ``tools``."""
-        if missing is not None or tools is not None:
-            losses = self.losses if missing is None else [random(missing)] if missing > 0 else []
-            return self._look(losses, tools or self.tools, language)
-        if self._sight is None:
-            self._sight = self._look(self.losses, self.tools, language)
-        return self._sight
-
-    def _look(self, losses: Sequence[Loss], tools: Tools, language: str) -> Sight:
-        """Observe the scene, with what ``losses`` leave of it, and repair what is missing."""
+        own = missing is None and tools is None
+        if own and self._sight is not None:
+            return self._sight
+        losses, tools = (
+            self.losses if missing is None else [random(missing)] if missing > 0 else [],
+            tools or self.tools,
+        )
         seen = self.scene.observe(*losses, seed=self.seed)
         self.tell("sense", describe(seen, language), language)
-        estimate, missing = chain.repair(seen, tools.repairer, **tools.repairer_options), int(seen.missing.sum())
-        key = "stage.repaired" if missing else "stage.complete"
-        self.tell("repair", message(language, key, missing=missing, method=estimate.method), language)
-        return Sight(observation=seen, estimate=estimate)
+        estimate, gaps = chain.repair(seen, tools.repairer, **tools.repairer_options), int(seen.missing.sum())
+        key = "stage.repaired" if gaps else "stage.complete"
+        self.tell("repair", message(language, key, missing=gaps, method=estimate.method), language)
+        found = Sight(observation=seen, estimate=estimate)
+        self._sight = found if own else self._sight
+        return found
 
     def tell(self, stage: str, said: str, language: str) -> None:
         """Tell who listens what was just done."""
-        self._progress(Event(stage=stage, message=said, language=language))
+        self.progress(Event(stage=stage, message=said, language=language))
 
     def plan(self, intent: Intent, request: Request, *, sight: Sight | None = None, tools: Tools | None = None) -> Run:
         """The decision for a request; nothing is applied.
@@ -146,7 +140,7 @@ class Site:
         except UnsupportedProblemError as refusal:
             raise RefusedError(refusal, posed.problem, tools.method, language) from refusal
         seen = sight or self.sight(language)
-        decision = self._decide(seen.estimate, posed.problem, posed.cell, tools)
+        decision = self.decide(seen.estimate, posed.problem, posed.cell, tools)
         self.tell("decide", decided_line(decision, language), language)
         made, scene = report(decision), dataclasses.replace(self.scene, cell=posed.cell)
         return Run(
@@ -161,16 +155,16 @@ class Site:
 
     def station(self, run: Run) -> BaseStation | None:
         """The base station that a run would be applied at; None where there is none."""
-        return self._base_station or self._station_of(self.tools, run.scene)
+        return self.base_station or self.station_of(self.tools, run.scene)
 
     def asks(self, station: BaseStation) -> bool:
         """Whether the operator has to say yes before anything is applied."""
-        return station.name != SimulatedBaseStation.name if self._confirm is None else self._confirm
+        return station.name != SimulatedBaseStation.name if self.confirm is None else self.confirm
 
     def carry_out(self, run: Run, station: BaseStation, last_good: Run | None) -> acting.Effect:
         """Apply a run, read back, and go back to the last good one where it is at fault."""
         with self._told(run):
-            effect = acting.carry_out(run, station, last_good, self._tolerance)
+            effect = acting.carry_out(run, station, last_good, self.tolerance)
             self.read_last = effect.restored or effect.run.outcome
         return effect
 

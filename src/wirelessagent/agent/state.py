@@ -5,9 +5,9 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
-from wirelessagent.agent.dialogue import Request, plan_named
+from wirelessagent.agent.dialogue import Request, restated
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Lines, Run, Stage, Turn
@@ -19,9 +19,11 @@ from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Plain
 from wirelessagent.model.units import reliability
-from wirelessagent.telling.catalogue import Said, joined, message
+from wirelessagent.telling.catalogue import Voice, message
 from wirelessagent.telling.report import side_by_side
 from wirelessagent.telling.told import Table
+
+_Found = TypeVar("_Found")
 
 Column: TypeAlias = tuple[str, Run]
 """A run and what it is called."""
@@ -84,7 +86,7 @@ class State(Plain):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Talk:
+class Talk(Voice):
     """A conversation as one line finds it.
 
     Attributes:
@@ -94,6 +96,7 @@ class Talk:
         turns: what was said so far.
         intent: what was understood of the line.
         text: the line.
+        language: the operator's.
         pressed: the button that it stands for; None where it was said.
     """
 
@@ -103,24 +106,19 @@ class Talk:
     turns: Sequence[Turn]
     intent: Intent
     text: str
+    language: str
     pressed: Press | None = None
 
-    @property
-    def language(self) -> str:
-        """The operator's."""
-        return self.intent.language
-
-    def say(self, key: str, /, **places: object) -> Said:
-        """A message in the operator's language."""
-        return message(self.language, key, **places)
-
-    def joined(self, *sentences: str) -> Said:
-        """Sentences one after the other; those that are empty are left out."""
-        return joined(self.language, sentences)
+    def needed(self, found: _Found | None) -> _Found:
+        """What a line needs that a decision brings; before there is one, that is the reply."""
+        if found is None:
+            raise InsteadError(Reply(needs=self.say("refused.nothing_yet")))
+        return found
 
     def plan(self, request: Request | None) -> str:
         """What is asked for, as a part of a sentence."""
-        return plan_named(request, self.language)
+        plan = "–" if request is None else restated(request, self.language).rstrip(".。")
+        return plan[:1].lower() + plan[1:]
 
     def tried(self, request: Request, **by: Any) -> Run:
         """The run for a request with what it would achieve, where that is known; nothing is applied."""
@@ -136,6 +134,14 @@ class Talk:
         known = {*before, *([_assumed(language)] if noted or self.state.noted else [])}
         told = (note[:1].upper() + note[1:] for note in run.notes if note not in known)
         return [message(language, "text.note", note=note) for note in told]
+
+
+class InsteadError(Exception):
+    """A line cannot be answered as it stands; the reply that it gets instead."""
+
+    def __init__(self, reply: Reply) -> None:
+        super().__init__(reply)
+        self.reply = reply
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -174,8 +180,3 @@ def asked_back(question: str, state: State | None = None) -> Reply:
 
 def _assumed(language: str) -> str:
     return message(language, "assumed.outage", sure=reliability(ASSUMED_OUTAGE_PROBABILITY))
-
-
-def nothing_yet(talk: Talk) -> Reply:
-    """The reply to what needs a decision, before there is one."""
-    return Reply(needs=talk.say("refused.nothing_yet"))

@@ -1,6 +1,6 @@
 """Questions what would be: decisions for other circumstances, requests and tools beside the one that holds.
 
-And the power that a request takes.
+And those of other turns beside it, and the power that a request takes.
 """
 
 from __future__ import annotations
@@ -11,27 +11,23 @@ from collections.abc import Sequence
 import numpy as np
 
 from wirelessagent import plugins
+from wirelessagent.agent.acting import same_allocation
+from wirelessagent.agent.asking import decided_by
 from wirelessagent.agent.dialogue import Request, applied, restated
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
 from wirelessagent.agent.site import Sight
-from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back, nothing_yet
+from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back
 from wirelessagent.agent.turn import Run
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act
 from wirelessagent.language.intent import Constraint
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
+from wirelessagent.telling import parts
 from wirelessagent.telling.catalogue import called, lines_of, listed
+from wirelessagent.telling.explanation import certificate_line
 from wirelessagent.telling.facts.nearest import more_power, nearest
 from wirelessagent.telling.margins import Remedies
-from wirelessagent.telling.parts import (
-    BEYOND_W,
-    cannot_be_served,
-    goal_words,
-    outcome_in_words,
-    reason_in_words,
-    value_name,
-)
 
 _SAME = 1e-6
 """A share of the power that nobody sees."""
@@ -40,30 +36,23 @@ _OTHER_AIMS = ("weights", "max_rate_bps", "max_power_w")
 """What the least power knows nothing of, or is asked for instead of."""
 
 
-def other_channel(talk: Talk, _: acts.AskOtherChannel) -> Reply:
-    """The channel is as it was sensed."""
-    return asked_back(talk.say("ask_back.channel_given"))
-
-
 def what_if(talk: Talk, act: acts.Suppose) -> Reply:
     """A decision for other circumstances beside the one that holds, which the next line may take up."""
     share = act.missing_share
     if share is None and not act.acts:
         return asked_back(talk.say("ask_back.what_if_nothing"))
     request = _supposed(talk, act)
-    if request is None:
-        return nothing_yet(talk)
     if share is not None and not 0 <= share < 1:
         return asked_back(talk.say("ask_back.what_if_missing_share", share=percent(share)))
     sight = None if share is None else talk.site.sight(talk.language, missing=share)
     run, refused = _planned(talk, request, sight)
-    if isinstance(act, acts.AskMost) and run.decision.is_usable:
-        said = talk.joined(refused, _most(talk, run, act.user))
-    else:
-        said = talk.joined(refused, _verdict(talk, run, share))
-        if share is None:
-            asked = restated(request, talk.language)
-            said = talk.say("what_if.answer", request=asked[:1].lower() + asked[1:], answer=said)
+    most = _most(talk, run, act.user) if isinstance(act, acts.AskMost) and run.decision.is_usable else ""
+    left_out = parts.cannot_be_served(run.decision, talk.language)
+    warned = talk.say("text.note", note=left_out) if left_out else ""
+    said = talk.joined(refused, most or _verdict(talk, run, share), warned)
+    if share is None and not most:
+        asked = restated(request, talk.language)
+        said = talk.say("what_if.answer", request=asked[:1].lower() + asked[1:], answer=said)
     runs = [(talk.say("what_if.column"), run)]
     if talk.state.run is not None:
         runs.insert(0, (talk.say("compared.now"), talk.site.foreseen(talk.state.run)))
@@ -74,8 +63,6 @@ def what_if(talk: Talk, act: acts.Suppose) -> Reply:
 def needed_power(talk: Talk, act: acts.AskPower) -> Reply:
     """The least power that the promised rates take; a what-if of the limit where nothing is promised."""
     request, enough_w = _supposed(talk, act), act.enough_w
-    if request is None:
-        return nothing_yet(talk)
     promises = "min_rate_bps" in request.constraints or request.objective == "min_power"
     within = None if enough_w is None else acts.Limit(kind="max_power_w", value=enough_w)
     limited = None if within is None else acts.Suppose(acts=(*act.acts, within))
@@ -83,12 +70,20 @@ def needed_power(talk: Talk, act: acts.AskPower) -> Reply:
         return Reply(decided=talk.say("needs.nothing")) if limited is None else what_if(talk, limited)
     limits: dict[str, Constraint] = {k: v for k, v in request.constraints.items() if k not in _OTHER_AIMS}
     run = talk.site.plan(talk.intent, Request(objective="min_power", constraints=limits))
-    power_w = _power(run)
+    power_w = run.decision.total_power_w if run.decision.is_usable else None
+    if power_w is None:
+        more = more_power(run.case)
+        power_w = None if more is None or more.power_w > parts.BEYOND_W else more.power_w
     said = [*talk.notes(run), _taken(talk, run, power_w)]
     if enough_w is not None and limited is not None:
-        said.append(_judged(talk, run, power_w, enough_w, act.judged))
-        if request.objective != "min_power" and power_w is not None and enough_w >= power_w:
-            said.append(_beside(talk, what_if(talk, limited).run))  # what such a limit makes of an aim that it serves
+        enough = human(enough_w, "W")
+        if power_w is not None and enough_w >= power_w:
+            said.append(talk.say(f"needs.{act.judged}_enough", enough=enough, power=human(power_w, "W")))
+            if request.objective != "min_power":  # what such a limit makes of an aim that it serves
+                said.append(_beside(talk, what_if(talk, limited).run))
+        else:
+            key = "needs.not_enough" if enough_w < _least(run) or power_w is None else "needs.perhaps_enough"
+            said.append(talk.say(key, enough=enough))
     return _left_open(talk, Reply(decided=talk.joined(*said), run=run), request)
 
 
@@ -102,14 +97,14 @@ def _left_open(talk: Talk, reply: Reply, supposed: Request | None) -> Reply:
     return dataclasses.replace(reply, changed=talk.say("plan.nothing_changed"), needs=needs, state=after)
 
 
-def _supposed(talk: Talk, act: acts.Suppose) -> Request | None:
+def _supposed(talk: Talk, act: acts.Suppose) -> Request:
     """The request of a what-if; one of the most that can be promised is kept with the probability that is assumed."""
     held, wanted = talk.state.request, act.acts
     named = {*(() if held is None else held.constraints), *(one.kind for one in wanted if isinstance(one, acts.Limit))}
     if isinstance(act, acts.AskMost) and "outage_probability" not in named:
         wanted = *wanted, acts.Limit(kind="outage_probability", value=ASSUMED_OUTAGE_PROBABILITY)
     aims = [one for one in wanted if isinstance(one, acts.Aim)]
-    return applied(held, (*aims, *wanted), radiated_w=talk.state.radiated_w)[0]
+    return talk.needed(applied(held, (*aims, *wanted), radiated_w=talk.state.radiated_w)[0])
 
 
 def _planned(talk: Talk, request: Request, sight: Sight | None) -> tuple[Run, str]:
@@ -136,12 +131,7 @@ def _most(talk: Talk, run: Run, user: str | None) -> str:
         sure=reliability(decision.problem.outage_probability or 0.0),
     )  # fmt: skip
     proven = talk.say("what_if.most_proven", bound=human(decision.bound, decision.unit))
-    return talk.joined(said, "" if np.isnan(decision.gap) else proven, *talk.notes(run), _warned(talk, run))
-
-
-def _warned(talk: Talk, run: Run) -> str:
-    left_out = cannot_be_served(run.decision, talk.language)
-    return talk.say("text.note", note=left_out) if left_out else ""
+    return talk.joined(said, "" if np.isnan(decision.gap) else proven, *talk.notes(run))
 
 
 def _verdict(talk: Talk, run: Run, missing: float | None) -> str:
@@ -154,8 +144,8 @@ def _verdict(talk: Talk, run: Run, missing: float | None) -> str:
         unmet = "" if missing is None else talk.say("what_if.unseen", share=share)
         return talk.joined(*assumed, unmet, Remedies(run.case, talk.language).told(nearest(run.case)))
     key = "what_if.met" if missing is None else "what_if.still_met"
-    met = talk.say(key, outcome=outcome_in_words(run.decision, talk.language), share=share)
-    return talk.joined(*assumed, met, _beside(talk, run, values=True), _unused(talk, run), _warned(talk, run))
+    met = talk.say(key, outcome=parts.outcome_in_words(run.decision, talk.language), share=share)
+    return talk.joined(*assumed, met, _beside(talk, run, values=True), _unused(talk, run))
 
 
 def _beside(talk: Talk, run: Run | None, *, values: bool = False) -> str:
@@ -165,27 +155,25 @@ def _beside(talk: Talk, run: Run | None, *, values: bool = False) -> str:
     now = talk.state.run
     if now is None or run is None or not (now.decision.is_usable and run.decision.is_usable):
         return ""
-    kinds = {(value_name(one.decision, talk.language), one.decision.unit) for one in (now, run)}
+    kinds = {(parts.value_name(one.decision, talk.language), one.decision.unit) for one in (now, run)}
     if values and len(kinds) == 1:
-        return talk.say("what_if.now", change=_change(talk, now.decision, run.decision))
-    return talk.say("what_if.beside_now", then=_figures(talk, run.decision), now=_figures(talk, now.decision))
+        return talk.say("what_if.now", change=_difference(talk, now.decision, run.decision))
+    figures = list[str]()
+    for decision in (run.decision, now.decision):
+        rates = decision.rate_bps.sum(), decision.rate_bps[decision.served].min()
+        total, lowest = (human(float(rate), "bit/s") for rate in rates)
+        power = human(decision.total_power_w, "W")
+        figures.append(talk.say("what_if.beside_figures", total=total, lowest=lowest, power=power))
+    return talk.say("what_if.beside_now", then=figures[0], now=figures[1])
 
 
-def _change(talk: Talk, now: Decision, then: Decision) -> str:
+def _difference(talk: Talk, now: Decision, then: Decision) -> str:
     """By how much the other value differs."""
     change, value = then.value - now.value, human(now.value, now.unit)
     if not now.value or value == human(then.value, then.unit):
         return talk.say("what_if.same")
     key, size = "what_if.more" if change > 0 else "what_if.less", human(abs(change), now.unit)
     return talk.say(key, size=size, share=percent(abs(change / now.value)))
-
-
-def _figures(talk: Talk, decision: Decision) -> str:
-    total, lowest = float(decision.rate_bps.sum()), float(decision.rate_bps[decision.served].min())
-    power = human(decision.total_power_w, "W")
-    return talk.say(
-        "what_if.beside_figures", total=human(total, "bit/s"), lowest=human(lowest, "bit/s"), power=power
-    )  # fmt: skip
 
 
 def _unused(talk: Talk, run: Run) -> str:
@@ -201,14 +189,6 @@ def _unused(talk: Talk, run: Run) -> str:
     return talk.say("what_if.budget_unused", budget=human(budgets[0], "W"), spent=human(spent, "W"))
 
 
-def _power(run: Run) -> float | None:
-    """The power that was found to do; None where none was."""
-    if run.decision.is_usable:
-        return run.decision.total_power_w
-    more = more_power(run.case)
-    return None if more is None or more.power_w > BEYOND_W else more.power_w
-
-
 def _least(run: Run) -> float:
     """The power that is proven to be needed; 0 where nothing is."""
     decision, need = run.decision, run.decision.needed_power_w
@@ -219,40 +199,55 @@ def _least(run: Run) -> float:
 def _taken(talk: Talk, run: Run, power_w: float | None) -> str:
     """The power that the promised rates take."""
     if power_w is None:
-        return talk.say("needs.too_much", reason=reason_in_words(run.decision, talk.language))
+        return talk.say("needs.too_much", reason=parts.reason_in_words(run.decision, talk.language))
     power, least, limit_w = human(power_w, "W"), human(_least(run), "W"), run.decision.cell.max_power_w
     said = talk.say("needs.exactly" if power == least else "needs.takes", power=power, least=least)
     return talk.joined(said, talk.say("needs.beyond_limit", limit=human(limit_w, "W")) if power_w > limit_w else "")
 
 
-def _judged(talk: Talk, run: Run, power_w: float | None, enough_w: float, asked: str) -> str:
-    """Whether a power does."""
-    enough = human(enough_w, "W")
-    if power_w is not None and enough_w >= power_w:
-        return talk.say(f"needs.{asked}_enough", enough=enough, power=human(power_w, "W"))
-    unmet = enough_w < _least(run) or power_w is None
-    return talk.say("needs.not_enough" if unmet else "needs.perhaps_enough", enough=enough)
+def with_last(talk: Talk, _: acts.CompareLast) -> Reply:
+    """The decision that holds beside the last other one."""
+    run = talk.needed(talk.state.run)
+    turns = [turn for turn in reversed(talk.turns) if turn.intent.kind == "allocate"]
+    made = [(turn.number, turn.run) for turn in turns if turn.run is not None]
+    own = next((number for number, one in made if one.is_of(run)), len(talk.turns))
+    last = next(((number, one) for number, one in made if not one.is_of(run)), None)
+    if last is None:
+        return Reply(decided=talk.say("compared.nothing"))
+    columns = [(talk.say("turn.column", number=number), one) for number, one in ((own, run), last)]
+    said = talk.say("compared.last", turn=last[0], line=certificate_line(last[1].decision, talk.language))
+    return Reply(decided=said, tables=talk.beside(columns))
+
+
+def with_turns(talk: Talk, act: acts.CompareTurns) -> Reply:
+    """The decision that holds beside that of a turn, or those of two turns."""
+    found = [decided_by(talk, reference) for reference in act.turns]
+    columns: list[Column] = [(talk.say("turn.column", number=number), run) for number, run in found]
+    if len(columns) == 1:
+        now = talk.needed(talk.state.run)
+        if same_allocation(columns[0][1].decision, now.decision):
+            return Reply(decided=talk.say("compared.itself", turn=columns[0][0]))
+        columns.insert(0, (talk.say("compared.now"), now))
+    turn, run = columns[-1]
+    said = talk.say("compared.turn", turn=turn, line=certificate_line(run.decision, talk.language))
+    return Reply(decided=said, tables=talk.beside(columns))
 
 
 def with_requests(talk: Talk, act: acts.CompareRequests) -> Reply:
     """Changes of the request solved beside each other; one alone stands beside the request that holds."""
-    state = talk.state
-    if state.run is None or state.request is None:
-        return nothing_yet(talk)
-    changed = [(_label(change, talk.language), applied(state.request, change)[0]) for change in act.changes]
+    now, request = talk.needed(talk.state.run), talk.needed(talk.state.request)
+    changed = [(_label(change, talk.language), applied(request, change)[0]) for change in act.changes]
     columns = [(name, talk.tried(one)) for name, one in changed if one is not None]
     if len(columns) == 1:
-        columns.insert(0, (talk.say("compared.now"), talk.site.foreseen(state.run)))
-    assumed = [note for _, one in columns for note in talk.notes(one, before=state.run.notes)]
+        columns.insert(0, (talk.say("compared.now"), talk.site.foreseen(now)))
+    assumed = [note for _, one in columns for note in talk.notes(one, before=now.notes)]
     said = talk.joined(*dict.fromkeys(assumed), *_outcomes(talk, columns))
     return Reply(decided=said, changed=talk.say("plan.nothing_changed"), tables=talk.beside(columns))
 
 
 def with_tools(talk: Talk, act: acts.CompareTools) -> Reply:
     """The decision that holds beside those of other methods, or on what other repairers make of the channel."""
-    site, run, request = talk.site, talk.state.run, talk.state.request
-    if run is None or request is None:
-        return nothing_yet(talk)
+    site, run, request = talk.site, talk.needed(talk.state.run), talk.needed(talk.state.request)
     columns, refusals = [(run.decision.method, site.foreseen(run))], list[str]()
     for name in act.names:
         if name == run.decision.method and len(act.names) > 1:
@@ -278,23 +273,21 @@ def with_tools(talk: Talk, act: acts.CompareTools) -> Reply:
 def _outcomes(talk: Talk, columns: Sequence[Column]) -> list[str]:
     """What each of the runs comes to, one sentence each."""
     met = any(run.decision.is_usable for _, run in columns)
-    outcomes = [(called(talk.language, name), _outcome(talk, run, met=met)) for name, run in columns]
-    return [talk.say("compared.outcome", name=name, outcome=outcome) for name, outcome in outcomes]
-
-
-def _outcome(talk: Talk, run: Run, *, met: bool) -> str:
-    """What a run comes to; that a method found nothing is no news of the request where another one met it."""
-    if run.decision.is_usable:
-        return outcome_in_words(run.decision, talk.language)
-    if met and run.decision.status == "undecided":
-        return talk.say("compared.found_none")
-    because = talk.say("compared.because", reason=reason_in_words(run.decision, talk.language))
-    return talk.say(f"status.{run.decision.status}") + because
+    said = list[str]()
+    for name, run in columns:
+        because = talk.say("compared.because", reason=parts.reason_in_words(run.decision, talk.language))
+        outcome = talk.say(f"status.{run.decision.status}") + because
+        if run.decision.is_usable:
+            outcome = parts.outcome_in_words(run.decision, talk.language)
+        elif met and run.decision.status == "undecided":  # no news of a request that another one met
+            outcome = talk.say("compared.found_none")
+        said.append(talk.say("compared.outcome", name=called(talk.language, name), outcome=outcome))
+    return said
 
 
 def _label(change: Sequence[Act], language: str) -> str:
     """What a change is called at the head of a column: its aim, or its figures, as in "95 %"."""
-    aims = [goal_words(act.objective, language) for act in change if isinstance(act, acts.Aim)]
+    aims = [parts.goal_words(act.objective, language) for act in change if isinstance(act, acts.Aim)]
     return " ".join(dict.fromkeys([*aims, *(_figure(act) for act in change if isinstance(act, acts.Limit))]))
 
 
@@ -305,10 +298,12 @@ def _figure(limit: acts.Limit) -> str:
 
 
 REPLIES: Replies = {
+    acts.CompareLast: with_last,
+    acts.CompareTurns: with_turns,
     acts.CompareRequests: with_requests,
     acts.CompareTools: with_tools,
     acts.Suppose: what_if,
     acts.AskMost: what_if,
     acts.AskPower: needed_power,
-    acts.AskOtherChannel: other_channel,
+    acts.AskOtherChannel: lambda talk, _: asked_back(talk.say("ask_back.channel_given")),
 }

@@ -65,13 +65,10 @@ def message(language: str, key: str, /, **places: object) -> Said:
     }
     text = _text(language, key)
     said = text.format(**filled)
-    return Said(_begun(said) if text.startswith("{") and text.endswith((".", "?")) else said, key, places)
-
-
-def _begun(sentence: str) -> str:
-    """A sentence that a name or a value begins, with a capital; an identifier such as "ue_3" stays as it is."""
-    word = _FIRST_WORD.match(sentence)
-    return sentence[0].upper() + sentence[1:] if word is not None and word[0].islower() else sentence
+    if text.startswith("{") and text.endswith((".", "?")):
+        word = _FIRST_WORD.match(said)  # a sentence begins with a capital; an identifier such as "ue_3" stays as it is
+        said = said[0].upper() + said[1:] if word is not None and word[0].islower() else said
+    return Said(said, key, places)
 
 
 def has_message(language: str, key: str) -> bool:
@@ -101,16 +98,25 @@ def called(language: str, name: str) -> str:
 
 def joined(language: str, sentences: Iterable[str]) -> Said:
     """Sentences one after the other, as the language sets them."""
-    return _together(_text(language, "text.gap"), sentences)
+    return lines_of(sentences, gap=_text(language, "text.gap"))
 
 
-def lines_of(sentences: Iterable[str]) -> Said:
-    """Sentences, a line each."""
-    return _together("\n", sentences)
+class Voice:
+    """Whoever speaks one language: says messages in it, and puts sentences together."""
+
+    language: str
+
+    def say(self, key: str, /, **places: object) -> Said:
+        """A message in the operator's language."""
+        return message(self.language, key, **places)
+
+    def joined(self, *sentences: str) -> Said:
+        """Sentences one after the other; those that are empty are left out."""
+        return joined(self.language, sentences)
 
 
-def _together(gap: str, sentences: Iterable[str]) -> Said:
-    """Sentences with a gap between them; those that are empty are left out."""
+def lines_of(sentences: Iterable[str], *, gap: str = "\n") -> Said:
+    """Sentences, a line each, or with another gap between them; those that are empty are left out."""
     said = [one for one in sentences if one]
     return Said(gap.join(said), parts=tuple(one for one in said if isinstance(one, Said)))
 

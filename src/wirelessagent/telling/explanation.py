@@ -5,6 +5,7 @@ The certificate is told in a line, a sentence or a paragraph.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,18 +15,11 @@ from wirelessagent.model.decision import OPTIMAL_GAP, Decision
 from wirelessagent.model.estimate import ChannelEstimate
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.units import db, human, percent, probability, reliability
+from wirelessagent.telling import parts
 from wirelessagent.telling.catalogue import Said, message
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.proof import Certainty, Certificate, certainty, certificate, measured
-from wirelessagent.telling.parts import (
-    Teller,
-    cannot_be_served,
-    goal_named,
-    name_of_figure,
-    outcome_in_words,
-    place,
-    reason_in_words,
-)
+from wirelessagent.telling.parts import Teller
 from wirelessagent.telling.report import Report
 
 _HARDLY_ANY = 0.05
@@ -41,16 +35,16 @@ _NO_REGRET = 5e-4
 def certificate_line(decision: Decision, language: str = "en") -> str:
     """What was decided, and how sure it is that nothing does better, in one line."""
     if not decision.is_usable:
-        status = message(language, f"status.{decision.status}")
-        return message(language, "certificate.unusable", status=status, reason=reason_in_words(decision, language))
+        status, why = message(language, f"status.{decision.status}"), parts.reason_in_words(decision, language)
+        return message(language, "certificate.unusable", status=status, reason=why)
     outage, bound = decision.problem.outage_probability, human(decision.bound, decision.unit)
-    figures = {"value": outcome_in_words(decision, language), "bound": bound, "gap": percent(decision.gap)}
+    figures = {"value": parts.outcome_in_words(decision, language), "bound": bound, "gap": percent(decision.gap)}
     best = decision.status == "optimal" or figures["gap"] == percent(0.0)
     close = bound == human(decision.value, decision.unit)
     proof = "no_bound" if np.isnan(decision.gap) else "best" if best else "close" if close else "line"
     key = f"certificate.{proof}" if outage is None else f"certificate.{proof}_outage"
     line = message(language, key, **figures, sure=reliability(outage or 0.0))
-    left_out = cannot_be_served(decision, language)
+    left_out = parts.cannot_be_served(decision, language)
     return message(language, "certificate.noted", line=line, note=left_out) if left_out else line
 
 
@@ -90,7 +84,7 @@ def rests_on(objective: Objective, language: str) -> str:
     on = "levels" if objective.joined == "min" else "conjugate" if objective.power_law() is None else "law"
     alpha = objective.power_law() or 0.0
     law = {0.0: "r", 1.0: "ln r"}.get(alpha, f"r^(1 − α)/(1 − α) with α = {alpha:g}")
-    named = goal_named(objective.name, objective.name, language)
+    named = parts.goal_named(objective.name, objective.name, language)
     return message(language, f"proof.rests_on_{on}", objective=named, law=law)
 
 
@@ -101,12 +95,13 @@ class Proofs(Teller):
         """What is proven, how, and what it leaves open."""
         decision, found, repaired = self.case.decision, certificate(self.case), self.case.estimate.repaired
         if found.proof in ("nothing", "infeasible", "undecided"):
-            reason = self.why(decision)
-            return self.say(f"proof.{found.proof}", method=decision.method, reason=reason)
-        said = [self._bound(found), self._left(found)]
-        if repaired.any():
-            said.append(self.say("proof.estimated", repaired=int(repaired.sum()), entries=repaired.size))
-        return self.joined(said)
+            return self.say(f"proof.{found.proof}", method=decision.method, reason=self.why(decision))
+        value, left = self.worth(decision.value), self.worth(found.left)
+        key = "proof.value_least" if self.case.falls else "proof.value"
+        reached = decision.status == "optimal" or found.gap <= 0
+        left = self.say("proof.reached") if reached else self.say(key, value=value, left=left, gap=percent(found.gap))
+        estimated = self.say("proof.estimated", repaired=int(repaired.sum()), entries=repaired.size)
+        return self.joined(self._bound(found), left, estimated if repaired.any() else "")
 
     def _bound(self, found: Certificate) -> str:
         case, bound, outage = self.case, self.worth(found.bound), self.case.problem.outage_probability
@@ -114,36 +109,28 @@ class Proofs(Teller):
             return self.say("proof.closed_form", bound=bound)
         of = "outage" if outage is not None and case.decision.expected_rate_bps.size else "channel"
         key = f"proof.{of}_{'least' if case.falls else 'most'}"
-        said = [self.say(key, bound=bound, sure=reliability(outage or 0.0)), rests_on(case.objective, self.language)]
-        if found.by != case.decision.method:
-            said.append(self.say("proof.by_dual", method=case.decision.method))
-        return self.joined(said)
-
-    def _left(self, found: Certificate) -> str:
-        if self.case.decision.status == "optimal" or found.gap <= 0:
-            return self.say("proof.reached")
-        value, left = self.worth(self.case.decision.value), self.worth(found.left)
-        key = "proof.value_least" if self.case.falls else "proof.value"
-        return self.say(key, value=value, left=left, gap=percent(found.gap))
+        said = self.say(key, bound=bound, sure=reliability(outage or 0.0))
+        by_dual = "" if found.by == case.decision.method else self.say("proof.by_dual", method=case.decision.method)
+        return self.joined(said, rests_on(case.objective, self.language), by_dual)
 
     def certainty(self) -> str:
         """What was missing, what it was repaired by, and how sure the decision is."""
         found = certainty(self.case)
         if not found.repaired and not found.noisy:
             return self.say("certainty.all_known")
-        said: list[str] = [
-            self.say(
-                "certainty.repaired" if found.repaired else "certainty.noisy",
-                repaired=found.repaired, entries=found.entries, noisy=found.noisy, method=found.method,
-                share=percent(found.repaired / found.entries), resting=found.resting, used=found.used,
-            )
-        ]  # fmt: skip
         unseen = [user for user in found.unseen if self.case.served[user]]
-        if unseen:
-            said.append(self.say("certainty.unseen", names=self.names(unseen)))
-        if self.case.decision.is_usable and found.least_sure is None:
-            said.append(self.say("certainty.rests_on_none"))
-        return self.joined([*said, *self._sure(found)])
+        rests_on_none = self.case.decision.is_usable and found.least_sure is None
+        said = self.say("certainty.rests_on_none") if rests_on_none else ""
+        return self.joined(*self._measured(found, unseen, noisy=found.noisy), said, *self._sure(found))
+
+    def _measured(self, found: Certainty, unseen: Sequence[int], **noisy: int) -> list[str]:
+        """How many gains were not measured, or not exactly, and what was made of them."""
+        said = self.say(
+            "certainty.repaired" if found.repaired else "certainty.noisy",
+            repaired=found.repaired, entries=found.entries, method=found.method, **noisy,
+            share=percent(found.repaired / found.entries), resting=found.resting, used=found.used,
+        )  # fmt: skip
+        return [said, self.say("certainty.unseen", names=self.names(unseen)) if unseen else ""]
 
     def _sure(self, found: Certainty) -> list[str]:
         """How sure the rates are, and the gain that is known least."""
@@ -155,16 +142,13 @@ class Proofs(Teller):
         key = "promise" if outage is not None else "holds" if found.expected_missed < _HARDLY_ANY else "may_fail"
         served, sure = int((self.case.decision.committed_bps > 0).sum()), reliability(outage or 0.0)
         asked = outage is None and self.case.problem.promises_rates
+        at = {"user": self.case.estimate.user_names[user], "place": parts.place(subcarrier, subcarrier, self.language)}
         return [
             self.say("certainty.band", low=low, high=high) if low != high else "",
             self.say(f"certainty.{key}", served=served, sure=sure, **told, missed=found.expected_missed),
             self.say("certainty.asked") if asked else "",
-            self.say(
-                "certainty.widest", user=self.case.estimate.user_names[user],
-                place=place(subcarrier, subcarrier, self.language),
-                low=found.widest_low_db, high=found.widest_high_db,
-            ),
-        ]  # fmt: skip
+            self.say("certainty.widest", **at, low=found.widest_low_db, high=found.widest_high_db),
+        ]
 
 
 def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") -> list[str]:
@@ -173,7 +157,7 @@ def explain(estimate: ChannelEstimate, report: Report, *, language: str = "en") 
 
 
 @dataclass(frozen=True)
-class _Explanation(Teller):
+class _Explanation(Proofs):
     """One decision on its way into words; what there is nothing to say of is empty."""
 
     report: Report
@@ -188,13 +172,22 @@ class _Explanation(Teller):
             "allocation", used=self.case.used.size, total=decision.owner.size, users=self.case.num_users,
             served=int(np.count_nonzero(decision.rate_bps > 0)), power=self.spent, budget=self.budget,
         )  # fmt: skip
-        said: list[str] = [self.joined([allocation, _how_far(decision, self.language)]), *self._goal()]
-        if not objective.is_built_in and not np.isnan(decision.gap):
-            said.append(rests_on(objective, self.language))
-        said += [self._promised_at(), *self._forecast(), self._groups()]
-        if decision.reason and not cannot_be_served(decision):
-            said.append(self.say("text.sentence", line=self.why(decision)))
-        return [one for one in (*said, self._idle_users(), self._repair(), self._outcome(), self._regret()) if one]
+        proven = not objective.is_built_in and not np.isnan(decision.gap)
+        because = decision.reason and not parts.cannot_be_served(decision)
+        known = measured(self.case)
+        said = [
+            self.joined(allocation, _how_far(decision, self.language)),
+            *self._goal(),
+            rests_on(objective, self.language) if proven else "",
+            *self._forecast(),
+            self._groups(),
+            self.say("text.sentence", line=self.why(decision)) if because else "",
+            self._idle_users(),
+            self.joined(*self._measured(known, known.unseen)) if known.repaired else self._told("complete"),
+            self._outcome(),
+            self._regret(),
+        ]
+        return [one for one in said if one]
 
     def _told(self, key: str, **places: object) -> Said:
         return self.say(f"decision.{key}", **places)
@@ -202,31 +195,26 @@ class _Explanation(Teller):
     @property
     def _own_figure(self) -> str:
         """What the value is called; empty where its unit says it all."""
-        return name_of_figure(self.case.decision, self.language)
+        return parts.name_of_figure(self.case.decision, self.language)
 
-    def _figure_or_value(self) -> str:
-        return self._own_figure or self.say("text.value")
-
-    def _counts(self) -> BoolArray:
-        """True for users whose rate counts: those who are served and have a weight."""
-        return self.case.problem.weights_of(self.case.num_users) > 0
-
-    def _promised_at(self) -> str:
-        """With which probability rates are promised, and how much in all."""
-        outage, decision = self.case.problem.outage_probability, self.case.decision
-        if outage is None or not decision.expected_rate_bps.size:
-            return ""
-        promised = human(float(decision.rate_bps.sum()), "bit/s")
-        return self._told("outage", sure=reliability(outage), promised=promised)
+    @property
+    def _without_rate(self) -> BoolArray:
+        """True for users whose rate counts, who are served and have a weight, and who get none."""
+        return (self.case.decision.rate_bps <= 0) & (self.case.problem.weights_of(self.case.num_users) > 0)
 
     def _forecast(self) -> list[str]:
-        """What is expected of the true channel where that is not sure, and what is planned or asked for on it."""
-        decision, forecast = self.case.decision, self.case.decision.forecast
+        """What is promised and how surely, what is expected of the true channel where that is not sure, and what is
+        planned or asked for on it.
+        """
+        decision, forecast, said = self.case.decision, self.case.decision.forecast, list[str]()
+        if decision.problem.outage_probability is not None and decision.expected_rate_bps.size:
+            sure = reliability(decision.problem.outage_probability)
+            said.append(self._told("outage", sure=sure, promised=human(float(decision.rate_bps.sum()), "bit/s")))
         if forecast is None:
-            return []
+            return said
         mean, low, high = float(forecast.mean_bps.sum()), forecast.sum_low_bps, forecast.sum_high_bps
         shown = {name: human(rate, "bit/s") for name, rate in (("mean", mean), ("low", low), ("high", high))}
-        said: list[str] = [] if shown["low"] == shown["high"] else [self._told("forecast", **shown)]
+        said += [] if shown["low"] == shown["high"] else [self._told("forecast", **shown)]
         if decision.expected_rate_bps.size:
             return said
         least = int(np.argmin(np.where(decision.committed_bps > 0, forecast.carried, np.inf)))
@@ -245,7 +233,7 @@ class _Explanation(Teller):
         if not np.isfinite(bound) or bound == 0.0:
             return ""
         cost = max(value / bound - 1.0 if self.case.falls else 1.0 - value / bound, 0.0)
-        size, figure = self.case.problem.resource_block_group_size, self._figure_or_value()
+        size, figure = self.case.problem.resource_block_group_size, self._own_figure or self.say("text.value")
         return self._told("groups", size=size, cost=percent(cost), figure=figure, bound=self.worth(bound))
 
     def _goal(self) -> list[str]:
@@ -254,9 +242,9 @@ class _Explanation(Teller):
         decision, figure = self.case.decision, self._own_figure
         if figure:
             said.append(self._told("figure", figure=figure, value=self.worth(decision.value)))
-            starved = (decision.rate_bps <= 0) & self._counts() & (decision.value == 0)
-            if starved.any():
-                said.append(self._told("starved", names=self.names(np.flatnonzero(starved).tolist()), figure=figure))
+            starved = np.flatnonzero(self._without_rate & (decision.value == 0)).tolist()
+            if starved:
+                said.append(self._told("starved", names=self.names(starved), figure=figure))
         weight = decision.problem.weights_of(self.case.num_users)[decision.served]
         if np.ptp(weight) > 0:
             key = "shares" if self.case.objective.joined == "min" else "weights"
@@ -265,7 +253,7 @@ class _Explanation(Teller):
 
     def _idle_users(self) -> str:
         """Who of those who count gets nothing, and by what margin the closest of them was beaten."""
-        idle = np.flatnonzero((self.case.decision.rate_bps <= 0) & self._counts())
+        idle = np.flatnonzero(self._without_rate)
         if not idle.size or self.case.problem.min_rate_bps is not None:
             return ""
         gain = self.case.estimate.gain
@@ -277,17 +265,6 @@ class _Explanation(Teller):
         names, margin = self.names(idle.tolist()), float(margin_db[closest])
         key = "idle_one" if idle.size == 1 else "idle"
         return self._told(key, names=names, margin=margin, closest=self.name(int(idle[closest])))
-
-    def _repair(self) -> str:
-        """How many gains were not measured, and what was made of them."""
-        found = measured(self.case)
-        if not found.repaired:
-            return self._told("complete")
-        said = self.say(
-            "certainty.repaired", repaired=found.repaired, entries=found.entries, method=found.method,
-            share=percent(found.repaired / found.entries), used=found.used, resting=found.resting,
-        )  # fmt: skip
-        return self.joined([said, self.say("certainty.unseen", names=self.names(found.unseen)) if found.unseen else ""])
 
     def _outcome(self) -> str:
         """Whether what was promised was kept, where that is known."""
@@ -315,6 +292,7 @@ class _Explanation(Teller):
         if of_power:
             return self._told("regret_min", perfect=perfect, cost=cost)
         if not plain:
-            return self._told("regret_max", figure=self._figure_or_value(), perfect=perfect, cost=cost)
+            figure = self._own_figure or self.say("text.value")
+            return self._told("regret_max", figure=figure, perfect=perfect, cost=cost)
         goodput, in_all = human(achieved.goodput_bps, "bit/s"), percent(report.goodput_regret)
         return self._told("regret_goodput", perfect=perfect, goodput=goodput, cost=in_all, choice=cost)

@@ -24,12 +24,6 @@ class Prices(Teller):
         return steps.marginal_prices(self.case)
 
     @property
-    def _of_power(self) -> str:
-        """What a watt more would be worth; empty where it would be worth nothing, or that is not known."""
-        price = self._slopes.power
-        return self.worth(price) if price > 0 and self.case.spends_all else ""
-
-    @property
     def _dearest(self) -> tuple[int, str]:
         """Whose promise costs most, and what 100 kbit/s more of it would cost; empty where none costs anything."""
         cost = np.nan_to_num(np.abs(np.where(self.case.promised_bps > 0, self._slopes.rate, 0.0)))
@@ -38,43 +32,37 @@ class Prices(Teller):
 
     def told(self) -> str:
         """The prices of power and of the dearest promise."""
-        (user, price), dearest = self._dearest, ""
+        (user, price), dearest, of_power = self._dearest, "", self.case.objective.measure == "power"
+        if of_power or np.isnan(self._slopes.power):
+            power = self.say("price.power_least" if of_power else "price.power_unknown")
+        else:
+            power = self._held_by_power("price.power", "price.power_idle")
         if price:
+            told = {"user": self.name(user), "figure": self.figure, "price": price}
             direction = self.say("step.up" if self._slopes.rate[user] > 0 else "step.down")
-            name = self.name(user)
-            dearest = self.say("price.dearest", user=name, direction=direction, figure=self.figure, price=price)
+            dearest = self.say("price.dearest", direction=direction, **told)
         elif self.case.promised_bps.any():
             dearest = self.say("price.free")
-        sloped = self.case.objective.measure != "power" and self._slopes.power > 0
-        return self.joined([self._power_told(), dearest, self.say("price.slopes") if sloped else ""])
-
-    def _power_told(self) -> str:
-        if self.case.objective.measure == "power":
-            return self.say("price.power_least")
-        if np.isnan(self._slopes.power):
-            return self.say("price.power_unknown")
-        return self._held_by_power("price.power", "price.power_idle")
+        sloped = not of_power and self._slopes.power > 0
+        return self.joined(power, dearest, self.say("price.slopes") if sloped else "")
 
     def _held_by_power(self, key: str, idle: str) -> str:
-        """What more power would be worth, or that it would be worth nothing."""
-        if self._of_power:
-            return self.say(key, figure=self.figure, price=self._of_power, budget=self.budget)
+        """What a watt more would be worth, or that it would be worth nothing, or that is not known."""
+        price = self._slopes.power
+        if price > 0 and self.case.spends_all:
+            return self.say(key, figure=self.figure, price=self.worth(price), budget=self.budget)
         return self.say(idle, spent=self.spent, budget=self.budget)
 
     def table(self) -> tuple[Table, ...]:
         """What 100 kbit/s more would cost for each user with a promise; no table where nobody has one."""
-        case, price = self.case, self._slopes.rate
-        rows = tuple(
-            (
-                self.name(user),
-                human(float(case.promised_bps[user]), "bit/s"),
-                human(float(case.decision.rate_bps[user]), "bit/s"),
-                self.worth(float(price[user]) * _STEP_BPS),
+        rows = list[tuple[str, ...]]()
+        for user in np.flatnonzero(self.case.promised_bps > 0).tolist():
+            rates = (
+                human(float(rate[user]), "bit/s") for rate in (self.case.promised_bps, self.case.decision.rate_bps)
             )
-            for user in np.flatnonzero(case.promised_bps > 0).tolist()
-        )
+            rows.append((self.name(user), *rates, self.worth(float(self._slopes.rate[user]) * _STEP_BPS)))
         columns = tuple(self.say(key) for key in ("label.user", "price.promised", "price.gets", "price.price"))
-        return (Table(title=self.say("price.promises"), columns=columns, rows=rows),) if rows else ()
+        return (Table(title=self.say("price.promises"), columns=columns, rows=tuple(rows)),) if rows else ()
 
     def limits(self) -> str:
         """What holds the value back, each with what it would be worth to have more of it."""
@@ -84,7 +72,7 @@ class Prices(Teller):
             promise = self.say("hindrance.promise", name=name, figure=self.figure, price=price)
         of_power = self.case.objective.measure == "power"
         power = "" if of_power else self._held_by_power("hindrance.power", "hindrance.power_free")
-        return self.joined([self._caps(), power, promise, self._most_power()]) or self.say("hindrance.nothing")
+        return self.joined(self._caps(), power, promise, self._most_power()) or self.say("hindrance.nothing")
 
     def _caps(self) -> str:
         """Who has all that it may have, and what the value would be if it might have more, solved anew."""
@@ -113,9 +101,9 @@ class Steps(Teller):
     def more_power(self, step_w: float) -> str:
         """What more power would change; less where it is below zero."""
         step = steps.power_step(self.case, step_w)
-        if step is not None:
-            return self.told(step)
-        return self.say("step.no_power", step=human(-step_w, "W"), before=self.budget)
+        if step is None:
+            return self.say("step.no_power", step=human(-step_w, "W"), before=self.budget)
+        return self.told(step)
 
     def more_rate(self, step_bps: float, user: int | None) -> str:
         """What more rate of a user, from 0, or of each user would change."""
@@ -130,15 +118,13 @@ class Steps(Teller):
         case, decision, promised = self.case, self.case.decision, float(self.case.promised_bps.max())
         if steps.has_reach(case):
             return self._more(decision.value, step_of(decision.value), case.problem.budget_w(case.cell))
-        total = float(decision.rate_bps.sum()) if decision.is_usable else 0.0
-        of_promises, in_all = "", ""
+        said, total = list[str](), float(decision.rate_bps.sum()) if decision.is_usable else 0.0
         if promised > 0 or not decision.is_usable:
-            of_promises = self.more_rate(step_of(promised), None)
+            said.append(self.more_rate(step_of(promised), None))
         if total > 0:
-            in_all = Steps(steps.for_the_total(case), self.language)._more(
-                total, step_of(total), decision.total_power_w
-            )
-        return self.joined([of_promises, in_all])
+            in_all = Steps(steps.for_the_total(case), self.language)
+            said.append(in_all._more(total, step_of(total), decision.total_power_w))
+        return self.joined(*said)
 
     def told(self, step: steps.Step, kept: steps.Reach | None = None) -> str:
         """What a step changes, and what power would keep the value (looked for if not given), in a paragraph."""
@@ -148,8 +134,11 @@ class Steps(Teller):
             kept, budget_w = kept or steps.kept_by(self.case, step), self.case.problem.budget_w(self.case.cell)
             keeping = "" if kept is None else self._reached(kept, "step.kept", before_w=budget_w)
             said = [self._changed(step), keeping, self._bound(step)]
-        beyond = step.after.is_usable and not np.isnan(step.limit_w)
-        return self.joined([*said, self.say("step.limit", limit=human(step.limit_w, "W")) if beyond else ""])
+        return self.joined(*said, self._limit(step.limit_w) if step.after.is_usable else "")
+
+    def _limit(self, limit_w: float) -> str:
+        """That a power is beyond the cell's limit; empty where it is not."""
+        return "" if np.isnan(limit_w) else self.say("step.limit", limit=human(limit_w, "W"))
 
     def change(self, step: steps.Step) -> str:
         """How the value changes, as in "raise the total rate by 1 Mbit/s (3 %), to 34 Mbit/s"."""
@@ -185,8 +174,7 @@ class Steps(Teller):
         way, size = self.say("step.more" if more >= 0 else "step.less"), human(abs(more), "W")
         power, share = human(found.power_w, "W"), percent(abs(more) / before_w)
         said = self.say(key, **told, power=power, before=human(before_w, "W"), size=size, share=share, way=way)
-        limited = not np.isnan(found.limit_w)
-        return self.joined([said, self.say("step.limit", limit=human(found.limit_w, "W")) if limited else ""])
+        return self.joined(said, self._limit(found.limit_w))
 
     def _unmet(self, step: steps.Step) -> str:
         who = self._who(step)
@@ -234,7 +222,7 @@ class Remedies(Teller):
             limit = human(case.cell.max_power_w, "W")
             beyond = self.say("remedy.beyond", power=human(more.power_w, "W"), limit=limit)
         instead = self.say("remedy.ways") if ways else "" if beyond else self.say("remedy.none")
-        head = self.joined([self.say(proven, reason=self.why(case.decision)), instead])
+        head = self.joined(self.say(proven, reason=self.why(case.decision)), instead)
         return lines_of([head, *ways, beyond])
 
     def _way(self, way: nearest.Way) -> Said:
@@ -244,10 +232,14 @@ class Remedies(Teller):
         outcome, problem = outcome_in_words(way.decision, self.language), self.case.problem
         if isinstance(way, nearest.LowerRates):
             return self._rates(way, outcome)
-        if isinstance(way, nearest.FewerUsers):
-            return self._users(way, outcome)
-        sure = reliability(problem.outage_probability or 0.0)
-        return self.say(f"remedy.{way.limit}", outcome=outcome, size=problem.resource_block_group_size, sure=sure)
+        if isinstance(way, nearest.WithoutLimit):
+            sure = reliability(problem.outage_probability or 0.0)
+            return self.say(f"remedy.{way.limit}", outcome=outcome, size=problem.resource_block_group_size, sure=sure)
+        kept = [int(user) for user in np.flatnonzero(self.case.served) if user not in way.left_out]
+        few = len(kept) < len(way.left_out)
+        names = self.names(kept if few else way.left_out)
+        fewest = self.say("remedy.fewest") if way.is_fewest and len(way.left_out) > 1 else ""
+        return self.say("remedy.only" if few else "remedy.without", names=names, outcome=outcome, fewest=fewest)
 
     def _rates(self, lower: nearest.LowerRates, outcome: str) -> Said:
         promised, known, most = self.case.promised_bps[self.case.served], np.isfinite(lower.at_most), ""
@@ -259,10 +251,3 @@ class Remedies(Teller):
             most = self.say("remedy.most", rate=human(asked * lower.at_most, "bit/s"))
         rate = human(asked * lower.factor, "bit/s")
         return self.say("remedy.same", rate=rate, asked=human(asked, "bit/s"), outcome=outcome, most=most)
-
-    def _users(self, fewer: nearest.FewerUsers, outcome: str) -> Said:
-        kept = [int(user) for user in np.flatnonzero(self.case.served) if user not in fewer.left_out]
-        few = len(kept) < len(fewer.left_out)
-        names = self.names(kept if few else fewer.left_out)
-        fewest = self.say("remedy.fewest") if fewer.is_fewest and len(fewer.left_out) > 1 else ""
-        return self.say("remedy.only" if few else "remedy.without", names=names, outcome=outcome, fewest=fewest)

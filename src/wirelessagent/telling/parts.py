@@ -17,7 +17,7 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.objective import Objective
 from wirelessagent.model.phrases import phrases
 from wirelessagent.model.units import human, percent, reliability
-from wirelessagent.telling.catalogue import Said, called, has_message, joined, listed, message
+from wirelessagent.telling.catalogue import Voice, called, has_message, listed, message
 from wirelessagent.telling.facts.case import Case
 from wirelessagent.telling.facts.nearest import shortage_of
 
@@ -29,7 +29,7 @@ _Teller = TypeVar("_Teller", bound="Teller")
 
 
 @dataclass(frozen=True)
-class Teller:
+class Teller(Voice):
     """Tells of a decision in the operator's language; what it can tell by topic derives from this."""
 
     case: Case
@@ -38,14 +38,6 @@ class Teller:
     def by(self, kind: type[_Teller]) -> _Teller:
         """Another teller of the same decision."""
         return kind(self.case, self.language)
-
-    def say(self, key: str, /, **places: object) -> Said:
-        """A message in the operator's language."""
-        return message(self.language, key, **places)
-
-    def joined(self, sentences: Iterable[str]) -> Said:
-        """Sentences one after the other; those that are empty are left out."""
-        return joined(self.language, sentences)
 
     def name(self, user: int) -> str:
         """What a user is called."""

@@ -22,12 +22,7 @@ from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Picture, Shown, Summary
 from wirelessagent.model.units import human, percent, prefixed, probability, reliability
 from wirelessagent.telling.catalogue import called, message
-from wirelessagent.telling.facts.proof import (
-    among_served,
-    predicted_metrics,
-    ungrouped_bound,
-    with_perfect_knowledge,
-)
+from wirelessagent.telling.facts import proof
 from wirelessagent.telling.parts import goal_words, name_of_figure, power_in_words
 from wirelessagent.telling.told import Table
 
@@ -93,16 +88,19 @@ class Report(Shown):
 
         Where perfect knowledge would have decided otherwise, what it would have achieved comes last.
         """
-        known = [self.predicted, self.achieved, *([] if self.perfect is None else [predicted_metrics(self.perfect)])]
+        known = [self.predicted, self.achieved]
+        known += [] if self.perfect is None else [proof.predicted_metrics(self.perfect)]
 
         def row(label: str, figure: Callable[[LinkMetrics], float], unit: str) -> tuple[str, ...]:
             return label, *("–" if one is None else human(figure(one), unit) for one in known)
 
-        rows = [*self._decided(language), *self._promises(language)]
-        rows += [row(message(language, f"label.{name}"), attrgetter(name), unit) for name, unit in _FIGURES]
-        if not name_of_figure(self.decision, language):
-            return rows
-        return [row(self._own_label(language), self._value, self.decision.unit), *rows]
+        named = bool(name_of_figure(self.decision, language))
+        return [
+            *([row(self._own_label(language), self._value, self.decision.unit)] if named else []),
+            *self._decided(language),
+            *self._promises(language),
+            *(row(message(language, f"label.{name}"), attrgetter(name), unit) for name, unit in _FIGURES),
+        ]
 
     def _own_label(self, language: str) -> str:
         """What the objective's own figure is called in a table."""
@@ -131,9 +129,8 @@ class Report(Shown):
         if self.achieved is not None:
             kept = message(language, "label.kept_of", kept=count - len(self.missed_users), served=count)
         label = message(language, "label.promised_at_head", sure=reliability(decision.problem.outage_probability))
-        promised, *perfect = (
-            human(float(one.rate_bps.sum()), "bit/s") for one in (decision, self.perfect) if one is not None
-        )
+        made = [decision] if self.perfect is None else [decision, self.perfect]
+        promised, *perfect = (human(float(one.rate_bps.sum()), "bit/s") for one in made)
         return [(label, promised, kept, *perfect)]
 
     def _value(self, metrics: LinkMetrics) -> float:
@@ -197,13 +194,14 @@ def report(decision: Decision, outcome: Outcome | None = None) -> Report:
     Where the base station knows the true channel and the decision did not, the report also has what the method, with
     its default options, would have decided with every gain known.
     """
+    achieved = None if outcome is None else outcome.achieved
     return Report(
         decision=decision,
-        predicted=predicted_metrics(decision),
-        achieved=None if outcome is None else among_served(outcome.achieved, decision),
+        predicted=proof.predicted_metrics(decision),
+        achieved=None if achieved is None else proof.among_served(achieved, decision),
         missed_users=() if outcome is None else tuple(int(user) for user in np.flatnonzero(outcome.missed)),
-        perfect=None if outcome is None else with_perfect_knowledge(decision, outcome),
-        ungrouped_bound=ungrouped_bound(decision),
+        perfect=None if outcome is None else proof.with_perfect_knowledge(decision, outcome),
+        ungrouped_bound=proof.ungrouped_bound(decision),
     )
 
 
@@ -219,9 +217,9 @@ def served_table(report: Report, language: str = "en") -> Table:
     decision, judged = report.decision, report.decision.expected_rate_bps.size > 0
     firm = "promised_at" if judged else "committed_rate" if decision.forecast is not None else "predicted_rate"
     given = decision.rate_bps if judged else decision.committed_bps
-    columns = {**_holdings(report, language), firm: _rates(given), **_achieved(report, language)}
     served = np.flatnonzero((decision.rate_bps > 0) | (given > 0))
-    return _of_users(language, "served_title", columns, decision, served.tolist())
+    columns = {**_holdings(report, language), firm: _rates(given)}
+    return _of_users(report, language, "served_title", columns, served.tolist())
 
 
 def user_table(report: Report, estimate: ChannelEstimate | None = None, language: str = "en") -> Table:
@@ -238,9 +236,11 @@ def user_table(report: Report, estimate: ChannelEstimate | None = None, language
         columns["predicted_band" if any("(" in rate for rate in banded) else "predicted_rate"] = banded
         if not judged:
             kind = "asked_for" if decision.problem.promises_rates else "committed"
-            columns[kind] = _committed(decision.committed_bps, forecast.carried, language)
-    columns |= _achieved(report, language)
-    return _of_users(language, "users_title", columns, decision, range(len(decision.user_names)))
+            columns[kind] = told = _rates(decision.committed_bps)
+            for user in np.flatnonzero(decision.committed_bps > 0).tolist():
+                sure = probability(float(forecast.carried[user]))
+                told[user] = message(language, "label.with", value=told[user], beside=sure)
+    return _of_users(report, language, "users_title", columns, range(len(decision.user_names)))
 
 
 def _holdings(report: Report, language: str, estimate: ChannelEstimate | None = None) -> Columns:
@@ -258,41 +258,28 @@ def _rates(rate_bps: FloatArray) -> list[str]:
     return [human(rate, "bit/s") for rate in rate_bps.tolist()]
 
 
-def _committed(committed_bps: FloatArray, carried: FloatArray, language: str) -> list[str]:
-    """Each user's committed rate and, where there is one, how surely it is kept."""
-    told = list[str]()
-    for rate, sure in zip(committed_bps.tolist(), carried.tolist(), strict=True):
-        value = human(rate, "bit/s")
-        told.append(message(language, "label.with", value=value, beside=probability(sure)) if rate > 0 else value)
-    return told
-
-
-def _achieved(report: Report, language: str) -> Columns:
-    """Each user's true rate, and by how much it falls short where it does; nothing where the truth is not known."""
-    if report.achieved is None:
-        return {}
-    rate_bps, told = report.achieved.user_rate_bps, _rates(report.achieved.user_rate_bps)
-    for user in report.missed_users:
-        short = percent(float(1 - rate_bps[user] / report.decision.committed_bps[user]))
-        told[user] = message(language, "label.short", value=told[user], short=short)
-    return {"achieved_rate": told}
-
-
-def _of_users(language: str, title: str, columns: Columns, decision: Decision, users: Iterable[int]) -> Table:
-    """A table with a row for each of these users."""
+def _of_users(report: Report, language: str, title: str, columns: Columns, users: Iterable[int]) -> Table:
+    """A table with a row for each of these users, and each one's true rate and what it lacks, where that is known."""
+    if report.achieved is not None:
+        rate_bps, told = report.achieved.user_rate_bps, _rates(report.achieved.user_rate_bps)
+        for user in report.missed_users:
+            short = percent(float(1 - rate_bps[user] / report.decision.committed_bps[user]))
+            told[user] = message(language, "label.short", value=told[user], short=short)
+        columns = {**columns, "achieved_rate": told}
     rows = [tuple(column[user] for column in columns.values()) for user in users]
-    return _table(language, title, tuple(columns), rows, sure=reliability(decision.problem.outage_probability or 0.0))
+    sure = reliability(report.decision.problem.outage_probability or 0.0)
+    return _table(language, title, tuple(columns), rows, sure=sure)
 
 
 def figures_of_infeasibility(decision: Decision, language: str = "en") -> Table:
     """What the request would need and what could be had, each from both sides."""
-    rows: list[tuple[str, ...]] = []
-    if decision.needed_power_w is not None:
-        need, label = decision.needed_power_w, message(language, "label.power_of_rates")
-        rows.append((label, *(power_in_words(one, language) for one in (need.at_least, need.at_most))))
-    if decision.rate_scaling is not None:
-        scale, label = decision.rate_scaling, message(language, "label.scaling_of_rates")
-        rows.append((label, *(f"{one:.3g}" if one else "–" for one in (scale.at_least, scale.at_most))))
+    rows, need, scale = list[tuple[str, ...]](), decision.needed_power_w, decision.rate_scaling
+    if need is not None:
+        powers = (power_in_words(one, language) for one in (need.at_least, need.at_most))
+        rows.append((message(language, "label.power_of_rates"), *powers))
+    if scale is not None:
+        factors = (f"{one:.3g}" if one else "–" for one in (scale.at_least, scale.at_most))
+        rows.append((message(language, "label.scaling_of_rates"), *factors))
     return _table(language, "needed_title", ("figure", "at_least", "at_most"), rows)
 
 

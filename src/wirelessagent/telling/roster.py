@@ -29,13 +29,13 @@ class Roster(Teller):
         nobody, some = users[size[users] <= 0], order[size[order] > 0]
         if rank == "least" and nobody.size:
             nothing = self.say("roster.nothing", names=self.names(nobody.tolist()), gets=self._gets(nobody))
-            return self.joined([nothing, self._next(some, of)])
+            return self.joined(nothing, self._next(some, of))
         first, what, figure = _alike(order, size), self.say(f"roster.of_{of}"), _size(float(size[order[0]]), of)
         if first.size == users.size > 1:
-            return self.joined([self.say("roster.all_same", count=users.size, what=what, size=figure)])
+            return self.say("roster.all_same", count=users.size, what=what, size=figure)
         told = {"names": self.names(first.tolist()), "gets": self._gets(first), "size": figure, "what": what}
         said = self.say(f"roster.{rank}", **told, further=self._further(first, of))
-        return self.joined([said, self._next(some[~np.isin(some, first)], of)])
+        return self.joined(said, self._next(some[~np.isin(some, first)], of))
 
     def _next(self, order: IntArray, of: str) -> str:
         """Who comes next, at the head of ``order``."""
@@ -73,22 +73,16 @@ class Roster(Teller):
         if user is not None:
             key, places = "roster.has" if own[user].size else "roster.has_none", self._places(own[user])
             return self.say(key, name=self.name(user), count=own[user].size, total=total, places=places)
-        rows = [
-            self.say("roster.row", name=self.name(each), places=self._places(some), count=some.size)
-            for each, some in enumerate(own)
-            if some.size
-        ]
+        told = ((self.name(each), self._places(some), some.size) for each, some in enumerate(own) if some.size)
+        rows = [self.say("roster.row", name=name, places=places, count=count) for name, places, count in told]
         unused = self.say("roster.unused", places=self._places(free), count=free.size) if free.size else ""
         return lines_of([self.say("roster.all", total=total), *rows, unused])
 
     def _places(self, subcarriers: IntArray) -> str:
         """Subcarriers counted from 1, neighbours together: "1–3, 7"."""
-        runs = np.split(subcarriers, np.flatnonzero(np.diff(subcarriers) > 1) + 1)
-        said = [
-            str(run[0] + 1) if run.size == 1 else self.say("roster.range", first=run[0] + 1, last=run[-1] + 1)
-            for run in runs
-            if run.size
-        ]
+        runs = np.split(subcarriers + 1, np.flatnonzero(np.diff(subcarriers) > 1) + 1)
+        ends = [(run[0], run[-1]) for run in runs if run.size]
+        said = [str(one) if one == end else self.say("roster.range", first=one, last=end) for one, end in ends]
         return self.say("text.comma").join(said)
 
     def owner(self, place: int) -> str:
@@ -112,11 +106,7 @@ class Roster(Teller):
         if user is None:
             user = int(decision.owner[place - 1]) if decision.is_usable else -1
             user = user if user >= 0 else int(estimate.gain[:, place - 1].argmax())
-        return self._at(user, place)
-
-    def _at(self, user: int, place: int) -> str:
-        estimate, name, at = self.case.estimate, self.name(user), (user, place - 1)
-        gain = float(estimate.gain[at])
+        name, at, gain = self.name(user), (user, place - 1), float(estimate.gain[user, place - 1])
         if gain <= 0:
             return self.say("gain.none_at", name=name, place=place)
         low, high = (float(db(estimate.posterior.quantile(each)[at], floor_db=-200)) for each in (0.05, 0.95))
@@ -124,9 +114,7 @@ class Roster(Teller):
         key = key if estimate.gain_variance[at] > 0 else "gain.measured"
         key = key if high - low >= _SHOWN_DB else f"{key}_close"
         how = self.say(key, low=low, high=high, method=called(self.language, estimate.method))
-        return self.joined(
-            [self.say("gain.at", name=name, place=place, gain=float(db(gain)), how=how), self._owner(*at)]
-        )
+        return self.joined(self.say("gain.at", name=name, place=place, gain=float(db(gain)), how=how), self._owner(*at))
 
     def _owner(self, user: int, subcarrier: int) -> str:
         """Who has the subcarrier, counted from 0, with which SNR there."""
@@ -152,7 +140,7 @@ class Roster(Teller):
             snr_said = self.say(key, low=min(snr), high=max(snr), count=own.size, power=power)
         elif decision.is_usable:
             snr_said = self.say("gain.snr_none", best=self._snr_db(gain.max(), 1.0))
-        return self.joined([self.say("gain.over_all", name=self.name(user), **told), snr_said])
+        return self.joined(self.say("gain.over_all", name=self.name(user), **told), snr_said)
 
     def _snr_db(self, gain: float, power_w: float) -> float:
         """p g/(N0 B) in dB, before the coding gap."""
@@ -176,12 +164,12 @@ class Accounts(Teller):
         """What a user, from 0, has and why, in a paragraph."""
         found = account(self.case, user)
         losses = self._loss(found.losses[0]) if found.losses else []
-        return self.joined([self._head(found), *self._served(found), *losses, self._promise(found)])
+        return self.joined(self._head(found), *self._served(found), *losses, self._promise(found))
 
     def share(self, user: int) -> str:
         """What a user has, in a few sentences."""
         found = share(self.case, user)
-        return self.joined([self._head(found), *self._served(found)])
+        return self.joined(self._head(found), *self._served(found))
 
     def newcomer(self) -> str:
         """What one more user would bring: the one of those left out with whom the value is best."""
@@ -190,30 +178,27 @@ class Accounts(Teller):
 
     def _head(self, found: Account) -> str:
         case, total = self.case, self.case.decision.total_power_w
+        rate, due = human(found.rate_bps, "bit/s"), found.promised_bps > 0 and _exactly(found)
+        rate = self.say(f"account.exactly_{case.problem.firmness}", rate=rate) if due else rate
         said = self.say(
-            f"account.{found.standing}", name=self.name(found.user), rate=self._rate(found),
+            f"account.{found.standing}", name=self.name(found.user), rate=rate,
             power=human(found.power_w, "W"), share=percent(found.power_w / total if total > 0 else 0.0),
-            count=found.subcarriers, total=case.decision.owner.size,
-            reason=self.why(case.decision),
+            count=found.subcarriers, total=case.decision.owner.size, reason=self.why(case.decision),
             places=case.form.start.size - 1, users=int(np.count_nonzero(case.form.weight > 0)),
         )  # fmt: skip
-        return said if found.included is None else self.joined([said, self._included(found)])
+        return self.joined(said, self._included(found))
 
     def _included(self, found: Account) -> str:
+        """What a user who is left out would get and bring; empty of any other."""
         included = found.included
-        assert included is not None
+        if included is None:
+            return ""
         if not included.is_usable:
             return self.say("account.included_none", reason=self.why(included))
         rate = human(float(included.rate_bps[found.user]), "bit/s")
         power = human(float(included.power_w[included.owner == found.user].sum()), "W")
         value, before = human(included.value, included.unit), self.worth(self.case.decision.value)
         return self.say("account.included", rate=rate, power=power, figure=self.figure, value=value, before=before)
-
-    def _rate(self, found: Account) -> str:
-        """What a user gets, as what it must get where it is no more than that."""
-        rate = human(found.rate_bps, "bit/s")
-        due = found.promised_bps > 0 and _exactly(found)
-        return self.say(f"account.exactly_{self.case.problem.firmness}", rate=rate) if due else rate
 
     def _served(self, found: Account) -> list[str]:
         """How sure a user's rate is, what it was promised, and on what it rests; nothing of who has none."""
@@ -238,18 +223,16 @@ class Accounts(Teller):
         """Where a user lost, by how much, and how sure that is."""
         behind, winner = abs(loss.behind_db), self.name(loss.winner)
         key = "account.tie" if behind < _TIE_DB else "account.behind" if loss.behind_db > 0 else "account.more"
-        said: list[str] = [
-            self.say(key, behind=behind, place=place(loss.first, loss.last, self.language), winner=winner)
-        ]
+        said = self.say(key, behind=behind, place=place(loss.first, loss.last, self.language), winner=winner)
         if key != "account.behind":
-            return said
+            return [said]
         if np.isnan(loss.chance):
-            return [*said, self.say("account.gain_measured")]
+            return [said, self.say("account.gain_measured")]
         if loss.repaired and max(abs(loss.low_db), abs(loss.high_db)) < _SHOWN_DB:
-            return [*said, self.say("account.gain_close")]
+            return [said, self.say("account.gain_close")]
         kind = "account.gain_repaired" if loss.repaired else "account.gain_noisy"
         chance = percent(loss.chance) if loss.chance > 0 else "< 0.1 %"
-        return [*said, self.say(kind, low=loss.low_db, high=loss.high_db, chance=chance)]
+        return [said, self.say(kind, low=loss.low_db, high=loss.high_db, chance=chance)]
 
     def _promise(self, found: Account) -> str:
         """What a small promise would give a user who has nothing, and cost."""

@@ -100,11 +100,10 @@ def account(case: Case, user: int) -> Account:
     """The account of a user, from 0."""
     plain = share(case, user)
     standing = plain.standing
-    found = bids(case) if standing in ("served", "outbid", "no_weight") else None
     also = case.named([*np.flatnonzero(case.served).tolist(), user])
     return dataclasses.replace(
         plain,
-        losses=() if found is None else _losses(case, found, user),
+        losses=_losses(case, bids(case), user) if standing in ("served", "outbid", "no_weight") else (),
         included=case.solved(case.but(users=also)) if standing == "left_out" else None,
         promise=promise_step(case, user, PROMISE_BPS) if standing in ("outbid", "no_weight", "no_promise") else None,
     )
@@ -156,22 +155,21 @@ def _losses(case: Case, found: Bids, user: int) -> tuple[Loss, ...]:
     behind = np.where((found.owner == user) | (found.owner < 0), np.inf, found.behind_db[user])
     distance = np.abs(behind) if (found.owner == user).any() else behind
     nearest = [int(group) for group in np.argsort(distance, kind="stable")[:_LOSSES] if np.isfinite(behind[group])]
-    return tuple(_loss(case, found, user, group) for group in nearest)
-
-
-def _loss(case: Case, found: Bids, user: int, group: int) -> Loss:
-    inside = np.arange(int(found.start[group]), int(found.start[group + 1]))
-    behind, estimate = float(found.behind_db[user, group]), case.estimate
-    unsure = bool((estimate.gain_variance[user, inside] > 0).any())
-    low_db, high_db, chance = _spread(case, user, inside, behind) if unsure else (0.0, 0.0, np.nan)
-    return Loss(
-        first=int(inside[0]), last=int(inside[-1]), winner=int(found.owner[group]), behind_db=behind,
-        repaired=bool(estimate.repaired[user, inside].any()), low_db=low_db, high_db=high_db, chance=chance,
-    )  # fmt: skip
+    losses = list[Loss]()
+    for group in nearest:
+        inside = np.arange(int(found.start[group]), int(found.start[group + 1]))
+        low_db, high_db, chance = _spread(case, user, inside, float(behind[group]))
+        losses.append(Loss(
+            first=int(inside[0]), last=int(inside[-1]), winner=int(found.owner[group]), behind_db=float(behind[group]),
+            repaired=bool(case.estimate.repaired[user, inside].any()), low_db=low_db, high_db=high_db, chance=chance,
+        ))  # fmt: skip
+    return tuple(losses)
 
 
 def _spread(case: Case, user: int, inside: IntArray, behind_db: float) -> tuple[float, float, float]:
     """The band of a user's true gain on a group around the one that counts, in dB, and the chance that it wins."""
+    if not (case.estimate.gain_variance[user, inside] > 0).any():
+        return 0.0, 0.0, np.nan
     counted = float(case.counted.gain[user, inside].sum())
     if counted <= 0:
         return -np.inf, np.inf, np.nan

@@ -140,9 +140,8 @@ def without_limits(case: Case) -> tuple[WithoutLimit, ...]:
     """The limits without one of which the request can be met."""
     without = {"subcarrier_max_power_w": None, "resource_block_group_size": 1, "outage_probability": None}
     stated = [limit for limit in without if limit in case.problem.constraints()]
-    loose = (case.otherwise(case.but(**{limit: without[limit]})) for limit in stated)
-    found = (WithoutLimit(limit=limit, decision=decision) for limit, decision in zip(stated, loose, strict=True))
-    return tuple(one for one in found if one.decision.is_usable)
+    loose = {limit: case.otherwise(case.but(**{limit: without[limit]})) for limit in stated}
+    return tuple(WithoutLimit(limit=limit, decision=one) for limit, one in loose.items() if one.is_usable)
 
 
 def lower_rates(case: Case) -> LowerRates | None:
@@ -281,10 +280,7 @@ def shortage_of(decision: Decision) -> Shortage | None:
     outage, channel = case.problem.outage_probability, case.counted
     if outage is not None and (case.estimate.gain_variance > 0).any():
         channel = UncertainChannel.of(case.estimate, outage).hoped_for()
-    return _shortage(NormalForm.of(Dual(), channel, case.plain, case.cell))
-
-
-def _shortage(form: NormalForm) -> Shortage | None:
+    form = NormalForm.of(Dual(), channel, case.plain, case.cell)
     users = np.flatnonzero(form.promised_nats > 0)
     if not users.size:
         return None

@@ -141,14 +141,12 @@ def predicted_metrics(decision: Decision) -> LinkMetrics:
         rate, goodput_bps=float((carried * decision.committed_bps).sum()), power_w=decision.total_power_w,
         num_subcarriers=decision.owner.size, cell=decision.cell,
     )  # fmt: skip
-    served = among_served(metrics, decision)
-    assert served is not None
-    return served
+    return among_served(metrics, decision)
 
 
-def among_served(metrics: LinkMetrics | None, decision: Decision) -> LinkMetrics | None:
+def among_served(metrics: LinkMetrics, decision: Decision) -> LinkMetrics:
     """The metrics with the fairness of those users that are to be served: who is left out on purpose is not starved."""
-    if metrics is None or decision.problem.users is None:
+    if decision.problem.users is None:
         return metrics
     return dataclasses.replace(metrics, jain_index=jain_index(metrics.user_rate_bps[decision.served]))
 
