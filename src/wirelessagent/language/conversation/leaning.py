@@ -28,6 +28,9 @@ from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.text import language_in_a_talk, normalise
 
 NONE = "none"
+LEANS = ("exempt", "figure", "less", "more", "swap", "too", "user")
+"""Labels of what no sentence of its own does."""
+
 LIKELY, SURE = 0.6, 0.85
 """How likely a line has to do something, among what it may do here: where a recogniser of sentences would ask, and
 before one is asked."""
@@ -35,14 +38,11 @@ before one is asked."""
 _UNLIKELY = 0.25
 """How likely its frame is one of an order, below which a line has to do something surely."""
 
-_LEANS = ("exempt", "figure", "less", "more", "swap", "too", "user")
-"""What no sentence of its own does."""
-
 _LONGEST, _MOST_STEPS = 80, 10
 
 
 def read_leaning(line: Line, needed: float, among: Sequence[str] = ()) -> Intent | None:
-    """What a short line does, ``among`` some labels where they are given; None where nothing is so likely as needed.
+    """What a short line does, ``among`` some labels or all; None where none of them is so likely as needed.
 
     A label that the talk does not bear out, such as another user where none was named, is left out of account.
     """
@@ -53,14 +53,14 @@ def read_leaning(line: Line, needed: float, among: Sequence[str] = ()) -> Intent
     tokens = tokens_of(line, language, lenient=True)
     if not tokens or any("denial" in token.classes for token in tokens):
         return None
-    early = needed == SURE
-    order = shipped_order_model().probability(frame_of(line.sentence))
-    needed = needed if order >= _UNLIKELY else SURE
-    unknown = any("unknown" in token.classes for token in tokens)
+    labels = {*(among or _READERS)}
+    if not any("unknown" in token.classes for token in tokens):
+        labels -= {"undo"}  # which has a closed grammar of its own
+    is_order = shipped_order_model().probability(frame_of(line.sentence)) >= _UNLIKELY
     left, likely = 1.0, shipped_model(TALK_FILE).probabilities(*seen(line, tokens, language))
     for label in sorted(likely, key=lambda label: -likely[label]):
-        other = label not in (among or (_LEANS if early else _READERS)) or (label == "undo" and not unknown)
-        if label == NONE or other or likely[label] < (SURE if label == "undo" else needed) * left:
+        enough = likely[label] >= (needed if is_order and label != "undo" else SURE) * left
+        if label not in labels or not enough:
             return None
         intent = _read(label, line, tokens, language)
         if intent is not None and intent.kind in ("allocate", "command"):
@@ -72,7 +72,7 @@ def read_leaning(line: Line, needed: float, among: Sequence[str] = ()) -> Intent
 def read_exempt(line: Line) -> Intent | None:
     """ "User 4 doesn't need it", behind what everybody is promised: served without it, and not left out."""
     last = [act for act in line.context.acts if isinstance(act, Limit) and act.kind in UNITS["rate"]]
-    return read_leaning(line, LIKELY, ("exempt",)) if any(not isinstance(act.whom, Named) for act in last) else None
+    return read_leaning(line, LIKELY, ["exempt"]) if any(not isinstance(act.whom, Named) for act in last) else None
 
 
 def _read(label: str, line: Line, tokens: Sequence[Token], language: str) -> Intent | None:
