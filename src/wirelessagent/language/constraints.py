@@ -16,7 +16,7 @@ from wirelessagent.language.intent import Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Notes, Reading
-from wirelessagent.language.text import Phrases
+from wirelessagent.language.text import Phrases, overlaps
 from wirelessagent.language.whole_cell import doubt_parts, take_blocks, take_counts, take_share
 
 _STEP = Phrases(
@@ -92,7 +92,7 @@ class _Reader:
         read = [(figure.start, figure.end) for figure in judged.figures]
         settled = [*notes.counted, *named, *read, *self._allotments.spans, *notes.spoken_for]
         for figure in notes.quantities:
-            if figure.kind != "bare" or any(start < figure.end and figure.start < end for start, end in settled):
+            if figure.kind != "bare" or overlaps((figure.start, figure.end), settled):
                 continue
             notes.masked.append((figure.phrase_start, figure.phrase_end))
             notes.doubt("unit_missing", text=figure.text)

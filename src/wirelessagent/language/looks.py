@@ -19,9 +19,9 @@ from wirelessagent.language.mentions import Mention, mentions, merged
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity, QuantityKind
 from wirelessagent.language.readings import Reading, readings
+from wirelessagent.language.text import Span, overlaps
 from wirelessagent.language.units import unit_at
 
-Span = tuple[int, int]
 BORROWING: Mapping[str, QuantityKind] = {
     "rate": "rate", "power": "power", "multiple": "rate", "outage": "ratio", "reliability": "ratio",
 }  # fmt: skip
@@ -62,10 +62,10 @@ class Look:
 
 
 def first_look(
-    plain: str, quantities: Sequence[Quantity], names: Sequence[str] = (), taken: Sequence[tuple[int, int]] = ()
+    plain: str, quantities: Sequence[Quantity], names: Sequence[str] = (), taken: Sequence[Span] = ()
 ) -> Look:
     """A sentence before anybody asked what its numbers are; ``taken`` spans are read elsewhere."""
-    clear = [q for q in quantities if not any(start < q.end and q.start < end for start, end in taken)]
+    clear = [q for q in quantities if not overlaps((q.start, q.end), taken)]
     stated = [q for q in clear if q.kind not in ("bare", "other")]
     spans = [(q.start, q.end) for q in stated]
     found = mentions(plain, names, [*spans, *taken])
@@ -73,9 +73,7 @@ def first_look(
     loose = loose_numbers(plain, covered)
     able = any(figure.kind in ("rate", "power") for figure in stated)
     alone = list(ones(plain, [*covered, *((n.start, n.end) for n in loose)])) if able else []
-    unread = [
-        q for q in clear if q.kind == "other" and not any(q.start < end and start < q.end for start, end in spans)
-    ]
+    unread = [q for q in clear if q.kind == "other" and not overlaps((q.start, q.end), spans)]
     return Look(
         plain=plain, quantities=quantities, figures=stated, unread=unread, mentions=found, loose=loose, ones=alone
     )
@@ -95,11 +93,10 @@ def second_look(look: Look, users: Sequence[Number], roles: Mapping[Number, str]
         return look
     figures = sorted([*look.figures, *borrowed.values()], key=lambda figure: figure.start)
     settled = [(number.start, number.end) for number in [*borrowed, *users]]
-    return Look(
-        plain=look.plain,
-        quantities=look.quantities,
+    return dataclasses.replace(
+        look,
         figures=figures,
-        unread=[q for q in look.unread if not any(q.start < end and start < q.end for start, end in settled)],
+        unread=[q for q in look.unread if not overlaps((q.start, q.end), settled)],
         mentions=_with_numbers(look.plain, look.mentions, users) if users else look.mentions,
         loose=[number for number in look.loose if number not in borrowed and number not in users],
         ones=[],
@@ -118,7 +115,7 @@ def _with_numbers(plain: str, found: Sequence[Mention], users: Sequence[Number])
 def ones(plain: str, taken: Sequence[Span]) -> Iterator[Number]:
     """Every "one" or "half" of a normalised text that stands alone, where no ``taken`` span is: no article is one."""
     for match in _ONE.finditer(plain):
-        if not any(match.start() < end and start < match.end() for start, end in taken):
+        if not overlaps(match.span(), taken):
             part = match["part"]
             value = Decimal(1) if part is None else Decimal(_PARTS[part.lower().split()[-1][:4]])
             yield Number(value=value, start=match.start(), end=match.end(), form="words")

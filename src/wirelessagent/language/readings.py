@@ -8,7 +8,7 @@ from decimal import Decimal
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
 from wirelessagent.language.ratios import nines, odds
-from wirelessagent.language.text import USER_NOUN, has_chinese
+from wirelessagent.language.text import USER_NOUN, has_chinese, overlaps
 from wirelessagent.language.units import Unit, unit_at
 from wirelessagent.language.word_tables import words_of
 
@@ -59,7 +59,7 @@ def readings(plain: str) -> list[Reading]:
     shares = (each for each in odds(plain) if _COUNTED.match(plain, each[2]) is None)
     found = [_as_share(*each) for each in (*nines(plain), *shares)]
     for number in numbers(plain):
-        if not any(each.start < number.end and number.start < each.end for each in found):
+        if not overlaps((number.start, number.end), [(each.start, each.end) for each in found]):
             found.append(_read(plain, number))
     return sorted(found, key=lambda reading: reading.start)
 

@@ -40,6 +40,17 @@ def words_of(subject: str, section: str, *names: str) -> tuple[str, ...]:
     return tuple(sorted(found, key=len, reverse=True))
 
 
+def either(subject: str, section: str, name: str) -> str:
+    """A regular expression for any of those that the files of all languages list by a name, words being whole.
+
+    >>> either("figures", "users", "articles").startswith(r"\\b(?:der|"), either("figures", "users", "unheard of")
+    (True, '(?!)')
+    """
+    listed = {language: table(subject, language).get(section, {}).get(name, ()) for language in languages_with(subject)}
+    spaced = "|".join(dict.fromkeys(each for language, found in listed.items() if language != "zh" for each in found))
+    return "|".join([*([rf"\b(?:{spaced})\b"] if spaced else []), *listed.get("zh", ())]) or "(?!)"
+
+
 def written(subject: str, language: str, pattern: str) -> str:
     """A regular expression with what ``[parts]`` of a file says in the place of each ``{part}``."""
     return _PART.sub(lambda part: written(subject, language, table(subject, language)["parts"][part[1]]), pattern)
