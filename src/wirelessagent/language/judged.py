@@ -25,7 +25,8 @@ from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.text import is_within
 from wirelessagent.language.whole_cell import COUNTED_USERS
 
-_Answer, _Item = TypeVar("_Answer"), TypeVar("_Item", Quantity, Number)
+_Answer = TypeVar("_Answer")
+_Item = TypeVar("_Item", Quantity, Number)
 # The share of those who have a rate or a weight, among all users named and among those of each role.
 _OWN, _OWNS = 0.7, {"users": 0.4, "given": 0.95, "unclear": 0.2}
 _OWNS_ELSE = 0.02

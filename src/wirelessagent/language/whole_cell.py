@@ -84,7 +84,8 @@ _SHARES = {
 }
 _SHARE_WORDS = "|".join(sorted(_SHARES, key=len, reverse=True))
 _SHARE = Phrases(
-    rf"(?<!save )(?<!by )(?<!saving )(?<!cut )(?:\b(?:(?:a|one|la|un|ein|einem) )?(?P<word>{_SHARE_WORDS})\b|"
+    r"(?<!save )(?<!by )(?<!saving )(?<!cut )"
+    rf"(?:\b(?:(?:a|one|un|ein|einem) (?![hm])|la (?=m))?(?P<word>{_SHARE_WORDS})\b|"
     r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:\.[0-9]+)?)\s*(?:%|percent|per cent|prozent|por ciento|pour cent))"
     rf"{_FULL}\s*{_POWER}|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_word>{_SHARE_WORDS})|"
     r"(?<![0-9.])(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|百分之(?P<hundredths>[0-9]{1,3}))的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
