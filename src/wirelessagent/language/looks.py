@@ -8,7 +8,7 @@ the model of roles says (``judged``); here they get their unit and their value.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
@@ -81,8 +81,7 @@ def first_look(
 
 def with_strangers(look: Look, names: Sequence[Span]) -> Look:
     """The same with those among the users mentioned who are called by ``names`` that nobody is known by."""
-    called = [Mention(role="named", users=(look.plain[a:b],), start=a, end=b) for a, b in names]
-    found = merged(look.plain, sorted([*look.mentions, *called], key=lambda mention: mention.start))
+    found = _with_named(look, ((look.plain[start:end], (start, end)) for start, end in names))
     return dataclasses.replace(look, mentions=found)
 
 
@@ -97,19 +96,18 @@ def second_look(look: Look, users: Sequence[Number], roles: Mapping[Number, str]
         look,
         figures=figures,
         unread=[q for q in look.unread if not overlaps((q.start, q.end), settled)],
-        mentions=_with_numbers(look.plain, look.mentions, users) if users else look.mentions,
+        mentions=_with_named(look, ((str(int(n.value or 0)), (n.start, n.end)) for n in users))
+        if users
+        else look.mentions,
         loose=[number for number in look.loose if number not in borrowed and number not in users],
         ones=[],
     )
 
 
-def _with_numbers(plain: str, found: Sequence[Mention], users: Sequence[Number]) -> list[Mention]:
-    """Mentions, and numbers that are users as well, from left to right, the items of a list made one."""
-    bare = [
-        Mention(role="named", users=(str(int(number.value or 0)),), start=number.start, end=number.end)
-        for number in users
-    ]
-    return merged(plain, sorted([*found, *bare], key=lambda mention: mention.start))
+def _with_named(look: Look, named: Iterable[tuple[str, Span]]) -> list[Mention]:
+    """The mentions, and users where they are named as well, from left to right, the items of a list made one."""
+    more = [Mention(role="named", users=(user,), start=start, end=end) for user, (start, end) in named]
+    return merged(look.plain, sorted([*look.mentions, *more], key=lambda mention: mention.start))
 
 
 def ones(plain: str, taken: Sequence[Span]) -> Iterator[Number]:

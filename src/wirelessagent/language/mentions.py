@@ -74,15 +74,9 @@ _EVERYBODY = Phrases(
     rf"{either('figures', 'users', 'everybody')}|\b(?:(?:per|a|/)\s?(?:{_EACH}|capita)|(?:por|par|pro|je) {_EACH})\b"
 )
 _PRONOUN = Phrases(either("figures", "users", "pronouns"))
-_EVERY_SECOND = Phrases(  # "odd-numbered users", "Nutzer mit gerader Nummer"; which ones they are, the cell's size says
-    rf"\b(?:the )?(?:(?P<odd>odd)|even)(?:[- ]numbered)? (?:{_NOUN}|ones|numbers)\b|"
-    rf"\b{_NOUN} with (?:an )?(?:(?P<odd_id>odd)|even) (?:numbers?|ids?|index|indices)\b|"
-    rf"\b(?:l[oa]s )?{_NOUN} (?:de número |con número )?(?:(?P<impar>impar(?:es)?)|par(?:es)?)\b|"
-    rf"\b(?:les )?{_NOUN} (?:de numéro |à numéro )?(?:(?P<impair>impaire?s?)|paire?s?)\b|"
-    rf"\b(?:die |den )?(?P<ungerade>un)?gerad(?:zahlig)?(?:e[nr]?)? {_NOUN}\b|"
-    rf"\b(?:die |den )?{_NOUN} mit (?P<ungerader>un)?gerade[nr]? nummern?\b|"
-    r"(?:编号(?:为|是))?(?:(?P<dan>单数号?|奇数号?|单号)|双数号?|偶数号?|双号)的?(?:用户|终端)",
-    marks="odd even par pair gerad 单 奇 双 偶",
+_ODD, _EVEN = (  # "odd-numbered users", "Nutzer mit gerader Nummer"; which ones they are, the cell's size says
+    Phrases(either("figures", "users", name, noun=_NOUN), marks="odd even par pair gerad 单 奇 双 偶")
+    for name in ("odd", "even")
 )
 JOINT = deferred(
     rf"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|{_JOINS}|\s)+\s*(?:(?:also|{_ARTICLES})\s+)?(?:l'|à\s+l')?"
@@ -92,6 +86,8 @@ LISTED = deferred(  # between the figures of a list
     r"respectively))\s*"
 )
 _RANGE = deferred(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
+_UP_TO = deferred(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*")
+_ITEM = deferred(rf"(?i)[0-9]+|\b(?:{'|'.join(_ORDINALS)})\b|{_WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
 _GOES_ON = deferred(r"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)")
 
@@ -129,9 +125,10 @@ def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
 
 def _every_second(plain: str, count: int) -> Iterator[Mention]:
     """Users by an odd or an even number, where it is known how many there are."""
-    for match in _EVERY_SECOND.finditer(plain) if count > 1 else ():
-        users = tuple(str(number) for number in range(1 if match.lastgroup else 2, count + 1, 2))
-        yield Mention(role="named", users=users, start=match.start(), end=match.end())
+    for first, pattern in ((1, _ODD), (2, _EVEN)) if count > 1 else ():
+        for match in pattern.finditer(plain):
+            users = tuple(str(number) for number in range(first, count + 1, 2))
+            yield Mention(role="named", users=users, start=match.start(), end=match.end())
 
 
 @functools.lru_cache(maxsize=64)
@@ -155,7 +152,7 @@ def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
     """Where the list ends when its last number belongs to a unit: "users 1 and 2, 10 W"."""
     if group in ("ordinal", "short", "symbol", "rate_of", "nth"):
         return match.end()
-    parts = list(re.finditer(rf"(?i)[0-9]+|{_WORD_NUMBER}\b|[一二三四五六七八九十]+", match.group(group)))
+    parts = list(_ITEM.finditer(match.group(group)))
     offset = match.start(group)
     if parts and unit_at(plain, offset + parts[-1].end()) is not None:
         return offset + parts[-2].end() if len(parts) > 1 else offset
@@ -166,18 +163,12 @@ def _listed(text: str) -> tuple[str, ...]:
     """The users of a list such as "1, 2 and 5" or "1 to 4"."""
     users: list[str] = []
     previous, previous_end = "", 0
-    for part in re.finditer(
-        rf"(?i)[0-9]+|\b(?:{'|'.join(_ORDINALS)})\b|{_WORD_NUMBER}\b|[一二三四五六七八九十]+", text
-    ):
+    for part in _ITEM.finditer(text):
         user = _number(part.group().lower())
         if not user:
             continue
-        between = text[previous_end : part.start()]
-        if (
-            previous
-            and re.fullmatch(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*", between)
-            and int(previous) < int(user) < int(previous) + 1000
-        ):
+        spans = previous and _UP_TO.fullmatch(text, previous_end, part.start())
+        if spans and int(previous) < int(user) < int(previous) + 1000:
             users.extend(str(number) for number in range(int(previous) + 1, int(user)))
         users.append(user)
         previous, previous_end = user, part.end()
@@ -187,10 +178,9 @@ def _listed(text: str) -> tuple[str, ...]:
 def _number(word: str) -> str:
     if word.isdigit():
         return str(int(word))
-    if word in _ORDINALS or word in _NUMBER_WORDS:
-        return _ORDINALS.get(word) or _NUMBER_WORDS[word]
-    value = chinese_value(word)
-    return str(int(value)) if value is not None else ""
+    known = _ORDINALS.get(word) or _NUMBER_WORDS.get(word)
+    value = chinese_value(word) if known is None else None
+    return known or ("" if value is None else str(int(value)))
 
 
 def _collective(plain: str) -> Iterator[Mention]:

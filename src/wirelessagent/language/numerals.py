@@ -14,7 +14,7 @@ from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import Spoken, cardinals, languages_of, listed, spoken
-from wirelessagent.language.text import USER_NOUN, Phrases, language_of
+from wirelessagent.language.text import NUMBERED_USERS, Phrases, language_of
 from wirelessagent.language.units import unit_at
 
 _HALF = Decimal("0.5")
@@ -55,7 +55,7 @@ _AS_FEW = deferred(r"(?i)\b(?:as|so|too|tan|aussi|zu|very|muy|trop)\s+$")
 _EACH = (
     r"(?<!every )(?<!each )(?<!per )(?<!all )(?<!cada )(?<!por )(?<!chaque )(?<!par )(?<!jeder )(?<!jeden )(?<!pro )"
 )
-_NAMED = deferred(rf"(?i){_EACH}\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|y|et|und|&|/)\s*)*$")
+_NAMED = deferred(rf"(?i){_EACH}{NUMBERED_USERS}")
 _PLURAL = deferred(
     r"(?i)\b(?:users|ues|subscribers|customers|clients|devices|phones|usuarios|abonados|utilisateurs|"
     r"abonnés|usagers|kunden)\s*$"

@@ -14,6 +14,7 @@ from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.stated import Notes
 from wirelessagent.language.text import Phrases, Span, is_within, overlaps
+from wirelessagent.language.word_tables import either
 
 _CARRIER = (
     r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|(?:unter|sub)träger[ns]?)"
@@ -39,21 +40,7 @@ COUNTED_USERS = deferred(
     r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
     r"设备|传感器|子载波)"
 )
-_SOME_USERS = Phrases(
-    r"\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
-    r"(?:部分|一些|某些|某个)用户|"
-    r"\b(?:odd|even)(?:[- ]numbered)?\s+users?\b|"
-    r"\b(?:except|but|without)\s+(?:for\s+)?the\s+(?:last|first)(?:\s+(?:one|two|three|few|user|users))?(?=\s*(?:$|[,.;:!]))|"
-    r"\b(?:leav\w+|drop\w*|exclud\w+|kick\w*|cut)\s+(?:out\s+)?(?:the\s+)?users\s+(?:out\s+)?(?:who|that|which|with|whose)\b|"
-    r"\busers?\s+[0-9]+\s+(?:and|or)\s+(?:up|above|higher|beyond|onwards?|more)\b|"
-    r"\b(?:users?|ues?)\s+[-−][0-9]+|用户\s*[-−][0-9]+|"
-    r"(?:单|双|奇数|偶数)号?(?:的)?用户|(?:一半|半数)的?用户|[0-9]号(?:及|和)?(?:以后|以上|往后)|"
-    r"[^,\uff0c。0-9]{1,8}的用户都?(?:踢|去掉|不服务|排除|剔除)|"
-    r"\bserv(?:e|ing) (?:(?:nobody|no one)(?!\s+(?:else|but|except|apart|other))|"
-    r"none of (?:them|the users)|no users?(?! (?:below|under|above|with)))\b|"
-    r"\bleav(?:e|ing) (?:everyone|everybody|all users|all of them) out\b|"
-    r"(?:所有|全部|全体)(?:用户|人|终端)(?:一个)?(?:都|全)?不(?:服务|带|管)|(?:一个|谁)(?:用户)?都不(?:服务|带|管)"
-)
+_SOME_USERS = Phrases(either("figures", "users", "some"))
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
 _HALVED = Phrases(
     r"\bby (?:a )?(?:half|third|quarter)\b|"
