@@ -19,11 +19,7 @@ from wirelessagent.language.word_tables import either
 _CARRIER = (
     r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|(?:unter|sub)träger[ns]?)"
 )
-_CHANGE_BEFORE = deferred(
-    r"(?i)(?:\b(?:by|save|saves|saving|cut|another|extra|additional|reduce|(?<!au )plus|increase)\s*(?:about|"
-    r"around|roughly)?|"
-    r"(?:减少|降低|节省|省下?|增加|提高|再加|(?<![最至])多给|下降|提升|升高|(?<=[功速]率)[降减升增加])了?)\s*$"
-)
+_CHANGE_BEFORE = deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$")
 _ALL = deferred(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
 _DESCRIBED_BEFORE = deferred(
     r"(?i)(?:^|\b(?:the|our|these|those|my|with|have|has|of|are|serve|serving|and|among|between|total|per|over|"
@@ -42,12 +38,7 @@ COUNTED_USERS = deferred(
 )
 _SOME_USERS = Phrases(either("figures", "users", "some"))
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
-_HALVED = Phrases(
-    r"\bby (?:a )?(?:half|third|quarter)\b|"
-    rf"\b(?:half (?:the|of the|as much)|halve)\s+{_OF_OURS}|"
-    r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)",
-    marks="half halve third quarter 减半 一半 翻倍",
-)
+_HALVED = Phrases(either("figures", "one", "halved", ours=_OF_OURS), marks="half halve third quarter 减半 一半 翻倍")
 _OTHERS_HALVED = Phrases(
     r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)",
     marks="一半 减半 翻倍 双倍 加倍",
