@@ -50,9 +50,8 @@ def _any_of(words: list[str]) -> str:
 
 
 _WORD = deferred(r"[A-Za-zÀ-ÿ]++")
-_BETWEEN = frozenset(
-    [*_words("between"), *_POWER_NOUNS, *_RATE_NOUNS]
-)  # what may stand between a comparator and its figure
+# What may stand between a comparator and its figure.
+_BETWEEN = frozenset([*_words("between"), *_POWER_NOUNS, *_RATE_NOUNS])
 _SIGNS = "|".join(sorted((word for word in _BETWEEN if not _WORD.match(word)), key=len, reverse=True))
 _GAP = deferred(rf"(?:\s|{_WORD.pattern}|{_SIGNS}){{0,16}}$")
 _FEW_WORDS = rf"(?:(?!(?:and|y|et|und)\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"

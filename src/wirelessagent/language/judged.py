@@ -38,8 +38,7 @@ _WEIGHTS = deferred(  # what follows are weights, whatever else they may look li
 )
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
 _SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.7, 0.6, 0.6, 0.6, 0.5
-_LIKELY = 0.4
-_PERHAPS = 0.2
+_LIKELY, _PERHAPS = 0.4, 0.2
 _Roles = Mapping[Number, Mapping[str, float]]
 """How likely each number has each role."""
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w"), 4, 0.01

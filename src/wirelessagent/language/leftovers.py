@@ -16,6 +16,7 @@ from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import Number, factors, numbers
 from wirelessagent.language.text import Phrases, Span, overlaps
 from wirelessagent.language.units import unit_at
+from wirelessagent.language.word_tables import either
 
 # Generations, picture sizes and the like: they look like figures and describe.
 _NAMES = deferred(
@@ -50,10 +51,7 @@ _VAGUE = deferred(
     r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
     r"(?<=a )number)\s+(?:of\s+)?"
 )
-_SETS_A_LIMIT = deferred(
-    r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max|min|maximum|minimum|exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥]|"
-    r"(?:功率|速率|网速|上限|下限|预算|封顶)(?:为|是|到|在|用)?)\s*$"
-)
+_SETS_A_LIMIT = deferred(rf"(?i)(?:{either('figures', 'bounds', 'names')}|[=:<>≤≥])\s*$")
 _UNIT_OF_ANOTHER_KIND = deferred(
     r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"
 )
@@ -88,7 +86,7 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
     '43 dB'
     """
     known = [*covered, *idioms(plain)]
-    places = sorted(place for place in _numbers_at(plain) if not _inside(place, known))
+    places = sorted(place for place in _numbers_at(plain) if not overlaps((place, place + 1), known))
     if not places:
         return None
     match = _TO_THE_RIGHT.match(plain, places[0])
@@ -160,7 +158,3 @@ def _is_figure(plain: str, number: Number) -> bool:
     if number.form in ("words", "foreign"):
         return plain[number.start : number.end].lower() not in _IDIOMS
     return number.form == "chinese" and _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None
-
-
-def _inside(place: int, spans: Sequence[Span]) -> bool:
-    return any(start <= place < end for start, end in spans)

@@ -28,11 +28,7 @@ _AFTER_BARE = deferred(
     r"with|at|but|then|now|thanks|"
     r"to|in|on|the|while|when|apiece)\b|(?:de\s+)?(?:probabilit|outage|wahrscheinlich)))"
 )
-_NAMES = deferred(
-    r"(?i:(?:\b(?:users?|ues?|slots?|subcarriers?|channels?|carrier|cells?|number|numbers|no\.?|and|to|release|"
-    r"version|mode"
-    r"|device|sensor|band|seed|step|case|at|day|room)|[#№])\s*$)|(?:用户|子载波|信道|小区|第|方案|模式|时隙)\s*$"
-)
+_NAMES = deferred(rf"(?i)(?:{either('figures', 'named', 'numbered')}|\bno\.|[#№])\s*$")
 _USERS = deferred(rf"(?i){NUMBERED_USERS}")
 _CHINESE_COUNTED = deferred(
     r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
@@ -199,13 +195,12 @@ def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> Quanti
         return None
     if reading.number.form == "chinese" or _CHINESE_COUNTED.match(plain, reading.end):
         return None
-    named = _is_name(plain, reading.start)
     glued = (
         GENERATION.match(plain, reading.start) is not None or plain[max(0, reading.start - 1) : reading.start] == "/"
     )
     if glued or plain[reading.end : reading.end + 1] == "/":
         return "other" if bounded else None
-    if named:
+    if _is_name(plain, reading.start):
         return None
     if _AFTER_BARE.match(plain, reading.end) or has_chinese(plain[reading.end :].lstrip()[:1]):
         return "bare"

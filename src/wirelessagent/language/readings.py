@@ -17,7 +17,7 @@ from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
 from wirelessagent.language.text import USER_NOUN, Phrases, has_chinese, overlaps
 from wirelessagent.language.units import Unit, unit_at
-from wirelessagent.language.word_tables import words_of
+from wirelessagent.language.word_tables import either, words_of
 
 _SUFFIX = deferred(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9]|/(?!\s?(?:users?|ue|person|head)\b))|m(?![A-Za-z0-9/])")
 _CHINESE_SUFFIX = deferred(
@@ -30,10 +30,7 @@ _APIECE_AFTER = deferred(  # what is given to each with a mere "k" or "M" is a r
     rf"für\s+(?:alle|jeden?)|(?:pro|je)\s+{_WHO})(?![\w-])"
 )
 _APIECE_BEFORE = deferred(
-    r"(?i)\b(?:everyone|everybody|each(?:\s+(?:user|one|of\s+them))?|all\s+users|every\s+user|per\s+user|todos|cada\s+usuario|"
-    r"tous|chacun|chaque\s+utilisateur|alle|jede[rnm]?(?:\s+nutzer)?)\s*(?:(?:should|must|to|has|have|had|get|gets|got|getting|"
-    r"needs?|receives?|with|wants?|at|least|most|a|minimum|min|of|tenga|tienen?|recib\w+|al|menos|au|moins|reçoit|reçoivent|ait|"
-    r"avoir|bekommt|bekommen|mindestens|soll|sollen|:)\s*)*$|"
+    rf"(?i)(?:{either('figures', 'users', 'given')})\s*(?:(?:{either('figures', 'users', 'gets')}|:)\s*)*$|"
     rf"\b(?:cap|limit|throttle|hold|keep|give|grant|guarantee|promise)\s+{USER_NOUN}\s*[0-9]{{1,3}}\s+(?:at|to|below|under|"
     r"above|over|a|at\s+least|at\s+most)?\s*$|\br_?(?:min|max)\s*(?:[:=]|of|is|≥|≤|<=|>=)?\s*$"
 )
@@ -64,10 +61,7 @@ _WHOLES = {
     **dict.fromkeys(("a hundred", "one hundred"), 100),
     "a thousand": 1000,
 }
-_ORDINALS = {
-    "zehnte": 10, "zwanzigste": 20, "fünfzigste": 50, "hundertste": 100, "tausendste": 1000, "tenth": 10,
-    "twentieth": 20, "fiftieth": 50, "hundredth": 100, "thousandth": 1000,
-}  # fmt: skip
+_ORDINALS = {"zehnte": 10, "zwanzigste": 20, "fünfzigste": 50, "hundertste": 100, "tausendste": 1000}
 _EVENT = (
     r"(?:time|miss(?:es)?|fail(?:ure)?|outage|drop|packet|transmission|attempt|slot|night|day|case|coupure|raté|perte|"
     r"échec|fois|panne|paquet|fallo|corte|vez|veces|pérdida|error|interrupción|ausfall|ausfälle|aussetzer|fehler|mal|"

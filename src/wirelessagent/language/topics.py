@@ -26,11 +26,10 @@ _AS = deferred(
     r"(?i)\bexport\s+(?:(?:it|this|that|everything|the\s+\w+)\s+)?(?:as|to|in|into)\s+([a-z][\w.-]*)[\s.!?]*$|"
     r"导出(?:为|成|到)\s*([A-Za-z][\w.-]*)\s*$"
 )
-_NO_TOOL, _NO_FORMAT = (deferred(f"(?i){either('figures', 'asked', name)}") for name in ("no_tool", "no_format"))
 _MORE = deferred(r"(?i)\b(?:more|extra|additional|further|another)\s+")
-_FEWER, _EACH, _MORE_USERS, _HALF_MISSING, _GONE = (
+_FEWER, _EACH, _MORE_USERS, _HALF_MISSING, _GONE, _NO_TOOL, _NO_FORMAT = (
     deferred(f"(?i){either('figures', 'asked', name)}")
-    for name in ("fewer", "each", "more_users", "half_missing", "gone")
+    for name in ("fewer", "each", "more_users", "half_missing", "gone", "no_tool", "no_format")
 )
 
 
