@@ -183,10 +183,8 @@ def _is_price(plain: str, reading: Reading) -> bool:
 
 def _is_step(plain: str, reading: Reading) -> bool:
     """Whether one unit is the least step, not a figure: "not a watt more", "every megabit"."""
-    return (
-        _STEP_AFTER.match(plain, reading.end) is not None
-        or _STEP_BEFORE.search(plain, max(0, reading.start - 12), reading.start) is not None
-    )
+    before = _STEP_BEFORE.search(plain, max(0, reading.start - 12), reading.start)
+    return before is not None or _STEP_AFTER.match(plain, reading.end) is not None
 
 
 def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> QuantityKind | None:
