@@ -10,7 +10,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias, cast
+from typing import Any, Literal, TypeAlias, cast, dataclass_transform
 
 Press: TypeAlias = Literal["yes", "no", "undo"]
 """What is pressed instead of said: apply the plan that waits, drop it, or take back the last change."""
@@ -39,21 +39,26 @@ class Others:
 Whom: TypeAlias = Everybody | Named | Others
 
 
-@dataclass(frozen=True, kw_only=True)
-class Act:
+@dataclass_transform(frozen_default=True, kw_only_default=True)
+class _Frozen:
+    """What is derived from it is a frozen dataclass with named fields, which need not be said of each."""
+
+    def __init_subclass__(cls) -> None:
+        dataclass(frozen=True, kw_only=True)(cls)
+
+
+class Act(_Frozen):
     """What some words of an utterance do; ``words`` are those, where they are known."""
 
     words: str = dataclasses.field(default="", compare=False)
 
 
-@dataclass(frozen=True, kw_only=True)
 class Aim(Act):
     """Have the cell serve an objective, by its registered name; limits stay."""
 
     objective: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class Limit(Act):
     """Set a figure, in SI units: a limit, a promise, a weight, an outage probability.
 
@@ -65,7 +70,6 @@ class Limit(Act):
     whom: Whom = Everybody()
 
 
-@dataclass(frozen=True, kw_only=True)
 class Scale(Act):
     """Multiply a figure that holds, or that the last decision shows: what is radiated where no power limit holds."""
 
@@ -75,7 +79,6 @@ class Scale(Act):
     reference: Literal["held", "radiated"] = "held"
 
 
-@dataclass(frozen=True, kw_only=True)
 class Drop(Act):
     """Take a limit off; ``own`` takes off a user's own figure, so that everybody's holds for that user again."""
 
@@ -84,7 +87,6 @@ class Drop(Act):
     own: bool = False
 
 
-@dataclass(frozen=True, kw_only=True)
 class Serve(Act):
     """Serve users: these alone, or these too."""
 
@@ -92,26 +94,22 @@ class Serve(Act):
     alone: bool = False
 
 
-@dataclass(frozen=True, kw_only=True)
 class LeaveOut(Act):
     """Serve users no more."""
 
     whom: Whom
 
 
-@dataclass(frozen=True, kw_only=True)
 class Prefer(Act):
     """Decide by this method; "" leaves the choice to the agent."""
 
     method: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class Forget(Act):
     """Nothing of what was asked for holds any more."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class Suppose(Act):
     """What would be if these acts, or this share of missing gains, were so; changes nothing."""
 
@@ -119,14 +117,12 @@ class Suppose(Act):
     missing_share: float | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskMost(Suppose):
     """The most that can be promised to a user, else to everybody, if these acts were so."""
 
     user: str | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskPower(Suppose):
     """The power that the promised rates take if these acts were so, or whether a power is needed, or enough."""
 
@@ -134,7 +130,6 @@ class AskPower(Suppose):
     judged: Literal["needed", "enough"] = "enough"
 
 
-@dataclass(frozen=True, kw_only=True)
 class Undo(Act):
     """Go back so many changes of the request (None: all), or to what held behind a turn."""
 
@@ -142,12 +137,10 @@ class Undo(Act):
     turn: TurnReference | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class Apply(Act):
     """Apply the plan that waits, else what was decided last."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class Yes(Act):
     """A yes to what the agent asked or offered.
 
@@ -158,7 +151,6 @@ class Yes(Act):
     choice: int | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class No(Act):
     """A no to what the agent asked; ``cancels`` takes the plan's request back, ``stops`` wants nothing done at all."""
 
@@ -166,39 +158,32 @@ class No(Act):
     stops: bool = False
 
 
-@dataclass(frozen=True, kw_only=True)
 class Ask(Act):
     """A question, or a wish to see something, one small class a topic; it changes nothing."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskWhy(Ask):
     """Why a user got what it got; None where nobody was named."""
 
     user: str | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskWhyNot(Ask):
     """Why the request cannot be met, and what can be met instead."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskProof(Ask):
     """How good the decision is, and what proves it."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskCertainty(Ask):
     """What was not measured, and how sure the decision is."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskOtherChannel(Ask):
     """What would be on another channel, which is as it was sensed."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskStep(Ask):
     """What a little more would buy: power, a rate (of a user, of ``each``, or in all), a share of the rate, users."""
 
@@ -210,21 +195,18 @@ class AskStep(Ask):
     user: str | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskPrices(Ask):
     """What power and promises are worth at the margin; of a user, what it gets."""
 
     user: str | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskUsers(Ask):
     """What a user gets, else each of them."""
 
     user: str | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskRank(Ask):
     """Who gets the least or the most."""
 
@@ -232,21 +214,18 @@ class AskRank(Ask):
     of: Literal["rate", "power", "subcarriers"] = "rate"
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskSubcarriers(Ask):
     """Which subcarriers a user has, else each of them."""
 
     user: str | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskOwner(Ask):
     """Who has a subcarrier, counted from 1."""
 
     subcarrier: int
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskGain(Ask):
     """The gain of a user, on a subcarrier (from 1) or over all of them."""
 
@@ -254,87 +233,72 @@ class AskGain(Ask):
     subcarrier: int | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskDearest(Ask):
     """Whom it would help most to leave out."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskLimits(Ask):
     """What holds the result back."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskDuration(Ask):
     """How long the decision took."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskMethods(Ask):
     """Which method decided, and which others could."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskMeaning(Ask):
     """What a word means."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskHelp(Ask):
     """What can be said."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskResult(Ask):
     """What came of the request: the figures that are named, else the decision in words."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskReasons(Ask):
     """The decision in words, with its tables: the one that holds, or that of a turn."""
 
     turn: TurnReference | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskHistory(Ask):
     """What was said so far, or in a turn."""
 
     turn: TurnReference | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
 class AskStatus(Ask):
     """What is asked for, what was decided, and what is in effect."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class CompareLast(Ask):
     """The decision that holds beside the last other one."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class CompareTurns(Ask):
     """Decisions of turns beside each other; of one turn, beside the one that holds."""
 
     turns: tuple[TurnReference, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
 class CompareTools(Ask):
     """The decision that holds beside those of other methods or repairers, by name."""
 
     names: tuple[str, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
 class CompareRequests(Ask):
     """What the request would bring with each of these changes, beside each other."""
 
     changes: tuple[tuple[Act, ...], ...]
 
 
-@dataclass(frozen=True, kw_only=True)
 class Export(Ask):
     """The request that holds and what came of it, as a document of a standard."""
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from wirelessagent.language.clauses import clause_end, clause_start
-from wirelessagent.language.intent import EVERYBODY, Constraint
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import Mention, Role
 from wirelessagent.language.numerals import Number
@@ -14,6 +14,7 @@ from wirelessagent.language.quantities import Quantity
 
 _SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.8, 0.5, 0.45
 _SAID = 0.4
+_RATES = ("min_rate_bps", "max_rate_bps")
 _SILENT = ("kept", "stale")
 """Roles of somebody who is only spoken of."""
 
@@ -43,7 +44,7 @@ class Allotments:
 
     def __init__(self, text: str, plain: str, judged: Judged) -> None:
         self._text, self._plain, self._judged, self._found = text, plain, judged, judged.mentions
-        self._rates: dict[str, dict[str, _Given]] = {"min_rate_bps": {}, "max_rate_bps": {}}
+        self._given: dict[str, dict[str, _Given]] = {name: {} for name in FIGURES_OF_USERS}
         self._lists: dict[str, dict[str, str]] = {"users": {}, "leave_out": {}, "back": {}}
         self._used: set[Mention] = set()
         self._unsure: list[Mention] = []
@@ -56,7 +57,6 @@ class Allotments:
             if mention.role in ("named", "pronoun"):
                 self._assign(mention)
         self._one_each = dict(self._one_for_each())
-        self._weights: dict[str, tuple[float, tuple[int, int]]] = {}
         for number in judged.weights:
             self._weigh(number)
 
@@ -87,16 +87,12 @@ class Allotments:
         if not any(start <= figure.start < end for figure in self._judged.figures):
             self.spans.append((start, end))
 
-    def _exempt_from_that_of_the_others(self) -> None:
-        """Whoever has a cap alone where "the others" have a floor has none."""
-        floors, caps = self._rates["min_rate_bps"], self._rates["max_rate_bps"]
-        if self._of_others and EVERYBODY in floors and EVERYBODY not in caps:
-            for user in set(caps) - set(floors):
-                floors[user] = _Given(value=0.0, text=caps[user].text)
-
     def _exempt(self) -> None:
-        """Whoever is excepted has a floor of zero where all others have one, and nothing else may be meant."""
-        floors, caps = self._rates["min_rate_bps"], self._rates["max_rate_bps"]
+        """A floor of zero for whoever is excepted where all others have one, and nothing else may be meant.
+
+        Whoever has a cap alone where "the others" have a floor has none either.
+        """
+        floors, caps = (self._given[name] for name in _RATES)
         if EVERYBODY not in floors or EVERYBODY in caps:
             return
         for mention in self._excepted:
@@ -104,8 +100,10 @@ class Allotments:
                 self._used.add(mention)
                 self._unsure.remove(mention)
                 text = self._text[mention.start : mention.end]
-                for user in mention.users:
-                    floors[user] = _Given(value=0.0, text=text)
+                floors.update({user: _Given(value=0.0, text=text) for user in mention.users})
+        if self._of_others:
+            for user in [user for user in caps if user not in floors]:
+                floors[user] = _Given(value=0.0, text=caps[user].text)
 
     def _likeliest(self, mention: Mention) -> str:
         """What somebody is there for; without certainty it is unclear."""
@@ -162,11 +160,11 @@ class Allotments:
     def _weigh(self, number: Number) -> None:
         target = self.target_of(number.start)
         if target.sure and target.role in ("named", "others") and number.value is not None:
-            span = (number.start, number.end)
             self._used.update([target.mention] if target.mention is not None else [])
-            self.spans.append(span)
+            self.spans.append((number.start, number.end))
+            given = _Given(value=float(number.value), text=self._text[number.start : number.end])
             for user in target.keys:
-                self._weights.setdefault(user, (float(number.value), span))
+                self._given["weights"].setdefault(user, given)
 
     @property
     def back(self) -> tuple[str, ...]:
@@ -187,17 +185,16 @@ class Allotments:
                 self.spans.append((target.mention.start, target.mention.end))
         self._of_others = self._of_others or (name == "min_rate_bps" and target.role == "others")
         for key in target.keys:
-            earlier = self._rates[name].get(key)
+            earlier = self._given[name].get(key)
             if earlier is not None and earlier.value != figure.value:
                 return earlier.text
-            self._rates[name][key] = _Given(value=figure.value, text=figure.text)
+            self._given[name][key] = _Given(value=figure.value, text=figure.text)
         return None
 
     def take_users(self) -> Iterator[tuple[int, int]]:
         """The named users of whom nothing was said, or nothing certain, as spans."""
         self._exempt()
-        self._exempt_from_that_of_the_others()
-        spoken_of = {user for mention in self._used for user in mention.users} | set(self._weights)
+        spoken_of = {user for mention in self._used for user in mention.users} | set(self._given["weights"])
         for mention in self._found:
             if mention.role != "named":
                 continue
@@ -208,31 +205,25 @@ class Allotments:
 
     def _is_at_odds(self, mention: Mention) -> bool:
         """Whether somebody has a rate elsewhere and is left out here: "user 3 needs 1 Mbit/s but drop user 3"."""
-        rated = {user for given in self._rates.values() for user, each in given.items() if each.value > 0}
+        rated = {user for name in _RATES for user, each in self._given[name].items() if each.value > 0}
         return self._roles.get(mention) == "leave_out" and not rated.isdisjoint(mention.users)
 
     def _said_elsewhere(self, mention: Mention) -> bool:
         """Whether everybody of a mention is settled by another, or by a weight."""
         others = {user for other in self._used if other != mention for user in other.users}
-        return others.union(self._weights).issuperset(mention.users)
+        return others.union(self._given["weights"]).issuperset(mention.users)
 
     def values(self) -> dict[str, Constraint]:
         values: dict[str, Constraint] = {}
-        for name, given in self._rates.items():
+        for name, given in self._given.items():
             figures = {user: each.value for user, each in given.items()}
+            if name == "weights" and (figures.get(EVERYBODY) == 1 or set(figures) == {EVERYBODY}):
+                del figures[EVERYBODY]  # "all others 1" is what they count anyway
             if set(figures) == {EVERYBODY}:
                 values[name] = figures[EVERYBODY]
             elif figures:
-                values[name] = self._of_all_served(figures)
-        weights = {user: value for user, (value, _) in self._weights.items()}
-        if weights.get(EVERYBODY) == 1 or set(weights) == {EVERYBODY}:
-            del weights[EVERYBODY]  # "all others 1" is what they count anyway
-        if weights:
-            values["weights"] = weights
-        for name in ("users", "leave_out"):
-            if self._lists[name]:
-                values[name] = tuple(self._lists[name])
-        return values
+                values[name] = figures if name == "weights" else self._of_all_served(figures)
+        return values | {name: tuple(self._lists[name]) for name in LISTS_OF_USERS if self._lists[name]}
 
     def _of_all_served(self, figures: dict[str, float]) -> Constraint:
         """Rates by user; one figure where it is that of everybody who is served."""
@@ -240,18 +231,14 @@ class Allotments:
         return next(iter(figures.values())) if same else figures
 
     def evidence(self) -> dict[str, str]:
-        words = {
-            name: " … ".join(dict.fromkeys(each.text for each in given.values())) for name, given in self._rates.items()
-        }
-        words |= {name: " … ".join(dict.fromkeys(self._lists[name].values())) for name in ("users", "leave_out")}
-        words["weights"] = " … ".join(
-            dict.fromkeys(self._text[start:end] for _, (start, end) in self._weights.values())
-        )
-        return {name: text for name, text in words.items() if text}
+        words = {name: [each.text for each in self._given[name].values()] for name in _RATES}
+        words |= {name: list(self._lists[name].values()) for name in LISTS_OF_USERS}
+        words["weights"] = [each.text for each in self._given["weights"].values()]
+        return {name: " … ".join(dict.fromkeys(texts)) for name, texts in words.items() if texts}
 
     def crossed(self) -> Iterator[tuple[str, str, str]]:
         """Figures that cannot hold together, with the key of the question to ask."""
-        low, high = self._rates["min_rate_bps"], self._rates["max_rate_bps"]
+        low, high = (self._given[name] for name in _RATES)
         for user in {*low, *high}:
             least, most = low.get(user, low.get(EVERYBODY)), high.get(user, high.get(EVERYBODY))
             if least is not None and most is not None and least.value > most.value:

@@ -12,7 +12,7 @@ from typing import Literal, TypeAlias
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.spelling import one_edit
 from wirelessagent.language.text import CLAUSE_END, USER_NOUN, Phrases
-from wirelessagent.language.word_tables import words_of
+from wirelessagent.language.word_tables import either, words_of
 
 Comparator: TypeAlias = Literal["at_least", "at_most", "exactly"]
 
@@ -50,9 +50,8 @@ def _any_of(words: list[str]) -> str:
 
 
 _WORD = deferred(r"[A-Za-zÀ-ÿ]++")
-_BETWEEN = frozenset(
-    [*_words("between"), *_POWER_NOUNS, *_RATE_NOUNS]
-)  # what may stand between a comparator and its figure
+# What may stand between a comparator and its figure.
+_BETWEEN = frozenset([*_words("between"), *_POWER_NOUNS, *_RATE_NOUNS])
 _SIGNS = "|".join(sorted((word for word in _BETWEEN if not _WORD.match(word)), key=len, reverse=True))
 _GAP = deferred(rf"(?:\s|{_WORD.pattern}|{_SIGNS}){{0,16}}$")
 _FEW_WORDS = rf"(?:(?!(?:and|y|et|und)\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"
@@ -68,30 +67,19 @@ _BEFORE = Phrases(
     rf"|(?P<exactly>{_any_of(_words('exactly'))})"
     rf"|(?P<above>{_any_of([*_words('above'), _ABOVE_IN_CHINESE])})|(?P<below>{_any_of(_words('below'))})"
 )
-_NEGATION = deferred(
-    r"(?i)\b(?:no|not|never|nobody|none|nothing|without|cannot|can't|cant|don't|dont|do not|does not|"
-    r"doesn't|doesnt|mustn't|must not|shouldn't|should not|won't|avoid|nowhere|neither|forbid\w*|"
-    r"nadie|ning[uú]n[oa]?|nunca|jamás|sin|ni|tampoco|prohibid[oa]|evita\w*|"
-    r"personne|aucune?|ne|n(?=')|jamais|sans|pas|rien|interdi\w+|évite\w*|"
-    r"nicht|nichts|kein\w*|niemand\w*|nie|niemals|ohne|verboten)\b|[不别勿没无莫禁]"
-)
+_NEGATION = deferred(rf"(?i){either('moods', 'negation', 'clause')}|{either('figures', 'bounds', 'forbids')}")
 _NOBODY = ("nobody", "without", "cannot", "nadie", "personne", "niemand")
 _DENIED_AFTER = deferred(  # "mehr als 24 Watt gibt's nicht", "below 1 Mbit/s nobody may fall"
-    r"(?i)^(?:(?!\b(?:and|und|y|et|aber|but|sonst)\b)[\w\s'’-])*?\b(?:nicht(?! (?:mehr|weniger|über|unter)\b)|kein\w*|"
-    r"niemand\w*|nie|niemals|nobody|no\s+one|never|nadie|ninguno?|nunca|personne|aucune?|jamais|forbidden|prohibido|"
-    r"interdit|verboten|schluss)\b"
+    rf"(?i)^(?:(?!\b(?:and|und|y|et|aber|but|sonst)\b)[\w\s'’-])*?{either('figures', 'bounds', 'denied_behind')}"
 )
 _AFTER_RE = deferred(
     rf"(?i)[\s-]*(?:(?:auch|das|ist|sind|je|pro|nutzer|kopf|die|jeden|für|each|everyone|person|de|en|per|user|the|at)\s+){{0,5}}"
     rf"(?P<word>{_any_of(list(_BEHIND))})(?!\s*(?:of\s+|is\s+)?[0-9])"
 )
 _LAST_WORD = deferred(  # "10 W, no more", "10 kbit/s, no less and no more"
-    r"(?i),?\s*(?:(?P<exactly>no\s+(?:less\s+and\s+no\s+more|more\s+and\s+no\s+less)|not\s+more\s+not\s+less|"
-    r"ni\s+m[aá]s\s+ni\s+menos|ni\s+plus\s+ni\s+moins|nicht\s+mehr\s+und\s+nicht\s+weniger|不多不少)|"
-    r"(?P<at_most>tops|at\s+(?:the\s+)?(?:very\s+)?most|(?:and\s+)?(?:no|not\s+a\s+watt|not\s+one)\s+more|"
-    r"y?\s*(?:no|nada|ni\s+uno)\s+m[aá]s|(?:et\s+)?pas\s+(?:un\s+de\s+)?plus|(?:und\s+)?nicht\s+mehr|"
-    r"不能再多|不能再高|不许再多)|(?P<at_least>(?:and\s+)?(?:no|not)\s+less|y?\s*no\s+menos|(?:et\s+)?pas\s+moins|"
-    r"(?:und\s+)?nicht\s+weniger|不能少|不能再少))(?=\s*(?:$|[.,;:!?)\uff0c。\uff1b、]))"
+    rf"(?i),?\s*(?:(?P<exactly>{either('figures', 'bounds', 'exactly_last')})|"
+    rf"(?P<at_most>{either('figures', 'bounds', 'at_most_last')})|"
+    rf"(?P<at_least>{either('figures', 'bounds', 'at_least_last')}))(?=\s*(?:$|[.,;:!?)\uff0c。\uff1b、]))"
 )
 _LOOSE = deferred(r"(?i)(?:max|min)(?:imum)?\b")  # "maximum rate at 1 Mbit/s minimum" wishes first and bounds after
 _POWER_RE = deferred("(?i)" + _any_of(_POWER_NOUNS))

@@ -16,20 +16,13 @@ from wirelessagent.language.intent import Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Notes, Reading
-from wirelessagent.language.text import Phrases
+from wirelessagent.language.text import Phrases, overlaps
 from wirelessagent.language.whole_cell import doubt_parts, take_blocks, take_counts, take_share
+from wirelessagent.language.word_tables import either
 
-_STEP = Phrases(
-    r"\b(?:one|an?|another)\s+(?:more\s+)?watt(?:\s+more)?\b|(?:再?多|再加|加)一瓦|"
-    r"\bun vatio más\b|\bun watt de plus\b|\bein watt mehr\b",
-    marks="watt vatio 一瓦",
-)
-
+_STEP = Phrases(either("figures", "one", "watt_more"), marks="watt vatio 一瓦")
 _SET_TO = deferred(  # what sets a limit is no wish for the highest rate or the least power
-    r"(?i)(?:\b(?:reduce|lower|cut|drop|bring|decrease|turn|raise|increase|set|limit|lift|boost|push)\s+(?:down\s+|up\s+)?"
-    r"(?:(?:the|each|every|their|total|max\w*|min\w*|transmit|tx|radiated|data|bit|user\w*)\s+)*"
-    r"(?:power|budget|rates?|speeds?|throughput)(?:\s+budget)?\s+(?:down\s+|up\s+)?(?:to|at)|"
-    r"总?发?射?功率(?:降低?|减[小少]?|调|提高|升|增加?|设)(?:到|至|为)|(?:降低?|减[小少]?|提高)总?发?射?功率[到至])\s*$"
+    rf"(?i)(?:{either('figures', 'bounds', 'set_to')})\s*$"
 )
 _LIMITS = (
     "min_rate_bps", "max_rate_bps", "both", "max_power_w", "circuit_power_w", "subcarrier_max_power_w", "outage",
@@ -92,7 +85,7 @@ class _Reader:
         read = [(figure.start, figure.end) for figure in judged.figures]
         settled = [*notes.counted, *named, *read, *self._allotments.spans, *notes.spoken_for]
         for figure in notes.quantities:
-            if figure.kind != "bare" or any(start < figure.end and figure.start < end for start, end in settled):
+            if figure.kind != "bare" or overlaps((figure.start, figure.end), settled):
                 continue
             notes.masked.append((figure.phrase_start, figure.phrase_end))
             notes.doubt("unit_missing", text=figure.text)

@@ -128,9 +128,11 @@ class View:
         alike = [place for place, kind in enumerate(self._kinds) if kind == f"@{figure.kind}"]
         unit = figure.text.lstrip("0123456789.,'’ -").lower()
         size = math.floor(2 * math.log10(figure.value)) if 0 < figure.value < math.inf else 0
+        beside = [("previous", other) for other in self._figures[max(0, index - 1) : index]]
+        beside += [("next", other) for other in self._figures[index + 1 : index + 2]]
         known = [
             f"is:{figure.comparator}", f"unit:{unit}", f"size:{size}", f"of:{len(alike)}", f"nth:{alike.index(place)}",
-            *self._beside_alike(index),
+            *(f"{name}:{other.comparator}" for name, other in beside if other.kind == figure.kind),
         ]  # fmt: skip
         found = around(self._tokens, place, known) | self._held
         return found | self._based(figure.start)
@@ -138,15 +140,6 @@ class View:
     def _based(self, start: int) -> set[str]:
         place = self._base_places.get(start)
         return set() if place is None else around_base(self._base, place)
-
-    def _beside_alike(self, index: int) -> list[str]:
-        """How the figures of the same kind right before and after are bounded."""
-        found: list[str] = []
-        figure = self._figures[index]
-        for name, other in (("previous", index - 1), ("next", index + 1)):
-            if 0 <= other < len(self._figures) and self._figures[other].kind == figure.kind:
-                found.append(f"{name}:{self._figures[other].comparator}")
-        return found
 
     def user(self, mention: Mention) -> set[str]:
         """The features of somebody named."""

@@ -8,16 +8,13 @@ from typing import TYPE_CHECKING
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, Constraint
 from wirelessagent.language.stated import Reading
+from wirelessagent.language.word_tables import either
 
 if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Context
 
 _SAME = deferred(
-    r"(?i)\b(?:same|instead|keep(?:ing)?\s+(?:the\s+)?(?:limits?|rest|everything\s+else|constraints?|figures)|"
-    r"otherwise|rather|but\s+with|still|also|too|switch|change)\b|"
-    r"^\s*(?:and|now|but|then|plus|ok,?\s+now|what\s+about|how\s+about)\b|条件不变|其他不变|其余不变|限制不变|改为|"
-    r"改成|改用|换成|换为|换用|切换|(?:同样|相同|一样)的?(?:条件|限制|要求|需求|约束|前提|指标)|(?:要求|需求|约束|指标)(?:都)?不变|"
-    r"保持(?:原有|现有|原来)?的?(?:条件|限制|要求|需求|约束)|还是"
+    rf"(?i)^\s*(?:and|now|but|then|plus|ok,?\s+now|what\s+about|how\s+about)\b|{either('figures', 'kept', 'limits')}"
 )
 
 

@@ -3,6 +3,13 @@
 from __future__ import annotations
 
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.word_tables import either
+
+
+def _any(name: str) -> str:
+    """What a sentence of any language may be said with, by a list of ``[sentences]`` in ``talk_forms``."""
+    return either("talk_forms", "sentences", name)
+
 
 _ASKS = deferred(
     r"(?i)\s*(?:and |so |but |hey,? |hi,? |ok,? |well,? )?(?:(?:who|which|wh?at|what|whose)(?:'?s|\s+(?:is|are|was|"
@@ -12,32 +19,10 @@ _ASKS = deferred(
     r"how (?:much|many|high|fast|long|far|good|sure|big|come|is|are|did|do|does|would|was)\b|(?:is|are|was|were|"
     r"does|did|has|have)\s+\w+)"
 )
-_ASKS_ELSEWHERE = deferred(
-    r"(?i)\s*[¿]?(?:(?:und|et|y) )?(?:wie (?:hoch|viele?|groß|schnell|gut|sicher|ist|sind|war)|wer (?:hat|ist|bekommt)|"
-    r"was (?:ist|sind|kostet|war|bringt)|welche[rsn]? \w+ (?:ist|hat|bekommt)|quel(?:le)?s? (?:est|sont|était)|combien|"
-    r"qu'est-ce|qui (?:a|est|reçoit)|est-ce qu|cuál(?:es)? (?:es|son|era)|cu[aá]nt[oa]s?|qué (?:es|son|tal)|"
-    r"quién (?:tiene|es|recibe))\b"
-)
+_ASKS_ELSEWHERE = deferred(rf"(?i)\s*[¿]?(?:(?:und|et|y) )?(?:{_any('asks')})")
 _IMPERATIVE = deferred(r"(?i)^\s*(?:\w+,? )?have\b|\bplease\b|\bbitte\b|\bs'il (?:te|vous)\b|\bpor favor\b")
-_ONLY_ASKING = deferred(
-    r"(?i)\b(?:just|only|merely) (?:asking|curious|wondering|checking|a question)\b|\bwithout (?:changing|touching|"
-    r"applying) (?:anything|it)\b|\b(?:don'?t|do not) (?:touch|change|apply|do) "
-    r"(?:it|anything|a thing)\b(?!\s+else)|\bhypothetical(?:ly)?\b|只是问问|随便问问|先别动|别真改|不要真的改|"
-    r"只是想知道"
-)
-_ANSWERS = {
-    "confirm": deferred(
-        r"(?i)\s*(?:yes|yeah|yep|yup|ok|okay|sure|of course|yes,? please|confirm(?:ed)?|agreed|do that|sí|si|vale|"
-        r"oui|d'accord|ja|jawohl|jawoll|"
-        r"是|是的|对|对的|好|好的|好吧|好啊|行|行吧|可以|可以的|确认|确定|同意|没错|没问题|嗯|"
-        r"嗯嗯)\s*[.!。\uff01~]*\s*"
-    ),
-    "reject": deferred(
-        r"(?i)\s*(?:no|nope|nah|no thanks|no,? thank you|not now|better not|non|nein|no,? gracias|non merci|"
-        r"nein danke|"
-        r"不|不要|不用|不用了|不行|不是|不对|不了|否|别|算了|不同意|先不|不必)\s*[.!。\uff01~]*\s*"
-    ),
-}
+_ONLY_ASKING = deferred(f"(?i){_any('only_asks')}")
+_ANSWERS = {topic: deferred(rf"(?i)\s*(?:{_any(topic)})\s*[.!。\uff01~]*\s*") for topic in ("confirm", "reject")}
 _COMPARES = deferred(r"(?i)\s*(?:please\s+|请)?(?:compare|vergleiche?|compara|比较|对比)(?![A-Za-z])")
 _CODE = deferred(  # programs, mark-up and injections are no wishes
     r"<[|/!a-zA-Z]|\{\{|\}\}|\$\(|--\s*$|\\x|__\w+__|"
@@ -47,16 +32,9 @@ _CODE = deferred(  # programs, mark-up and injections are no wishes
     r"(?i:\b(?:ignore|disregard|forget)\s+(?:all\s+|any\s+|the\s+|your\s+)*(?:previous|prior|above|earlier)\s+"
     r"(?:instructions?|rules?|prompts?))|(?:忽略|无视)[^,\uff0c]{0,6}(?:指令|规则|提示)"
 )
-_ASKS_IN_CHINESE = deferred(
-    r"^\s*(?:我?想)?(?:请教|请问|问一下|打听)|^\s*(?:为啥|为什么|为何|凭什么|咋)(?![不别])|(?:多少|什么|怎么|"
-    r"为什么|谁|哪[个些里]|几[个瓦位]|"
-    r"啥)[^\uff0c。,]{0,8}[\uff1f?]\s*$"
-)
 _TAG = deferred(  # "…, will you?", "…, ¿vale?", "…，好吗？"
-    r"(?i)(?:[\s,]+(?:will|would|could|can|won't) (?:you|ya)|,\s*(?:please|ok(?:ay)?|right|yes|vale|sí|por favor|"
-    r"puedes|understood|clear|got it|klar|"
-    r"verstanden|oíste|entendido|está claro|compris|d'accord|s'il (?:te|vous) pla[iî]t|ja|bitte|gut|in ordnung)|"
-    r"[,\uff0c]?\s*(?:好吗|好吧|行吗|可以吗|好不好|行不行))\s*[?\uff1f]\s*$"
+    rf"(?i)(?:[\s,]+(?:will|would|could|can|won't) (?:you|ya)|,\s*(?:{_any('tags')})|"
+    rf"[,\uff0c]?\s*(?:{_any('particles')}))\s*[?\uff1f]\s*$"
 )
 
 
@@ -72,7 +50,7 @@ def without_a_tag(text: str) -> str:
 
 def is_asked(plain: str) -> bool:
     """Whether a sentence is certainly a question: it ends like one, or says that it only asks."""
-    if _ONLY_ASKING.search(plain) is not None or _ASKS_IN_CHINESE.search(plain) is not None:
+    if _ONLY_ASKING.search(plain) is not None:
         return True
     return begins_like_a_question(plain) and plain.rstrip().endswith(("?", "\uff1f"))
 

@@ -23,13 +23,6 @@ Detail: TypeAlias = float | str | Mapping[str, Constraint]
 EVERYBODY = "all"
 """The key of everybody who is not named, in figures by user."""
 
-FIGURES: tuple[str, ...] = (
-    "max_power_w",
-    "circuit_power_w",
-    "outage_probability",
-    "subcarrier_max_power_w",
-    "resource_block_group_size",
-)
 FIGURES_OF_USERS: tuple[str, ...] = ("min_rate_bps", "max_rate_bps", "weights")
 LISTS_OF_USERS: tuple[str, ...] = ("users", "leave_out")
 CONSTRAINTS: tuple[str, ...] = (

@@ -5,52 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, cast
 
-from wirelessagent.language.acts import (
-    Act,
-    Aim,
-    Apply,
-    AskCertainty,
-    AskDearest,
-    AskDuration,
-    AskGain,
-    AskHelp,
-    AskHistory,
-    AskLimits,
-    AskMeaning,
-    AskMethods,
-    AskMost,
-    AskOtherChannel,
-    AskOwner,
-    AskPower,
-    AskPrices,
-    AskProof,
-    AskRank,
-    AskReasons,
-    AskResult,
-    AskStatus,
-    AskStep,
-    AskSubcarriers,
-    AskUsers,
-    AskWhy,
-    AskWhyNot,
-    CompareLast,
-    CompareRequests,
-    CompareTools,
-    CompareTurns,
-    Drop,
-    Export,
-    Forget,
-    LeaveOut,
-    Limit,
-    Named,
-    No,
-    Prefer,
-    Serve,
-    Suppose,
-    TurnReference,
-    Undo,
-    Yes,
-)
+from wirelessagent.language import acts
+from wirelessagent.language.acts import Act, TurnReference
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 
 OWN_CHOICE = "auto"
@@ -74,14 +30,14 @@ def _changes(intent: Intent) -> Iterator[Act]:
     assert intent.objective is not None
     said = intent.evidence
     if not intent.amends:
-        yield Forget()
-    yield Aim(objective=intent.objective, words=said.get("objective", ""))
+        yield acts.Forget()
+    yield acts.Aim(objective=intent.objective, words=said.get("objective", ""))
     for name in intent.dropped:
-        yield Drop(kind=name)
+        yield acts.Drop(kind=name)
     yield from stated(intent.constraints, said)
     if "method" in intent.details:
         named = str(intent.details["method"])
-        yield Prefer(method="" if named == OWN_CHOICE else named)
+        yield acts.Prefer(method="" if named == OWN_CHOICE else named)
 
 
 def stated(constraints: Mapping[str, Constraint], words: Mapping[str, str] | None = None) -> Iterator[Act]:
@@ -93,33 +49,35 @@ def stated(constraints: Mapping[str, Constraint], words: Mapping[str, str] | Non
 def _limits(name: str, value: Constraint, words: str = "") -> Iterator[Act]:
     """The acts that state a constraint, as :class:`~wirelessagent.language.intent.Intent` writes it."""
     if isinstance(value, tuple):
-        whom = Named(value)
-        yield Serve(whom=whom, alone=True, words=words) if name == "users" else LeaveOut(whom=whom, words=words)
+        whom = acts.Named(value)
+        yield (
+            acts.Serve(whom=whom, alone=True, words=words) if name == "users" else acts.LeaveOut(whom=whom, words=words)
+        )
     elif isinstance(value, Mapping):
         if EVERYBODY in value:
-            yield Limit(kind=name, value=value[EVERYBODY], words=words)
+            yield acts.Limit(kind=name, value=value[EVERYBODY], words=words)
         for user, figure in value.items():
             if user != EVERYBODY:
-                yield Limit(kind=name, value=figure, whom=Named((user,)), words=words)
+                yield acts.Limit(kind=name, value=figure, whom=acts.Named((user,)), words=words)
     else:
-        yield Limit(kind=name, value=float(value), words=words)
+        yield acts.Limit(kind=name, value=float(value), words=words)
 
 
 def _supposed(details: Details) -> Act:
     """What a question would have be so."""
     share, aim = _figure(details, "missing_share"), details.get("objective")
-    acts: tuple[Act, ...] = (Aim(objective=aim),) if isinstance(aim, str) else ()
-    acts += tuple(Drop(kind=name) for name in str(details.get("dropped", "")).split())
-    acts += tuple(stated(_constraints(details)))
+    changes: tuple[Act, ...] = (acts.Aim(objective=aim),) if isinstance(aim, str) else ()
+    changes += tuple(acts.Drop(kind=name) for name in str(details.get("dropped", "")).split())
+    changes += tuple(stated(_constraints(details)))
     asked = details.get("asked")
     if details.get("of") == "channel":
-        return AskOtherChannel()
+        return acts.AskOtherChannel()
     if asked == "most":
-        return AskMost(acts=acts, user=_user(details))
+        return acts.AskMost(acts=changes, user=_user(details))
     if asked == "power":
         judged = "needed" if details.get("judged") == "needed" else "enough"
-        return AskPower(acts=acts, enough_w=_figure(details, "enough_w"), judged=judged)
-    return Suppose(acts=acts, missing_share=share)
+        return acts.AskPower(acts=changes, enough_w=_figure(details, "enough_w"), judged=judged)
+    return acts.Suppose(acts=changes, missing_share=share)
 
 
 def _wondered(about: Callable[[Details], Act]) -> Callable[[Details], Act]:
@@ -129,14 +87,14 @@ def _wondered(about: Callable[[Details], Act]) -> Callable[[Details], Act]:
         limits, rate, user = dict(_constraints(details)), _figure(details, "rate_bps"), _user(details)
         if rate is not None:
             limits["min_rate_bps"] = rate if user is None else {user: rate}
-        return Suppose(acts=tuple(stated(limits))) if limits else about(details)
+        return acts.Suppose(acts=tuple(stated(limits))) if limits else about(details)
 
     return act
 
 
 def _step(details: Details) -> Act:
     users = _figure(details, "users")
-    return AskStep(
+    return acts.AskStep(
         power_w=_figure(details, "power_w"), rate_bps=_figure(details, "rate_bps"),
         rate_share=_figure(details, "rate_share"), users=None if users is None else int(users),
         each="each" in details, user=_user(details),
@@ -146,38 +104,38 @@ def _step(details: Details) -> Act:
 def _users(details: Details) -> Act:
     place = _figure(details, "subcarrier")
     if details.get("asked") == "gain":
-        return AskGain(user=_user(details), subcarrier=None if place is None else int(place))
+        return acts.AskGain(user=_user(details), subcarrier=None if place is None else int(place))
     if "rank" in details:
         named: dict[str, Any] = {"rank": details["rank"], "of": details.get("of", "rate")}
-        return AskRank(**named)
+        return acts.AskRank(**named)
     if "listed" in details:
-        return AskDearest() if details["listed"] == "dearest" else AskSubcarriers(user=_user(details))
-    return AskUsers(user=_user(details)) if place is None else AskOwner(subcarrier=int(place))
+        return acts.AskDearest() if details["listed"] == "dearest" else acts.AskSubcarriers(user=_user(details))
+    return acts.AskUsers(user=_user(details)) if place is None else acts.AskOwner(subcarrier=int(place))
 
 
 def _result(details: Details) -> Act:
     """Of a result as a whole, and of what made it."""
     asked = details.get("asked")
     if details.get("listed") == "methods":
-        return AskMethods()
+        return acts.AskMethods()
     if asked == "duration":
-        return AskDuration()
-    return AskLimits() if asked == "limits" else AskResult()
+        return acts.AskDuration()
+    return acts.AskLimits() if asked == "limits" else acts.AskResult()
 
 
 def _compared(details: Details) -> Act:
     named = [_turn(details, name) for name in ("turn", "beside")]
     turns = tuple(turn for turn in named if turn is not None)
     if turns:
-        return CompareTurns(turns=turns)
+        return acts.CompareTurns(turns=turns)
     figures = [cast("Mapping[str, Constraint]", details[name]) for name in sorted(details) if name.startswith("either")]
     changes = [tuple(stated(each)) for each in figures]
-    changes += [(Aim(objective=aim),) for aim in str(details.get("aims", "")).split()]
+    changes += [(acts.Aim(objective=aim),) for aim in str(details.get("aims", "")).split()]
     if changes:
-        return CompareRequests(changes=tuple(changes))
+        return acts.CompareRequests(changes=tuple(changes))
     said = " ".join(str(details[name]) for name in ("with", "methods", "repairers") if name in details)
     names = tuple(name for name in said.translate(_SEPARATORS).split() if name != "last")
-    return CompareTools(names=names) if names else CompareLast()
+    return acts.CompareTools(names=names) if names else acts.CompareLast()
 
 
 _SEPARATORS = str.maketrans(",，、;", "    ")
@@ -185,42 +143,42 @@ _SEPARATORS = str.maketrans(",，、;", "    ")
 
 def _yes(details: Details) -> Act:
     choice = _figure(details, "way")
-    return Yes(chooses="way" in details, choice=None if choice is None else int(choice))
+    return acts.Yes(chooses="way" in details, choice=None if choice is None else int(choice))
 
 
 def _undone(details: Details) -> Act:
     turn, steps = _turn(details, "turn"), details.get("steps", 1.0)
     if turn is not None:
-        return Undo(turn=turn)
-    return Undo(steps=int(steps) if isinstance(steps, float) else None)
+        return acts.Undo(turn=turn)
+    return acts.Undo(steps=int(steps) if isinstance(steps, float) else None)
 
 
 def _history(details: Details) -> Act:
-    return AskHistory(turn=_turn(details, "turn" if "turn" in details else "number"))
+    return acts.AskHistory(turn=_turn(details, "turn" if "turn" in details else "number"))
 
 
 _TOPICS: Mapping[str, Callable[[Details], Act]] = {
-    "apply": lambda details: Apply(),
+    "apply": lambda details: acts.Apply(),
     "confirm": _yes,
-    "reject": lambda details: No(cancels="cancel" in details, stops="stop" in details),
+    "reject": lambda details: acts.No(cancels="cancel" in details, stops="stop" in details),
     "undo": _undone,
-    "reset": lambda details: Forget(),
+    "reset": lambda details: acts.Forget(),
     "compare": _compared,
-    "explain": lambda details: AskReasons(turn=_turn(details, "turn")),
+    "explain": lambda details: acts.AskReasons(turn=_turn(details, "turn")),
     "history": _history,
-    "status": lambda details: AskStatus(),
-    "help": lambda details: AskHelp(),
-    "export": lambda details: Export(format=str(details.get("format", "ts28312"))),
-    "why_user": _wondered(lambda details: AskWhy(user=_user(details))),
-    "why_infeasible": _wondered(lambda details: AskWhyNot()),
-    "certificate": _wondered(lambda details: AskProof()),
-    "uncertainty": _wondered(lambda details: AskCertainty()),
+    "status": lambda details: acts.AskStatus(),
+    "help": lambda details: acts.AskHelp(),
+    "export": lambda details: acts.Export(format=str(details.get("format", "ts28312"))),
+    "why_user": _wondered(lambda details: acts.AskWhy(user=_user(details))),
+    "why_infeasible": _wondered(lambda details: acts.AskWhyNot()),
+    "certificate": _wondered(lambda details: acts.AskProof()),
+    "uncertainty": _wondered(lambda details: acts.AskCertainty()),
     "what_if": _supposed,
     "step": _step,
-    "prices": _wondered(lambda details: AskPrices(user=_user(details))),
+    "prices": _wondered(lambda details: acts.AskPrices(user=_user(details))),
     "users": _wondered(_users),
-    "capabilities": lambda details: AskHelp(),
-    "concept": lambda details: AskMeaning(),
+    "capabilities": lambda details: acts.AskHelp(),
+    "concept": lambda details: acts.AskMeaning(),
     "other": _wondered(_result),
 }
 

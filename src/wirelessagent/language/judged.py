@@ -1,29 +1,46 @@
 """Every figure, number and user of one sentence, each with what it most likely is.
 
 Numbers come first: the model says which are users ("al 6"), which borrow the unit of another figure ("the others only
-one"), which weigh and which only describe. Then it is asked what the users and the figures are there for, with all of
-them in sight.
+one"), which weigh and which only describe; thresholds decide, and what a number in its place can be at all: a bounded
+number is no user, a scaled one no weight. Then the model is asked what the users and the figures are there for, with
+all of them in sight.
 """
 
 from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
-from wirelessagent.language.figure_roles import answers, likely, shipped_roles
-from wirelessagent.language.lifted import is_part, named_in
-from wirelessagent.language.looks import first_look, second_look, with_strangers
-from wirelessagent.language.mentions import Mention
-from wirelessagent.language.number_roles import ITEMS, PERHAPS, NumberRoles
+from wirelessagent.language.deferred import deferred
+from wirelessagent.language.figure_roles import SCALED, answers, likely, shipped_roles
+from wirelessagent.language.leftovers import FOREIGN_UNIT, idioms, may_be_a_limit
+from wirelessagent.language.lifted import named_in
+from wirelessagent.language.looks import BORROWING, Look, first_look, second_look, with_strangers
+from wirelessagent.language.mentions import JOINT, LISTED, Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.text import is_within
+from wirelessagent.language.whole_cell import COUNTED_USERS
 
 _Answer = TypeVar("_Answer")
+_Item = TypeVar("_Item", Quantity, Number)
 # The share of those who have a rate or a weight, among all users named and among those of each role.
 _OWN, _OWNS = 0.7, {"users": 0.4, "given": 0.95, "unclear": 0.2}
 _OWNS_ELSE = 0.02
+_ONE_OF_A_LIST = 0.3
+_MOST_WEIGHT = 10**6
+_ITEMS = deferred(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
+_WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
+    r"(?i)(?:\b(?:weights?|weigh(?:s|ing|ed)?|pesos?|poids|gewichten?)(?:\s+(?:of|are|is|being|de|von|sind))?|权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
+)
+_MOST_BARE_USERS = 100  # who is called by a number alone has a small one
+_SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.7, 0.6, 0.6, 0.6, 0.5
+_LIKELY, _PERHAPS = 0.4, 0.2
+_Roles = Mapping[Number, Mapping[str, float]]
+"""How likely each number has each role."""
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w"), 4, 0.01
 
 
@@ -47,32 +64,47 @@ class Judged:
         first = first_look(plain, quantities, names, taken)
         view = first.view()
         limits = [span for span, _ in named_in(plain)]
-        self.strangers = [each for each in view.strangers() if not any(is_part(each, limit) for limit in limits)]
+        self.strangers = [each for each in view.strangers() if not any(is_within(each, limit) for limit in limits)]
         if self.strangers:
             first = with_strangers(first, self.strangers)
             view = first.view()
-        numbers = NumberRoles(first, view)
-        look = second_look(first, numbers.users, numbers.borrowing)
-        self._look, self._view = look, numbers.view if look is first else look.view()
+        chances: _Roles = {
+            number: answers("number", view.number(number, first.bound(number)))
+            for number in (*first.loose, *first.ones)
+        }
+        weighing = _weighing_lists(first, chances)
+        plausible = _no_limits(first, weighing)
+        users = _users(plain, plausible, chances)
+        look = second_look(first, users, _borrowing(first, chances, [*users, *weighing]))
+        self._look, self._view = look, view if look is first else look.view()
         self.mentions = look.mentions
         self.figures = sorted([*look.figures, *look.unread], key=lambda figure: figure.start)
-        self.doubtful = numbers.doubtful(look)
-        self.weights = numbers.weights(look)
-        self.recounted = numbers.recounted(look)
-        self.harmless = numbers.harmless(look)
-        self.lists = [
-            *_lists(plain, [f for f in look.figures if f.kind == "rate"]),
-            *_lists(plain, [number for number in self.weights if number.form != "times"]),
+        self.doubtful = [(n.start, n.end) for n in _doubtful(first, look, chances)]
+        self.weights = [n for n in look.loose if n in weighing or _weighs(plain, n, chances[n])]
+        unread = [number for number in plausible if number in look.loose]
+        together = {len(mention.users) for mention in look.mentions if len(mention.users) > 1}
+        self.recounted = [(n.start, n.end) for n in unread if n.value in together]
+        named = {user for mention in look.mentions for user in mention.users}
+        self.harmless = [
+            *idioms(plain),
+            *self.recounted,
+            *((mention.start, mention.end) for mention in look.mentions if mention.role != "named"),
+            *((n.start, n.end) for n in unread if _says_nothing(n, chances[n], named)),
         ]
+        lists: list[Sequence[Quantity | Number]] = [
+            *_runs(plain, [figure for figure in look.figures if figure.kind == "rate"], _ITEMS),
+            *_runs(plain, [number for number in self.weights if number.form != "times"], _ITEMS),
+        ]
+        self.lists = [[item.start for item in each] for each in lists if len(each) > 1]
         self._said: dict[Mention, Mapping[str, float]] = {}
         self._owners = {figure.start: self._owners_of(figure.start) for figure in look.figures if figure.kind == "rate"}
         self._owners |= {number.start: self._owners_of(number.start) for number in self.weights}
         self._means = self._meanings()
         self._owned = [(chances, 1.0) for chances in self._owners.values()]
         self._owned += [
-            (self._owners_of(number.start), numbers.chances[number]["weight"])
+            (self._owners_of(number.start), chances[number]["weight"])
             for number in look.loose
-            if number not in self.weights and numbers.chances[number]["weight"] > PERHAPS
+            if number not in self.weights and chances[number]["weight"] > _PERHAPS
         ]
 
     def _owners_of(self, start: int) -> Mapping[Mention | None, float]:
@@ -154,19 +186,96 @@ def _shares(chances: Mapping[_Answer, float]) -> dict[_Answer, float]:
     return {answer: chance / total for answer, chance in chances.items()}
 
 
-def _lists(plain: str, items: Sequence[Quantity] | Sequence[Number]) -> list[list[int]]:
-    """Where the items of each list begin, "2, 1 and 0.5 Mbit/s"; a range is none."""
-    found: list[list[int]] = []
-    last: Quantity | Number | None = None
+def _runs(plain: str, items: Sequence[_Item], joint: re.Pattern[str]) -> list[list[_Item]]:
+    """Items in rows, the neighbours of a row with nothing but a joint between; the ends of a range are apart."""
+    runs: list[list[_Item]] = []
     for item in items:
-        joined = last is not None and ITEMS.fullmatch(plain, last.end, item.start) is not None
-        if joined and not (isinstance(item, Quantity) and isinstance(last, Quantity) and _is_range(last, item)):
-            found[-1].append(item.start)
+        last = runs[-1][-1] if runs else item
+        if runs and not _is_range(last, item) and joint.fullmatch(plain, last.end, item.start):
+            runs[-1].append(item)
         else:
-            found.append([item.start])
-        last = item
-    return [each for each in found if len(each) > 1]
+            runs.append([item])
+    return runs
 
 
-def _is_range(one: Quantity, other: Quantity) -> bool:
+def _is_range(one: Quantity | Number, other: Quantity | Number) -> bool:
+    if isinstance(one, Number) or isinstance(other, Number):
+        return False
     return (one.comparator, other.comparator) == ("at_least", "at_most")
+
+
+def _no_limits(look: Look, weighing: Sequence[Number]) -> list[Number]:
+    """The numbers that may be users or mere descriptions: not bounded, scaled ("2M"), a part of one, or with a unit."""
+    bounded = [(q.start, q.end) for q in look.quantities if q.kind in ("bare", "other") and q.comparator is not None]
+    bounded += [(figure.start - 1, figure.end) for figure in look.figures]  # "2 9 watts"
+    return [
+        number
+        for number in look.loose
+        if number not in weighing
+        and not any(start <= number.end and number.start < end for start, end in bounded)
+        and not (number.value is not None and 0 < number.value < 1)
+        and not may_be_a_limit(look.plain, number)
+    ]
+
+
+def _doubtful(first: Look, look: Look, chances: _Roles) -> list[Number]:
+    """The words such as "one" that may be figures and may be nothing; ``look`` is the second."""
+    figures = {figure.start for figure in look.figures}
+    able = [number for number in first.ones if number.start not in figures]
+    return [number for number in able if chances[number]["rate"] + chances[number]["power"] > _PERHAPS]
+
+
+def _borrowing(look: Look, roles: _Roles, users: Sequence[Number]) -> dict[Number, str]:
+    """The numbers that are figures by the unit of another, each with its role."""
+    found: dict[Number, str] = {}
+    for number, chances in roles.items():
+        role = max(BORROWING, key=lambda each: chances[each])
+        if number not in users and _is_a_figure(look, number, chances, role):
+            found[number] = role
+    return found
+
+
+def _is_a_figure(look: Look, number: Number, chances: Mapping[str, float], role: str) -> bool:
+    """Whether a number that most likely has ``role`` may be read as a figure."""
+    if role == "multiple":
+        return chances[role] > _SURE_OF_A_FIGURE
+    sure = sum(chances[each] for each in BORROWING if BORROWING[each] == BORROWING[role] and each != "multiple")
+    if number in look.ones:
+        return sure > _SURE_OF_ONE
+    if SCALED.match(look.plain, number.end):
+        return role == "rate" and sure > _LIKELY
+    return sure > (_LIKELY if BORROWING[role] == "ratio" else _SURE_OF_A_FIGURE)
+
+
+def _says_nothing(number: Number, chances: Mapping[str, float], named: set[str]) -> bool:
+    """Whether a number describes, weighs nothing ("the others 1"), or is somebody named before."""
+    again = number.value is not None and number.value == int(number.value) and str(int(number.value)) in named
+    return chances["harmless"] + (number.value == 1) * chances["weight"] + again * chances["user"] > _SURE_OF_NOTHING
+
+
+def _weighs(plain: str, number: Number, chances: Mapping[str, float]) -> bool:
+    """Whether a number says how much somebody counts."""
+    able = number.value is not None and 0 <= number.value < _MOST_WEIGHT and SCALED.match(plain, number.end) is None
+    return able and chances["weight"] > _SURE_OF_A_WEIGHT
+
+
+def _weighing_lists(look: Look, chances: _Roles) -> list[Number]:
+    """The numbers of lists as long as a list of users, of which one surely says how much somebody counts."""
+    plain, lengths = look.plain, {len(mention.users) for mention in look.mentions}
+    able = [n for n in look.loose if n.value is not None and 0 <= n.value < _MOST_WEIGHT and n.form != "times"]
+    return [
+        number
+        for each in _runs(plain, able, _ITEMS)
+        if len(each) > 1 and len(each) in lengths
+        if _WEIGHTS.search(plain, 0, each[0].start) or any(_weighs(plain, n, chances[n]) for n in each)
+        for number in each
+    ]
+
+
+def _users(plain: str, numbers: Sequence[Number], chances: _Roles) -> list[Number]:
+    """The numbers that are users: surely, or likelier than not beside one that surely is ("2, 5 and 7")."""
+    able = [n for n in numbers if n.value is not None and 0 <= n.value == int(n.value) < _MOST_BARE_USERS]
+    able = [n for n in able if COUNTED_USERS.match(plain, n.start) is None and FOREIGN_UNIT.match(plain, n.end) is None]
+    lists = [each for each in _runs(plain, able, JOINT) if _WEIGHTS.search(plain, 0, each[0].start) is None]
+    sure = [each for each in lists if max(chances[number]["user"] for number in each) > _SURE_OF_A_USER]
+    return [number for each in sure for number in each if chances[number]["user"] > _ONE_OF_A_LIST]

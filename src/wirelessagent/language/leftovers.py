@@ -14,10 +14,9 @@ from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import Number, factors, numbers
-from wirelessagent.language.text import Phrases
+from wirelessagent.language.text import Phrases, Span, overlaps
 from wirelessagent.language.units import unit_at
-
-Span = tuple[int, int]
+from wirelessagent.language.word_tables import either
 
 # Generations, picture sizes and the like: they look like figures and describe.
 _NAMES = deferred(
@@ -52,19 +51,16 @@ _VAGUE = deferred(
     r"(?i)(?<!as )\b(?:few|several|couple|handful|pair|dozens?|hundreds|thousands|some|lots|plenty|"
     r"(?<=a )number)\s+(?:of\s+)?"
 )
-_SETS_A_LIMIT = deferred(
-    r"(?i)(?:\b(?:power|rate|rates|speed|limit|cap|budget|max|min|maximum|minimum|exactly|potencia|puissance|débit|leistung|rmin|pmax)|[=:<>≤≥]|"
-    r"(?:功率|速率|网速|上限|下限|预算|封顶)(?:为|是|到|在|用)?)\s*$"
-)
+_SETS_A_LIMIT = deferred(rf"(?i)(?:{either('figures', 'bounds', 'names')}|[=:<>≤≥])\s*$")
 _UNIT_OF_ANOTHER_KIND = deferred(
     r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"
 )
-_ABBREVIATED = deferred(r"\s?-?(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})(?![^\W\d_])")  # "43 dbx"
 _ALONE_AHEAD = deferred(r"(?i)(?:^|[,;:.!?\uff0c\uff1b。])\s*(?:with|at|on|con|a|avec|à|mit|bei|用)?\s*$|\bwith\s+$")
 _ALONE_BEHIND = deferred(r"\s*(?:$|[,;:.!?\uff0c\uff1b。])")
 _ALL_IDIOMS = (_NAMES, _TIMES, _OF_THE_YEAR)
-_RATING = deferred(  # what a device has, and a limit only where nothing else is said
-    r"(?i)\s?-?(?:[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz|(?:kilo|mega|giga)hertz)(?![^\W\d_])|\s*[千兆毫]?(?:伏|赫)"
+_RATING = deferred(  # what a device has, and a limit only where nothing else is said; abbreviations, "43 dbx"
+    r"\s?-?(?:(?![A-Z]{1,4}s\b)(?i:[bcdfghjklmnpqrstvwxz]{2,5})|"
+    r"(?i:[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz|(?:kilo|mega|giga)hertz))(?![^\W\d_])|\s*[千兆毫]?(?:伏|赫)"
 )
 FOREIGN_UNIT = deferred(  # no user's number stands before one
     r"(?i)\s?-?(?:[kMG]?Hz|hertz|[km]?V|volts?|voltios?|[km]?A|[km]?Wh|J|joules?|julios?|dB|°|[kMGT]?B|bits?|bytes?|"
@@ -90,7 +86,7 @@ def unread(plain: str, covered: Sequence[Span]) -> Span | None:
     '43 dB'
     """
     known = [*covered, *idioms(plain)]
-    places = sorted(place for place in _numbers_at(plain) if not _inside(place, known))
+    places = sorted(place for place in _numbers_at(plain) if not overlaps((place, place + 1), known))
     if not places:
         return None
     match = _TO_THE_RIGHT.match(plain, places[0])
@@ -124,7 +120,7 @@ def loose_numbers(plain: str, covered: Sequence[Span]) -> list[Number]:
     candidates = [*factors(plain), *(n for n in numbers(plain) if n.form == "digits" or _is_figure(plain, n))]
     for number in sorted(candidates, key=lambda each: each.start - each.end):  # "one and a half" before "half"
         number = _cut(plain, number, taken)
-        if not any(start < number.end and number.start < end for start, end in taken):
+        if not overlaps((number.start, number.end), taken):
             found.append(number)
             taken.append((number.start, number.end))
     return sorted(found, key=lambda number: number.start)
@@ -140,14 +136,11 @@ def _cut(plain: str, number: Number, taken: Sequence[Span]) -> Number:
 
 def may_be_a_limit(plain: str, number: Number) -> bool:
     """Whether a number stands where a limit would, or before a unit that no limit here has ("43 dB", "10 joules")."""
-    abbreviated = _ABBREVIATED.match(plain, number.end)
-    if abbreviated is not None and is_all_said(plain, number.start, abbreviated.end()):
+    rating = _RATING.match(plain, number.end)
+    if rating is not None and is_all_said(plain, number.start, rating.end()):
         return True
-    after = _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None
-    foreign = _RATING.match(plain, number.end)
-    if foreign is not None and is_all_said(plain, number.start, foreign.end()):
-        return True
-    return after or _SETS_A_LIMIT.search(plain, 0, number.start) is not None
+    foreign = _UNIT_OF_ANOTHER_KIND.match(plain, number.end)
+    return foreign is not None or _SETS_A_LIMIT.search(plain, 0, number.start) is not None
 
 
 def _numbers_at(plain: str) -> Iterator[int]:
@@ -165,7 +158,3 @@ def _is_figure(plain: str, number: Number) -> bool:
     if number.form in ("words", "foreign"):
         return plain[number.start : number.end].lower() not in _IDIOMS
     return number.form == "chinese" and _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None
-
-
-def _inside(place: int, spans: Sequence[Span]) -> bool:
-    return any(start <= place < end for start, end in spans)

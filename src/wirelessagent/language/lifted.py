@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.intent import CONSTRAINTS
-from wirelessagent.language.moods import Span, places, without
+from wirelessagent.language.moods import places, without
+from wirelessagent.language.text import Span, is_within
 from wirelessagent.language.word_tables import words_of
 
 if TYPE_CHECKING:
@@ -54,16 +55,13 @@ def named_in(plain: str) -> list[tuple[Span, str]]:
     """Where a sentence names a limit, and which, "all" for any; a name within a longer one is none."""
     named = [(span, name) for name in (*CONSTRAINTS, "all") for span in places(_lifted(name), plain)]
     longer = [other for other, _ in named]
-    return [each for each in sorted(named) if not any(each[0] != other and is_part(each[0], other) for other in longer)]
+    return [
+        each for each in sorted(named) if not any(each[0] != other and is_within(each[0], other) for other in longer)
+    ]
 
 
 def _lifted(name: str) -> tuple[str, ...]:
     return words_of("figures", "lifted", name)
-
-
-def is_part(span: Span, other: Span) -> bool:
-    """Whether a span lies within another, or is the same."""
-    return other[0] <= span[0] and span[1] <= other[1]
 
 
 def _is_beside(plain: str, first: Span, then: Span, joined_by: str = "") -> bool:

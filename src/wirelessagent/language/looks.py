@@ -8,7 +8,7 @@ the model of roles says (``judged``); here they get their unit and their value.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
@@ -19,9 +19,9 @@ from wirelessagent.language.mentions import Mention, mentions, merged
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity, QuantityKind
 from wirelessagent.language.readings import Reading, readings
+from wirelessagent.language.text import Span, overlaps
 from wirelessagent.language.units import unit_at
 
-Span = tuple[int, int]
 BORROWING: Mapping[str, QuantityKind] = {
     "rate": "rate", "power": "power", "multiple": "rate", "outage": "ratio", "reliability": "ratio",
 }  # fmt: skip
@@ -62,10 +62,10 @@ class Look:
 
 
 def first_look(
-    plain: str, quantities: Sequence[Quantity], names: Sequence[str] = (), taken: Sequence[tuple[int, int]] = ()
+    plain: str, quantities: Sequence[Quantity], names: Sequence[str] = (), taken: Sequence[Span] = ()
 ) -> Look:
     """A sentence before anybody asked what its numbers are; ``taken`` spans are read elsewhere."""
-    clear = [q for q in quantities if not any(start < q.end and q.start < end for start, end in taken)]
+    clear = [q for q in quantities if not overlaps((q.start, q.end), taken)]
     stated = [q for q in clear if q.kind not in ("bare", "other")]
     spans = [(q.start, q.end) for q in stated]
     found = mentions(plain, names, [*spans, *taken])
@@ -73,9 +73,7 @@ def first_look(
     loose = loose_numbers(plain, covered)
     able = any(figure.kind in ("rate", "power") for figure in stated)
     alone = list(ones(plain, [*covered, *((n.start, n.end) for n in loose)])) if able else []
-    unread = [
-        q for q in clear if q.kind == "other" and not any(q.start < end and start < q.end for start, end in spans)
-    ]
+    unread = [q for q in clear if q.kind == "other" and not overlaps((q.start, q.end), spans)]
     return Look(
         plain=plain, quantities=quantities, figures=stated, unread=unread, mentions=found, loose=loose, ones=alone
     )
@@ -83,8 +81,7 @@ def first_look(
 
 def with_strangers(look: Look, names: Sequence[Span]) -> Look:
     """The same with those among the users mentioned who are called by ``names`` that nobody is known by."""
-    called = [Mention(role="named", users=(look.plain[a:b],), start=a, end=b) for a, b in names]
-    found = merged(look.plain, sorted([*look.mentions, *called], key=lambda mention: mention.start))
+    found = _with_named(look, ((look.plain[start:end], (start, end)) for start, end in names))
     return dataclasses.replace(look, mentions=found)
 
 
@@ -95,30 +92,28 @@ def second_look(look: Look, users: Sequence[Number], roles: Mapping[Number, str]
         return look
     figures = sorted([*look.figures, *borrowed.values()], key=lambda figure: figure.start)
     settled = [(number.start, number.end) for number in [*borrowed, *users]]
-    return Look(
-        plain=look.plain,
-        quantities=look.quantities,
+    return dataclasses.replace(
+        look,
         figures=figures,
-        unread=[q for q in look.unread if not any(q.start < end and start < q.end for start, end in settled)],
-        mentions=_with_numbers(look.plain, look.mentions, users) if users else look.mentions,
+        unread=[q for q in look.unread if not overlaps((q.start, q.end), settled)],
+        mentions=_with_named(look, ((str(int(n.value or 0)), (n.start, n.end)) for n in users))
+        if users
+        else look.mentions,
         loose=[number for number in look.loose if number not in borrowed and number not in users],
         ones=[],
     )
 
 
-def _with_numbers(plain: str, found: Sequence[Mention], users: Sequence[Number]) -> list[Mention]:
-    """Mentions, and numbers that are users as well, from left to right, the items of a list made one."""
-    bare = [
-        Mention(role="named", users=(str(int(number.value or 0)),), start=number.start, end=number.end)
-        for number in users
-    ]
-    return merged(plain, sorted([*found, *bare], key=lambda mention: mention.start))
+def _with_named(look: Look, named: Iterable[tuple[str, Span]]) -> list[Mention]:
+    """The mentions, and users where they are named as well, from left to right, the items of a list made one."""
+    more = [Mention(role="named", users=(user,), start=start, end=end) for user, (start, end) in named]
+    return merged(look.plain, sorted([*look.mentions, *more], key=lambda mention: mention.start))
 
 
 def ones(plain: str, taken: Sequence[Span]) -> Iterator[Number]:
     """Every "one" or "half" of a normalised text that stands alone, where no ``taken`` span is: no article is one."""
     for match in _ONE.finditer(plain):
-        if not any(match.start() < end and start < match.end() for start, end in taken):
+        if not overlaps(match.span(), taken):
             part = match["part"]
             value = Decimal(1) if part is None else Decimal(_PARTS[part.lower().split()[-1][:4]])
             yield Number(value=value, start=match.start(), end=match.end(), form="words")

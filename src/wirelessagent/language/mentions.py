@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import chinese_value
-from wirelessagent.language.text import Phrases
+from wirelessagent.language.text import Phrases, overlaps
 from wirelessagent.language.units import unit_at
-from wirelessagent.language.word_tables import words_of
+from wirelessagent.language.word_tables import either, words_of
 
 Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
 
@@ -27,10 +27,8 @@ _NUMBER_WORDS = {word: str(value) for word, value in cardinals(1, 20).items() if
 _NOUN = f"(?:{'|'.join(words_of('figures', 'users', 'nouns', 'things'))})"
 _EACH = f"(?:{'|'.join(words_of('figures', 'users', 'each'))})"
 _WORD_NUMBER = "(?:" + "|".join(sorted(_NUMBER_WORDS, key=len, reverse=True)) + ")"
-_AND = (
-    r"(?:\s*(?:,|&|\+|/)\s*(?:and\s+|y\s+|et\s+|und\s+|or\s+)?|\s+(?:and|or|plus|nor|as\s+well\s+as|y|e|o|ni|así\s+como|"
-    r"et|ou|ainsi\s+que|und|oder|noch|sowie)\s+(?:(?:the|el|al|del|le|au|du|die|den|der)\s+)?)"
-)
+_JOINS, _ARTICLES = (either("figures", "users", name) for name in ("joins", "articles"))
+_AND = rf"(?:\s*(?:,|&|\+|/)\s*(?:(?:and|y|et|und|or)\s+)?|\s+(?:{_JOINS})\s+(?:(?:{_ARTICLES})\s+)?)"
 _TO = r"(?:\s*(?:-|–|~)\s*|\s+(?:up\s+to|to|through|al?|hasta\s+el|hasta|à|au|jusqu'(?:à|au)|bis(?:\s+zu)?)\s+)"
 _OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …" is
     r"(?!\s+(?:for|to(?!\s+(?:have|get|receive|be|reach|see|go|run|enjoy|count|share|stay))|para|pour|für)\s)"
@@ -69,57 +67,29 @@ _ZH = deferred(
     rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{_ZH_NOUN}"
 )
 _OTHERS = Phrases(
-    r"\b(?:everyone else|everybody else|every other (?:one|user|person|subscriber)|"
-    r"all (?:the )?others?(?: users?)?|(?:the )?others?(?: users?| ones)?|each of the "
-    r"(?:rest|others)|(?:the )?(?:rest|remaining(?: users?| ones)?|remainder)(?: of (?:them|the users|us))?|"
-    r"those (?:remaining|left|that remain|who remain|who are left)|anyone else|"
-    r"(?:a )?(?:los|las) (?:demás|otr[oa]s|restantes)|(?:al|el) resto|(?:a )?(?:los|las) que qued[ae]n|"
-    r"(?:(?:à )?tous |chacun )?(?:les|aux|des) autres|(?:le|au) reste|ceux qui restent|"
-    r"(?:(?:die|den|der|alle[nr]?|wir) )?(?:anderen|andern|übrigen|restlichen|verbleibenden)|(?:der|den|dem) rest)\b|"
-    r"(?:其他|其它|其余|剩下|剩余|余下|另外|别的|旁的)的?(?:所有)?(?:的)?(?:人|用户|终端)?(?:都)?|别人|旁人",
+    either("figures", "users", "others"),
     marks="else other rest remain those otr demás qued autre ander übrig verbleib 其 剩 余 另 别 旁",
 )
 _EVERYBODY = Phrases(
-    r"\b(?:everyone|everybody|every (?:single )?(?:one|user|ue|person|subscriber|customer|terminal|device|"
-    r"client|head)|"
-    r"each (?:and every )?(?:one|user|ue|person|subscriber|customer|terminal|device|client|of them|of the users)|"
-    r"each|apiece|all(?: the| our)? (?:users|ues|"
-    rf"subscribers|customers|terminals|devices|clients|phones|people)|all of them|all|(?:per|a|/)\s?(?:{_EACH}|capita)|"
-    r"whoever|nobody|no one|noone|no user|none|anyone|anybody|people|users|(?:para |"
-    r"a )?todos(?: los usuarios)?|cada (?!vatio|watt|julio|joule|bit|segundo|vez|mes|d[ií]a)\w+|"
-    rf"por {_EACH}|nadie|"
-    r"cualquiera|quien sea|tous(?: les utilisateurs)?|tout le monde|chacune?|"
-    rf"chaque (?!watt|joule|bit|fois|seconde|mois|jour)\w+|par {_EACH}|"
-    r"personne|qui que ce soit|quiconque|alle(?: nutzer)?|jeder?[nm]?(?: nutzer| "
-    rf"einzelne[nr]?)?|(?:pro|je) {_EACH}|jedermann|niemand|keine[rmn]?|für alle)\b|"
-    r"(?:每个|每位|每一个|每名|每|各|所有|全部|全体)(?:的)?(?:用户|人|终端|ue|户|客户|设备|位)?|人人|"
-    r"大家|人均|没人|谁也|人手|(?:一人|一户)(?=[一两二三四五六七八九十百半0-9])"
+    rf"{either('figures', 'users', 'everybody')}|\b(?:(?:per|a|/)\s?(?:{_EACH}|capita)|(?:por|par|pro|je) {_EACH})\b"
 )
-_PRONOUN = Phrases(
-    r"\b(?:him|her|he|she|them|(?:those|these)(?: two| three| four| five| users)?|that one|both|it|"
-    r"él|ella|ellos|ambos|los dos|"
-    r"lui|elle|eux|les deux|ihm|ihr|ihn|ihnen|den|die beiden|beide[nr]?)\b|[他她它]们?(?!人)"
-)
-_EVERY_SECOND = Phrases(  # "odd-numbered users", "Nutzer mit gerader Nummer"; which ones they are, the cell's size says
-    rf"\b(?:the )?(?:(?P<odd>odd)|even)(?:[- ]numbered)? (?:{_NOUN}|ones|numbers)\b|"
-    rf"\b{_NOUN} with (?:an )?(?:(?P<odd_id>odd)|even) (?:numbers?|ids?|index|indices)\b|"
-    rf"\b(?:l[oa]s )?{_NOUN} (?:de número |con número )?(?:(?P<impar>impar(?:es)?)|par(?:es)?)\b|"
-    rf"\b(?:les )?{_NOUN} (?:de numéro |à numéro )?(?:(?P<impair>impaire?s?)|paire?s?)\b|"
-    rf"\b(?:die |den )?(?P<ungerade>un)?gerad(?:zahlig)?(?:e[nr]?)? {_NOUN}\b|"
-    rf"\b(?:die |den )?{_NOUN} mit (?P<ungerader>un)?gerade[nr]? nummern?\b|"
-    r"(?:编号(?:为|是))?(?:(?P<dan>单数号?|奇数号?|单号)|双数号?|偶数号?|双号)的?(?:用户|终端)",
-    marks="odd even par pair gerad 单 奇 双 偶",
+_PRONOUN = Phrases(either("figures", "users", "pronouns"))
+_ODD, _EVEN = (  # "odd-numbered users", "Nutzer mit gerader Nummer"; which ones they are, the cell's size says
+    Phrases(either("figures", "users", name, noun=_NOUN), marks="odd even par pair gerad 单 奇 双 偶")
+    for name in ("odd", "even")
 )
 JOINT = deferred(
-    r"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|\b(?:or|and|nor|plus|y|e|o|ni|et|ou|und|oder|sowie|noch|"
-    r"as\s+well\s+as|así\s+como|ainsi\s+que)\b|\s)+\s*(?:(?:also|the|al|el|los|la|le|les|au|aux|die|den|der|del|du)\s+)?"
-    r"(?:l'|à\s+l')?"
+    rf"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|{_JOINS}|\s)+\s*(?:(?:also|{_ARTICLES})\s+)?(?:l'|à\s+l')?"
 )
 LISTED = deferred(  # between the figures of a list
     rf"(?i)\s*(?:[,;、\uff0c]|{JOINT.pattern.removeprefix('(?i)')}|,?\s*(?:and then|beziehungsweise|bzw\.?|"
     r"respectively))\s*"
 )
 _RANGE = deferred(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
+_UP_TO = deferred(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*")
+_ITEM = deferred(rf"(?i)[0-9]+|\b(?:{'|'.join(_ORDINALS)})\b|{_WORD_NUMBER}\b|[一二三四五六七八九十]+")
+_AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
+_GOES_ON = deferred(r"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,8 +110,7 @@ def mentions(plain: str, names: Sequence[str] = (), taken: Sequence[tuple[int, i
     """
     found: list[Mention] = []
     for mention in [*_own_names(plain, names), *_every_second(plain, len(names)), *_spoken_of(plain)]:
-        clear = not any(mention.start < end and start < mention.end for start, end in taken)
-        if clear and not any(mention.start < other.end and other.start < mention.end for other in found):
+        if not overlaps((mention.start, mention.end), [*taken, *((other.start, other.end) for other in found)]):
             found.append(mention)
     return merged(plain, sorted(found, key=lambda mention: mention.start))
 
@@ -156,9 +125,10 @@ def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
 
 def _every_second(plain: str, count: int) -> Iterator[Mention]:
     """Users by an odd or an even number, where it is known how many there are."""
-    for match in _EVERY_SECOND.finditer(plain) if count > 1 else ():
-        users = tuple(str(number) for number in range(1 if match.lastgroup else 2, count + 1, 2))
-        yield Mention(role="named", users=users, start=match.start(), end=match.end())
+    for first, pattern in ((1, _ODD), (2, _EVEN)) if count > 1 else ():
+        for match in pattern.finditer(plain):
+            users = tuple(str(number) for number in range(first, count + 1, 2))
+            yield Mention(role="named", users=users, start=match.start(), end=match.end())
 
 
 @functools.lru_cache(maxsize=64)
@@ -168,7 +138,7 @@ def _spoken_of(plain: str) -> tuple[Mention, ...]:
 
 
 def _named(plain: str) -> Iterator[Mention]:
-    for match in _NAMED.finditer(plain):
+    for match in (*_NAMED.finditer(plain), *_ZH.finditer(plain)):
         group = match.lastgroup or ""
         if group == "rate_of" and plain[match.start()] != "R":
             continue
@@ -176,21 +146,13 @@ def _named(plain: str) -> Iterator[Mention]:
         users = _listed(plain[match.start(group) : min(end, match.end(group))])
         if users and end > match.start(group):
             yield Mention(role="named", users=users, start=match.start(), end=end)
-    for match in _ZH.finditer(plain):
-        group = match.lastgroup or ""
-        end = _without_quantity(plain, match, group)
-        users = _listed(
-            match.group(group)[: end - match.start(group)] if end < match.end(group) else match.group(group)
-        )
-        if users and end > match.start(group):
-            yield Mention(role="named", users=users, start=match.start(), end=max(end, match.start(group)))
 
 
 def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
     """Where the list ends when its last number belongs to a unit: "users 1 and 2, 10 W"."""
     if group in ("ordinal", "short", "symbol", "rate_of", "nth"):
         return match.end()
-    parts = list(re.finditer(rf"(?i)[0-9]+|{_WORD_NUMBER}\b|[一二三四五六七八九十]+", match.group(group)))
+    parts = list(_ITEM.finditer(match.group(group)))
     offset = match.start(group)
     if parts and unit_at(plain, offset + parts[-1].end()) is not None:
         return offset + parts[-2].end() if len(parts) > 1 else offset
@@ -201,18 +163,12 @@ def _listed(text: str) -> tuple[str, ...]:
     """The users of a list such as "1, 2 and 5" or "1 to 4"."""
     users: list[str] = []
     previous, previous_end = "", 0
-    for part in re.finditer(
-        rf"(?i)[0-9]+|\b(?:{'|'.join(_ORDINALS)})\b|{_WORD_NUMBER}\b|[一二三四五六七八九十]+", text
-    ):
+    for part in _ITEM.finditer(text):
         user = _number(part.group().lower())
         if not user:
             continue
-        between = text[previous_end : part.start()]
-        if (
-            previous
-            and re.fullmatch(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*", between)
-            and int(previous) < int(user) < int(previous) + 1000
-        ):
+        spans = previous and _UP_TO.fullmatch(text, previous_end, part.start())
+        if spans and int(previous) < int(user) < int(previous) + 1000:
             users.extend(str(number) for number in range(int(previous) + 1, int(user)))
         users.append(user)
         previous, previous_end = user, part.end()
@@ -222,49 +178,38 @@ def _listed(text: str) -> tuple[str, ...]:
 def _number(word: str) -> str:
     if word.isdigit():
         return str(int(word))
-    if word in _ORDINALS or word in _NUMBER_WORDS:
-        return _ORDINALS.get(word) or _NUMBER_WORDS[word]
-    value = chinese_value(word)
-    return str(int(value)) if value is not None else ""
+    known = _ORDINALS.get(word) or _NUMBER_WORDS.get(word)
+    value = chinese_value(word) if known is None else None
+    return known or ("" if value is None else str(int(value)))
 
 
 def _collective(plain: str) -> Iterator[Mention]:
-    roles: tuple[tuple[Role, Phrases], ...] = (
-        ("others", _OTHERS), ("everybody", _EVERYBODY), ("pronoun", _PRONOUN),
-    )  # fmt: skip
-    for role, pattern in roles:
+    roles: Mapping[Role, Phrases] = {"others": _OTHERS, "everybody": _EVERYBODY, "pronoun": _PRONOUN}
+    for role, pattern in roles.items():
         for match in pattern.finditer(plain):
             yield Mention(role=role, users=(), start=match.start(), end=match.end())
 
 
 def _lists(plain: str, last: Mention, mention: Mention) -> bool:
     """Whether two neighbours are items of one list: an "and" joins them, or a comma where the list goes on."""
-    if re.search(r"(?i)[a-z和与跟及&/、]", plain[last.end : mention.start]):
-        return True
-    return (
-        re.match(r"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)", plain[mention.end :])
-        is not None
-    )
+    between, behind = plain[last.end : mention.start], plain[mention.end :]
+    return bool(_AND_BETWEEN.search(between) or _GOES_ON.match(behind))
 
 
 def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
     """Neighbours that an "and" or a "to" joins made one: "user 3 and user 5", "UE 1 to UE 4"."""
     merged: list[Mention] = []
     for mention in found:
-        last = merged[-1] if merged else None
-        beside = last is not None and last.role == mention.role == "named"
-        if last is not None and beside and _RANGE.fullmatch(plain, last.end, mention.start):
-            users = _listed(f"{last.users[-1]} to {mention.users[0]}")
-            users = tuple(dict.fromkeys([*last.users, *users, *mention.users]))
-            merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
-        elif (
-            last is not None
-            and beside
-            and _lists(plain, last, mention)
-            and JOINT.fullmatch(plain, last.end, mention.start)
-        ):
-            users = tuple(dict.fromkeys([*last.users, *mention.users]))
-            merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
-        else:
+        last = merged[-1] if merged else mention
+        between: list[str] | None = None
+        if merged and last.role == mention.role == "named":
+            if _RANGE.fullmatch(plain, last.end, mention.start):
+                between = [*_listed(f"{last.users[-1]} to {mention.users[0]}")]
+            elif _lists(plain, last, mention) and JOINT.fullmatch(plain, last.end, mention.start):
+                between = []
+        if between is None:
             merged.append(mention)
+        else:
+            users = tuple(dict.fromkeys([*last.users, *between, *mention.users]))
+            merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
     return merged

@@ -8,25 +8,8 @@ from collections.abc import Mapping
 
 from wirelessagent import plugins
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.word_tables import words_of
 from wirelessagent.telling.catalogue import called, languages
-
-_SPOKEN: Mapping[str, tuple[str, ...]] = {
-    "dual": ("dual decomposition", "lagrangian", "对偶"),
-    "exact": ("brute force", "branch and bound", "精确"),
-    "greedy": ("贪心", "贪婪"),
-    "equal_power": ("equal power allocation", "uniform power", "等功率", "平均功率", "均分功率"),
-    "round_robin": ("roundrobin", "轮询", "轮转"),
-    "paper": ("论文",),
-    "paper_bisection": ("论文二分", "二分法", "bisection"),
-    "paper_inversion": ("论文信道反转", "信道反转", "channel inversion"),
-    "paper_scan": ("论文功率扫描", "功率扫描", "power scan"),
-    "kriging": ("克里金",),
-    "linear": ("linear interpolation", "线性插值"),
-    "nncf": ("nearest neighbours", "nearest neighbors", "最近邻"),
-    "user_mean": ("mean of the user", "用户均值"),
-    "learned_covariance": ("学习协方差",),
-    "predictor": ("时间预测",),
-}
 
 
 def tools_named(text: str, *kinds: plugins.Kind) -> tuple[str, ...]:
@@ -60,7 +43,7 @@ def _plain(text: str) -> str:
 @functools.cache
 def _spoken(names: tuple[str, ...]) -> tuple[Mapping[str, str], re.Pattern[str]]:
     """The plug-in that each name, as it is said or told in any language, means, and a pattern for all of them."""
-    spoken = {said: name for name in names for said in (_plain(name), *_SPOKEN.get(name, ()))}
+    spoken = {said: name for name in names for said in (_plain(name), *words_of("talk_forms", "tools", name))}
     plain = _either(spoken)
     told = {_plain(called(language, name)): name for language in sorted(languages()) for name in names}
     for said, name in told.items():  # as the agent itself says them, where nothing in it says so already

@@ -20,27 +20,6 @@ _GERMAN_PLAIN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 _ONE, _HALF = Decimal(1), Decimal("0.5")
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Grammar:
-    """The number words of a language, without accents: what each adds, multiplies by or takes a part of."""
-
-    values: Mapping[str, int]
-    scales: Mapping[str, int]
-    parts: Mapping[str, Decimal]
-    articles: frozenset[str]
-    joins: frozenset[str]
-    points: frozenset[str]
-    links: frozenset[str]
-    vague: frozenset[str]
-    dozens: frozenset[str]
-
-    def knows(self, word: str) -> bool:
-        """Whether a number may begin with this word."""
-        return any(word in words for words in (self.values, self.scales, self.parts, self.vague)) or (
-            word in self.articles or word in self.dozens or word in self.points
-        )
-
-
 def plain_word(word: str, language: str) -> str:
     """A word as the tables spell it: small letters, no accents; German umlauts as two letters."""
     return word.lower().translate(_GERMAN_PLAIN if language == "de" else _PLAIN)
@@ -53,31 +32,27 @@ def _values(language: str) -> dict[str, int]:
     return {word: start + step * i for each, start, step in counted for i, word in enumerate(each)} | words["values"]
 
 
-def _grammar(language: str) -> _Grammar:
-    """The number words of a language, as its table of figures has them."""
-    words = table("figures", language)["numbers"]
+class _Grammar:
+    """The number words of a language, without accents: what each adds, multiplies by or takes a part of."""
 
-    def plain(pairs: Mapping[str, int]) -> dict[str, int]:
-        return {plain_word(word, language): value for word, value in pairs.items()}
+    def __init__(self, language: str) -> None:
+        words = table("figures", language)["numbers"]
+        plain = functools.partial(plain_word, language=language)
+        self.values = {plain(word): value for word, value in _values(language).items()}
+        self.scales: dict[str, int] = {plain(word): value for word, value in words["scales"].items()}
+        self.parts = {plain(word): Decimal(str(value)) for word, value in words["parts"].items()}
+        self.articles, self.joins, self.points, self.links, self.vague, self.dozens = (
+            frozenset(map(plain, words[name])) for name in ("articles", "joins", "points", "links", "vague", "dozens")
+        )
 
-    def one_of(name: str) -> frozenset[str]:
-        return frozenset(plain_word(word, language) for word in words[name])
-
-    return _Grammar(
-        values=plain(_values(language)),
-        scales=plain(words["scales"]),
-        parts={plain_word(word, language): Decimal(str(value)) for word, value in words["parts"].items()},
-        articles=one_of("articles"),
-        joins=one_of("joins"),
-        points=one_of("points"),
-        links=one_of("links"),
-        vague=one_of("vague"),
-        dozens=one_of("dozens"),
-    )
+    def knows(self, word: str) -> bool:
+        """Whether a number may begin with this word."""
+        beginning = (self.values, self.scales, self.parts, self.vague, self.articles, self.dozens, self.points)
+        return any(word in words for words in beginning)
 
 
 LANGUAGES = ("en", "es", "fr", "de")
-_GRAMMARS = {language: _grammar(language) for language in LANGUAGES}
+_GRAMMARS = {language: _Grammar(language) for language in LANGUAGES}
 _GERMAN = table("figures", "de")["numbers"]
 _GERMAN_ONES = {
     word: value for word, value in _GRAMMARS["de"].values.items() if value < 20 and word not in _GERMAN["articles"][1:]

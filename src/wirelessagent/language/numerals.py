@@ -14,13 +14,14 @@ from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import Spoken, cardinals, languages_of, listed, spoken
-from wirelessagent.language.text import USER_NOUN, Phrases, language_of
+from wirelessagent.language.text import NUMBERED_USERS, Phrases, language_of
 from wirelessagent.language.units import unit_at
 
+_HALF = Decimal("0.5")
 _SCALES = {word: int(value) for word, value in listed("scales").items() if word != "cent"}  # of money
 _PARTS = {
-    **{word: value for word, value in listed("parts").items() if value in (Decimal("0.5"), Decimal("0.25"))},
-    "½": Decimal("0.5"), "¼": Decimal("0.25"), "¾": Decimal("0.75"),
+    **{word: value for word, value in listed("parts").items() if value in (_HALF, Decimal("0.25"))},
+    "½": _HALF, "¼": Decimal("0.25"), "¾": Decimal("0.75"),
 }  # fmt: skip
 
 _CHINESE_DIGITS = {c: d for d, c in enumerate("零一二三四五六七八九")} | {"〇": 0, "两": 2}
@@ -54,7 +55,7 @@ _AS_FEW = deferred(r"(?i)\b(?:as|so|too|tan|aussi|zu|very|muy|trop)\s+$")
 _EACH = (
     r"(?<!every )(?<!each )(?<!per )(?<!all )(?<!cada )(?<!por )(?<!chaque )(?<!par )(?<!jeder )(?<!jeden )(?<!pro )"
 )
-_NAMED = deferred(rf"(?i){_EACH}\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|y|et|und|&|/)\s*)*$")
+_NAMED = deferred(rf"(?i){_EACH}{NUMBERED_USERS}")
 _PLURAL = deferred(
     r"(?i)\b(?:users|ues|subscribers|customers|clients|devices|phones|usuarios|abonados|utilisateurs|"
     r"abonnés|usagers|kunden)\s*$"
@@ -76,8 +77,13 @@ _FOLDS = {
     **dict.fromkeys(("dos y medio", "deux et demi", "two and a half", "deux fois et demie"), Decimal("2.5")),
 }
 _MANY = "(?:" + "|".join(sorted(_FOLDS, key=len, reverse=True)) + ")"
+_CHINESE_FOLDS = {
+    **dict.fromkeys(("翻倍", "加倍", "双倍", "双份", "翻一番"), 2),
+    **{f"{counts}{two}个": 2 for counts in "顶当算" for two in "两二"},
+    **dict.fromkeys(("减半", "一半", "半份", "半倍"), _HALF),
+}
 _TIMES = Phrases(
-    rf"\b(?P<named>{'|'.join(listed('fold'))})\b|\b(?P<german>doppelt|dreifach|vierfach|fünffach|zehnfach)\w*|"
+    rf"\b(?P<named>{'|'.join(listed('fold'))})\b|\b(?P<german>doppelt)\w*|"
     rf"\b(?P<compound>{_MANY})(?:fach|mal)\w*|(?P<phrase>(?:une\s+fois\s+et\s+demie|deux\s+fois\s+et\s+demie|"
     rf"una\s+vez\s+y\s+media))|"
     rf"\b(?P<word>{_MANY})[\s-]?(?:times|veces|fois|mal|fold)\b|"
@@ -86,11 +92,9 @@ _TIMES = Phrases(
     rf"(?P<counted>{_MANY})\b|"
     r"(?<![\w.])(?:x\s?(?P<x>[0-9]+(?:\.[0-9]+)?)(?![\w.])|(?P<n>[0-9]+(?:[.,][0-9]+)?)\s*(?:times\b|x\b|-?fold\b|"
     r"veces\b|fois\b|mal\b|-?fach\w*))|(?P<zhn>[0-9]+(?:\.[0-9]+)?)\s*倍|"
-    r"(?P<zhtwo>翻倍|加倍|双倍|双份|翻一番|顶[两二]个|当[两二]个|算[两二]个)|(?P<zhhalf>减半|一半|半份|半倍)|"
+    rf"(?P<zhfold>{'|'.join(_CHINESE_FOLDS)})|"
     r"(?P<zh>[一二两三四五六七八九十](?:点[一二三四五六七八九])?)(?P<zhmore>[倍份]半?)"
 )
-_GERMAN_FOLDS = {"doppelt": 2, "dreifach": 3, "vierfach": 4, "fünffach": 5, "zehnfach": 10}
-_HALF = Decimal("0.5")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -273,7 +277,7 @@ def chinese_value(numeral: str) -> Decimal | None:
     (Decimal('105'), Decimal('1500'), Decimal('3.5'), Decimal('0.5'))
     """
     if numeral == "半":
-        return Decimal("0.5")
+        return _HALF
     whole, _, fraction = numeral.partition("点")
     if "几" in numeral or "半" in numeral or any(c not in _CHINESE_DIGITS for c in fraction):
         return None
@@ -320,6 +324,5 @@ def _fold(match: re.Match[str], group: str) -> Decimal | None:
         return Decimal(word.replace(",", "."))
     if group == "zh":
         value = chinese_value(word)
-        return None if value is None else Decimal(str(value)) + (_HALF if match["zhmore"].endswith("半") else 0)
-    known = {"german": _GERMAN_FOLDS, "zhtwo": {word: 2}, "zhhalf": {word: _HALF}}.get(group, _FOLDS)
-    return Decimal(known[word])
+        return None if value is None else value + (_HALF if match["zhmore"].endswith("半") else 0)
+    return Decimal((_CHINESE_FOLDS if group == "zhfold" else _FOLDS)[word])

@@ -16,8 +16,9 @@ from wirelessagent.language.deferred import deferred
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.readings import GENERATION, Reading
 from wirelessagent.language.readings import readings as read_numbers
-from wirelessagent.language.text import USER_NOUN, has_chinese, normalise
+from wirelessagent.language.text import NUMBERED_USERS, has_chinese, normalise
 from wirelessagent.language.units import unit_of_another_time
+from wirelessagent.language.word_tables import either
 
 QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
 
@@ -27,12 +28,8 @@ _AFTER_BARE = deferred(
     r"with|at|but|then|now|thanks|"
     r"to|in|on|the|while|when|apiece)\b|(?:de\s+)?(?:probabilit|outage|wahrscheinlich)))"
 )
-_NAMES = deferred(
-    r"(?i:(?:\b(?:users?|ues?|slots?|subcarriers?|channels?|carrier|cells?|number|numbers|no\.?|and|to|release|"
-    r"version|mode"
-    r"|device|sensor|band|seed|step|case|at|day|room)|[#№])\s*$)|(?:用户|子载波|信道|小区|第|方案|模式|时隙)\s*$"
-)
-_USERS = deferred(rf"(?i)\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|or|y|et|und|oder|ou|o|&|/)\s*)*$")
+_NAMES = deferred(rf"(?i)(?:{either('figures', 'named', 'numbered')}|\bno\.|[#№])\s*$")
+_USERS = deferred(rf"(?i){NUMBERED_USERS}")
 _CHINESE_COUNTED = deferred(
     r"\s*(?:[千兆]?瓦时|[千兆毫微]?(?:赫|米|秒|焦)|个|号|名|位|路|台|人|用户|小时|分钟|点|月|日|年|公里|次|倍|度|成)"
 )
@@ -42,19 +39,16 @@ _FOREIGN_APIECE = deferred(
     r"(?i)\s?(?!users?\b|ues?\b)[A-Za-zμ][A-Za-zμ/]*\s*(?:each\b|apiece\b|per\s+(?:user|person|head)\b|每)"
 )
 _RANGE = deferred(r"\s*(?:-|–|—|~|(?i:to\b|and\b|through\b|y\b|et\b|à\b|und\b|bis\b)|到|至)\s*$")
-_PRICE_BEFORE = deferred(r"(?i)(?:\b(?:per|each|every|out of|from|for|of|pro|je|par|por|cada|chaque|aus)\s+|每)$")
-_PRICE_AFTER = deferred(
-    r"(?i)\s*(?:should\s+|can\s+|must\s+)?(?:buys?|brings?|carr(?:y|ies)|gives?|yields?|delivers?|moves?|"
-    r"fetch(?:es)?)\b|[的]?(?:电|功率)?(?:都|要|能|可以)?(?:换|传|产|带来|跑|花得)"
-)
 _OWN_NOUN = deferred(  # "each user's rate no lower than" bounds the rate, and wishes for none
     r"(?:用户|每人|人均|每个|每户|各|UE|终端|大家|的)的?(?P<noun>(?:下行|数据)?(?:速率|速度|网速|吞吐量?))(?:都|"
     r"也)?(?:要|得|必须|应|须)?$"
 )
-_STEP_AFTER = deferred(
-    r"(?i)\s*(?:more|less|faster|extra|too\s+much|de\s+m[aá]s|m[aá]s|de\s+plus|mehr|zu\s+viel|zuviel)\b"
+_PRICE_BEFORE, _STEP_BEFORE = (
+    deferred(rf"(?i)(?:{either('figures', 'one', name)})\s*$") for name in ("price_before", "step_before")
 )
-_STEP_BEFORE = deferred(r"(?i)\b(?:not|nor|ni|pas|nicht|without|last|per|by|an|what)\s+$")
+_PRICE_AFTER, _STEP_AFTER = (
+    deferred(rf"(?i)\s*(?:{either('figures', 'one', name)})") for name in ("price_after", "step_after")
+)
 
 
 def amount_of_another_time(plain: str) -> tuple[int, int] | None:
@@ -102,8 +96,7 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
     after = 0
     for index, reading in enumerate(readings):
         following = readings[index + 1] if index + 1 < len(readings) else None
-        in_range = following is not None and following.unit is not None and _joined(plain, reading, following)
-        if in_range and following is not None:
+        if following is not None and following.unit is not None and _joined(plain, reading, following):
             continue  # the lower end of a range: read together with the upper one
         lower = readings[index - 1] if index and _joined(plain, readings[index - 1], reading) else None
         if lower is not None and reading.unit is not None:
@@ -163,17 +156,15 @@ def _bounded(text: str, plain: str, reading: Reading, *, after: int, until: int)
         return None
     if number.value == 1 and number.form != "digits" and bounds.comparator is None and _is_step(plain, reading):
         return None
-    if _is_article(plain, reading) and not (unit is not None and (bounds.comparator or unit.kind == "rate")):
+    article = plain[number.start : number.end].lower() in ("a", "an")
+    if article and not (unit is not None and (bounds.comparator or unit.kind == "rate")):
         return None
     value = 0.0
     if number.value is not None and kind != "other":
         value = unit.value(number.value) if unit is not None else float(number.value * reading.factor)
     end = reading.end
-    own = (
-        _OWN_NOUN.search(plain, max(0, bounds.start - 12), bounds.start)
-        if bounds.comparator and kind == "rate"
-        else None
-    )
+    bounded_rate = bounds.comparator and kind == "rate"
+    own = _OWN_NOUN.search(plain, max(0, bounds.start - 12), bounds.start) if bounded_rate else None
     foreign = _FOREIGN_UNIT.match(plain, end, until) if kind == "other" and unit is None else None
     if foreign is not None:
         end = foreign.end()
@@ -184,10 +175,6 @@ def _bounded(text: str, plain: str, reading: Reading, *, after: int, until: int)
     )  # fmt: skip
 
 
-def _is_article(plain: str, reading: Reading) -> bool:
-    return plain[reading.number.start : reading.number.end].lower() in ("a", "an")
-
-
 def _is_price(plain: str, reading: Reading) -> bool:
     """Whether one watt is what bits are counted for: "the most out of one watt", 一瓦换多少比特."""
     before, after = plain[max(0, reading.start - 16) : reading.start], plain[reading.end : reading.end + 12]
@@ -196,10 +183,8 @@ def _is_price(plain: str, reading: Reading) -> bool:
 
 def _is_step(plain: str, reading: Reading) -> bool:
     """Whether one unit is the least step, not a figure: "not a watt more", "every megabit"."""
-    return (
-        _STEP_AFTER.match(plain, reading.end) is not None
-        or _STEP_BEFORE.search(plain, max(0, reading.start - 12), reading.start) is not None
-    )
+    before = _STEP_BEFORE.search(plain, max(0, reading.start - 12), reading.start)
+    return before is not None or _STEP_AFTER.match(plain, reading.end) is not None
 
 
 def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> QuantityKind | None:
@@ -208,13 +193,12 @@ def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> Quanti
         return None
     if reading.number.form == "chinese" or _CHINESE_COUNTED.match(plain, reading.end):
         return None
-    named = _is_name(plain, reading.start)
     glued = (
         GENERATION.match(plain, reading.start) is not None or plain[max(0, reading.start - 1) : reading.start] == "/"
     )
     if glued or plain[reading.end : reading.end + 1] == "/":
         return "other" if bounded else None
-    if named:
+    if _is_name(plain, reading.start):
         return None
     if _AFTER_BARE.match(plain, reading.end) or has_chinese(plain[reading.end :].lstrip()[:1]):
         return "bare"

@@ -1,16 +1,23 @@
-"""Numbers with the units that follow them, shares and odds included, before anybody asks what bounds them."""
+"""Numbers with the units that follow them, shares and odds included, before anybody asks what bounds them.
+
+Odds ("one miss in twenty") are ratios like a percentage; whether of what fails or of what holds, the model of roles
+says. A reliability without a percent sign is one where nothing else can be meant: so many nines, a number of nines
+alone ("…, 99.999") or a number above fifty right beside a word for reliability.
+"""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.number_words import cardinals, listed
 from wirelessagent.language.numerals import Number, and_part, chinese_value, numbers
-from wirelessagent.language.ratios import nines, odds
-from wirelessagent.language.text import USER_NOUN, has_chinese
+from wirelessagent.language.text import USER_NOUN, Phrases, has_chinese, overlaps
 from wirelessagent.language.units import Unit, unit_at
-from wirelessagent.language.word_tables import words_of
+from wirelessagent.language.word_tables import either, words_of
 
 _SUFFIX = deferred(r"\s?(?P<suffix>[kKMG])(?![A-Za-z0-9]|/(?!\s?(?:users?|ue|person|head)\b))|m(?![A-Za-z0-9/])")
 _CHINESE_SUFFIX = deferred(
@@ -23,10 +30,7 @@ _APIECE_AFTER = deferred(  # what is given to each with a mere "k" or "M" is a r
     rf"für\s+(?:alle|jeden?)|(?:pro|je)\s+{_WHO})(?![\w-])"
 )
 _APIECE_BEFORE = deferred(
-    r"(?i)\b(?:everyone|everybody|each(?:\s+(?:user|one|of\s+them))?|all\s+users|every\s+user|per\s+user|todos|cada\s+usuario|"
-    r"tous|chacun|chaque\s+utilisateur|alle|jede[rnm]?(?:\s+nutzer)?)\s*(?:(?:should|must|to|has|have|had|get|gets|got|getting|"
-    r"needs?|receives?|with|wants?|at|least|most|a|minimum|min|of|tenga|tienen?|recib\w+|al|menos|au|moins|reçoit|reçoivent|ait|"
-    r"avoir|bekommt|bekommen|mindestens|soll|sollen|:)\s*)*$|"
+    rf"(?i)(?:{either('figures', 'users', 'given')})\s*(?:(?:{either('figures', 'users', 'gets')}|:)\s*)*$|"
     rf"\b(?:cap|limit|throttle|hold|keep|give|grant|guarantee|promise)\s+{USER_NOUN}\s*[0-9]{{1,3}}\s+(?:at|to|below|under|"
     r"above|over|a|at\s+least|at\s+most)?\s*$|\br_?(?:min|max)\s*(?:[:=]|of|is|≥|≤|<=|>=)?\s*$"
 )
@@ -43,6 +47,53 @@ _TENTHS = deferred(r"成(?P<more>[一二三四五六七八九半]{0,3})(?![员�
 _COUNTED = deferred(rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|persons|personas|personnes|sensor\w*)\b")
 
 
+# Odds, "one miss in twenty", 十次里有九次, and reliabilities, "five nines", 四个九.
+_PARTS = {
+    **{word: count for word, count in cardinals(1, 19).items() if count < 10 or count == 19},
+    **{f"{word}mal": count for word, count in cardinals(2, 9, ("de",)).items()},
+    **dict.fromkeys(("once", "a single", "un", "une", "una", "ein", "eine", "einen", "einer", "einmal"), 1),
+    "twice": 2,
+    "dix-neuf": 19,
+}
+_WHOLES = {
+    **{word: count for word, count in cardinals(10, 100).items() if count in (10, 20, 50, 100)},
+    **{word: int(scale) for word, scale in listed("scales").items() if scale in (100, 1000)},
+    **dict.fromkeys(("a hundred", "one hundred"), 100),
+    "a thousand": 1000,
+}
+_ORDINALS = {"zehnte": 10, "zwanzigste": 20, "fünfzigste": 50, "hundertste": 100, "tausendste": 1000}
+_EVENT = (
+    r"(?:time|miss(?:es)?|fail(?:ure)?|outage|drop|packet|transmission|attempt|slot|night|day|case|coupure|raté|perte|"
+    r"échec|fois|panne|paquet|fallo|corte|vez|veces|pérdida|error|interrupción|ausfall|ausfälle|aussetzer|fehler|mal|"
+    r"paket|pakete|fälle|fällen)s?"
+)
+_PART = rf"(?P<part>[0-9]{{1,3}}|{'|'.join(sorted(_PARTS, key=len, reverse=True))})"
+_WHOLE = rf"(?P<whole>10|20|25|40|50|100|200|500|1[ .,']?000|{'|'.join(sorted(_WHOLES, key=len, reverse=True))})"
+_NUMERAL = "[0-9一二两三四五六七八九十百千]+"
+_ODDS = deferred(
+    rf"(?i)(?<![\w.,]){_PART}(?:[\s-]+{_EVENT}[\s-]+of|(?:[\s-]+{_EVENT})?[\s-]+(?:in|out\s+of|por\s+cada|de\s+cada|cada|entre|sur|von|aus|auf))"
+    rf"[\s-]+(?:every\s+|each\s+|je\s+)?{_WHOLE}(?![\w%]|[.,][0-9]|\s?(?:[kmM]?W|dB\w*|[kKMG]?bit\S*|[kMG]bps)\b)|"
+    rf"\bjede[rsnm]?\s+(?P<ordinal>{'|'.join(_ORDINALS)})[nrsm]?\b|"
+    rf"(?P<zhwhole>{_NUMERAL})(?P<unit>次|回)(?:里|中|之中|当中)?[^,，。;；0-9一二两三四五六七八九十百千]{{0,6}}(?P<zhpart>{_NUMERAL})(?P=unit)"
+)
+
+_HOW_MANY = cardinals(2, 7)
+_LATIN = "|".join([*_HOW_MANY, "[2-7]"])
+_RELIABLE = (
+    r"(?:reliab\w*|availab\w*|dependab\w*|fiab\w*|confiab\w*|disponib\w*|zuverlässig\w*|verfügbar\w*|sicherheit)"
+)
+_LINK = r"(?:\s+(?:of|at|is|be|to|de|del|von|bei|à|al|a|at\s+least|mindestens|au\s+moins))*\s*[:=]?\s*"
+_PERCENT = r"(?P<{}>[5-9][0-9](?:[.,][0-9]{{1,6}})?)(?![0-9.,]*[0-9])"
+_NINES = Phrases(
+    rf"(?<![\w.,])(?P<count>{_LATIN})[\s-]+(?:nines|9'?s|nueves|neufs|neunen|neuner)(?![\w%])|"
+    r"(?P<zh>[二两三四五六七2-7])\s?个\s?[九9](?![0-9一二三四五六七八九十百千万])|"
+    r"(?:(?<=^)|(?<=[,;:\uff0c；、(。]\s)|(?<=[,;:\uff0c；、(。]))(?P<alone>99[.,]9{1,5})(?=\s*(?:$|[,;!?)\uff0c；。]|\.(?![0-9])))|"
+    rf"\b{_RELIABLE}{_LINK}{_PERCENT.format('behind')}|(?<![\w.,]){_PERCENT.format('ahead')}\s+{_RELIABLE}|"
+    rf"可靠[性度率]?(?:要?达?到|要|为|是|不低于|至少|>=|≥|=|:)?\s*{_PERCENT.format('zhbehind')}",
+    marks="nine 9 nueve neuf neun 九 reliab availab dependab fiab disponib zuverlässig verfügbar sicherheit 可靠",
+)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Reading:
     """A number with the unit that follows it; ``factor`` is that of a bare "k" or "M"."""
@@ -57,16 +108,17 @@ class Reading:
 def readings(plain: str) -> list[Reading]:
     """Every number of a normalised text with its unit, from left to right, not overlapping."""
     shares = (each for each in odds(plain) if _COUNTED.match(plain, each[2]) is None)
-    found = [_as_share(*each) for each in (*nines(plain), *shares)]
+    found = [
+        Reading(
+            number=Number(value=value, start=start, end=end, form="words"),
+            unit=Unit(kind="ratio", end=end), start=start, end=end,
+        )
+        for value, start, end in (*nines(plain), *shares)
+    ]  # fmt: skip
     for number in numbers(plain):
-        if not any(each.start < number.end and number.start < each.end for each in found):
+        if not overlaps((number.start, number.end), [(each.start, each.end) for each in found]):
             found.append(_read(plain, number))
     return sorted(found, key=lambda reading: reading.start)
-
-
-def _as_share(value: Decimal, start: int, end: int) -> Reading:
-    number = Number(value=value, start=start, end=end, form="words")
-    return Reading(number=number, unit=Unit(kind="ratio", end=end), start=start, end=end)
 
 
 def _read(plain: str, number: Number) -> Reading:
@@ -134,3 +186,48 @@ def _share(plain: str, number: Number) -> Reading | None:
         return None
     number = Number(value=value, start=number.start, end=number.end, form=number.form)
     return Reading(number=number, unit=Unit(kind="ratio", end=end), start=start, end=end)
+
+
+def odds(plain: str) -> Iterator[tuple[Decimal, int, int]]:
+    """The odds of a normalised text as ratios, and where they stand.
+
+    >>> [value for value, *_ in odds("one miss in twenty is fine")]
+    [Decimal('0.05')]
+    """
+    for match in _ODDS.finditer(plain):
+        part, whole = _of(match)
+        if 0 < part < whole:
+            yield part / whole, *match.span()
+
+
+def _of(match: re.Match[str]) -> tuple[Decimal, Decimal]:
+    """How many of how many."""
+    if match["ordinal"]:
+        return Decimal(1), Decimal(_ORDINALS[match["ordinal"].lower()])
+    part, whole = match["part"] or match["zhpart"], match["whole"] or match["zhwhole"]
+    return _counted(part, _PARTS), _counted(whole, _WHOLES)
+
+
+def _counted(word: str, words: Mapping[str, int]) -> Decimal:
+    digits = re.sub(r"[ .,']", "", word)
+    return Decimal(
+        digits if digits.isdigit() else words.get(" ".join(word.lower().split())) or chinese_value(word) or 0
+    )
+
+
+def nines(plain: str) -> Iterator[tuple[Decimal, int, int]]:
+    """The reliabilities of a normalised text that are no percentages, as ratios, and where they stand.
+
+    >>> [float(value) for text in ("five nines", "reliability 99.9", "四个九") for value, *_ in nines(text)]
+    [0.99999, 0.999, 0.9999]
+    """
+    for match in _NINES.finditer(plain):
+        group = match.lastgroup or ""
+        counted = group in ("count", "zh")
+        start, end = match.span() if counted else match.span(group)
+        if unit_at(plain, end) is not None:
+            continue
+        if counted:
+            yield 1 - Decimal(10) ** -int(_counted(match[group], _HOW_MANY)), start, end
+        else:
+            yield Decimal(match[group].replace(",", ".")) / 100, start, end

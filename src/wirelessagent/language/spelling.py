@@ -6,26 +6,12 @@ from collections.abc import Iterable
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.text import CJK
+from wirelessagent.language.word_tables import table
 
-_SOUNDS = (  # characters that sound alike
-    "例列利力立理里厉历丽 率律绿虑滤 功公工供攻共宫 平评苹凭瓶 效校小笑消晓 速素诉宿塑 度读堵渡 低底抵滴敌递 "
-    "高搞告稿 吞屯 吐土图途 量亮良两谅 "
-    "总综宗 最嘴罪醉 大打达 慢满漫曼 快块筷 省升生声胜圣 电店点典垫 节接洁捷结 耗好号浩毫 比必笔币毕 分份芬纷 "
-    "配陪赔佩 均军君 衡横恒哼 "
-    "焦交教骄 尔而儿耳 用拥永 户护互 样养洋 等灯登 传船川 发法罚 射设社摄 辐服福复幅 压押鸭牙 差查茶插 弱若 撤彻车 "
-    "回会汇惠 退推腿 应映英 "
-    "输书树术 释是式试室 兆照招找 限线现先 基机及级集 站占战展 信心新芯 道到倒 宽款 带代待戴 容融荣 流留刘 "
-    "降将讲奖 优有又"
-)
-SOUND_OF = {letter: group[0] for group in _SOUNDS.split() for letter in group}
-_WORDS = (
-    "功率 速率 效率 能效 比例 公平 最低 最大 最小 最慢 最差 最高 吞吐 省电 节能 功耗 能耗 发射 带宽 容量 速度 网速 "
-    "电费 焦耳 比特 用户 瓦特 中断 概率 "
-    "可靠 权重 撤销 应用 解释 比较 历史 状态 帮助 平衡 均衡 辐射 电池 续航"
-)
-_MEANT = {"".join(SOUND_OF.get(letter, letter) for letter in word): word for word in _WORDS.split()}
-_OTHER_WORDS = "公里 工会 公用 工作 小时 消费 小户 点击 有用 大家"
-_RIGHT = frozenset(_WORDS.split()) | frozenset(_OTHER_WORDS.split())
+_SLIPS = table("figures", "zh")["slips"]
+SOUND_OF = {letter: group[0] for group in _SLIPS["sounds"] for letter in group}
+_MEANT = {"".join(SOUND_OF.get(letter, letter) for letter in word): word for word in _SLIPS["words"]}
+_RIGHT = frozenset((*_SLIPS["words"], *_SLIPS["right"]))
 _PAIR = deferred(f"(?=([{CJK}]{{2}}))")
 
 

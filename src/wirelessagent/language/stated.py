@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.quantities import Quantity
-
-Span = tuple[int, int]
+from wirelessagent.language.text import Span
 
 
 @dataclass(frozen=True, kw_only=True)

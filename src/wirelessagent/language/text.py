@@ -10,9 +10,10 @@ import re
 import sys
 import unicodedata
 from collections.abc import Iterable, Iterator
+from typing import TypeAlias
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.word_tables import words_of
+from wirelessagent.language.word_tables import table, words_of
 
 _SAME_LENGTH = {
     # Full-width ASCII, but for the comma and the semicolon: they never stand inside a number.
@@ -30,39 +31,24 @@ _SAME_LENGTH = {
 
 _TABLE = str.maketrans(_SAME_LENGTH)
 
+Span: TypeAlias = tuple[int, int]
+"""Characters [start, end) of a text."""
+
 CJK = "\u3400-\u9fff\uf900-\ufaff"
 
 _TELLING = 2
 """Small words by which a language is told from the others."""
 _WORD = deferred(r"[^\W\d_]+")
-_SMALL: dict[str, str] = {
-    "en": (
-        "the and to of is for with no not it we you at in on my our all as each every a an that this be please "
-        "min max what who how why if most least power rate user users die more"
-    ),
-    "es": (
-        "el la los las de que y en un una por para con del al lo como más menos es son cada usuario usuarios "
-        "todos nadie sin mucho máxima máximo mínima mínimo potencia velocidad vatios tasa caudal energía pon haz "
-        "reparte no aplica aplicar aplicarlo deshaz deshacer volver empezar empieza"
-    ),
-    "fr": (
-        "le la les de des du et en un une pour par avec au aux est ce que qui plus moins possible puissance débit "
-        "chaque chacun tous tout sans pas je nous on utilisateur vitesse énergie maximal maximale minimale donne "
-        "fais annule annuler annulez applique appliquer recommence recommencer"
-    ),
-    "de": (
-        "der die das den dem und in ein eine einen für mit auf aus ist sind nicht so wie viel möglich alle jeder "
-        "jeden kein keine bitte leistung rate nutzer soll sollen mach zu bei höchstens mindestens energie strom "
-        "anwenden rückgängig zurück"
-    ),
-}
-_SMALL_WORDS = {language: frozenset(words.split()) for language, words in _SMALL.items()}
+_SMALL_WORDS = {language: frozenset(table("figures", language)["small_words"]) for language in ("en", "es", "fr", "de")}
 _LETTERS = {"es": "ñ¿¡", "fr": "çêœàùèîû", "de": "ßäöü"}
 
 USER_NOUN = (
     rf"(?:{'|'.join(words_of('figures', 'users', 'nouns'))})"
     r"(?:\s*(?:number|nummer|número|numéro|no\.?|nr\.?|n°|nº|#))?"
 )
+
+NUMBERED_USERS = rf"\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|or|y|et|und|oder|ou|o|&|/)\s*)*$"
+"""What stands before a number that names a user: "user ", "users 1 and "."""
 
 CLAUSE_END = r"[,;:!?()\n\uff0c\uff1b。、…—]|\.(?![0-9])"
 
@@ -113,6 +99,20 @@ def replaced(text: str, spans: Iterable[tuple[int, int, str]]) -> str:
             parts += [text[place:start], other]
             place = end
     return "".join([*parts, text[place:]])
+
+
+def overlaps(span: Span, others: Iterable[Span]) -> bool:
+    """Whether a span shares a character with any of the others.
+
+    >>> overlaps((0, 3), [(3, 5)]), overlaps((0, 3), [(7, 9), (2, 5)])
+    (False, True)
+    """
+    return any(start < span[1] and span[0] < end for start, end in others)
+
+
+def is_within(span: Span, other: Span) -> bool:
+    """Whether a span lies within another, or is the same."""
+    return other[0] <= span[0] and span[1] <= other[1]
 
 
 def has_chinese(text: str) -> bool:

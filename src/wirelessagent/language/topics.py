@@ -11,6 +11,7 @@ from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence import Sentence
+from wirelessagent.language.word_tables import either
 
 _NUMBER = deferred(
     r"(?i)(?:numbers?|turn|no\.?|#|request|entry|step|run|record|第|轮)\s*(?P<n>[0-9]+|[一二三四五六七八九十]+)|"
@@ -25,28 +26,10 @@ _AS = deferred(
     r"(?i)\bexport\s+(?:(?:it|this|that|everything|the\s+\w+)\s+)?(?:as|to|in|into)\s+([a-z][\w.-]*)[\s.!?]*$|"
     r"导出(?:为|成|到)\s*([A-Za-z][\w.-]*)\s*$"
 )
-_NO_TOOL = deferred(
-    r"(?i)last|previous|earlier|before|first|others?|one|it|this|that|now|then|yesterday|everything|all|turn|mine|ours|"
-    r"reality|theory|optimum|optimal|best"
-)
-_NO_FORMAT = deferred(r"(?i)json|files?|disk|standard|document|text|it|this|that|me|us")
 _MORE = deferred(r"(?i)\b(?:more|extra|additional|further|another)\s+")
-_FEWER = deferred(r"(?i)\b(?:less|fewer|lower|reduc\w+|cut\w*|sav\w+|drop\w*)\b|(?<!多)少|降|减|省")
-_EACH = deferred(
-    r"(?i)\b(?:each|every(?:one|body)?|all\s+(?:the\s+)?users|per\s+(?:user|head)|apiece)\b|每[个位名]?|大家|所有人|所有用户|"
-    r"各用户|人人"
-)
-_MORE_USERS = deferred(
-    r"(?i)\b(?:one|an?|another)\s+(?:more|extra|additional|further)?\s*(?:user|subscriber|customer|terminal)\b|"
-    r"[多加]一?[个位名]?(?:用户|终端)"
-)
-_HALF_MISSING = deferred(
-    r"(?i)\bhalf\b.{0,30}\b(?:missing|lost|unknown|gone)\b|(?:一半.{0,12}(?:缺|丢)|(?:缺|丢).{0,8}一半)"
-)
-
-_GONE = deferred(
-    r"(?i)\b(?:gone|left|leaves?|leaving|out|off|away|without|drop\w*|lost|absent|missing|exist|there|skip\w*|exclu\w*|"
-    r"remov\w*|ignor\w*|sin|fuera|sans|dehors|ohne|weg|raus)\b|走|离|不在|没|去掉|下线|掉线|不服务|不管|退|除|停|少"
+_FEWER, _EACH, _MORE_USERS, _HALF_MISSING, _GONE, _NO_TOOL, _NO_FORMAT = (
+    deferred(f"(?i){either('figures', 'asked', name)}")
+    for name in ("fewer", "each", "more_users", "half_missing", "gone", "no_tool", "no_format")
 )
 
 

@@ -48,7 +48,7 @@ _BIT = deferred(
     rf"|(?P<core>(?i:bits?|bytes?|octets?)|[bB]|o(?=/s))(?:(?i:{_PER_SECOND})(?P<per>)|{_END}))"
 )
 _BIT_WORD = deferred(
-    rf"(?i:(?P<word>kilo|mega|méga|giga|tera)[ -]?(?P<core>bits?|bytes?|octets?)(?:{_PER_SECOND}(?P<per>)|{_END}))"
+    rf"(?i:(?P<prefix>kilo|mega|méga|giga|tera)[ -]?(?P<core>bits?|bytes?|octets?)(?:{_PER_SECOND}(?P<per>)|{_END}))"
 )
 _SPOKEN = deferred(  # "two megs", "3 megas"; gigas are files unless there is a second
     rf"(?i:(?:(?P<mega>megs?|m[eé]gas?)|(?P<kilo>kays?)|(?P<giga>gigs?|gigas?)(?={_PER_SECOND})){_END}"
@@ -107,8 +107,6 @@ _PER_ANOTHER_TIME = deferred(
     r"minutos?|horas?|heures?|jours?|mois|stunden?|tage?|woche|monat|d[ií]as?|mes)\b|\s*[/每]?每(?:分钟?|小时|天|周|月)"
 )
 _OF_ANOTHER_TIME = deferred(r"每个?(?:分钟?|小时|天|周|月)[^,\uff0c。;]{0,6}$")
-
-
 _GAP = deferred(r"\s?个\s?|-|\s{0,2}")
 
 
@@ -133,12 +131,12 @@ def unit_at(text: str, position: int) -> Unit | None:
 
 def _misspelt(text: str, start: int) -> Unit | None:
     """The unit that a word with one slip of the pen stands for."""
-    slip = slip_at(text, start)
-    if slip is None:
+    match = _MISSPELT.match(text, start)
+    word = unit_meant(match.group()) if match is not None else ""
+    if match is None or not word:
         return None
-    word, end = slip
-    found = unit_at(f"{text[:start]}{word}{text[end:]}", start)
-    return None if found is None else replace(found, end=found.end + end - start - len(word))
+    found = unit_at(f"{text[:start]}{word}{text[match.end() :]}", start)
+    return None if found is None else replace(found, end=found.end + len(match.group()) - len(word))
 
 
 def unit_of_another_time(text: str, position: int) -> int | None:
@@ -173,47 +171,30 @@ def _power(text: str, start: int) -> Unit | None:
 
 
 def _rate(text: str, start: int) -> Unit | None:
-    match = _BIT_ZH.match(text, start)
-    if match is not None:
-        prefix = match["mega"] or match["prefix"]
-        per_second = match["per"] is not None or text[max(0, start - 12) : start].find("每秒") >= 0
-        if not per_second and (match["core"] == "字节" or not prefix):
-            return None
-        bits = 8 if match["core"] == "字节" else 1
-        return Unit(kind="rate", end=match.end(), factor=bits * _scale(prefix, binary=False))
-    match = _BIT_WORD.match(text, start)
-    if match is not None:
-        return _unit_of_bits(match, match["word"].lower(), match["core"].lower().startswith(("byte", "o")))
-    match = _BIT.match(text, start)
-    if match is None:
-        return _spoken_rate(text, start)
-    prefix, core = match["prefix"], match["short"] or match["core"]
-    is_bytes = core.lower().startswith(("byte", "o")) or core == "B"
-    if match["short"] == "B" and match["ps"] == "PS":
-        is_bytes = False  # in capitals throughout: the usual bps, shouted
-    return _unit_of_bits(match, prefix, is_bytes)
+    for pattern in (_BIT_ZH, _BIT_WORD, _BIT):
+        match = pattern.match(text, start)
+        if match is not None:
+            return _unit_of_bits(match)
+    spoken = _SPOKEN.match(text, start)
+    return None if spoken is None else Unit(kind="rate", end=spoken.end(), factor=_scale(spoken.lastgroup or ""))
 
 
-def _spoken_rate(text: str, start: int) -> Unit | None:
-    match = _SPOKEN.match(text, start)
-    if match is None:
-        return None
-    exponent = 6 if match["mega"] else 3 if match["kilo"] else 9
-    return Unit(kind="rate", end=match.end(), factor=Decimal(10) ** exponent)
-
-
-def _unit_of_bits(match: re.Match[str], prefix: str, is_bytes: bool) -> Unit | None:
+def _unit_of_bits(match: re.Match[str]) -> Unit | None:
+    """The rate that bits or bytes are; None for an amount of them."""
     groups = match.groupdict()
-    earlier = match.string[max(0, match.start() - 12) : match.start()].find("每秒") >= 0
-    per_second = earlier or groups.get("per") is not None or bool(groups.get("ps"))
+    prefix, core = groups.get("mega") or groups["prefix"].lower(), groups.get("short") or groups["core"] or ""
+    shouted = core == "B" and groups.get("ps") == "PS"  # in capitals throughout: the usual bps
+    is_bytes = not shouted and (core == "B" or core.lower().startswith(("byte", "o", "字节")))
+    earlier = "每秒" in match.string[max(0, match.start() - 12) : match.start()]
+    per_second = earlier or groups.get("per") is not None or groups.get("ps") is not None
     if not per_second and (is_bytes or not prefix):
         return None
     factor = _scale(prefix, binary=bool(groups.get("binary"))) * (8 if is_bytes else 1)
-    doubtful = match["core"] == "B" and match.group().endswith("S")
+    doubtful = groups["core"] == "B" and match.group().endswith("S")
     return Unit(kind="rate", end=match.end(), factor=factor, doubtful=doubtful)
 
 
-def _scale(prefix: str, *, binary: bool) -> Decimal:
+def _scale(prefix: str, *, binary: bool = False) -> Decimal:
     power = _PREFIXES["M" if prefix == "m" else prefix]
     return Decimal(1024) ** (power // 3) if binary else Decimal(10) ** power
 
@@ -237,18 +218,7 @@ def unit_meant(word: str) -> str:
         return _NEXT_KEY[small]
     if small in _OF_THEIR_OWN or small in _SPELT or small.endswith(_ANOTHER_TIME):
         return ""
-    near = [unit for unit in _SPELT if unit[0] == small[0] and one_edit(small, unit) and _may_be(small, unit)]
+    near = [unit for unit in _SPELT if unit[0] == small[0] and one_edit(small, unit)]
+    near = [unit for unit in near if unit not in _SHORT or len(small) >= len(unit)]  # "mbs" may as well be bytes
     meanings = {unit.replace("/s", "").rstrip("s") for unit in near}
     return max(near, key=lambda unit: (len(unit) == len(small) + 1, unit)) if len(meanings) == 1 else ""
-
-
-def _may_be(word: str, unit: str) -> bool:
-    """Whether a word has letters enough for a unit: "mbs" may as well be bytes."""
-    return unit not in _SHORT or len(word) >= len(unit)
-
-
-def slip_at(text: str, position: int) -> tuple[str, int] | None:
-    """The unit meant by the misspelt word at this place of a text, and where that word ends."""
-    match = _MISSPELT.match(text, position)
-    meant = unit_meant(match.group()) if match is not None else ""
-    return (meant, match.end()) if match is not None and meant else None

@@ -12,26 +12,17 @@ from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.numerals import numbers
-from wirelessagent.language.stated import Notes, Span
-from wirelessagent.language.text import Phrases
+from wirelessagent.language.stated import Notes
+from wirelessagent.language.text import Phrases, Span, is_within, overlaps
+from wirelessagent.language.word_tables import either
 
 _CARRIER = (
     r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|(?:unter|sub)träger[ns]?)"
 )
-_CHANGE_BEFORE = deferred(
-    r"(?i)(?:\b(?:by|save|saves|saving|cut|another|extra|additional|reduce|(?<!au )plus|increase)\s*(?:about|"
-    r"around|roughly)?|"
-    r"(?:减少|降低|节省|省下?|增加|提高|再加|(?<![最至])多给|下降|提升|升高|(?<=[功速]率)[降减升增加])了?)\s*$"
-)
+_CHANGE_BEFORE = deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$")
 _ALL = deferred(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
-_DESCRIBED_BEFORE = deferred(
-    r"(?i)(?:^|\b(?:the|our|these|those|my|with|have|has|of|are|serve|serving|and|among|between|total|per|over|"
-    r"across|into)|[有共])\s*$"
-)
-_DESCRIBED_AFTER = deferred(
-    r"(?i)\s*(?:$|(?:in|on|and|at|within|under|with|each|per|over|connected|total|online|active|now|max|min|maximum|"
-    r"minimum|or|share|sharing)\b|[每都共同])"
-)
+_DESCRIBED_BEFORE = deferred(rf"(?i)(?:^|{either('figures', 'users', 'ahead_of_all')})\s*$")
+_DESCRIBED_AFTER = deferred(rf"(?i)\s*(?:$|(?:{either('figures', 'users', 'behind_all')}))")
 _COUNT = rf"(?:[0-9]+|{'|'.join(cardinals(2, 10))})"
 COUNTED_USERS = deferred(
     rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:of them|of the users|"
@@ -39,31 +30,9 @@ COUNTED_USERS = deferred(
     r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
     r"设备|传感器|子载波)"
 )
-_SOME_USERS = Phrases(
-    r"\b(?:one|most|some|a few|several|many|certain|part)\s+(?:of\s+)?(?:the\s+|our\s+)?(?:users?|ues?)\b|"
-    r"(?:部分|一些|某些|某个)用户|"
-    r"\b(?:odd|even)(?:[- ]numbered)?\s+users?\b|"
-    r"\b(?:except|but|without)\s+(?:for\s+)?the\s+(?:last|first)(?:\s+(?:one|two|three|few|user|users))?(?=\s*(?:$|[,.;:!]))|"
-    r"\b(?:leav\w+|drop\w*|exclud\w+|kick\w*|cut)\s+(?:out\s+)?(?:the\s+)?users\s+(?:out\s+)?(?:who|that|which|with|whose)\b|"
-    r"\busers?\s+[0-9]+\s+(?:and|or)\s+(?:up|above|higher|beyond|onwards?|more)\b|"
-    r"\b(?:users?|ues?)\s+[-−][0-9]+|用户\s*[-−][0-9]+|"
-    r"(?:单|双|奇数|偶数)号?(?:的)?用户|(?:一半|半数)的?用户|[0-9]号(?:及|和)?(?:以后|以上|往后)|"
-    r"[^,\uff0c。0-9]{1,8}的用户都?(?:踢|去掉|不服务|排除|剔除)"
-)
-_NOBODY = Phrases(
-    r"\bserv(?:e|ing) (?:(?:nobody|no one)(?!\s+(?:else|but|except|apart|other))|"
-    r"none of (?:them|the users)|no users?(?! (?:below|under|above|with)))\b|"
-    r"\bleav(?:e|ing) (?:everyone|everybody|all users|all of them) out\b|"
-    r"(?:所有|全部|全体)(?:用户|人|终端)(?:一个)?(?:都|全)?不(?:服务|带|管)|(?:一个|谁)(?:用户)?都不(?:服务|带|管)",
-    marks="serv leav 所有 全部 全体 一个 谁",
-)
+_SOME_USERS = Phrases(either("figures", "users", "some"))
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
-_HALVED = Phrases(
-    r"\bby (?:a )?(?:half|third|quarter)\b|"
-    rf"\b(?:half (?:the|of the|as much)|halve)\s+{_OF_OURS}|"
-    r"(?:功率|速率|速度|网速|预算)[^,，。;]{0,3}(?:减半|一半|翻倍)|(?:减半|一半|翻倍)的?(?:功率|速率|速度|网速|预算)",
-    marks="half halve third quarter 减半 一半 翻倍",
-)
+_HALVED = Phrases(either("figures", "one", "halved", ours=_OF_OURS), marks="half halve third quarter 减半 一半 翻倍")
 _OTHERS_HALVED = Phrases(
     r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)",
     marks="一半 减半 翻倍 双倍 加倍",
@@ -75,26 +44,27 @@ _FULL = (
     r"(?:\s+|of|de|d'|the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|el|del|notre|nuestra|der|die|"
     r"unserer|vollen|maximalen)*"
 )
+_SHARES = {
+    **dict.fromkeys(("half", "mitad", "moitié", "halbe", "halber", "halben", "hälfte", "一半"), 1 / 2),
+    **dict.fromkeys(("third", "tercio", "tiers", "drittel", "三分之一"), 1 / 3),
+    **dict.fromkeys(("two thirds", "dos tercios", "deux tiers", "zwei drittel", "zwei dritteln", "三分之二"), 2 / 3),
+    **dict.fromkeys(("quarter", "cuarto", "quart", "viertel", "四分之一"), 1 / 4),
+    **dict.fromkeys(
+        ("three quarters", "tres cuartos", "trois quarts", "drei viertel", "drei vierteln", "dreiviertel"), 3 / 4
+    ),
+    **{f"{letter}成": place / 10 for place, letter in enumerate("一二三四五六七八九", start=1)},
+}
+_SHARE_WORDS = "|".join(sorted(_SHARES, key=len, reverse=True))
 _SHARE = Phrases(
-    r"(?<!save )(?<!by )(?<!saving )(?<!cut )(?:(?P<half>\bhalf\b|\b(?:la )?mitad\b|\b(?:la )?moitié\b|"
-    r"\bhalbe[rn]?\b|\bhälfte\b)|(?P<thirds>\b(?:two thirds|dos tercios|deux tiers|zwei dritteln?)\b)|"
-    r"(?P<third>\b(?:(?:a|one|un|ein(?:em)?) )?(?:third|tercio|tiers|drittel)\b)|"
-    r"(?P<quarters>\b(?:three quarters|tres cuartos|trois quarts|drei vierteln?|dreiviertel)\b)|"
-    r"(?P<quarter>\b(?:(?:a|one|un|ein(?:em)?) )?(?:quarter|cuarto|quart|viertel)\b)|"
+    r"(?<!save )(?<!by )(?<!saving )(?<!cut )"
+    rf"(?:\b(?:(?:a|one|un|ein|einem) (?![hm])|la (?=m))?(?P<word>{_SHARE_WORDS})\b|"
     r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:\.[0-9]+)?)\s*(?:%|percent|per cent|prozent|por ciento|pour cent))"
-    rf"{_FULL}\s*{_POWER}"
-    r"|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_half>一半)|(?<![0-9.])(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|"
-    r"百分之(?P<zh_word>[0-9]{1,3})|(?P<zh_third>三分之一)|(?P<zh_thirds>三分之二)|(?P<zh_quarter>四分之一)|"
-    r"(?P<zh_tenths>[一二三四五六七八九])成)的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
-    r"|(?:功率)(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?:(?P<of_half>一半)|(?P<of_tenths>[一二三四五六七八九])成)(?!五)",
+    rf"{_FULL}\s*{_POWER}|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_word>{_SHARE_WORDS})|"
+    r"(?<![0-9.])(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|百分之(?P<hundredths>[0-9]{1,3}))的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
+    rf"|功率(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?P<of_word>{_SHARE_WORDS})(?!五)",
     marks="half mitad moitié halbe hälfte third tercio tiers drittel quart cuarto viertel % percent per_cent prozent "
     "por_ciento pour_cent 一半 百分之 分之 成",
 )
-_TENTHS = {letter: place / 10 for place, letter in enumerate("一二三四五六七八九", start=1)}
-_SHARES = {
-    "half": 1 / 2, "zh_half": 1 / 2, "of_half": 1 / 2, "third": 1 / 3, "zh_third": 1 / 3, "thirds": 2 / 3,
-    "zh_thirds": 2 / 3, "quarter": 1 / 4, "zh_quarter": 1 / 4, "quarters": 3 / 4,
-}  # fmt: skip
 _SIZE = r"[0-9]{1,3}|[a-zäéöûü]{3,8}"
 _GROUP = r"(?:groups?|blocks?|bundles?|chunks?|clusters?|packs?|rbgs?|grupos|bloques|groupes?|blocs|paquets|paquetes)"
 _BLOCKS = Phrases(
@@ -140,8 +110,7 @@ def take_share(notes: Notes, max_power_w: float) -> None:
     if any(each.start < match.start() < each.end for each in notes.quantities):  # "two and a half watts"
         return
     group = match.lastgroup or ""
-    tenths = _TENTHS.get(match[group]) if group.endswith("tenths") else None
-    share = _SHARES.get(group) or tenths or float(match[group]) / 100
+    share = _SHARES[match[group]] if group.endswith("word") else float(match[group]) / 100
     notes.spoken_for.append(match.span())
     notes.masked.append(match.span())
     if 0 < share <= 1:
@@ -171,18 +140,11 @@ def take_counts(notes: Notes, recounted: Sequence[Span], allotted: Sequence[Span
 def doubt_parts(notes: Notes, allotted: Sequence[Span]) -> None:
     """Some of the users, half of something, nobody at all: each a question."""
     settled = [*notes.spoken_for, *allotted, *notes.counted]
-    for key, pattern in (
-        ("some_users", _SOME_USERS),
-        ("change", _HALVED),
-        ("change", _OTHERS_HALVED),
-        ("some_users", _NOBODY),
-    ):
+    for key, pattern in (("some_users", _SOME_USERS), ("change", _HALVED), ("change", _OTHERS_HALVED)):
         match = pattern.search(notes.plain)
-        if match is None:
+        if match is None or (pattern is _HALVED and overlaps(match.span(), settled)):
             continue
-        if pattern is _HALVED and any(a < match.end() and match.start() < b for a, b in settled):
-            continue
-        if any(start <= match.start() and match.end() <= end for start, end in allotted):  # "odd-numbered users"
+        if any(is_within(match.span(), span) for span in allotted):  # "odd-numbered users"
             continue
         notes.doubt(key, text=notes.text[slice(*match.span())])
 

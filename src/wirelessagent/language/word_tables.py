@@ -40,6 +40,20 @@ def words_of(subject: str, section: str, *names: str) -> tuple[str, ...]:
     return tuple(sorted(found, key=len, reverse=True))
 
 
+def either(subject: str, section: str, name: str, **parts: str) -> str:
+    """A regular expression for any of those that the files of all languages list by a name, words being whole.
+
+    Each of ``parts`` stands in the place of its ``{name}``.
+
+    >>> either("figures", "users", "articles").startswith(r"\\b(?:der|"), either("figures", "users", "unheard of")
+    (True, '(?!)')
+    """
+    listed = {language: table(subject, language).get(section, {}).get(name, ()) for language in languages_with(subject)}
+    spaced = "|".join(dict.fromkeys(each for language, found in listed.items() if language != "zh" for each in found))
+    found = "|".join([*([rf"\b(?:{spaced})\b"] if spaced else []), *listed.get("zh", ())]) or "(?!)"
+    return _PART.sub(lambda part: parts[part[1]], found)
+
+
 def written(subject: str, language: str, pattern: str) -> str:
     """A regular expression with what ``[parts]`` of a file says in the place of each ``{part}``."""
     return _PART.sub(lambda part: written(subject, language, table(subject, language)["parts"][part[1]]), pattern)

@@ -3,8 +3,9 @@
 The rules read the sentence as well, and the LLM chooses among what they leave open. The aim or the change that it sees
 must be one that the model of the rules finds possible; its figures, users and limits are those that the rules read or
 that the conversation holds; where the rules are in doubt about one, the operator is asked. Only the operator's plain
-words apply an allocation. What such an intent may still have missed (a refusal, a report, a condition) is the guard's
-to see, as it is of any recogniser.
+words apply an allocation. Of a question back they see what only asks, with figures that were listed: what claims that
+something was done, or names an address, is no question. What such an intent may still have missed (a refusal, a report,
+a condition) is the guard's to see, as it is of any recogniser.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import dataclasses
 import functools
 import math
 import re
+import unicodedata
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -28,15 +30,14 @@ from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.llm.client import Objection
 from wirelessagent.language.llm.meaning import Meaning, Reference
 from wirelessagent.language.llm.prompt import KINDS, figures_of, matching, plain
-from wirelessagent.language.llm.question_back import question_back
 from wirelessagent.language.moods import places, table_of
-from wirelessagent.language.quantities import amount_of_another_time
+from wirelessagent.language.quantities import amount_of_another_time, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import languages_of, normalise
 from wirelessagent.language.vocabulary import OwnWords
-from wirelessagent.language.word_tables import table
+from wirelessagent.language.word_tables import either, table
 from wirelessagent.model.errors import InputError
 
 NAME = "llm"
@@ -48,6 +49,12 @@ _POSSIBLE = 0.1
 """The least chance that the rules' model gives what an LLM may see; by the development sets, with LLMs that lie."""
 _SOMETHING_ELSE = 0.6
 """The chance of a question, or of something else, from which an LLM may see no request in it; by the same."""
+_SENTENCE = deferred(r"(?s).+?(?:[.!?](?=\s|$)|[。！？\uff1f\uff01]|\n|$)")
+_ADDRESS = deferred(
+    r"(?i)[a-z][a-z0-9+.-]*:\s*/\s*/|\bwww\.|\b(?:mailto|javascript|data|tel):|[^\s@]@[^\s@]|\[\s*link|\]\s*\(|"
+    r"(?<![0-9])[a-z0-9-]+\.(?:[a-z]{2,24})(?=[/\s:?#,;)\uff1f]|$)"
+)
+_CLAIM = deferred(rf"(?i)(?<!\bbe ){either('talk_forms', 'sentences', 'claims')}")
 _NUMBERED = deferred(r"[^0-9]*([0-9]{1,9})[^0-9]*")
 
 
@@ -277,3 +284,27 @@ def same(one: Constraint, other: Constraint) -> bool:
     """Whether two constraints of one name say the same."""
     a, b = by_user(one), by_user(other)
     return set(a) == set(b) and all(math.isclose(a[user], b[user], rel_tol=1e-6) for user in a)
+
+
+def question_back(text: str, known: Sequence[float]) -> str:
+    """What to ask the operator, of what an LLM says; ``known`` are the figures in W and bit/s that it may name.
+
+    >>> question_back("I see. The least power or the highest rate?", [])
+    'The least power or the highest rate?'
+
+    Raises:
+        Objection: it asks nothing, or does not only ask.
+    """
+    if _ADDRESS.search(text):
+        raise Objection("pretended", "the question may hold no address or link")
+    shown = "".join(sign if unicodedata.category(sign)[0] != "C" or sign == "\n" else " " for sign in text)
+    asked = [said for each in _SENTENCE.findall(shown.strip()) if (said := each.strip()).endswith(("?", "\uff1f"))]
+    question = " ".join(asked)
+    if not question:
+        raise Objection("asked_nothing", "kind clarify needs a question to the operator, with its question mark")
+    if _CLAIM.search(question):
+        raise Objection("pretended", "nothing was done, so the question may not say so")
+    said = [q for q in parse_quantities(question) if q.kind in ("power", "rate")]
+    if any(not any(math.isclose(q.value, value, rel_tol=1e-3) for value in known) for q in said):
+        raise Objection("invented", "the question may only name listed figures")
+    return question
