@@ -109,7 +109,7 @@ STATED: list[tuple[str, dict[str, Any]]] = [
 ]  # fmt: skip
 
 DOUBTED = [
-    ("user 3 and 1 Mbit/s at most 10 W for sensors, user 9 too", "named_user"),
+    ("1 Mbit/s at most 10 W for sensors, and then user 9", "named_user"),
     ("serve only user 4 and leave user 4 out", "conflict"),
     ("user 2 at least 5 Mbit/s, user 2 at most 1 Mbit/s", "rates_crossed"),
     ("user 2 gets 5 Mbit/s, user 2 gets 1 Mbit/s", "conflict"),

@@ -124,9 +124,9 @@ def _result(
     if anew or change.figure is not None or above_the_cell:
         return words.line.amend({name: value}, details=details)
     radiated = name == "max_power_w" and words.has("power")
+    whom = Others() if users == (EVERYBODY,) else Named(users) if users else Everybody()
     act: Act = Scale(
-        kind=name, factor=change.factor, whom=Named(users) if users else Everybody(),
-        reference="radiated" if radiated else "held",
+        kind=name, factor=change.factor, whom=whom, reference="radiated" if radiated else "held",
     )  # fmt: skip
     return words.acts([act], details)
 

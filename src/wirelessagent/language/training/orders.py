@@ -7,6 +7,7 @@ wishes of all kinds. Those that were written to be mistaken for each other count
 
 from __future__ import annotations
 
+import itertools
 import logging
 import random
 import sys
@@ -34,8 +35,8 @@ from wirelessagent.language.training.spoken import spoken
 from wirelessagent.model.errors import InputError
 
 FRAMES = Path(__file__).with_name("frames")
-FILLED, _LONGEST = 4, 60
-"""How often each frame is filled, in turns with what people said, in so many letters, and with what is drawn."""
+FILLED, _LONGEST, _DRAWN = 4, 60, 3_000
+"""How often each frame is filled, in turns with what people said, in so many letters, and with one of so many drawn."""
 
 MILD, FRAME = 0.6, 3.0
 """What a sentence counts that was not written to be mistaken, and a frame, beside a sentence that was."""
@@ -51,17 +52,19 @@ def framed(folder: Path = FRAMES, seed: int = 1) -> Iterator[tuple[str, bool]]:
     Raises:
         InputError: there are no frames; an installed package leaves them out.
     """
-    chance, paths = random.Random(seed), sorted(folder.glob("*.tsv"))
+    paths = sorted(folder.glob("*.tsv"))
     if not paths:
         raise InputError(f"no frames in {folder}: train from a checkout of the sources, which has them")
     spoken_ones = [each for each in spoken() if each.label in OBJECTIVES and len(each.text) <= _LONGEST]
     for path in paths:
-        drawn_ones = wishes(path.parent.parent, path.stem, chance)
+        drawn = wishes(path.parent.parent, path.stem, random.Random(seed))
+        drawn_ones = list(itertools.islice(drawn, _DRAWN))
         by_people = [each.text for each in spoken_ones if each.language == path.stem]
         for line in path.read_text(encoding="utf-8").splitlines():
             label, frame = line.split("\t")
+            chance = random.Random(f"{seed} {frame}")  # what one is filled with hangs on no other
             for turn in range(FILLED):
-                wish = next(drawn_ones) if turn % 2 else chance.choice(by_people).rstrip(".!。！")
+                wish = chance.choice(drawn_ones if turn % 2 else by_people).rstrip(".!。！")
                 yield frame.replace("{}", wish[:1].lower() + wish[1:]), label == "order"
 
 
