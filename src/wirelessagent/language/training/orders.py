@@ -1,4 +1,4 @@
-"""Make the judge of orders anew: ``python -m wirelessagent.language.training.orders [FILE]``; a quarter of an hour.
+"""Make the judge of orders anew: ``python -m wirelessagent.language.training.orders [FILE]``; ten minutes.
 
 It learns from the sentences of :mod:`.spoken` that are known to order something or nothing, and from frames: lines of
 ``frames/<language>.tsv``, "order" or "none" and a sentence with ``{}`` in the place of its wish, which is filled with
