@@ -81,11 +81,11 @@ def changed(what: str, by: object) -> dict[str, Any]:
 
 def test_what_others_write_is_read() -> None:
     assert sentence_of(intent(RadiatedPowerInW=10), USERS) == (
-        "The highest total rate: at most 10 W of radiated power, at least 1 Mbit/s for user 2."
+        "Please set this now: The highest total rate: at most 10 W of radiated power, at least 1 Mbit/s for user 2."
     )
     whole = copy.deepcopy(intent())
     del whole["expression"]
-    assert sentence_of(whole, USERS) == "The highest total rate."
+    assert sentence_of(whole, USERS) == "Please set this now: The highest total rate."
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,9 @@ from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.model.errors import InputError
 from wirelessagent.standards.tmf921_request import request_of
 
+_ORDERED = "Please set this now: "
+"""What makes a restatement an order beyond doubt."""
+
 
 def sentence_of(intent: Mapping[str, Any], user_names: Sequence[str]) -> str:
     """The sentence for a cell with these users; what it is understood to mean is what the intent says.
@@ -22,7 +25,7 @@ def sentence_of(intent: Mapping[str, Any], user_names: Sequence[str]) -> str:
     """
     objective, constraints = request_of(intent, user_names)
     plugins.plugin("objective", objective)
-    text = restated(Request(objective=objective, constraints=constraints))
+    text = _ORDERED + restated(Request(objective=objective, constraints=constraints))
     wanted = Request(objective=objective, constraints=constraints)
     read = OfflineRecogniser().recognise(text)
     if read.objective != objective:
