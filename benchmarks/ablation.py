@@ -23,7 +23,7 @@ from wirelessagent.language.figure_roles import View
 from wirelessagent.language.moods import table_of
 from wirelessagent.language.order_model import Frame
 
-VIEWS = {"words": "w", "base words": "b", "classes, in place": "c", "classes, alone": "e", "classes, each": "MNPQ"}
+VIEWS = {"words": "w", "base words": "b", "classes, in place": "c", "classes, alone": "e"}
 CLASSES = tuple(table_of("en"))
 
 

@@ -34,7 +34,6 @@ from wirelessagent.language.conversation.tokens import (
     NUMBER,
     Token,
     Words,
-    changed_by,
     numbered,
     speaks_of_one,
     words_of,
@@ -176,7 +175,7 @@ def _clause_by_clause(line: Line) -> Intent | None:
         if not done:
             return None
         acts += done[0].acts
-    return changed_by(line, acts) if acts else None
+    return line.changed_by(acts) if acts else None
 
 
 def read_wondered(line: Line) -> Intent | None:
@@ -219,7 +218,7 @@ def _again(words: Words) -> Intent | None:
     return words.line.command("undo", steps=1.0) if words.last(Undo) else None
 
 
-def _taken_up(words: Words) -> Intent | None:
+def taken_up(words: Words) -> Intent | None:
     """ "do that" behind a what-if: what was supposed is asked for."""
     context = words.line.context
     if context.supposed_objective is None:
@@ -296,7 +295,7 @@ _FORMS = (
     Form("swap", f"{_ANOTHER} correct both pronoun take own", swapped),
     Form("again", "lead too it", _again),
     Form("again", "lead it take", read_repeated),
-    Form("take", "it", _taken_up),
+    Form("take", "it", taken_up),
     Form("as_it_was", f"before after users lead correct make undo told leave first {_NOUNS}", _as_it_was),
     Form("equal weight", "every make again lead", _weighed_equally),
     Form("remove|too|lead", f"{_GONE} take {_NOUNS} figure", dropped),

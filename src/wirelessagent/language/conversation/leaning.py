@@ -15,6 +15,7 @@ from typing import Any
 from wirelessagent.language.acts import Drop, LeaveOut, Limit, Named, Others, Scale, Serve, Suppose
 from wirelessagent.language.conversation.corrections import moved, swapped
 from wirelessagent.language.conversation.figure_in_place import holding, read_figure
+from wirelessagent.language.conversation.fragments import taken_up
 from wirelessagent.language.conversation.limits_off import dropped, exempted, restored
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.relative import read_relative
@@ -167,12 +168,7 @@ def _of_users_last(words: Words) -> Sequence[Any]:
 
 def _taken(words: Words) -> Intent | None:
     """What was supposed is asked for, with the figure that is said where there is one."""
-    context = words.line.context
-    if words.figures:
-        return read_figure(words)
-    if context.supposed_objective is None:
-        return None
-    return words.line.allocate(context.supposed_objective, context.supposed, amends=False)
+    return read_figure(words) if words.figures else taken_up(words)
 
 
 def _another(words: Words) -> Intent | None:

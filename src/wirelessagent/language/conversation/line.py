@@ -7,12 +7,14 @@ Chinese ones, every other by those of the European languages, of which only Engl
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from wirelessagent.language.acts import Act, Drop, LeaveOut, Limit, Named
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.guard import READ_IN_A_TALK
 from wirelessagent.language.intent import Constraint, Detail, Intent, IntentKind
@@ -152,6 +154,22 @@ class Line:
         return self.allocate(
             str(self.context.objective), constraints, amends=True, dropped=dropped, details=further
         )  # fmt: skip
+
+    def changed_by(self, acts: Sequence[Act], details: Mapping[str, Detail] | None = None) -> Intent:
+        """A change of the request by these acts."""
+        stated: dict[str, Constraint] = {}
+        for act in acts:
+            if isinstance(act, Limit):
+                named, own = (act.whom.users if isinstance(act.whom, Named) else None), stated.get(act.kind)
+                theirs = dict.fromkeys(named or (), act.value)
+                stated[act.kind] = (
+                    act.value if named is None else {**(own if isinstance(own, Mapping) else {}), **theirs}
+                )
+            elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
+                stated["leave_out"] = act.whom.users
+        dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
+        intent = self.amend(stated, dropped=dropped, details=details)
+        return dataclasses.replace(intent, acts=tuple(acts))
 
     def command(self, topic: str, **details: Detail) -> Intent:
         return self._intent("command", self.voice.say(f"command.{topic}"), topic=topic, details=details)

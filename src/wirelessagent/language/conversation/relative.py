@@ -12,7 +12,7 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from wirelessagent.language.acts import Act, Drop, Everybody, Limit, Named, Others, Scale
+from wirelessagent.language.acts import Act, Drop, Everybody, Limit, Named, Others, Scale, Whom
 from wirelessagent.language.conversation.figure_in_place import as_held, value_of
 from wirelessagent.language.conversation.line import has
 from wirelessagent.language.conversation.tokens import NOUNS, UNITS, Words, own_users
@@ -78,17 +78,17 @@ def read_relative(words: Words, *, wonders: bool = False) -> Intent | None:
     name, whom = _changed_limit(words, change), words.whom() or (Everybody() if stays else words.last_whom())
     if name is None or ((words.has("pronoun") or words.has("one")) and not isinstance(whom, Named)):
         return None
-    if words.users and name not in FIGURES_OF_USERS:
+    of_users = name in FIGURES_OF_USERS
+    if not of_users and (words.users or isinstance(whom, Others)):
         return None
-    users = whom.users if isinstance(whom, Named) and name in FIGURES_OF_USERS else ()
-    if isinstance(whom, Others):  # "bump all the others up by a fifth"
-        users = (EVERYBODY,)
+    whom = whom if of_users else Everybody()
+    users = whom.users if isinstance(whom, Named) else (EVERYBODY,) if isinstance(whom, Others) else ()
     basis = _of_users(_held(words, name), users)
     if basis is None:
         if words.has("worth") and name == "min_rate_bps":
             return words.line.question("step", rate_share=change.factor - 1.0)
         return words.line.ask("no_rate_to_change")
-    return _result(words, name, basis, change, supposes=supposes, users=users)
+    return _result(words, name, basis, change, supposes=supposes, whom=whom)
 
 
 def read_repeated(words: Words) -> Intent | None:
@@ -110,7 +110,7 @@ def read_repeated(words: Words) -> Intent | None:
 
 
 def _result(
-    words: Words, name: str, basis: Basis, change: _Change, *, supposes: bool, users: tuple[str, ...] = (),
+    words: Words, name: str, basis: Basis, change: _Change, *, supposes: bool, whom: Whom | None = None,
     anew: bool = False,
 ) -> Intent:  # fmt: skip
     """The limit after the change, as a what-if or as a request; ``anew`` where the basis no longer holds."""
@@ -124,9 +124,8 @@ def _result(
     if anew or change.figure is not None or above_the_cell:
         return words.line.amend({name: value}, details=details)
     radiated = name == "max_power_w" and words.has("power")
-    whom = Others() if users == (EVERYBODY,) else Named(users) if users else Everybody()
     act: Act = Scale(
-        kind=name, factor=change.factor, whom=whom, reference="radiated" if radiated else "held",
+        kind=name, factor=change.factor, whom=whom or Everybody(), reference="radiated" if radiated else "held",
     )  # fmt: skip
     return words.acts([act], details)
 

@@ -404,19 +404,4 @@ class Words:
         return [act for act in self.line.context.acts if isinstance(act, kinds)]
 
     def acts(self, acts: Sequence[Act], details: Mapping[str, Detail] | None = None) -> Intent:
-        return changed_by(self.line, acts, details)
-
-
-def changed_by(line: Line, acts: Sequence[Act], details: Mapping[str, Detail] | None = None) -> Intent:
-    """A change of the request by these acts."""
-    stated: dict[str, Constraint] = {}
-    for act in acts:
-        if isinstance(act, Limit):
-            named, own = (act.whom.users if isinstance(act.whom, Named) else None), stated.get(act.kind)
-            theirs = dict.fromkeys(named or (), act.value)
-            stated[act.kind] = act.value if named is None else {**(own if isinstance(own, Mapping) else {}), **theirs}
-        elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
-            stated["leave_out"] = act.whom.users
-    dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
-    intent = line.amend(stated, dropped=dropped, details=details)
-    return dataclasses.replace(intent, acts=tuple(acts))
+        return self.line.changed_by(acts, details)

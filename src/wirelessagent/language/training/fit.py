@@ -15,6 +15,7 @@ from wirelessagent.language.sentence import Sentence, own_words
 ForModel: TypeAlias = tuple[str, list[str], str]
 _RIDGE = 5e-7
 _STEPS = 500
+_FAINT = 1
 
 
 def matrix_of(columns: Sequence[npt.NDArray[np.int64]], width: int) -> sparse.csr_matrix:
@@ -74,14 +75,17 @@ def fit(
     return flat[: width * classes].reshape(width, classes), flat[width * classes :]
 
 
+def rounded(weights: npt.NDArray[np.float32], faint: int) -> tuple[npt.NDArray[np.int8], npt.NDArray[np.float32]]:
+    """Weights as int8, those of at most so many 127ths of the largest as none, and a scale per label."""
+    scales = np.asarray(np.abs(weights).max(axis=0) / 127, dtype=np.float32)
+    found = np.asarray(np.rint(weights / scales), dtype=np.int8)
+    return np.where(np.abs(found) > faint, found, np.int8(0)), scales
+
+
 def save(
     path: Path, names: Sequence[str], weights: npt.NDArray[np.float32], intercepts: npt.NDArray[np.float32],
     known: npt.NDArray[np.uint32],
 ) -> None:  # fmt: skip
     """Write the model, the weights as int8 with a scale per label."""
-    scales = np.asarray(np.abs(weights).max(axis=0) / 127, dtype=np.float32)
-    rounded = np.asarray(np.rint(weights / scales), dtype=np.int8)
-    rounded[np.abs(rounded) < 2] = 0  # what says next to nothing
-    np.savez_compressed(
-        path, labels=np.array(names), weights=rounded, scales=scales, intercepts=intercepts, known=known
-    )
+    found, scales = rounded(weights, _FAINT)
+    np.savez_compressed(path, labels=np.array(names), weights=found, scales=scales, intercepts=intercepts, known=known)

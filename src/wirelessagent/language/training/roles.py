@@ -26,6 +26,7 @@ from wirelessagent.language.mentions import Mention
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.role_features import BUCKETS, hashed
 from wirelessagent.language.text import normalise
+from wirelessagent.language.training.fit import rounded
 from wirelessagent.language.training.marked import Marked, marked
 from wirelessagent.language.training.meant import Meant, sentences
 from wirelessagent.language.training.named import named
@@ -202,18 +203,11 @@ def trained(sentences: Iterable[tuple[str, Mapping[str, Any]]]) -> dict[str, npt
     return {question: fit(question, each) for question, each in shown.items()}
 
 
-def rounded(weights: npt.NDArray[np.float32]) -> tuple[npt.NDArray[np.int8], npt.NDArray[np.float32]]:
-    """Weights as int8, the faint ones as none, and a scale per label."""
-    scales = np.asarray(np.abs(weights).max(axis=0) / 127, dtype=np.float32)
-    found = np.asarray(np.rint(weights / scales), dtype=np.int8)
-    return np.where(np.abs(found) > _FAINT, found, np.int8(0)), scales
-
-
 def save(path: Path, found: Mapping[str, npt.NDArray[np.float32]]) -> None:
     """Write the model."""
     arrays: dict[str, npt.NDArray[Any]] = {}
     for question, weights in found.items():
-        arrays[f"{question}_weights"], arrays[f"{question}_scales"] = rounded(weights)
+        arrays[f"{question}_weights"], arrays[f"{question}_scales"] = rounded(weights, _FAINT)
     np.savez_compressed(path, allow_pickle=False, **arrays)
 
 
