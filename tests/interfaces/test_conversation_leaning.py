@@ -8,7 +8,7 @@ import pytest
 from tests.support.conversations import talked_into
 
 from wirelessagent.language.conversation import leaning
-from wirelessagent.language.conversation.leaning import LIKELY, read_leaning
+from wirelessagent.language.conversation.leaning import LIKELY, Leaning
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.recogniser import Context
 
@@ -60,6 +60,6 @@ def test_the_talk_leaves_out_what_a_line_cannot_be(monkeypatch: pytest.MonkeyPat
             return {"user": 0.7, "out": 0.25, "none": 0.05}
 
     monkeypatch.setattr(leaning, "shipped_model", lambda _: Judge())
-    found = read_leaning(line, LIKELY)  # nobody was named before, so that it names no other user
+    found = Leaning(line).read(LIKELY)  # nobody was named before, so that it names no other user
     assert found is not None
     assert [type(act).__name__ for act in found.acts] == ["LeaveOut"]

@@ -20,7 +20,7 @@ from wirelessagent.language.conversation.commands import (
     with_method,
 )
 from wirelessagent.language.conversation.fragments import read_fragment, read_wondered
-from wirelessagent.language.conversation.leaning import LEANS, LIKELY, SURE, read_exempt, read_leaning
+from wirelessagent.language.conversation.leaning import LEANS, LIKELY, SURE, Leaning
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.nicknames import called, only_called, with_users
 from wirelessagent.language.conversation.open_question import leaves_the_question, read_answer, unanswered
@@ -79,7 +79,11 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         by = with_method(line, _read(rest, Line.of(rest, context), context, recogniser), name)
         if by is not None:
             return by
-    for read in (read_exempt, read_fragment, *_READERS):
+    leaning = Leaning(line)
+    exempt = leaning.exempts()
+    if exempt is not None:
+        return exempt
+    for read in (read_fragment, *_READERS):
         intent = read(line)
         if intent is not None:
             return intent
@@ -90,9 +94,9 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         context = dataclasses.replace(
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
         )  # fmt: skip
-    intent = read_leaning(line, SURE, LEANS) or recogniser.read(text, context)
+    intent = leaning.read(SURE, LEANS) or recogniser.read(text, context)
     if intent.kind in ("clarify", "out_of_scope") or intent.topic in _ABOUT_THE_LAST:
-        intent = read_leaning(line, LIKELY) or intent
+        intent = leaning.read(LIKELY) or intent
     read = asked_instead(line, intent) or by_method(line, intent)
     return given_instead(line, read)
 

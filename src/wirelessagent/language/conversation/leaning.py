@@ -7,6 +7,7 @@ it does it to, and by how much, is read by the readers of lines whose words are 
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -42,38 +43,56 @@ _UNLIKELY = 0.25
 _LONGEST, _MOST_STEPS = 80, 10
 
 
-def read_leaning(line: Line, needed: float, among: Sequence[str] = ()) -> Intent | None:
-    """What a short line does, ``among`` some labels or all; None where none of them is so likely as needed.
+class Leaning:
+    """A line and how likely it does what; judged once, where anything asks."""
 
-    A label that the talk does not bear out, such as another user where none was named, is left out of account.
-    """
-    context = line.context
-    if context.objective is None or context.awaits != "nothing" or len(line.text) > _LONGEST or line.is_asked:
-        return None
-    language = language_in_a_talk(line.text, context.language)
-    tokens = tokens_of(line, language, lenient=True)
-    if not tokens or any("denial" in token.classes for token in tokens):
-        return None
-    labels = {*(among or _READERS)}
-    if not any("unknown" in token.classes for token in tokens):
-        labels -= {"undo"}  # which has a closed grammar of its own
-    is_order = shipped_order_model().probability(frame_of(line.sentence)) >= _UNLIKELY
-    left, likely = 1.0, shipped_model(TALK_FILE).probabilities(*seen(line, tokens, language))
-    for label in sorted(likely, key=lambda label: -likely[label]):
-        enough = likely[label] >= (needed if is_order and label != "undo" else SURE) * left
-        if label not in labels or not enough:
+    def __init__(self, line: Line) -> None:
+        self._line = line
+        self._language = language_in_a_talk(line.text, line.context.language)
+
+    def read(self, needed: float, among: Sequence[str] = ()) -> Intent | None:
+        """What a short line does, ``among`` some labels or all; None where none of them is so likely as needed.
+
+        A label that the talk does not bear out, such as another user where none was named, is left out of account.
+        """
+        if not self._tokens:
             return None
-        intent = _read(label, line, tokens, language)
-        if intent is not None and intent.kind in ("allocate", "command"):
-            return intent
-        left -= likely[label]
-    return None
+        labels = {*(among or _READERS)}
+        if not any("unknown" in token.classes for token in self._tokens):
+            labels -= {"undo"}  # which has a closed grammar of its own
+        left = 1.0
+        for label in sorted(self._likely, key=lambda label: -self._likely[label]):
+            enough = (needed if self._is_order and label != "undo" else SURE) * left
+            if label not in labels or self._likely[label] < enough:
+                return None
+            intent = _read(label, self._line, self._tokens, self._language)
+            if intent is not None and intent.kind in ("allocate", "command"):
+                return intent
+            left -= self._likely[label]
+        return None
 
+    def exempts(self) -> Intent | None:
+        """ "User 4 doesn't need it", behind what everybody is promised: served without it, and not left out."""
+        last = [act for act in self._line.context.acts if isinstance(act, Limit) and act.kind in UNITS["rate"]]
+        return self.read(LIKELY, ["exempt"]) if any(not isinstance(act.whom, Named) for act in last) else None
 
-def read_exempt(line: Line) -> Intent | None:
-    """ "User 4 doesn't need it", behind what everybody is promised: served without it, and not left out."""
-    last = [act for act in line.context.acts if isinstance(act, Limit) and act.kind in UNITS["rate"]]
-    return read_leaning(line, LIKELY, ["exempt"]) if any(not isinstance(act.whom, Named) for act in last) else None
+    @functools.cached_property
+    def _tokens(self) -> Sequence[Token]:
+        """The words of a short line that may lean on the talk; none of any other."""
+        line, context = self._line, self._line.context
+        alone = context.objective is None or context.awaits != "nothing"
+        if alone or len(line.text) > _LONGEST or line.is_asked:
+            return ()
+        tokens = tokens_of(line, self._language, lenient=True) or ()
+        return () if any("denial" in token.classes for token in tokens) else tokens
+
+    @functools.cached_property
+    def _likely(self) -> Mapping[str, float]:
+        return shipped_model(TALK_FILE).probabilities(*seen(self._line, self._tokens, self._language))
+
+    @functools.cached_property
+    def _is_order(self) -> bool:
+        return shipped_order_model().probability(frame_of(self._line.sentence)) >= _UNLIKELY
 
 
 def _read(label: str, line: Line, tokens: Sequence[Token], language: str) -> Intent | None:
