@@ -186,3 +186,7 @@ def test_amounts_to_add_and_missing_shares_are_kept_for_questions() -> None:
 )
 def test_something_of_a_user_is_not_the_user(text: str) -> None:
     assert "leave_out" not in {*recognise(text).constraints, *recognise(text).pending}
+
+
+def test_a_user_who_may_share_a_figure_is_asked_about() -> None:
+    assert recognise("user 3 and 1 Mbit/s at most 10 W for sensors, user 9 too").kind == "clarify"
