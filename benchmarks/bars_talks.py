@@ -18,10 +18,11 @@ from pathlib import Path
 from typing import Any
 
 from wirelessagent.agent.session import Session
-from wirelessagent.language.intent import EVERYBODY
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS
 from wirelessagent.operations.chat import ChatRequest
 
 _SAME = 1e-3
+_USERS = 8
 
 
 def plain(value: Any, radiated_w: float) -> Any:
@@ -44,12 +45,25 @@ def is_same(one: Any, other: Any) -> bool:
     return one == other
 
 
+def by_user(constraints: Mapping[str, Any], radiated_w: float) -> dict[str, Any]:
+    """Constraints with a figure for each user who is served: however they are written, they are the same request."""
+    found = {name: plain(value, radiated_w) for name, value in constraints.items()}
+    everybody = {str(number) for number in range(1, _USERS + 1)}
+    served = found.pop("users", everybody) - found.pop("leave_out", set())
+    for name in FIGURES_OF_USERS:
+        figures = found.pop(name, {})
+        own = figures if isinstance(figures, dict) else {EVERYBODY: figures}
+        none = 1.0 if name == "weights" else 0.0
+        each = {user: own.get(user, own.get(EVERYBODY, none)) for user in served}
+        found[name] = {user: figure for user, figure in each.items() if figure != none}
+    return {**found, "served": served}
+
+
 def holds(session: Session, expected: Mapping[str, Any] | None, radiated_w: float) -> bool:
     request = session.request
     if expected is None or request is None:
         return expected is None and request is None
-    wanted = {name: plain(value, radiated_w) for name, value in expected["constraints"].items()}
-    found = {name: plain(value, radiated_w) for name, value in request.constraints.items()}
+    wanted, found = (by_user(each, radiated_w) for each in (expected["constraints"], request.constraints))
     same = wanted.keys() == found.keys() and all(is_same(wanted[name], found[name]) for name in wanted)
     return same and expected["objective"] in (None, request.objective)
 

@@ -10,9 +10,10 @@ import pytest
 from tests.support.conversations import LOSS, SCENE, SEED, Scripted, asks, means
 
 import wirelessagent as wa
-from wirelessagent.agent.dialogue import Request, restated
+from wirelessagent.agent.dialogue import restated
 from wirelessagent.agent.turn import Turn
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.request import Request
 from wirelessagent.model.units import human
 from wirelessagent.telling.parts import cannot_be_served
 

@@ -10,13 +10,13 @@ from conversations import LOSS, SCENE, SEED, Scripted, asks, means
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.turn import Turn
 from wirelessagent.language.conversation import understood
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.request import Request
 
 pytestmark = pytest.mark.machine_code
 

@@ -22,10 +22,15 @@ def test_another_aim_keeps_the_limits_and_starting_over_tells_which_go() -> None
     assert "No longer: at most 10 W of radiated power." in turns[-1].reply
 
 
-def test_nobody_is_promised_a_rate_and_left_out() -> None:
+def test_the_promise_to_who_is_left_out_rests() -> None:
     held, turns = talk(HELD, "user 3 at least 100 kbit/s", "leave user 3 out")
-    assert turns[-1].stage == "asked"
+    assert held == {"max_power_w": 10.0, "min_rate_bps": {"3": 1e5}, "leave_out": ("3",)}
+    assert "100 kbit/s promised to it rest" in turns[-1].reply
+    held, turns = talk(HELD, "user 3 at least 100 kbit/s", "leave user 3 out", "user 3 is back")
     assert held == {"max_power_w": 10.0, "min_rate_bps": {"3": 1e5}}
+
+
+def test_nobody_is_promised_a_rate_and_left_out_at_once() -> None:
     first = "highest total rate, user 3 at least 1 Mbit/s, leave user 3 out"
     assert "leave_out" not in talk(first, HELD)[0]
 

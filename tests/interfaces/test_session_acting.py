@@ -13,12 +13,12 @@ from conversations import LOSS, SCENE, SEED, Scripted, asks, means
 
 import wirelessagent as wa
 from wirelessagent.agent.acting import carry_out, same_allocation
-from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.session import Session
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Run, Tools, Turn
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
+from wirelessagent.language.request import Request
 from wirelessagent.model.rates import user_rate_bps
 from wirelessagent.operations.in_effect import followed
 from wirelessagent.store.store import Store

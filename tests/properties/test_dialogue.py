@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wirelessagent.agent.dialogue import Change, Diff, Request, applied, difference, figures_of
 from wirelessagent.language.acts import (
     Act,
     Aim,
@@ -32,6 +31,7 @@ from wirelessagent.language.acts import (
     shown,
 )  # fmt: skip
 from wirelessagent.language.intent import EVERYBODY, LISTS_OF_USERS
+from wirelessagent.language.request import Change, Diff, Request, applied, difference, figures_of
 
 USERS = ("1", "2", "3", "4")
 OF_USERS = ("min_rate_bps", "max_rate_bps", "weights")

@@ -15,12 +15,14 @@ from typing import Any
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent.acting import applied_line, respects, same_allocation
 from wirelessagent.agent.asking import no_such_turn
-from wirelessagent.agent.dialogue import applied, changes_in_words, restated
+from wirelessagent.agent.dialogue import changes_in_words, restated
+from wirelessagent.agent.posing import check_promised
 from wirelessagent.agent.state import InsteadError, Replies, Reply, State, Talk, asked_back
 from wirelessagent.agent.turn import Run, shift_between
 from wirelessagent.language.acts import Act, Apply, AskStatus, Export, Forget, No, Undo, Yes
 from wirelessagent.language.conversation.assent import assent, is_assent, speaks_of_applying
 from wirelessagent.language.conversation.open_question import Question
+from wirelessagent.language.request import applied
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said
 from wirelessagent.telling.explanation import certificate_line
@@ -34,6 +36,7 @@ def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
     state, language = talk.state, talk.language
     request, diff = applied(state.request, acts, radiated_w=state.radiated_w)
     assert request is not None  # an intent that allocates names an aim
+    check_promised(request, diff, talk.site.user_names, language)
     run = talk.site.plan(talk.intent, request)
     new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good, stated=state.stated)
     same = _same_on_air(state, run)

@@ -14,13 +14,13 @@ from typing import Any, cast
 import numpy as np
 
 from wirelessagent import chain, plugins
-from wirelessagent.agent.dialogue import ASSUMED_MIN_RATE_BPS, Request
 from wirelessagent.language.acts import with_another
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.open_question import Missing
 from wirelessagent.language.conversation.references import named_alone
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Detail, Intent
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.request import ASSUMED_MIN_RATE_BPS, Diff, Request
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.errors import InputError, UnclearRequestError, UnsupportedProblemError
@@ -100,7 +100,7 @@ class _Posing(Voice):
         some = bool(self._given.keys() & {*LISTS_OF_USERS})
         served = self._served()
         fields: dict[str, Any] = {"users": tuple(self._names[user] for user in served) if some else None}
-        self._check_promised(served)
+        self._note_promised(served)
         for name, value in self._given.items():
             fields[name] = self._by_user(name, value) if name in FIGURES_OF_USERS else value
         self._check_order(fields, served)
@@ -172,15 +172,32 @@ class _Posing(Voice):
                 low, high = (human(float(rate[user]), "bit/s") for rate in (least, most))
                 raise self._unclear("rates_crossed", user=self._names[user], low=low, high=high)
 
-    def _check_promised(self, served: tuple[int, ...]) -> None:
-        """Refuse a rate that is promised by name to somebody who is not served."""
+    def _note_promised(self, served: tuple[int, ...]) -> None:
+        """Say which rates, promised by name to somebody who is not served, rest."""
         promised = self._given.get("min_rate_bps")
         if len(served) == len(self._names) or not isinstance(promised, Mapping):
             return
         for reference, rate in promised.items():
             if rate > 0 and reference != EVERYBODY and self._number(reference) not in served:
-                user, told = self._names[self._number(reference)], human(rate, "bit/s")
-                raise self._unclear("promised_and_left_out", user=user, rate=told)
+                user = called(self.language, self._names[self._number(reference)])
+                self._note("assumed.promise_rests", user=user, rate=human(rate, "bit/s"))
+
+
+def check_promised(request: Request, diff: Diff, user_names: tuple[str, ...], language: str) -> None:
+    """Refuse a rate that a line promises by name to somebody who is left out.
+
+    Raises:
+        UnclearRequestError: the question which of the two should hold.
+    """
+    out = {
+        user_number(user, user_names)[0] for user in cast("tuple[str, ...]", request.constraints.get("leave_out", ()))
+    }
+    for one in diff.changes if out else ():
+        if one.kind == "min_rate_bps" and one.user != EVERYBODY and one.after:
+            number, _ = user_number(one.user, user_names, language)
+            if number in out:
+                user, rate = called(language, user_names[number]), human(one.after, "bit/s")
+                raise UnclearRequestError(message(language, "ask_back.promised_and_left_out", user=user, rate=rate))
 
 
 def user_number(reference: str, user_names: tuple[str, ...], language: str = "en") -> tuple[int, bool]:

@@ -22,7 +22,6 @@ from wirelessagent import __version__
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.agent import asking, changing, posing, supposing
 from wirelessagent.agent.acting import TOLERANCE
-from wirelessagent.agent.dialogue import Request, difference, stated_by
 from wirelessagent.agent.posing import RefusedError, UnknownUserError, user_number
 from wirelessagent.agent.site import Decide, Site, decided, station_of
 from wirelessagent.agent.state import InsteadError, Reply, State, Talk, asked_back
@@ -37,6 +36,7 @@ from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
+from wirelessagent.language.request import Request, difference, stated_by
 from wirelessagent.language.text import normalise
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
@@ -199,7 +199,7 @@ class Session:
             share_of=cast("Mapping[str, Constraint]", before.get("share_of") or {}),
             share_how=str(before.get("share_how", "of")),
             acts=self._last_acts(), spoken_of=self._spoken_of(names), called=names,
-            earlier=tuple(turn.acts for turn in self._turns),
+            earlier=tuple(turn.acts for turn in self._turns), past=tuple(state.request for state in self._past),
         )  # fmt: skip
 
     def _last_acts(self) -> tuple[Act, ...]:

@@ -15,10 +15,10 @@ from wirelessagent import chain, plugins
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.acting.simulated import SimulatedBaseStation
 from wirelessagent.agent import acting
-from wirelessagent.agent.dialogue import Request
 from wirelessagent.agent.posing import ABOVE_THE_LIMIT, RefusedError, pose
 from wirelessagent.agent.turn import Run, Tools
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.request import Request
 from wirelessagent.model.cell import Cell
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import InputError, UnsupportedProblemError

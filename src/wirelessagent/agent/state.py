@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias, TypeVar
 
-from wirelessagent.agent.dialogue import Request, restated
+from wirelessagent.agent.dialogue import restated
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Lines, Run, Stage, Turn
@@ -15,6 +15,7 @@ from wirelessagent.language.acts import Act, Press
 from wirelessagent.language.conversation.open_question import Question
 from wirelessagent.language.intent import Constraint, Intent
 from wirelessagent.language.recogniser import Awaited
+from wirelessagent.language.request import Request
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.shown import Plain

@@ -13,7 +13,7 @@ import numpy as np
 from wirelessagent import plugins
 from wirelessagent.agent.acting import same_allocation
 from wirelessagent.agent.asking import decided_by
-from wirelessagent.agent.dialogue import Request, applied, restated
+from wirelessagent.agent.dialogue import restated
 from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY, RefusedError, user_number
 from wirelessagent.agent.site import Sight
 from wirelessagent.agent.state import Column, Replies, Reply, Talk, asked_back
@@ -21,6 +21,7 @@ from wirelessagent.agent.turn import Run
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act
 from wirelessagent.language.intent import Constraint
+from wirelessagent.language.request import Request, applied
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.units import human, percent, reliability
 from wirelessagent.telling import parts

@@ -9,10 +9,10 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from wirelessagent.agent.dialogue import Diff
 from wirelessagent.language.acts import Act, Press
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import acts_of
+from wirelessagent.language.request import Diff
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import WirelessAgentError

@@ -10,6 +10,7 @@ from typing import ClassVar, Literal, TypeAlias
 from wirelessagent.language.acts import Act
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Constraint, Intent
+from wirelessagent.language.request import Request
 
 Awaited: TypeAlias = Literal["nothing", "confirmation", "clarification"]
 
@@ -38,6 +39,7 @@ class Context:
         acts: those of the last line that changed or supposed something.
         spoken_of: the users whom a line named behind the last change, or with it: whom "give them 1 Mbit/s" is about.
         earlier: the acts of each turn so far, from the first.
+        past: what was asked for before each change that can be undone, the latest last; None for nothing.
         called: the numbers of users by what the operator calls them.
         language: of the conversation so far; "" at its start.
     """
@@ -63,6 +65,7 @@ class Context:
     acts: tuple[Act, ...] = ()
     spoken_of: tuple[str, ...] = ()
     earlier: tuple[tuple[Act, ...], ...] = ()
+    past: tuple[Request | None, ...] = ()
     called: Mapping[str, str] = field(default_factory=dict[str, str])
     language: str = ""
 

@@ -7,9 +7,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wirelessagent import plugins
-from wirelessagent.agent.dialogue import Request, restated
+from wirelessagent.agent.dialogue import restated
 from wirelessagent.language.intent import Constraint
 from wirelessagent.language.offline import OfflineRecogniser
+from wirelessagent.language.request import Request
 from wirelessagent.model.errors import InputError
 from wirelessagent.standards.tmf921_request import request_of
 

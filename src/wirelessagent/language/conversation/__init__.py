@@ -37,6 +37,7 @@ from wirelessagent.language.conversation.questions import (
     wondered,
 )
 from wirelessagent.language.conversation.references import keeping_what_holds, referred
+from wirelessagent.language.conversation.weighing import weighed
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -57,6 +58,15 @@ _ABOUT_THE_LAST = ("undo", "confirm", "reject")
 
 def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     """What a line means in its conversation; never raises, whatever the text.
+
+    Behind a request, what the readers make of a line is weighed against everything else that it may change.
+    """
+    intent = read_by_rules(text, context, recogniser)
+    return weighed(Line.of(text, context), intent) if len(text) <= _LONGEST else intent
+
+
+def read_by_rules(text: str, context: Context, recogniser: Recogniser) -> Intent:
+    """What a line means by the readers of sentences and of lines that lean on what was said before.
 
     Nothing that is only supposed is asked for, what holds stays where another aim is named, and a command that changes
     something is all that its line says. What is not clearly asked for now is asked about.

@@ -70,7 +70,7 @@ def read_figure(words: Words) -> Intent | None:
     wondered = words.line.is_asked or words.has("suppose") or supposed
     orders = is_ordered(words.line.text) and not words.line.is_asked
     if not wondered or words.has("take", "make", "correct") or orders:
-        said = f"{figure.value:g} {_unit(model)}" if _is_bare(figure, kind) and model is not None else figure.text
+        said = f"{figure.value:g} {unit_of(model)}" if _is_bare(figure, kind) and model is not None else figure.text
         theirs = [act.whom for act in models] if stands and not says_whose else [whom]
         return words.acts([Limit(kind=kind, value=value, whom=whose, words=said) for whose in theirs])
     if isinstance(whom, Others) or not (words.has("suppose") or supposed):
@@ -204,7 +204,7 @@ def value_of(figure: Quantity, kind: str, model: Limit | None) -> float | None:
     """A figure in SI units; one without a unit has that of the figure in whose place it is."""
     value, bare = figure.value, _is_bare(figure, kind)
     if bare:
-        unit = None if model is None else _unit(model)
+        unit = None if model is None else unit_of(model)
         found = parse_quantities(f"{figure.value:g} {unit}" if unit else "")
         value = found[0].value if found and found[0].kind != "bare" else math.nan
     if kind == "outage_probability":
@@ -214,7 +214,7 @@ def value_of(figure: Quantity, kind: str, model: Limit | None) -> float | None:
     return value if 0 < value < (1 if kind == "outage_probability" else math.inf) else None
 
 
-def _unit(model: Limit) -> str:
+def unit_of(model: Limit) -> str:
     """The unit in which a limit was said, or in which it is shown."""
     for one in parse_quantities(model.words):
         if one.kind in UNITS and one.text[:1].isdigit() and (one.value == model.value or one.kind == "ratio"):

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wirelessagent.language.acts import Act, Drop, LeaveOut, Limit, Named
+from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Named
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.guard import READ_IN_A_TALK
 from wirelessagent.language.intent import Constraint, Detail, Intent, IntentKind
@@ -169,6 +169,9 @@ class Line:
                 stated["leave_out"] = act.whom.users
         dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
         intent = self.amend(stated, dropped=dropped, details=details)
+        aims = [act.objective for act in acts if isinstance(act, Aim)]
+        if aims:
+            intent = dataclasses.replace(intent, objective=aims[-1], reply=self.voice.restated(aims[-1], stated, ()))
         return dataclasses.replace(intent, acts=tuple(acts))
 
     def command(self, topic: str, **details: Detail) -> Intent:

@@ -208,7 +208,8 @@ def _weighed(words: Words, factor: float) -> Intent | None:
         return None
     own, scaled = own_users(words.held.get("weights")), Scale(kind="weights", factor=factor, whom=whom)
     places = [at for at, token in enumerate(words.tokens) if "weight" in token.classes or token.factor]
-    of_what_holds = factor < 1 or places[-1] - places[0] > 1  # "double his weight", and no "double weight"
+    apart = places[-1] - places[0] if places else 0
+    of_what_holds = factor < 1 or apart > 1  # "double his weight", and no "double weight"
     anew = not {*whom.users} <= {*own} or words.has("correct", "make") or not of_what_holds
     return words.acts([Limit(kind="weights", value=factor, whom=whom) if anew else scaled])
 
@@ -221,6 +222,8 @@ def read_of_another(words: Words) -> Intent | None:
         return None
     more = words.has("more") - words.has("less")
     factor = (1 + more * shares[0] if more else shares[0]) if shares else 1.0
+    if factor <= 0:
+        return None
     groups = _groups(words)
     if len(groups) == 1 and len(groups[0][1]) == 2 and not shares:  # "用户5和用户2一样", one list of two
         groups = [(0, (groups[0][1][0],)), (0, (groups[0][1][1],))]

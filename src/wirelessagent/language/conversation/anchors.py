@@ -1,0 +1,174 @@
+"""The anchors of a line: its figures, shares, numbers and users, with the words between them."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias, cast
+
+from wirelessagent.language.deferred import deferred
+from wirelessagent.language.mentions import JOINT, mentions
+from wirelessagent.language.numerals import factors, numbers
+from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.text import CJK, normalise, unaccented
+from wirelessagent.language.word_tables import table
+
+AnchorKind: TypeAlias = Literal["rate", "power", "ratio", "factor", "number", "users", "others", "everybody", "pronoun"]
+
+FIGURES = ("rate", "power", "ratio", "factor", "number")
+_SCALE = re.compile(r"[kKMG](?![^\W_])")
+_SCALES = {"": 1.0, "K": 1e3, "M": 1e6, "G": 1e9}
+_LARGEST_NUMBER = 1e4
+"""From where on a number without a unit is a rate."""
+_WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s]")
+
+
+@dataclass(frozen=True, eq=False)
+class Anchor:
+    """A part of a line at characters [start, end): a figure in SI units or without one, or ``users``."""
+
+    kind: AnchorKind
+    start: int
+    end: int
+    value: float = 0.0
+    users: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Anchored:
+    """A line as its anchors and its words.
+
+    Attributes:
+        plain: the normalised text.
+        anchors: from left to right.
+        words: in lower case and without accents, anchors as "@rate", "@users" and so on.
+        places: of each anchor among the words; a pronoun is a word.
+    """
+
+    plain: str
+    anchors: tuple[Anchor, ...]
+    words: tuple[str, ...]
+    places: Mapping[Anchor, int]
+
+    @classmethod
+    def of(cls, text: str, language: str, names: Sequence[str]) -> Anchored:
+        """The line of a text in a language, in a cell of users with these names."""
+        plain = normalise(text)
+        anchors = tuple(sorted(_anchors(text, plain, language, names), key=lambda anchor: (anchor.start, -anchor.end)))
+        words, places, begin = list[str](), dict[Anchor, int](), 0
+        for anchor in anchors:
+            if anchor.kind == "pronoun" or anchor.start < begin:
+                continue
+            words += _words(plain, begin, anchor.start)
+            places[anchor] = len(words)
+            words.append(f"@{anchor.kind}")
+            begin = anchor.end
+        words += _words(plain, begin, len(plain))
+        return cls(plain=plain, anchors=anchors, words=tuple(words), places=places)
+
+    @property
+    def figures(self) -> list[Anchor]:
+        return [anchor for anchor in self.anchors if anchor.kind in FIGURES]
+
+    def groups(self, most: int) -> Iterator[tuple[tuple[str, ...], tuple[Anchor, ...]]]:
+        """The users who are named alone, in a list, in a range, or as two; a number up to ``most`` may be a user."""
+        named = [anchor for anchor in self.anchors if anchor.kind == "users" or _counts(anchor, most)]
+        for anchor in named:
+            yield _users(anchor), (anchor,)
+        for first, last in _lists(self.plain, named):
+            for begin in range(first, last):
+                for end in range(begin + 1, last + 1):
+                    yield _together(named[begin : end + 1])
+        for one, other in itertools.pairwise(named):
+            numbered = one.kind == other.kind == "number" and one.value < other.value
+            if numbered and _RANGE.fullmatch(self.plain, one.end, other.start):
+                yield tuple(str(user) for user in range(int(one.value), int(other.value) + 1)), (one, other)
+        if len(named) == 2 and JOINT.fullmatch(self.plain, named[0].end, named[1].start) is None:
+            yield _together(named)
+
+
+_RANGE = deferred(r"(?i)\s*(?:-|–|~|\.{2,}|to|thru|through|bis|à|al?|到|至)\s*(?:(?:la|le|el|zur?)\s+)?")
+
+
+def _words(plain: str, begin: int, end: int) -> list[str]:
+    return [unaccented(word[0].lower()) or word[0] for word in _WORD.finditer(plain, begin, max(begin, end))]
+
+
+def _counts(anchor: Anchor, most: int) -> bool:
+    return anchor.kind == "number" and anchor.value in range(1, most + 1)
+
+
+def _users(anchor: Anchor) -> tuple[str, ...]:
+    return anchor.users or (f"{anchor.value:g}",)
+
+
+def _together(named: Sequence[Anchor]) -> tuple[tuple[str, ...], tuple[Anchor, ...]]:
+    return tuple(dict.fromkeys(user for anchor in named for user in _users(anchor))), tuple(named)
+
+
+def _lists(plain: str, named: Sequence[Anchor]) -> Iterator[tuple[int, int]]:
+    """The first and the last place of each run of users that only joints part."""
+    first = 0
+    for place in range(1, len(named) + 1):
+        if place == len(named) or JOINT.fullmatch(plain, named[place - 1].end, named[place].start) is None:
+            if place - 1 > first:
+                yield first, place - 1
+            first = place
+
+
+def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iterator[Anchor]:
+    taken = list[tuple[int, int]]()
+
+    def free(start: int, end: int) -> bool:
+        return not any(first < end and start < last for first, last in taken)
+
+    for figure in parse_quantities(text):
+        if figure.kind in ("rate", "power", "ratio"):
+            taken.append((figure.start, figure.end))
+            yield Anchor(figure.kind, figure.start, figure.end, figure.value)
+    for mention in mentions(plain, names, taken):
+        if mention.role != "pronoun":
+            taken.append((mention.start, mention.end))
+        kind: AnchorKind = "users" if mention.role == "named" else mention.role
+        yield Anchor(kind, mention.start, mention.end, users=tuple(map(numbered, mention.users)))
+    low = "".join(unaccented(letter)[:1] or letter for letter in plain.lower())
+    shares, pattern = _shares(language)
+    found = [(share.start(), share.end(), shares[share[0]]) for share in pattern.finditer(low)]
+    found += [(each.start, each.end, float(each.value)) for each in factors(low)
+              if each.value is not None and low[each.start : each.end].strip()[:1] in "x0123456789"]  # fmt: skip
+    for start, end, value in found:
+        if free(start, end):
+            taken.append((start, end))
+            yield Anchor("factor", start, end, value)
+    for number in numbers(low, language):
+        if number.value is None or not free(number.start, number.end):
+            continue
+        scale, value = _SCALE.match(plain, number.end), float(number.value)
+        if value < 1 and not low[number.start].isdigit():  # "a quarter"
+            yield Anchor("factor", number.start, number.end, value)
+        else:
+            end = number.end if scale is None else scale.end()
+            value *= _SCALES["" if scale is None else scale[0].upper()]
+            yield Anchor("rate" if scale or value >= _LARGEST_NUMBER else "number", number.start, end, value)
+
+
+@functools.cache
+def _shares(language: str) -> tuple[Mapping[str, float], re.Pattern[str]]:
+    """Words for shares and multiples with what they are worth, and the pattern that finds them."""
+    listed = cast("dict[str, float]", table("fragment_words", language)["factors"])
+    shares = {own: share for word, share in listed.items() for own in (word, unaccented(word))}
+    parts = (rf"(?<!\w){re.escape(word)}(?!\w)" if not re.match(f"[{CJK}]", word) else re.escape(word)
+             for word in sorted(shares, key=len, reverse=True))  # fmt: skip
+    return shares, re.compile("|".join(parts))
+
+
+def numbered(user: str) -> str:
+    """A user by the number where it is named by it: "user 3" is "3"."""
+    found = _NUMBERED.fullmatch(user.strip())
+    return found[1] if found else user
+
+
+_NUMBERED = re.compile(r"(?i)(?:user\s*)?0*([1-9]\d*)")

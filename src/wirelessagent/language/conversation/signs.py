@@ -1,0 +1,344 @@
+"""What speaks for or against a change that a line may mean: hashed signs of the line, of the talk, and of both.
+
+Words of the line stand beside what the change does, of which limit and for whom; so do the words around its figure and
+its users, what was said last, and what the readers of sentences make of the line.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import zlib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from wirelessagent.language.base_words import based
+from wirelessagent.language.conversation.anchors import FIGURES, Anchor
+from wirelessagent.language.conversation.changes import RATES, Change, Effect, Possible
+from wirelessagent.language.conversation.leaning import seen
+from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.tokens import tokens_of
+from wirelessagent.language.figure_roles import answers
+from wirelessagent.language.intent import Intent
+from wirelessagent.language.intent_acts import acts_of
+from wirelessagent.language.linear_model import TALK_FILE, shipped_model
+from wirelessagent.language.looks import first_look
+from wirelessagent.language.moods import classes_in
+from wirelessagent.language.order_model import frame_of, shipped_order_model
+from wirelessagent.language.sentence import BUILT_IN
+
+BUCKETS = 1 << 18
+Places = npt.NDArray[np.int64]
+
+RELATIONS = ("none", "equal", "part", "more", "other", "apart", "nothing")
+"""What a change is to what the readers of sentences make of the line."""
+_KINDS = ("allocate", "command", "question", "clarify", "out_of_scope")
+_STEPS = (0.02, 0.1, 0.3, 0.5, 0.7, 0.9)
+_NEAR, _MOST = 3, 3
+_LIKELY = 0.15
+_SILENT = {"skip", "unknown"}
+_SPREAD = np.uint32(2654435761)
+TOGETHER = 44
+
+
+def place_of(sign: str) -> int:
+    return zlib.crc32(sign.encode("utf-8", "replace")) % BUCKETS
+
+
+def level(share: float) -> int:
+    """A share in seven steps."""
+    return sum(share >= step for step in _STEPS)
+
+
+def _hashes(signs: Iterable[str]) -> npt.NDArray[np.uint32]:
+    return np.array([zlib.crc32(sign.encode("utf-8", "replace")) for sign in {*signs}], dtype=np.uint32)
+
+
+def relation(effect: Effect, other: Effect | None) -> str:
+    """What an effect is to another one, None for that of no change at all."""
+    if not other:
+        return "none" if effect else "equal"
+    if not effect:
+        return "nothing"
+    if effect == other:
+        return "equal"
+    if effect < other or other < effect:
+        return "part" if effect < other else "more"
+    return "other" if {key for key, _ in effect} & {key for key, _ in other} else "apart"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Read:
+    """A line as the readers of sentences see it.
+
+    Attributes:
+        kind: of their intent; ``topic`` is what it is about or what it asks.
+        effect, guess: of what they would do, and of what they ask whether to do; None for nothing.
+        order: how likely its frame is one of an order.
+        kinds: how likely each kind of sentence is.
+        roles: by where a figure, a number or users stand, how likely they are there for what.
+        leans: how likely a short line does what to what was said before.
+    """
+
+    kind: str
+    topic: str
+    effect: Effect | None
+    guess: Effect | None
+    order: float
+    kinds: Mapping[str, float]
+    roles: Mapping[int, Mapping[str, float]]
+    leans: Mapping[str, float]
+
+    @classmethod
+    def of(cls, line: Line, intent: Intent, possible: Possible, language: str) -> Read:
+        """What an intent does to what holds."""
+        sentence = line.sentence
+        tokens = tokens_of(line, language, lenient=True) or ()
+        return cls(
+            kind=intent.kind, topic=intent.asks or intent.topic or "", effect=_effect(intent, possible),
+            guess=None if intent.guess is None else _effect(intent.guess, possible),
+            order=shipped_order_model().probability(frame_of(sentence)),
+            kinds=shipped_model().probabilities(*sentence.for_model()), roles=_roles(line),
+            leans=shipped_model(TALK_FILE).probabilities(*seen(line, tokens, language)),
+        )  # fmt: skip
+
+
+def _roles(line: Line) -> dict[int, Mapping[str, float]]:
+    """What the figures, the numbers and the users of a line are there for, each by where it stands."""
+    look = first_look(line.sentence.plain, line.sentence.quantities, line.context.user_names)
+    view, found = look.view(), dict[int, Mapping[str, float]]()
+    for place, figure in enumerate(look.figures):
+        found[figure.start] = answers(figure.kind, view.figure(place))
+    for mention in look.mentions:
+        if mention.role == "named":
+            found[mention.start] = answers("user", view.user(mention))
+    for number in look.loose:
+        found[number.start] = answers("number", view.number(number, look.bound(number)))
+    return found
+
+
+def _effect(intent: Intent, possible: Possible) -> Effect | None:
+    if intent.kind != "allocate" and intent.topic != "undo":
+        return None
+    acts, past = acts_of(intent), possible.context.past
+    steps = [getattr(act, "steps", None) for act in acts]
+    if intent.topic == "undo" and not (isinstance(steps[0], int) and 0 < steps[0] <= len(past)):
+        return None
+    return possible.effect(acts)
+
+
+class Signs:
+    """The signs of the changes that one line may mean."""
+
+    def __init__(self, line: Line, possible: Possible, read: Read, language: str) -> None:
+        self._line, self._possible, self._read, self._anchored = line, possible, read, possible.line
+        words = self._anchored.words
+        bases = [f"B{word}" for word in based(words, language)]
+        classes = ["+".join(sorted(token.classes - _SILENT)) for token in tokens_of(line, language, lenient=True) or ()]
+        classes = [each for each in classes if each]
+        single = {f"K{name}" for each in classes for name in each.split("+")}
+        pairs = [f"{a} {b}" for a, b in itertools.pairwise(["<", *words, ">"])]
+        pairs += [f"B{a} {b}" for a, b in itertools.pairwise(bases)]
+        pairs += [f"K{a} {b}" for a, b in itertools.pairwise(["<", *classes, ">"])]
+        moods = [f"M{name}" for name, _ in classes_in(self._anchored.plain)]
+        self._all = _hashes([*words, *bases, *single, *pairs, *moods])
+        self._single = _hashes([*words, *bases, *single])
+        self._classes = _hashes([*single, *self._of_line()])
+        self._directed = _hashes([*words, *bases, *single])
+        self._padded = ["<"] * _NEAR + [*words] + [">"] * _NEAR
+        self._last = "+".join(sorted({_name(act) for act in possible.context.acts}))[:60]
+        self._last_kinds = {getattr(act, "kind", "") for act in possible.context.acts}
+
+    def _of_line(self) -> Iterator[str]:
+        """What is said of a line as a whole."""
+        read, kinds = self._read, self._read.kinds
+        asked = sum(share for kind, share in kinds.items() if kind.startswith(("question", "out_of_scope")))
+        figures = sum(anchor.kind in FIGURES for anchor in self._anchored.anchors)
+        yield f"asked:{self._line.is_asked}"
+        yield f"q:{level(asked)}"
+        yield f"o:{level(read.order)}"
+        yield f"o:{level(read.order)}:q:{level(asked)}"
+        yield f"top:{max(kinds, key=lambda kind: kinds[kind])}"
+        yield f"length:{min(len(self._anchored.words) // 3, 8)}"
+        yield f"aims:{level(max(kinds[aim] for aim in BUILT_IN))}"
+        yield f"read:{read.kind}:{read.topic}"
+        yield f"figures:{figures}"
+        for label, share in read.leans.items():
+            if share >= _LIKELY:
+                yield f"leans:{label}:{level(share)}"
+        yield "anchors:" + "+".join(anchor.kind for anchor in self._anchored.anchors)
+
+    def blocks(self, change: Change) -> list[tuple[str, npt.NDArray[np.uint32]]]:
+        """What a change does, coarse to fine, each beside the words of the line that speak of so much."""
+        form, kind = change.form, f"{change.form}:{change.kind}"
+        whole = f"{kind}:{change.source}"
+        blocks = [(form, self._all), (kind, self._single), (whole, self._classes)]
+        return blocks + [(f"{way}:{form}", self._directed) for way in self._way(change)]
+
+    def _way(self, change: Change) -> Iterator[str]:
+        """Whether the figure goes up or down, where it does either."""
+        ratio = self._ratio(change)
+        if ratio is not None and change.figure is not None:
+            yield "up" if ratio > 0 else "down"
+
+    def _ratio(self, change: Change) -> float | None:
+        """How many times two the first figure that changes becomes."""
+        for key, after in sorted(change.effect, key=lambda item: item[0]):
+            before = self._possible.before.get(key)
+            if isinstance(after, float) and isinstance(before, float) and before > 0 and after > 0:
+                return math.log2(after / before)
+        return None
+
+    def own(self, change: Change) -> Iterator[str]:
+        """The signs of one change by itself."""
+        form, kind = change.form, f"{change.form}:{change.kind}"
+        whole = f"{kind}:{change.source}"
+        figure, anchors = change.figure, self._anchored.anchors
+        said = "-" if figure is None else figure.kind
+        left = [anchor for anchor in anchors
+                if anchor is not figure and anchor not in change.users and anchor.kind != "pronoun"]  # fmt: skip
+        others = "+".join(sorted(anchor.kind for anchor in left))
+        yield from (form, kind, whole, f"{whole}:{said}", f"left:{others}|{form}", f"left:{others}|{whole}")
+        yield f"left:{len(left)}|{form}:{change.source}"
+        yield from self._around_the_figure(change, form, kind, said)
+        yield from self._around_the_users(change, form, kind)
+        yield from self._by_roles(change, left, form, kind, whole)
+        for label, share in self._read.leans.items():
+            if share >= _LIKELY:
+                yield from (f"leans:{label}:{level(share)}|{form}", f"leans:{label}:{level(share)}|{kind}")
+        held, context = self._possible.before, self._possible.context
+        users = {user for (_, user), _ in change.effect}
+        yield f"users:{min(len(users), _MOST)}:{len(users) == len(self._possible.users)}|{form}:{change.source}"
+        yield f"last:{self._last}|{kind}:{change.source}"
+        yield f"same kind:{change.kind in self._last_kinds}|{form}:{change.source}:{said}"
+        own = any(name == change.kind and user not in ("", "all") for name, user in held)
+        yield f"held:{change.kind in context.constraints}:{own}|{kind}:{change.source}"
+        yield f"out:{bool(self._possible.out)}|{form}:{change.source}"
+        if any(self._is_of(anchor, change.kind) for anchor in left):
+            yield from (f"old|{form}", f"old|{kind}")
+        if form == "aim":
+            share, order = self._read.kinds[change.kind], self._read.order
+            yield from (f"aim:{level(share)}", f"aim:{level(share)}:{level(order)}")
+            yield f"aim first:{share == max(self._read.kinds[aim] for aim in BUILT_IN)}"
+        for name, other in (("read", self._read.effect), ("guess", self._read.guess)):
+            related = relation(change.effect, other)
+            if name == "read" or other is not None:
+                yield from (f"{name}:{related}", f"{name}:{related}|{form}", f"{name}:{related}|{whole}")
+                yield f"{name}:{related}:{level(self._read.order)}"
+
+    def _by_roles(self, change: Change, left: Sequence[Anchor], form: str, kind: str, whole: str) -> Iterator[str]:
+        """What the model of roles makes of the figure and the users of a change, and of what it leaves."""
+        named: list[tuple[str, Sequence[Anchor]]] = [
+            ("figure", () if change.figure is None else (change.figure,)), ("users", change.users), ("left", left),
+        ]  # fmt: skip
+        for name, anchors in named:
+            for anchor in anchors[:_MOST]:
+                for role, share in self._read.roles.get(anchor.start, {}).items():
+                    if share >= _LIKELY:
+                        sign = f"{name}:{role}:{level(share)}"
+                        yield from (f"{sign}|{form}", f"{sign}|{kind}")
+                        if name != "left":
+                            yield f"{sign}|{whole}"
+
+    def _is_of(self, anchor: Anchor, kind: str) -> bool:
+        """Whether a figure is one that holds of a kind, so that another may stand in its place."""
+        if anchor.kind not in ("rate", "power", "number"):
+            return False
+        scales = (1.0, 1e3, 1e6) if anchor.kind == "number" and kind in RATES else (1.0,)
+        held = [value for (name, _), value in self._possible.before.items() if name == kind]
+        return any(
+            isinstance(value, float) and math.isclose(anchor.value * scale, value, rel_tol=1e-5)
+            for value in held for scale in scales
+        )  # fmt: skip
+
+    def _around_the_figure(self, change: Change, form: str, kind: str, said: str) -> Iterator[str]:
+        figure = change.figure
+        place = None if figure is None else self._anchored.places.get(figure)
+        if figure is None or place is None:
+            return
+        for step, word in self._beside(place, place):
+            yield from (f"f{step}:{kind}|{word}", f"f{step}:{form}|{word}")
+        padded, at = self._padded, place + _NEAR
+        yield from (f"f=:{kind}|{padded[at - 1]} {padded[at + 1]}", f"f<:{kind}|{padded[at - 2]} {padded[at - 1]}")
+        yield f"f>:{kind}|{padded[at + 1]} {padded[at + 2]}"
+        ratio = self._ratio(change)
+        if ratio is None:
+            yield f"new|{kind}:{said}:{change.source}"
+        else:
+            steps = max(-10, min(10, round(2 * ratio)))
+            yield from (f"by:{steps}|{kind}:{said}", f"by:{steps}|{form}")
+        size = round(2 * math.log10(figure.value)) if figure.value > 0 else 0
+        yield f"size:{size}|{kind}:{said}"
+
+    def _around_the_users(self, change: Change, form: str, kind: str) -> Iterator[str]:
+        places = [self._anchored.places[anchor] for anchor in change.users if anchor in self._anchored.places]
+        if not places:
+            return
+        for step, word in self._beside(places[0], places[-1]):
+            yield from (f"u{step}:{form}|{word}", f"u{step}:{kind}|{word}")
+        yield f"u=:{form}|{self._padded[places[0] + _NEAR - 1]} {self._padded[places[-1] + _NEAR + 1]}"
+        yield f"list:{'+'.join(anchor.kind for anchor in change.users[:_MOST])}|{form}"
+        place = None if change.figure is None else self._anchored.places.get(change.figure)
+        if place is None:
+            return
+        behind = places[-1] < place
+        between = (
+            self._anchored.words[places[-1] + 1 : place] if behind else self._anchored.words[place + 1 : places[0]]
+        )
+        side = "behind" if behind else "ahead"
+        anchors = [word for word in between if word[0] == "@"]
+        yield from (f"{side}:{min(len(between), 8)}|{form}", f"{side}:{len(anchors)}|{kind}")
+        yield f"{side}:{'+'.join(anchors[:_MOST])}|{form}:{change.source}"
+        for word in between[:8]:
+            yield f"{side}:{form}|{word}"
+
+    def _beside(self, first: int, last: int) -> Iterator[tuple[int, str]]:
+        """The words next to what stands at some places, with how far they are."""
+        for step in range(1, _NEAR + 1):
+            yield -step, self._padded[first + _NEAR - step]
+            yield step, self._padded[last + _NEAR + step]
+
+    @property
+    def together(self) -> Together:
+        """What several changes together are judged by."""
+        figures = sum(anchor.kind in FIGURES for anchor in self._anchored.anchors)
+        return Together(figures=figures, read=self._read.effect, kind=_KINDS.index(self._read.kind))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Together:
+    """What changes that a line may mean together are judged by.
+
+    Attributes:
+        figures: how many the line says.
+        read: what the readers of sentences would do.
+        kind: of what they take the line for.
+    """
+
+    figures: int
+    read: Effect | None
+    kind: int
+
+    def signs(self, changes: Sequence[Change], effect: Effect) -> list[int]:
+        """The signs of changes together, each by its number below :data:`TOGETHER`."""
+        used = len({change.figure for change in changes if change.figure is not None})
+        related, some = RELATIONS.index(relation(effect, self.read)), bool(changes)
+        found = [
+            related, 8 + min(len(changes), 3), 12 + min(self.figures - used, 3), 16 + 4 * some + min(self.figures, 3),
+            24 + self.kind + 6 * some,
+        ]  # fmt: skip
+        return [*found, 36 + related] if len(changes) > 1 else found
+
+
+def _name(act: object) -> str:
+    return f"{type(act).__name__}:{getattr(act, 'kind', '')}"
+
+
+def block_places(name: str, words: npt.NDArray[np.uint32]) -> Places:
+    """The buckets of what a change does beside each word."""
+    seed = np.uint32(zlib.crc32(name.encode("utf-8", "replace")))
+    with np.errstate(over="ignore"):
+        return np.asarray((seed * _SPREAD + words) % np.uint32(BUCKETS), dtype=np.int64)

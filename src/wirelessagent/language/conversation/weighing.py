@@ -1,0 +1,189 @@
+"""Which of the changes that a line of a talk may mean it does mean, and how surely.
+
+A log-linear model weighs no change at all, each change that is possible (:mod:`.changes`), and two or three of them
+together, by their signs (:mod:`.signs`); trained by :mod:`wirelessagent.language.training.talks`. What the readers of
+sentences make of the line is a sign among others.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from wirelessagent.language.acts import Act, Undo
+from wirelessagent.language.conversation.anchors import Anchored
+from wirelessagent.language.conversation.changes import Change, Effect, Possible
+from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
+from wirelessagent.language.intent import Intent
+from wirelessagent.language.text import language_in_a_talk
+
+MODEL_FILE = Path(__file__).parent.parent / "talks.npz"
+BLOCK, OWN = 2.0, 0.25
+"""What a sign counts: one of all the words beside what is done (over the root of how many they are), and one alone."""
+
+SURE, LIKELY = 0.7, 0.3
+"""From where on a line does what it likeliest means, and from where on it is asked whether it does."""
+
+_IN_PAIRS, _IN_THREES = 10, 6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Meaning:
+    """What a line may mean: no change, one, or several together, as places among those that are possible."""
+
+    places: tuple[int, ...]
+    effect: Effect
+
+
+@dataclass(frozen=True, kw_only=True)
+class TalkModel:
+    """Weights of signs, as int8 with their ``scale``, and of what changes are together."""
+
+    weights: npt.NDArray[np.int8]
+    scale: float
+    together: npt.NDArray[np.float32]
+
+    @classmethod
+    def load(cls, path: Path) -> TalkModel:
+        with np.load(path) as arrays:
+            return cls(weights=arrays["weights"], scale=float(arrays["scale"]), together=arrays["together"])
+
+    def save(self, path: Path) -> None:
+        np.savez_compressed(path, weights=self.weights, scale=self.scale, together=self.together)
+
+    def scores(self, signs: Signs, changes: Sequence[Change]) -> npt.NDArray[np.float64]:
+        """How strongly the signs speak for each change."""
+        blocks: dict[str, float] = {}
+        found = np.zeros(len(changes))
+        for place, change in enumerate(changes):
+            for name, words in signs.blocks(change):
+                if name not in blocks:
+                    total = self.weights[block_places(name, words)].sum(dtype=np.int64)
+                    blocks[name] = BLOCK * float(total) / max(len(words), 1) ** 0.5
+                found[place] += blocks[name]
+            own = [place_of(sign) for sign in signs.own(change)]
+            found[place] += OWN * float(self.weights[own].sum(dtype=np.int64))
+        return found * self.scale
+
+
+@dataclass(frozen=True, kw_only=True)
+class Weighed:
+    """What a line means likeliest.
+
+    Attributes:
+        acts: what it does; nothing where it changes nothing.
+        effect: what that comes to.
+        share: how likely it is.
+        shares: how likely each effect is.
+    """
+
+    acts: tuple[Act, ...]
+    effect: Effect
+    share: float
+    shares: dict[Effect, float]
+
+
+def meanings(changes: Sequence[Change], scores: Sequence[float] | npt.NDArray[np.float64]) -> list[Meaning]:
+    """No change, each one, and those that score best together."""
+    found = [Meaning(places=(), effect=frozenset())]
+    found += [Meaning(places=(place,), effect=change.effect) for place, change in enumerate(changes) if change.effect]
+    best = dict[Effect, int]()
+    for place in sorted(range(len(changes)), key=lambda place: -scores[place]):
+        if changes[place].effect and not any(isinstance(act, Undo) for act in changes[place].acts):
+            best.setdefault(changes[place].effect, place)
+    likely = list(best.values())[:_IN_PAIRS]
+    pairs = {pair for pair in itertools.combinations(likely, 2) if _go_together(changes[pair[0]], changes[pair[1]])}
+    threes = [three for three in itertools.combinations(likely[:_IN_THREES], 3)
+              if {*itertools.combinations(three, 2)} <= pairs]  # fmt: skip
+    for places in (*sorted(pairs), *threes):
+        effect = frozenset(item for place in places for item in changes[place].effect)
+        found.append(Meaning(places=places, effect=effect))
+    return found
+
+
+def _go_together(one: Change, other: Change) -> bool:
+    """Whether two changes are of different figures, and of different things that hold."""
+    apart = not {key for key, _ in one.effect} & {key for key, _ in other.effect}
+    return apart and (one.figure is None or one.figure is not other.figure)
+
+
+def weigh(possible: Possible, signs: Signs, model: TalkModel | None = None) -> Weighed:
+    """What a line means likeliest, by the model of this release or another one."""
+    model, changes = model or shipped_talk_model(), possible.changes()
+    scores = model.scores(signs, changes)
+    found = meanings(changes, scores)
+    total = np.array([
+        sum(scores[place] for place in each.places)
+        + model.together[signs.together.signs([changes[place] for place in each.places], each.effect)].sum()
+        for each in found
+    ])  # fmt: skip
+    likely = np.exp(total - total.max())
+    likely /= likely.sum()
+    shares = dict[Effect, float]()
+    for each, share in zip(found, likely.tolist(), strict=True):
+        shares[each.effect] = shares.get(each.effect, 0.0) + share
+    effect = max(shares, key=lambda each: shares[each])
+    best = max((place for place, each in enumerate(found) if each.effect == effect), key=lambda place: likely[place])
+    in_order = sorted(found[best].places, key=lambda place: _start(changes[place]))
+    acts = tuple(act for place in in_order for act in changes[place].acts)
+    return Weighed(acts=acts, effect=effect, share=shares[effect], shares=shares)
+
+
+def _start(change: Change) -> int:
+    """Where a change is said first; what has no figure and names no users is said ahead."""
+    return min((anchor.start for anchor in (*change.users, change.figure) if anchor is not None), default=-1)
+
+
+def weighed(line: Line, intent: Intent) -> Intent:
+    """What a line means behind a request: what its readers make of it, or what it means surely instead.
+
+    What nobody is sure of is asked about, with the likeliest meaning for a plain yes.
+    """
+    context = line.context
+    elsewhere = intent.kind == "command" and intent.topic != "undo"
+    if context.objective is None or context.awaits == "clarification" or elsewhere or "method" in intent.details:
+        return intent
+    language = language_in_a_talk(line.text, context.language)
+    possible = Possible(Anchored.of(line.text, language, context.user_names), context)
+    read = Read.of(line, intent, possible, language)
+    found = weigh(possible, Signs(line, possible, read, language))
+    if found.effect == (read.effect or frozenset()):
+        surely = not found.effect or found.share >= SURE
+        return intent if surely else asking_whether(line, intent)
+    if found.share >= SURE and found.acts:
+        return _done(line, found.acts)
+    if read.effect:
+        best = found.acts and found.share > found.shares.get(read.effect, 0.0)
+        return asking_whether(line, _done(line, found.acts) if best else intent)
+    if found.acts and intent.kind == "clarify" and found.share >= LIKELY:
+        return asking_whether(line, _done(line, found.acts))
+    return intent
+
+
+def _done(line: Line, acts: Sequence[Act]) -> Intent:
+    """The intent of acts."""
+    undone = next((act for act in acts if isinstance(act, Undo)), None)
+    if undone is not None and len(acts) == 1:
+        return line.command("undo", steps=float(undone.steps or 1))
+    return line.changed_by(acts)
+
+
+def asking_whether(line: Line, guess: Intent) -> Intent:
+    """The question whether an intent is meant."""
+    said = guess.reply.rstrip(" .。")
+    question = line.ask("no_order", guess=said[:1].lower() + said[1:])
+    return dataclasses.replace(question, guess=guess)
+
+
+@functools.cache
+def shipped_talk_model() -> TalkModel:
+    """The model of this release."""
+    return TalkModel.load(MODEL_FILE)
