@@ -10,6 +10,10 @@ from typing import Any
 
 import postgres
 import pytest
+from hypothesis import settings
+
+settings.register_profile("untimed", deadline=None)  # what is slow on a busy machine is no fault
+settings.load_profile("untimed")
 
 os.environ.setdefault("WIRELESSAGENT_COMPILE", "never")  # the machine code that is there is used, the rest interpreted
 

@@ -478,7 +478,7 @@ _OPEN = Context(
 
 
 @given(st.lists(st.sampled_from(_WORDS), min_size=1, max_size=4), st.sampled_from(["", " "]), st.booleans())
-@settings(max_examples=150, deadline=1000)
+@settings(max_examples=150)
 def test_any_line_is_read_at_once_and_nothing_is_raised(words: list[str], between: str, repeated: bool) -> None:
     text = between.join(words * (40 if repeated else 1))[:199]
     assert isinstance(understood(text, _OPEN, Scripted([means("out_of_scope")])), Intent)

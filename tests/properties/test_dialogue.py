@@ -31,7 +31,7 @@ from wirelessagent.language.acts import (
     shown,
 )  # fmt: skip
 from wirelessagent.language.intent import EVERYBODY, LISTS_OF_USERS
-from wirelessagent.language.request import Change, Diff, Request, applied, difference, figures_of
+from wirelessagent.language.request import Change, Diff, Request, acts_between, applied, changed, difference, figures_of
 
 USERS = ("1", "2", "3", "4")
 OF_USERS = ("min_rate_bps", "max_rate_bps", "weights")
@@ -173,3 +173,15 @@ def test_a_rate_assumed_for_each_user_holds_for_the_others() -> None:
 @given(st.from_type(Act))
 def test_an_act_that_is_shown_can_be_read_again(act: Act) -> None:
     assert repr(act_of(json.loads(json.dumps(shown(act))))) == repr(act)
+
+
+listless = st.lists(changing, max_size=5).map(lambda acts: [act for act in acts if not isinstance(act, Aim | Forget)])
+
+
+@given(listless, listless)
+def test_acts_between_two_requests_make_one_of_the_other(one: list[Act], other: list[Act]) -> None:
+    before, after = (changed({}, acts, radiated_w=3.0) for acts in (one, other))
+    made = changed(before, acts_between(before, after))
+    served = {user for kind, user in after if kind == "users"}
+    lists = {key for key in {*made, *after} if key[0] == "leave_out" and served}  # a list of who is served says it all
+    assert {key: made[key] for key in made.keys() - lists} == {key: after[key] for key in after.keys() - lists}

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from wirelessagent.language.features import buckets, word_hashes
 
-MODEL_FILE, TALK_FILE = (Path(__file__).with_name(name) for name in ("model.npz", "talk.npz"))
+MODEL_FILE = Path(__file__).with_name("model.npz")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,9 +44,9 @@ class LinearModel:
 
 
 @functools.cache
-def shipped_model(path: Path = MODEL_FILE) -> LinearModel:
-    """The model of this release, of what sentences want or of what short lines of a talk do."""
-    with np.load(path) as arrays:
+def shipped_model() -> LinearModel:
+    """The model of this release."""
+    with np.load(MODEL_FILE) as arrays:
         return LinearModel(
             labels=tuple(str(label) for label in arrays["labels"]),
             weights=arrays["weights"],

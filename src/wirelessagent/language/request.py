@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -136,24 +136,32 @@ def acts_between(before: Mapping[Key, float], after: Mapping[Key, float]) -> lis
     >>> acts_between({("min_rate_bps", "3"): 1e5}, {("min_rate_bps", "3"): 2e5})
     [Limit(words='', kind='min_rate_bps', value=200000.0, whom=Named(users=('3',)))]
     """
-    found = list[Act]()
-    for kind, user in [key for key in before if key not in after]:
-        if kind in LISTS_OF_USERS:
-            whom = Named((user,))
-            found.append(acts.Serve(whom=whom) if kind == "leave_out" else acts.LeaveOut(whom=whom))
-        else:
-            whom = acts.Others() if user == EVERYBODY else Named((user,))
-            found.append(acts.Drop(kind=kind, whom=whom, own=True))
+    return [*_lists_between(before, after), *_figures_between(before, after)]
+
+
+def _lists_between(before: Mapping[Key, float], after: Mapping[Key, float]) -> Iterator[Act]:
+    served, serves, out, outs = (
+        tuple(user for kind, user in figures if kind == name)
+        for name in ("users", "leave_out") for figures in (before, after)
+    )  # fmt: skip
+    if {*served} != {*serves}:
+        yield acts.Serve(whom=Named(serves), alone=True) if serves else acts.Serve(whom=Everybody())
+        out = ()
+    back, gone = (tuple(user for user in some if user not in others) for some, others in ((out, outs), (outs, out)))
+    if back:
+        yield acts.Serve(whom=Named(back))
+    if gone:
+        yield acts.LeaveOut(whom=Named(gone))
+
+
+def _figures_between(before: Mapping[Key, float], after: Mapping[Key, float]) -> Iterator[Act]:
+    for kind, user in before:
+        if (kind, user) not in after and kind not in LISTS_OF_USERS:
+            yield acts.Drop(kind=kind, whom=acts.Others() if user == EVERYBODY else Named((user,)), own=True)
     for (kind, user), value in after.items():
-        if before.get((kind, user)) == value:
-            continue
-        if kind in LISTS_OF_USERS:
-            whom = Named((user,))
-            found.append(acts.LeaveOut(whom=whom) if kind == "leave_out" else acts.Serve(whom=whom))
-        else:
+        if before.get((kind, user)) != value and kind not in LISTS_OF_USERS:
             common = acts.Others() if kind in FIGURES_OF_USERS else Everybody()
-            found.append(acts.Limit(kind=kind, value=value, whom=common if user == EVERYBODY else Named((user,))))
-    return found
+            yield acts.Limit(kind=kind, value=value, whom=common if user == EVERYBODY else Named((user,)))
 
 
 def _with_the_assumed(request: Request | None) -> Request | None:

@@ -2,7 +2,7 @@
 
 A recogniser reads sentences; here is read what only the turns before give a meaning: "undo twice", "no, I meant user
 3", "double the rates", "do that" behind a what-if, figures that answer a question back. Everything else is left to the
-recogniser. English and Chinese only.
+recogniser. What that comes to is weighed against everything else that the line may change (:mod:`.weighing`).
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from wirelessagent.language.conversation.commands import (
     with_method,
 )
 from wirelessagent.language.conversation.fragments import read_fragment, read_wondered
-from wirelessagent.language.conversation.leaning import LEANS, LIKELY, SURE, Leaning
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.nicknames import called, only_called, with_users
 from wirelessagent.language.conversation.open_question import leaves_the_question, read_answer, unanswered
@@ -52,9 +51,6 @@ _READERS = (
 )  # fmt: skip
 """What a line may be because of its conversation, the closest first."""
 
-_ABOUT_THE_LAST = ("undo", "confirm", "reject")
-"""Commands that only mean something behind an act, and may be meant of another one."""
-
 
 def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     """What a line means in its conversation; never raises, whatever the text.
@@ -62,7 +58,7 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     Behind a request, what the readers make of a line is weighed against everything else that it may change.
     """
     intent = read_by_rules(text, context, recogniser)
-    return weighed(Line.of(text, context), intent) if len(text) <= _LONGEST else intent
+    return weighed(Line.of(with_users(text, context.called), context), intent) if len(text) <= _LONGEST else intent
 
 
 def read_by_rules(text: str, context: Context, recogniser: Recogniser) -> Intent:
@@ -89,10 +85,6 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         by = with_method(line, _read(rest, Line.of(rest, context), context, recogniser), name)
         if by is not None:
             return by
-    leaning = Leaning(line)
-    exempt = leaning.exempts()
-    if exempt is not None:
-        return exempt
     for read in (read_fragment, *_READERS):
         intent = read(line)
         if intent is not None:
@@ -104,9 +96,7 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         context = dataclasses.replace(
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
         )  # fmt: skip
-    intent = leaning.read(SURE, LEANS) or recogniser.read(text, context)
-    if intent.kind in ("clarify", "out_of_scope") or intent.topic in _ABOUT_THE_LAST:
-        intent = leaning.read(LIKELY) or intent
+    intent = recogniser.read(text, context)
     read = asked_instead(line, intent) or by_method(line, intent)
     return given_instead(line, read)
 

@@ -18,6 +18,7 @@ from wirelessagent.language.acts import (
     Aim,
     Drop,
     Everybody,
+    Forget,
     LeaveOut,
     Limit,
     Named,
@@ -137,7 +138,8 @@ class Possible:
         if isinstance(acts[0], Undo):
             return effect_of(self.before, visible(self.context.past[-(acts[0].steps or 1)], self.users))
         aims = [act.objective for act in acts if isinstance(act, Aim)]
-        figures = changed(self._figures, acts) if len(acts) > len(aims) else self._figures
+        held = {} if any(isinstance(act, Forget) for act in acts) else self._figures
+        figures = changed(held, acts) if len(acts) > len(aims) else held
         aim = {(_AIM, ""): aims[-1] if aims else self.request.objective}
         return effect_of(self.before, {**aim, **_shown(figures, self.users)})
 

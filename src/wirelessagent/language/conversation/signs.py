@@ -15,16 +15,16 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from wirelessagent.language.acts import Act
 from wirelessagent.language.base_words import based
 from wirelessagent.language.conversation.anchors import FIGURES, Anchor
 from wirelessagent.language.conversation.changes import RATES, Change, Effect, Possible
-from wirelessagent.language.conversation.leaning import seen
-from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.tokens import tokens_of
 from wirelessagent.language.figure_roles import answers
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import acts_of
-from wirelessagent.language.linear_model import TALK_FILE, shipped_model
+from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.looks import first_look
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.order_model import frame_of, shipped_order_model
@@ -54,7 +54,7 @@ def level(share: float) -> int:
 
 
 def _hashes(signs: Iterable[str]) -> npt.NDArray[np.uint32]:
-    return np.array([zlib.crc32(sign.encode("utf-8", "replace")) for sign in {*signs}], dtype=np.uint32)
+    return np.unique(np.array([zlib.crc32(sign.encode("utf-8", "replace")) for sign in signs], dtype=np.uint32))
 
 
 def relation(effect: Effect, other: Effect | None) -> str:
@@ -75,34 +75,32 @@ class Read:
     """A line as the readers of sentences see it.
 
     Attributes:
-        kind: of their intent; ``topic`` is what it is about or what it asks.
+        kind: of their intent; ``topic`` is who read it, and what it is about or what it asks.
+        acts: what they would do.
         effect, guess: of what they would do, and of what they ask whether to do; None for nothing.
         order: how likely its frame is one of an order.
         kinds: how likely each kind of sentence is.
         roles: by where a figure, a number or users stand, how likely they are there for what.
-        leans: how likely a short line does what to what was said before.
     """
 
     kind: str
     topic: str
+    acts: tuple[Act, ...]
     effect: Effect | None
     guess: Effect | None
     order: float
     kinds: Mapping[str, float]
     roles: Mapping[int, Mapping[str, float]]
-    leans: Mapping[str, float]
 
     @classmethod
-    def of(cls, line: Line, intent: Intent, possible: Possible, language: str) -> Read:
+    def of(cls, line: Line, intent: Intent, possible: Possible) -> Read:
         """What an intent does to what holds."""
-        sentence = line.sentence
-        tokens = tokens_of(line, language, lenient=True) or ()
+        sentence, topic = line.sentence, intent.asks or intent.topic or ""
         return cls(
-            kind=intent.kind, topic=intent.asks or intent.topic or "", effect=_effect(intent, possible),
-            guess=None if intent.guess is None else _effect(intent.guess, possible),
+            kind=intent.kind, topic=f"{intent.recogniser == NAME}:{topic}", effect=_effect(intent, possible),
+            acts=acts_of(intent), guess=None if intent.guess is None else _effect(intent.guess, possible),
             order=shipped_order_model().probability(frame_of(sentence)),
             kinds=shipped_model().probabilities(*sentence.for_model()), roles=_roles(line),
-            leans=shipped_model(TALK_FILE).probabilities(*seen(line, tokens, language)),
         )  # fmt: skip
 
 
@@ -152,6 +150,11 @@ class Signs:
         self._last = "+".join(sorted({_name(act) for act in possible.context.acts}))[:60]
         self._last_kinds = {getattr(act, "kind", "") for act in possible.context.acts}
 
+    def changes(self) -> list[Change]:
+        """Each change that is possible, and all that the readers of sentences would do."""
+        found, effect = self._possible.changes(), self._read.effect
+        return [*found, Change(acts=self._read.acts, effect=effect, form="read")] if effect else found
+
     def _of_line(self) -> Iterator[str]:
         """What is said of a line as a whole."""
         read, kinds = self._read, self._read.kinds
@@ -166,9 +169,6 @@ class Signs:
         yield f"aims:{level(max(kinds[aim] for aim in BUILT_IN))}"
         yield f"read:{read.kind}:{read.topic}"
         yield f"figures:{figures}"
-        for label, share in read.leans.items():
-            if share >= _LIKELY:
-                yield f"leans:{label}:{level(share)}"
         yield "anchors:" + "+".join(anchor.kind for anchor in self._anchored.anchors)
 
     def blocks(self, change: Change) -> list[tuple[str, npt.NDArray[np.uint32]]]:
@@ -206,9 +206,6 @@ class Signs:
         yield from self._around_the_figure(change, form, kind, said)
         yield from self._around_the_users(change, form, kind)
         yield from self._by_roles(change, left, form, kind, whole)
-        for label, share in self._read.leans.items():
-            if share >= _LIKELY:
-                yield from (f"leans:{label}:{level(share)}|{form}", f"leans:{label}:{level(share)}|{kind}")
         held, context = self._possible.before, self._possible.context
         users = {user for (_, user), _ in change.effect}
         yield f"users:{min(len(users), _MOST)}:{len(users) == len(self._possible.users)}|{form}:{change.source}"

@@ -20,17 +20,22 @@ import numpy.typing as npt
 from wirelessagent.language.acts import Act, Undo
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.changes import Change, Effect, Possible
-from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.text import language_in_a_talk
 
-MODEL_FILE = Path(__file__).parent.parent / "talks.npz"
-BLOCK, OWN = 2.0, 0.25
+TALKS_FILE = Path(__file__).parent.parent / "talks.npz"
+BLOCK, OWN = 1.0, 0.25
 """What a sign counts: one of all the words beside what is done (over the root of how many they are), and one alone."""
 
-SURE, LIKELY = 0.7, 0.3
-"""From where on a line does what it likeliest means, and from where on it is asked whether it does."""
+SURE, AGREED, LIKELY = 0.8, 0.2, 0.3
+"""From where on a line does what it likeliest means, from where on what its readers make of it, and from where on it is
+asked whether it does."""
+
+UNLIKELY = 0.25
+"""How likely a frame is one of an order, below which nothing is done that only its words speak for."""
 
 _IN_PAIRS, _IN_THREES = 10, 6
 
@@ -91,7 +96,9 @@ class Weighed:
     shares: dict[Effect, float]
 
 
-def meanings(changes: Sequence[Change], scores: Sequence[float] | npt.NDArray[np.float64]) -> list[Meaning]:
+def meanings(
+    changes: Sequence[Change], scores: Sequence[float] | npt.NDArray[np.float32] | npt.NDArray[np.float64]
+) -> list[Meaning]:
     """No change, each one, and those that score best together."""
     found = [Meaning(places=(), effect=frozenset())]
     found += [Meaning(places=(place,), effect=change.effect) for place, change in enumerate(changes) if change.effect]
@@ -115,9 +122,9 @@ def _go_together(one: Change, other: Change) -> bool:
     return apart and (one.figure is None or one.figure is not other.figure)
 
 
-def weigh(possible: Possible, signs: Signs, model: TalkModel | None = None) -> Weighed:
+def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     """What a line means likeliest, by the model of this release or another one."""
-    model, changes = model or shipped_talk_model(), possible.changes()
+    model, changes = model or shipped_talk_model(), signs.changes()
     scores = model.scores(signs, changes)
     found = meanings(changes, scores)
     total = np.array([
@@ -148,20 +155,21 @@ def weighed(line: Line, intent: Intent) -> Intent:
     What nobody is sure of is asked about, with the likeliest meaning for a plain yes.
     """
     context = line.context
+    closed = intent.recogniser == NAME and (intent.kind != "clarify" or context.awaits == "clarification")
     elsewhere = intent.kind == "command" and intent.topic != "undo"
-    if context.objective is None or context.awaits == "clarification" or elsewhere or "method" in intent.details:
-        return intent
+    if closed or elsewhere or intent.recogniser not in (OFFLINE, NAME) or context.objective is None:
+        return intent  # each word of the line is known, or a language model read it
     language = language_in_a_talk(line.text, context.language)
     possible = Possible(Anchored.of(line.text, language, context.user_names), context)
-    read = Read.of(line, intent, possible, language)
-    found = weigh(possible, Signs(line, possible, read, language))
-    if found.effect == (read.effect or frozenset()):
-        surely = not found.effect or found.share >= SURE
-        return intent if surely else asking_whether(line, intent)
-    if found.share >= SURE and found.acts:
+    read = Read.of(line, intent, possible)
+    found = weigh(Signs(line, possible, read, language))
+    share = found.shares.get(read.effect or frozenset(), 0.0)
+    if share >= AGREED or (not read.effect and not found.effect):
+        return intent
+    if found.share >= SURE and found.acts and read.order >= UNLIKELY and read.guess is None:
         return _done(line, found.acts)
     if read.effect:
-        best = found.acts and found.share > found.shares.get(read.effect, 0.0)
+        best = found.acts and found.share > share
         return asking_whether(line, _done(line, found.acts) if best else intent)
     if found.acts and intent.kind == "clarify" and found.share >= LIKELY:
         return asking_whether(line, _done(line, found.acts))
@@ -186,4 +194,4 @@ def asking_whether(line: Line, guess: Intent) -> Intent:
 @functools.cache
 def shipped_talk_model() -> TalkModel:
     """The model of this release."""
-    return TalkModel.load(MODEL_FILE)
+    return TalkModel.load(TALKS_FILE)

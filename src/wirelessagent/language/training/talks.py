@@ -47,7 +47,7 @@ from wirelessagent.language.conversation.signs import (
     block_places,
     place_of,
 )
-from wirelessagent.language.conversation.weighing import BLOCK, MODEL_FILE, OWN, TalkModel, meanings
+from wirelessagent.language.conversation.weighing import BLOCK, OWN, TALKS_FILE, TalkModel, meanings
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.offline import OfflineRecogniser
@@ -137,7 +137,7 @@ class _Talk:
             acts += said
         return now, acts
 
-    def _acts(self, words: Sequence[str], now: Request | None) -> list[Act]:
+    def _acts(self, words: Sequence[str], now: Request | None) -> Sequence[Act]:
         """The acts of one part of a notation."""
         verb, *rest = words
         whom = _whom(rest[-1] if rest and rest[-1][0] == "@" else "")
@@ -278,9 +278,9 @@ def parsed(example: Example) -> Parsed:
     """Everything that a line may mean, with its signs."""
     line = Line.of(example.text, example.context)
     possible = Possible(Anchored.of(example.text, example.language, USERS), example.context)
-    read = Read.of(line, read_by_rules(example.text, example.context, OfflineRecogniser()), possible, example.language)
+    read = Read.of(line, read_by_rules(example.text, example.context, OfflineRecogniser()), possible)
     signs = Signs(line, possible, read, example.language)
-    changes = tuple(change for change in possible.changes() if change.effect)
+    changes = tuple(change for change in signs.changes() if change.effect)
     named = [signs.blocks(change) for change in changes]
     blocks = {name: words for each in named for name, words in each}
     places = {name: place for place, name in enumerate(blocks)}
@@ -377,11 +377,12 @@ def fit(
         share = np.add.reduceat(likely * is_right, begins) + 1e-30
         slope = ((likely - likely * is_right / share[line_of]) / len(begins)).astype(np.float32)
         down = np.concatenate([scored.back(np.asarray(back_sums @ slope)), np.asarray(back_signs @ slope)])
-        return -float(np.log(share).mean()) + ridge * float(flat @ flat), down + 2 * ridge * flat
+        slopes = down.astype(np.float64) + 2 * ridge * flat
+        return -float(np.log(share).mean()) + ridge * float(flat @ flat), slopes
 
     start = np.concatenate([weights, together]).astype(np.float64)
-    options = {"maxiter": steps, "maxcor": 6}
-    best = optimize.minimize(loss, start, jac=True, method="L-BFGS-B", options=options).x
+    found = optimize.minimize(loss, start, jac=True, method="L-BFGS-B", options={"maxiter": steps, "maxcor": 6})
+    best = np.asarray(found.x, dtype=np.float64)
     _LOG.info("%d of %d lines, loss %.3f", len(begins), len(said), loss(best)[0])
     return best[:BUCKETS].astype(np.float32), best[BUCKETS:].astype(np.float32)
 
@@ -412,4 +413,4 @@ def main(path: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else MODEL_FILE)
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else TALKS_FILE)

@@ -1,0 +1,115 @@
+"""Lines of talks in words that no form knows, weighed against all that they may change."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from tests.support.conversations import talked_into
+
+from wirelessagent.language.acts import Limit, Named
+from wirelessagent.language.conversation import weighing
+from wirelessagent.language.conversation.anchors import Anchored
+from wirelessagent.language.conversation.changes import Possible
+from wirelessagent.language.conversation.weighing import meanings
+from wirelessagent.language.recogniser import Context
+from wirelessagent.language.request import Request
+
+LEAST = ("least power, 300 kbit/s each",)
+
+
+@pytest.mark.parametrize(
+    ("lines", "holds"),
+    [
+        (("max bits per joule, the box itself eats 40 watts", "45, read it wrong"), {"circuit_power_w": 45.0}),
+        (("Équité proportionnelle, 9 W maxi.", "Un de moins."), {"max_power_w": 8.0}),
+        (("émets le moins possible et personne sous deux cents kilobits", "trois cents pardon"), {"min_rate_bps": 3e5}),
+        (("max rate, 16 W tops", "4 at least a meg"), {"max_power_w": 16.0, "min_rate_bps": {"4": 1e6}}),
+        (("max rate", "3 + 4 are visitors. skip"), {"leave_out": ("3", "4")}),
+        (("max rate", "leave user 3 out", "venga, todos otra vez"), {}),
+        ((*LEAST, "al 4 no le hace falta"), {"min_rate_bps": {"all": 3e5, "4": 0.0}}),
+        ((*LEAST, "Nutzer 3 ausgenommen"), {"min_rate_bps": {"all": 3e5, "3": 0.0}}),
+        (("máxima tasa total", "el usuario 4 como mucho 5 megabits", "kilobits, perdón"), {"max_rate_bps": {"4": 5e3}}),
+        (("总速率最高,功率不超过12瓦", "改成10瓦", "往回退一步吧兄弟"), {"max_power_w": 12.0}),
+        (("least power, user 2 at least 2 Mbit/s", "bump all the others up by a fifth"), {"min_rate_bps": {"2": 2e6}}),
+        ((*LEAST, "user 2 at least 100 kbit/s", "bump all the others up by a fifth"),
+         {"min_rate_bps": {"all": 3.6e5, "2": 1e5}}),
+        (("max rate, user 1 counts triple", "hmm double rather"), {"weights": {"1": 2.0}}),
+    ],
+)  # fmt: skip
+def test_lines_in_other_words_do_what_they_say(lines: tuple[str, ...], holds: dict[str, Any]) -> None:
+    assert talked_into(*lines)[0] == {
+        name: pytest.approx(value) if isinstance(value, float) else value for name, value in holds.items()
+    }
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["Du darfst auf gar keinen Fall Nutzer 1 rausschmeißen!", "nice weather up here by the way, 12 degrees",
+     "no sé, igual siete, déjame pensar", "los monitores son del 5, creo", "我就随口一说,没别的意思"],
+)  # fmt: skip
+def test_what_does_nothing_changes_nothing(said: str) -> None:
+    assert talked_into("max rate, at most 12 W", "user 2 at least 1 Mbit/s", said)[0] == {
+        "max_power_w": 12.0, "min_rate_bps": {"2": 1e6},
+    }  # fmt: skip
+
+
+NAMES = tuple(f"user {number}" for number in range(1, 5))
+HELD = Context(
+    user_names=NAMES, objective="max_rate", language="en", constraints={"min_rate_bps": {"all": 3e5, "2": 6e5}},
+    acts=(Limit(kind="min_rate_bps", value=6e5, whom=Named(("2",)), words="600 kbit/s"),),
+    past=(Request(objective="max_rate", constraints={"min_rate_bps": 3e5}),),
+)  # fmt: skip
+
+
+def possible(text: str, context: Context = HELD) -> Possible:
+    return Possible(Anchored.of(text, "en", context.user_names), context)
+
+
+def test_only_what_the_line_or_the_talk_says_can_be_meant() -> None:
+    figures = {value for change in possible("make it 500 for 4").changes() for (kind, _), value in change.effect
+               if kind == "min_rate_bps" and value is not None}  # fmt: skip
+    assert 5e5 in figures
+    assert figures <= {5e5, 3e5, 6e5, 5e8, 4e6, 4e3, 8e5, 1.1e6, 1e5, 4.3e6, 4.6e6, 1.2e6, 2.4e6, 1.5e5, 7.5e4, 6.4e5,
+                       3.4e5, 3.04e5, 6.04e5, 5.96e5, 2.96e5, 6.01e5, 5.99e5, 3e5 + 5e8, 6e5 + 5e8}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "effect"),
+    [
+        ("and 4 too", {("min_rate_bps", "4"): 6e5}),
+        ("no, user 3", {("min_rate_bps", "2"): 3e5, ("min_rate_bps", "3"): 6e5}),
+        ("undo", {("min_rate_bps", "2"): 3e5}),
+        ("the others 400k", {("min_rate_bps", user): 4e5 for user in "134"}),
+        ("everybody but 1 half of that", {("min_rate_bps", user): value for user, value in
+                                          (("2", 3e5), ("3", 1.5e5), ("4", 1.5e5))}),
+        ("drop the floor", {("min_rate_bps", user): None for user in "1234"}),
+        ("only 1 and 2", {**{("leave_out", user): 1.0 for user in "34"},
+                          **{("min_rate_bps", user): None for user in "34"}}),
+    ],
+)  # fmt: skip
+def test_what_a_line_means_is_among_what_it_may(text: str, effect: dict[tuple[str, str], float | None]) -> None:
+    found = [dict(change.effect) for change in possible(text).changes()]
+    assert effect in found
+
+
+def test_changes_of_the_same_thing_or_by_the_same_figure_are_not_meant_together() -> None:
+    changes = possible("4 gets 500k, leave 3 out").changes()
+    scores = [0.0] * len(changes)
+    together = [meaning for meaning in meanings(changes, scores) if len(meaning.places) > 1]
+    for meaning in together:
+        parts = [changes[place] for place in meaning.places]
+        keys = [key for change in parts for key, _ in change.effect]
+        figures = [change.figure for change in parts if change.figure is not None]
+        assert len(keys) == len({*keys})
+        assert len(figures) == len({*figures})
+    said = {("min_rate_bps", "4"): 5e5, ("leave_out", "3"): 1.0, ("min_rate_bps", "3"): None}
+    scores = [float(change.effect <= said.items()) for change in changes]
+    assert said in [dict(meaning.effect) for meaning in meanings(changes, scores)]
+
+
+def test_what_nobody_is_sure_of_is_asked_and_done_at_a_yes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(weighing, "SURE", 1.01)
+    held, turns = talked_into("max rate, 300 kbit/s each", "well then 400k it shall be for all of them", "yes")
+    assert turns[1].stage == "asked"
+    assert held == {"min_rate_bps": 4e5}
