@@ -41,7 +41,7 @@ Effect: TypeAlias = frozenset[tuple[Key, float | str | None]]
 
 RATES, POWERS = ("min_rate_bps", "max_rate_bps"), ("max_power_w", "subcarrier_max_power_w", "circuit_power_w")
 OF_THE_CELL = (*POWERS, "outage_probability", "resource_block_group_size")
-_AIM, _OUT = "objective", "leave_out"
+OBJECTIVE, _OUT = "objective", "leave_out"
 _FEW, _MOST_STEPS, _EARLIER = 20.0, 3, 2
 _DIVISORS = (2, 3, 4, 5, 10)
 
@@ -86,7 +86,7 @@ def visible(request: Request | None, users: Sequence[str]) -> dict[Key, float | 
     """
     if request is None:
         return {}
-    return {(_AIM, ""): request.objective, **_shown(figures_of(request.constraints), users)}
+    return {(OBJECTIVE, ""): request.objective, **_shown(figures_of(request.constraints), users)}
 
 
 def _shown(figures: Mapping[Key, float], users: Sequence[str]) -> dict[Key, float | str]:
@@ -140,7 +140,7 @@ class Possible:
         aims = [act.objective for act in acts if isinstance(act, Aim)]
         held = {} if any(isinstance(act, Forget) for act in acts) else self._figures
         figures = changed(held, acts) if len(acts) > len(aims) else held
-        aim = {(_AIM, ""): aims[-1] if aims else self.request.objective}
+        aim = {(OBJECTIVE, ""): aims[-1] if aims else self.request.objective}
         return effect_of(self.before, {**aim, **_shown(figures, self.users)})
 
     def changes(self) -> list[Change]:
@@ -218,7 +218,7 @@ class Possible:
         yield self._for(group, [Limit(kind=kind, value=value, whom=whom)], "set", kind, figure)
         if isinstance(whom, Named) and {*whom.users} & {*self.out}:
             yield self._for(group, [Serve(whom=whom), Limit(kind=kind, value=value, whom=whom)], "serve", kind, figure)
-        if kind not in self._held or kind == "weights":
+        if kind not in self._held:
             return
         for form, sign in (("plus", 1), ("minus", -1)):
             sums = [(whose, held + sign * value) for whose, held in self._figures_of(kind, whom)]

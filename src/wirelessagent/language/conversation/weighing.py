@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 from wirelessagent.language.acts import Act, Undo
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.changes import Change, Effect, Possible
+from wirelessagent.language.conversation.changes import OBJECTIVE, Change, Effect, Possible
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
 from wirelessagent.language.intent import Intent
@@ -36,6 +36,12 @@ asked whether it does."""
 
 UNLIKELY = 0.25
 """How likely a frame is one of an order, below which nothing is done that only its words speak for."""
+
+_FACTS = frozenset({
+    "not_promised", "no_limit_of_its_own", "nothing_left_of_it", "served_already", "all_served", "who_is_back",
+    "negated",
+})  # fmt: skip
+"""Questions back that tell what holds or what was heard, and that no other reading answers."""
 
 _IN_PAIRS, _IN_THREES = 10, 6
 
@@ -155,7 +161,8 @@ def weighed(line: Line, intent: Intent) -> Intent:
     What nobody is sure of is asked about, with the likeliest meaning for a plain yes.
     """
     context = line.context
-    closed = intent.recogniser == NAME and (intent.kind != "clarify" or context.awaits == "clarification")
+    answers = intent.kind != "clarify" or context.awaits == "clarification"
+    closed = (intent.recogniser == NAME and answers) or intent.asks in _FACTS
     elsewhere = intent.kind == "command" and intent.topic != "undo"
     if closed or elsewhere or intent.recogniser not in (OFFLINE, NAME) or context.objective is None:
         return intent  # each word of the line is known, or a language model read it
@@ -164,7 +171,8 @@ def weighed(line: Line, intent: Intent) -> Intent:
     read = Read.of(line, intent, possible)
     found = weigh(Signs(line, possible, read, language))
     share = found.shares.get(read.effect or frozenset(), 0.0)
-    if share >= AGREED or (not read.effect and not found.effect):
+    limits = frozenset(item for item in read.effect or () if item[0][0] != OBJECTIVE)
+    if share >= AGREED or found.effect == limits:  # of aims the readers of sentences know more
         return intent
     if found.share >= SURE and found.acts and read.order >= UNLIKELY and read.guess is None:
         return _done(line, found.acts)
