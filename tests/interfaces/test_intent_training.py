@@ -16,14 +16,21 @@ import pytest
 from wirelessagent.language import training
 from wirelessagent.language.base_words import FOLDER as FOLDER_OF_BASE_WORDS
 from wirelessagent.language.base_words import based
+from wirelessagent.language.conversation import read_by_rules as read_as_a_sentence
+from wirelessagent.language.conversation.anchors import Anchored
+from wirelessagent.language.conversation.changes import Possible
+from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.signs import Read, Signs
+from wirelessagent.language.conversation.weighing import weigh
 from wirelessagent.language.features import BUCKETS, buckets, word_hashes
 from wirelessagent.language.figure_roles import LABELS
 from wirelessagent.language.intent import COMMANDS, QUESTIONS, checked_constraints
 from wirelessagent.language.linear_model import MODEL_FILE, shipped_model
+from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.order_model import LIKELY, Frame, OrderModel, frame_of
 from wirelessagent.language.sentence import BUILT_IN, Sentence, own_words
 from wirelessagent.language.spelling import nearest, respelt
-from wirelessagent.language.training import meant, orders, talk
+from wirelessagent.language.training import meant, orders, talks
 from wirelessagent.language.training.compose import LANGUAGES, SLOTS, SURROUNDINGS, sentences
 from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save
 from wirelessagent.language.training.grammar import Grammar
@@ -102,7 +109,7 @@ def test_no_long_sentence_of_the_test_sets_is_drawn(drawn: list[tuple[str, str]]
 
 def test_no_sentence_of_the_test_sets_was_written_for_training(tested: set[str]) -> None:
     by_name = (unmarked(line)[0] for path in NAMED.glob("*.txt") for line in path.read_text("utf-8").splitlines())
-    in_talks = (line for line, *_ in talk.lines())
+    in_talks = (text for _, lines in talks.talks() for text, _ in lines)
     written = [*(each.text for each in spoken()), *(text for text, _ in meant.sentences()), *by_name, *in_talks]
     assert len(written) > 30_000
     assert [text for text in written if letters(text) in tested] == []
@@ -246,3 +253,38 @@ def test_slips_of_the_pen() -> None:
     assert respelt("公里数") == "公里数"
     assert nearest("effiency", ["efficiency", "everyone"]) == "efficiency"
     assert nearest("zebra", ["efficiency"]) == ""
+
+
+SAID = """# en
+max rate, 300 kbit/s each => aim max_rate; limit min_rate_bps 300000 @all
+user 4 gets 1 Mbit/s => limit min_rate_bps 1000000 @4
+and 7 too => limit min_rate_bps 1000000 @7
+thanks => nothing
+no, 6 => undo 1; limit min_rate_bps 1000000 @6
+the others half of that => scale min_rate_bps 0.5 @others
+drop the floor of 4 => drop min_rate_bps @4
+lift a cap that is not there => drop max_rate_bps
+"""
+
+
+def test_a_talk_is_an_example_a_line_with_what_it_comes_to(tmp_path: Path) -> None:
+    (tmp_path / "one.txt").write_text(SAID, "utf-8")
+    found = list(talks.examples(tmp_path))
+    assert [each.text for each in found] == [line.split(" => ")[0] for line in SAID.splitlines()[2:-1]]
+    assert dict(found[1].effect) == {("min_rate_bps", "7"): 1e6}
+    assert not found[2].effect
+    assert dict(found[3].effect) == {("min_rate_bps", "7"): 3e5, ("min_rate_bps", "6"): 1e6}
+    assert dict(found[4].effect) == {("min_rate_bps", user): 1.5e5 for user in "123578"}
+    assert dict(found[5].effect) == {("min_rate_bps", "4"): None}
+
+
+def test_a_model_of_talks_learns_what_it_is_shown_and_is_the_same_each_time(tmp_path: Path) -> None:
+    (tmp_path / "one.txt").write_text(SAID, "utf-8")
+    said = talks.parsed_all(list(talks.examples(tmp_path)), processes=1)
+    model, again = (talks.trained(said) for _ in range(2))
+    assert (model.weights == again.weights).all()
+    for each, example in zip(said, talks.examples(tmp_path), strict=True):
+        line = Line.of(example.text, example.context)
+        possible = Possible(Anchored.of(example.text, "en", talks.USERS), example.context)
+        read = Read.of(line, read_as_a_sentence(example.text, example.context, OfflineRecogniser()), possible)
+        assert weigh(Signs(line, possible, read, "en"), model).effect == each.effect
