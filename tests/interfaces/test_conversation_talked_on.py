@@ -58,7 +58,7 @@ def test_a_line_goes_on_with_any_limit(lines: tuple[str, ...], held: dict[str, A
                                       for name, value in held.items()}  # fmt: skip
 
 
-@pytest.mark.parametrize("said", ["if the surgeon calls, make it 9", "500 was too much", "another 2", "again"])
+@pytest.mark.parametrize("said", ["if the surgeon calls, make it 9", "500 was too much", "again"])
 def test_what_only_may_be_meant_changes_nothing(said: str) -> None:
     assert talked_into(POWER_W, said)[0] == {"max_power_w": 12.0}
 

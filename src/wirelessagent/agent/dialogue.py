@@ -25,6 +25,7 @@ def restated(request: Request, language: str = "en") -> str:
 def changes_in_words(diff: Diff, language: str) -> str:
     """What was changed of a request that held; empty for a first request.
 
+    >>> from wirelessagent.language.request import difference
     >>> old, new = (Request(objective="max_rate", constraints={"max_power_w": watts}) for watts in (10.0, 5.0))
     >>> changes_in_words(difference(old, new), "en")
     'Now: at most 5 W of radiated power (before: 10 W).'

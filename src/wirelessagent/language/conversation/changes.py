@@ -68,6 +68,11 @@ class Change:
     figure: Anchor | None = None
     users: tuple[Anchor, ...] = ()
 
+    @property
+    def is_said(self) -> bool:
+        """Whether it is about whom the line says, and not about those who are left or happen to be alike."""
+        return not self.source.startswith(("not:", "alike:"))
+
 
 @dataclass(frozen=True, kw_only=True)
 class _Group:
@@ -125,11 +130,11 @@ class Possible:
         self.line, self.context = line, context
         self.users = tuple(numbered(name) for name in context.user_names)
         self.request = Request(objective=context.objective, constraints=context.constraints)
-        self._figures = figures_of(self.request.constraints)
+        self.figures = figures_of(self.request.constraints)
         self.before = visible(self.request, self.users)
         self._held = [kind for kind in (*FIGURES_OF_USERS, *OF_THE_CELL) if kind in context.constraints]
         self.out = tuple(user for user in self.users if (_OUT, user) in self.before)
-        self._last = [limit for act in context.acts for limit in _as_limits(act, self._figures)]
+        self._last = [limit for act in context.acts for limit in _as_limits(act, self.figures)]
         self._named = [(users, anchors) for users, anchors in line.groups(len(self.users)) if {*users} <= {*self.users}]
         self._groups = list(self._whom())
 
@@ -138,7 +143,7 @@ class Possible:
         if isinstance(acts[0], Undo):
             return effect_of(self.before, visible(self.context.past[-(acts[0].steps or 1)], self.users))
         aims = [act.objective for act in acts if isinstance(act, Aim)]
-        held = {} if any(isinstance(act, Forget) for act in acts) else self._figures
+        held = {} if any(isinstance(act, Forget) for act in acts) else self.figures
         figures = changed(held, acts) if len(acts) > len(aims) else held
         aim = {(OBJECTIVE, ""): aims[-1] if aims else self.request.objective}
         return effect_of(self.before, {**aim, **_shown(figures, self.users)})
@@ -170,7 +175,7 @@ class Possible:
         for place, users in enumerate(list(dict.fromkeys(earlier))[: _EARLIER + 1]):
             add(users, f"earlier{place}")
         for kind in FIGURES_OF_USERS:
-            own = tuple(user for name, user in self._figures if name == kind and user != EVERYBODY)
+            own = tuple(user for name, user in self.figures if name == kind and user != EVERYBODY)
             if len(own) == 2:
                 add(own, "two")
         for users, source, anchors in list(named):
@@ -201,7 +206,7 @@ class Possible:
             for kind in OF_THE_CELL:
                 for value in self._values(figure, kind):
                     yield self._change([Limit(kind=kind, value=value)], "set", kind, figure=figure)
-                    held = self._figures.get((kind, EVERYBODY))
+                    held = self.figures.get((kind, EVERYBODY))
                     if held is not None and kind in POWERS:
                         for form, sum_ in (("plus", held + value), ("minus", held - value)):
                             if sum_ > 0:
@@ -228,9 +233,9 @@ class Possible:
 
     def _figures_of(self, kind: str, whom: Whom) -> list[tuple[Whom, float]]:
         """The figures that hold for somebody, each with whose it is; none where somebody has none."""
-        common = self._figures.get((kind, EVERYBODY))
+        common = self.figures.get((kind, EVERYBODY))
         if isinstance(whom, Named):
-            found = [(Named((user,)), self._figures.get((kind, user), common)) for user in whom.users]
+            found = [(Named((user,)), self.figures.get((kind, user), common)) for user in whom.users]
             return [(whose, figure) for whose, figure in found if figure] if all(f for _, f in found) else []
         return [] if common is None else [(whom, common)]
 
@@ -256,7 +261,7 @@ class Possible:
         else:
             found = {value / 1e3 if kind == "subcarrier_max_power_w" and value >= _FEW / 4 else value}
         models = [limit for limit in self._last if limit.kind == kind]
-        held = [figure for (name, _), figure in self._figures.items() if name == kind]
+        held = [figure for (name, _), figure in self.figures.items() if name == kind]
         models = models or [Limit(kind=kind, value=figure) for figure in held[:1]]
         return found | {worth for limit in models if (worth := _in_its_unit(value, limit)) > 0}
 
@@ -304,7 +309,7 @@ class Possible:
                         yield self._for(group, [limit], f"{form} like {side}", kind, share)
         for users, anchors in [*self._named, *((_users_of(self.context.acts), ()),)]:
             for kind in FIGURES_OF_USERS if len(users) == 2 else ():
-                one, other = (self._figures.get((kind, user)) for user in users)
+                one, other = (self.figures.get((kind, user)) for user in users)
                 if one and other:
                     acts = [Limit(kind=kind, value=other, whom=Named(users[:1])),
                             Limit(kind=kind, value=one, whom=Named(users[1:]))]  # fmt: skip
@@ -337,7 +342,7 @@ class Possible:
                     or (isinstance(act, Limit | Scale | Drop) and act.kind in FIGURES_OF_USERS)]  # fmt: skip
         if base is not None and of_users:
             meant = [dataclasses.replace(act, whom=whom) if act in of_users else act for act in self.context.acts]
-            acts = acts_between(self._figures, changed(figures_of(base.constraints), meant))
+            acts = acts_between(self.figures, changed(figures_of(base.constraints), meant))
             if acts:
                 yield self._for(group, acts, "instead")
 
@@ -356,11 +361,11 @@ class Possible:
 
     def _dropped(self, kind: str, whom: Named) -> list[Act]:
         """A limit taken off some users; a ceiling of all is written out for the others, as there is none for nobody."""
-        common = self._figures.get((kind, EVERYBODY))
+        common = self.figures.get((kind, EVERYBODY))
         if kind != "max_rate_bps" or common is None:
             return [Drop(kind=kind, whom=whom)]
         kept = [user for user in self.users if user not in whom.users]
-        return [Drop(kind=kind), *(Limit(kind=kind, value=self._figures.get((kind, user), common), whom=Named((user,)))
+        return [Drop(kind=kind), *(Limit(kind=kind, value=self.figures.get((kind, user), common), whom=Named((user,)))
                                    for user in kept)]  # fmt: skip
 
     def _back_and_aims(self) -> Iterator[Change]:

@@ -22,7 +22,7 @@ def denies(tokens: Sequence[Token]) -> bool:
 def moved(words: Words) -> Intent | None:
     """ "no, user 5", "I mean user 6, not 3", "for 3": what was said last of one user, of another."""
     words.users = words.users or _meant(words)
-    if not words.users:
+    if not words.users or (words.is_unsure and not (words.denied and _of_named(words))):
         return None
     if words.taken_off:
         return _taken_off_another(words)
@@ -103,7 +103,7 @@ def _meant(words: Words) -> tuple[str, ...]:
 def _for_all_moved(words: Words) -> Intent | None:
     """What was said last for everybody, for these users alone; where nothing was, what is meant is asked."""
     last = [act for act in words.last(Limit) if act.kind in FIGURES_OF_USERS and isinstance(act.whom, Everybody)]
-    if words.replaced:
+    if words.replaced or words.is_unsure:
         return None
     if len(last) != 1 or words.figures:
         return words.line.ask("what_of_user", users=words.line.voice.users(words.users))

@@ -91,7 +91,7 @@ def _read(words: Words) -> Intent | None:
     forms = _FORMS
     if words.line.is_asked:
         forms = tuple(form for form in _FORMS if form.asked)
-    elif denies(words.tokens) or words.denies_users:
+    elif words.is_unsure or denies(words.tokens) or words.denies_users:
         forms = _FORMS[:1]
     found = (form.read(words) for form in forms if form.fits(words))
     return next((intent for intent in found if intent is not None), None)
@@ -133,7 +133,7 @@ def _read_told(story: Line, rest: Line) -> Intent | None:
     each = _clause_by_clause(rest)
     if each is not None:
         return each
-    for words in words_of(rest):
+    for words in words_of(rest, lenient=not (story.text or rest.is_asked)):
         if story.text:
             words.is_told = True
             if words.has("it"):

@@ -81,11 +81,11 @@ class Token:
     factor: float | None = None
 
 
-def words_of(line: Line) -> Iterator[Words]:
-    """The line word by word in each language that it may be in and that knows all of its words."""
+def words_of(line: Line, *, lenient: bool = False) -> Iterator[Words]:
+    """The line word by word in each language that it may be in and that knows all of its words, or is ``lenient``."""
     spoken = [line.context.language] if line.context.language else []
     for language in dict.fromkeys([*spoken, *languages_of(line.text)]):
-        tokens = tokens_of(line, language)
+        tokens = tokens_of(line, language, lenient=lenient)
         if tokens:
             yield Words(line, tokens, language)
 
@@ -307,6 +307,7 @@ class Words:
         self.about: tuple[str, ...] = ()
         """The users of whom a clause before this one tells."""
         self.is_told = False
+        self.is_unsure = any(token is _UNKNOWN for token in tokens)
 
     def _all_of_them(self) -> tuple[str, ...]:
         """ "All three of those": the users with figures of their own, where they are so many."""

@@ -17,20 +17,22 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.acts import Act, Undo
+from wirelessagent.language.acts import Act, Aim, Undo
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.changes import OBJECTIVE, Change, Effect, Possible
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
+from wirelessagent.language.conversation.tokens import tokens_of
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import NAME as OFFLINE
+from wirelessagent.language.request import changed, constraints_of
 from wirelessagent.language.text import language_in_a_talk
 
 TALKS_FILE = Path(__file__).parent.parent / "talks.npz"
 BLOCK, OWN = 1.0, 0.25
 """What a sign counts: one of all the words beside what is done (over the root of how many they are), and one alone."""
 
-SURE, AGREED, LIKELY = 0.8, 0.2, 0.3
+SURE, AGREED, LIKELY = 0.8, 0.25, 0.3
 """From where on a line does what it likeliest means, from where on what its readers make of it, and from where on it is
 asked whether it does."""
 
@@ -39,9 +41,12 @@ UNLIKELY = 0.25
 
 _FACTS = frozenset({
     "not_promised", "no_limit_of_its_own", "nothing_left_of_it", "served_already", "all_served", "who_is_back",
-    "negated",
+    "negated", "refused", "no_rate_to_change", "not_understood",
 })  # fmt: skip
 """Questions back that tell what holds or what was heard, and that no other reading answers."""
+
+_FEW_WORDS = 3
+"""And figures, of a line that says no more than its reader makes of it."""
 
 _IN_PAIRS, _IN_THREES = 10, 6
 
@@ -144,7 +149,8 @@ def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     for each, share in zip(found, likely.tolist(), strict=True):
         shares[each.effect] = shares.get(each.effect, 0.0) + share
     effect = max(shares, key=lambda each: shares[each])
-    best = max((place for place, each in enumerate(found) if each.effect == effect), key=lambda place: likely[place])
+    alike = [place for place, each in enumerate(found) if each.effect == effect]
+    best = max(alike, key=lambda place: (all(changes[one].is_said for one in found[place].places), likely[place]))
     in_order = sorted(found[best].places, key=lambda place: _start(changes[place]))
     acts = tuple(act for place in in_order for act in changes[place].acts)
     return Weighed(acts=acts, effect=effect, share=shares[effect], shares=shares)
@@ -161,35 +167,46 @@ def weighed(line: Line, intent: Intent) -> Intent:
     What nobody is sure of is asked about, with the likeliest meaning for a plain yes.
     """
     context = line.context
-    answers = intent.kind != "clarify" or context.awaits == "clarification"
-    closed = (intent.recogniser == NAME and answers) or intent.asks in _FACTS
-    elsewhere = intent.kind == "command" and intent.topic != "undo"
+    asked = context.awaits == "clarification" and intent.kind == "clarify"
+    closed = (intent.recogniser == NAME and intent.kind != "clarify") or asked or intent.asks in _FACTS
+    elsewhere = (intent.kind == "command" and intent.topic != "undo") or "method" in intent.details
     if closed or elsewhere or intent.recogniser not in (OFFLINE, NAME) or context.objective is None:
-        return intent  # each word of the line is known, or a language model read it
+        return intent  # each word is known, or a language model read it
     language = language_in_a_talk(line.text, context.language)
     possible = Possible(Anchored.of(line.text, language, context.user_names), context)
     read = Read.of(line, intent, possible)
+    if intent.kind in ("allocate", "command") and not read.effect:  # of a method, of a promise that rests
+        return intent
     found = weigh(Signs(line, possible, read, language))
     share = found.shares.get(read.effect or frozenset(), 0.0)
     limits = frozenset(item for item in read.effect or () if item[0][0] != OBJECTIVE)
-    if share >= AGREED or found.effect == limits:  # of aims the readers of sentences know more
+    few = bool(read.effect) and len(possible.line.words) <= _FEW_WORDS
+    if share >= AGREED or found.effect in (limits, read.effect) or few:  # of aims the readers of sentences know more
         return intent
-    if found.share >= SURE and found.acts and read.order >= UNLIKELY and read.guess is None:
-        return _done(line, found.acts)
+    meant = _done(line, possible, found.acts) if found.acts else None
+    if meant is None:
+        return asking_whether(line, intent) if read.effect else intent
     if read.effect:
-        best = found.acts and found.share > share
-        return asking_whether(line, _done(line, found.acts) if best else intent)
-    if found.acts and intent.kind == "clarify" and found.share >= LIKELY:
-        return asking_whether(line, _done(line, found.acts))
-    return intent
+        return asking_whether(line, meant if found.share > share else intent)
+    denied = any("denial" in token.classes for token in tokens_of(line, language, lenient=True) or ())
+    if found.share >= SURE and read.order >= UNLIKELY and intent.guess is None and not denied:
+        return meant
+    other = intent.kind == "clarify" and found.share > max(LIKELY, found.shares.get(read.guess or frozenset(), 0.0))
+    return asking_whether(line, meant) if other else intent
 
 
-def _done(line: Line, acts: Sequence[Act]) -> Intent:
-    """The intent of acts."""
+def _done(line: Line, possible: Possible, acts: Sequence[Act]) -> Intent:
+    """The intent of acts, and what they change in words."""
     undone = next((act for act in acts if isinstance(act, Undo)), None)
     if undone is not None and len(acts) == 1:
         return line.command("undo", steps=float(undone.steps or 1))
-    return line.changed_by(acts)
+    intent, before = line.changed_by(acts), possible.figures
+    after = changed(before, acts)
+    stated = constraints_of({key: figure for key, figure in after.items() if before.get(key) != figure})
+    gone = dict.fromkeys(kind for kind, user in before if (kind, user) not in after)
+    aims = [line.voice.label(act.objective) for act in acts if isinstance(act, Aim)]
+    said = ", ".join([*aims, line.voice.amended(stated, tuple(gone))])
+    return dataclasses.replace(intent, reply=said.strip(", "))
 
 
 def asking_whether(line: Line, guess: Intent) -> Intent:
