@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 from wirelessagent.language.acts import Act, Aim, Undo
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.changes import OBJECTIVE, Change, Effect, Possible
+from wirelessagent.language.conversation.changes import Change, Effect, Possible
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
 from wirelessagent.language.conversation.tokens import tokens_of
@@ -37,7 +37,7 @@ SURE, AGREED, LIKELY = 0.8, 0.25, 0.3
 asked whether it does."""
 
 UNLIKELY = 0.25
-"""How likely a frame is one of an order, below which nothing is done that only its words speak for."""
+"""How likely a frame is one of an order, below which a line does nothing that its readers don't hear."""
 
 _FACTS = frozenset({
     "not_promised", "no_limit_of_its_own", "nothing_left_of_it", "served_already", "all_served", "who_is_back",
@@ -167,11 +167,8 @@ def weighed(line: Line, intent: Intent) -> Intent:
     What nobody is sure of is asked about, with the likeliest meaning for a plain yes.
     """
     context = line.context
-    asked = context.awaits == "clarification" and intent.kind == "clarify"
-    closed = (intent.recogniser == NAME and intent.kind != "clarify") or asked or intent.asks in _FACTS
-    elsewhere = (intent.kind == "command" and intent.topic != "undo") or "method" in intent.details
-    if closed or elsewhere or intent.recogniser not in (OFFLINE, NAME) or context.objective is None:
-        return intent  # each word is known, or a language model read it
+    if context.objective is None or _stands(intent, answers=context.awaits == "clarification"):
+        return intent
     language = language_in_a_talk(line.text, context.language)
     possible = Possible(Anchored.of(line.text, language, context.user_names), context)
     read = Read.of(line, intent, possible)
@@ -179,20 +176,33 @@ def weighed(line: Line, intent: Intent) -> Intent:
         return intent
     found = weigh(Signs(line, possible, read, language))
     share = found.shares.get(read.effect or frozenset(), 0.0)
-    limits = frozenset(item for item in read.effect or () if item[0][0] != OBJECTIVE)
-    few = bool(read.effect) and len(possible.line.words) <= _FEW_WORDS
-    if share >= AGREED or found.effect in (limits, read.effect) or few:  # of aims the readers of sentences know more
+    says_little = bool(read.effect) and len(possible.line.words) <= _FEW_WORDS
+    if share >= AGREED or found.effect == read.effect or says_little:
         return intent
-    meant = _done(line, possible, found.acts) if found.acts else None
-    if meant is None:
+    if not found.acts:
         return asking_whether(line, intent) if read.effect else intent
-    if read.effect:
+    meant = _done(line, possible, found.acts)
+    if read.effect:  # readers and weights are of two minds
         return asking_whether(line, meant if found.share > share else intent)
     denied = any("denial" in token.classes for token in tokens_of(line, language, lenient=True) or ())
     if found.share >= SURE and read.order >= UNLIKELY and intent.guess is None and not denied:
         return meant
-    other = intent.kind == "clarify" and found.share > max(LIKELY, found.shares.get(read.guess or frozenset(), 0.0))
-    return asking_whether(line, meant) if other else intent
+    likelier = found.share > max(LIKELY, found.shares.get(read.guess or frozenset(), 0.0))
+    return asking_whether(line, meant) if intent.kind == "clarify" and likelier else intent
+
+
+def _stands(intent: Intent, *, answers: bool) -> bool:
+    """Whether what is read of a line is not weighed; ``answers`` where a question back went before it.
+
+    That is a line of closed words, a request with its aim, a command, what names a method, what a language model read,
+    and what has to be asked about whatever the line may mean.
+    """
+    if intent.recogniser not in (OFFLINE, NAME) or "method" in intent.details or intent.asks in _FACTS:
+        return True
+    if intent.kind == "clarify":
+        return answers
+    whole = intent.kind == "allocate" and "objective" in intent.evidence
+    return whole or intent.recogniser == NAME or (intent.kind == "command" and intent.topic != "undo")
 
 
 def _done(line: Line, possible: Possible, acts: Sequence[Act]) -> Intent:
