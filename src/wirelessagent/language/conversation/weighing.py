@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from wirelessagent.language.acts import Act, Aim, Undo
-from wirelessagent.language.conversation.anchors import Anchored
+from wirelessagent.language.conversation.anchors import Anchor, Anchored
 from wirelessagent.language.conversation.changes import Change, Effect, Possible
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
@@ -99,12 +99,14 @@ class Weighed:
         effect: what that comes to.
         share: how likely it is.
         shares: how likely each effect is.
+        used: the figures and the users that say it.
     """
 
     acts: tuple[Act, ...]
     effect: Effect
     share: float
     shares: dict[Effect, float]
+    used: frozenset[Anchor] = frozenset()
 
 
 def meanings(
@@ -153,7 +155,9 @@ def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     best = max(alike, key=lambda place: (all(changes[one].is_said for one in found[place].places), likely[place]))
     in_order = sorted(found[best].places, key=lambda place: _start(changes[place]))
     acts = tuple(act for place in in_order for act in changes[place].acts)
-    return Weighed(acts=acts, effect=effect, share=shares[effect], shares=shares)
+    parts = [changes[place] for place in in_order]
+    used = frozenset(anchor for change in parts for anchor in (change.figure, *change.users) if anchor is not None)
+    return Weighed(acts=acts, effect=effect, share=shares[effect], shares=shares, used=used)
 
 
 def _start(change: Change) -> int:
@@ -185,7 +189,8 @@ def weighed(line: Line, intent: Intent) -> Intent:
     if read.effect:  # readers and weights are of two minds
         return asking_whether(line, meant if found.share > share else intent)
     denied = any("denial" in token.classes for token in tokens_of(line, language, lenient=True) or ())
-    if found.share >= SURE and read.order >= UNLIKELY and intent.guess is None and not denied:
+    whole = {*possible.line.figures} <= found.used
+    if found.share >= SURE and read.order >= UNLIKELY and intent.guess is None and whole and not denied:
         return meant
     likelier = found.share > max(LIKELY, found.shares.get(read.guess or frozenset(), 0.0))
     return asking_whether(line, meant) if intent.kind == "clarify" and likelier else intent
