@@ -174,6 +174,8 @@ def weighed(line: Line, intent: Intent) -> Intent:
     if context.objective is None or _stands(intent, answers=context.awaits == "clarification"):
         return intent
     language = language_in_a_talk(line.text, context.language)
+    if any("denial" in token.classes for token in tokens_of(line, language, lenient=True) or ()):
+        return intent  # what is denied the readers and the guard know
     possible = Possible(Anchored.of(line.text, language, context.user_names), context)
     read = Read.of(line, intent, possible)
     if intent.kind in ("allocate", "command") and not read.effect:  # of a method, of a promise that rests
@@ -188,9 +190,8 @@ def weighed(line: Line, intent: Intent) -> Intent:
     meant = _done(line, possible, found.acts)
     if read.effect:  # readers and weights are of two minds
         return asking_whether(line, meant if found.share > share else intent)
-    denied = any("denial" in token.classes for token in tokens_of(line, language, lenient=True) or ())
     whole = {*possible.line.figures} <= found.used
-    if found.share >= SURE and read.order >= UNLIKELY and intent.guess is None and whole and not denied:
+    if found.share >= SURE and read.order >= UNLIKELY and intent.guess is None and whole:
         return meant
     likelier = found.share > max(LIKELY, found.shares.get(read.guess or frozenset(), 0.0))
     return asking_whether(line, meant) if intent.kind == "clarify" and likelier else intent
@@ -204,9 +205,10 @@ def _stands(intent: Intent, *, answers: bool) -> bool:
     """
     if intent.recogniser not in (OFFLINE, NAME) or "method" in intent.details or intent.asks in _FACTS:
         return True
+    meant = intent.guess or intent
+    whole = meant.kind == "allocate" and "objective" in meant.evidence
     if intent.kind == "clarify":
-        return answers
-    whole = intent.kind == "allocate" and "objective" in intent.evidence
+        return answers or whole
     return whole or intent.recogniser == NAME or (intent.kind == "command" and intent.topic != "undo")
 
 
