@@ -336,7 +336,7 @@ class Possible:
             if isinstance(act, Scale) and act.kind in FIGURES_OF_USERS:
                 yield self._for(group, [dataclasses.replace(act, whom=whom)], "too scaled", act.kind)
             elif isinstance(act, Drop) and act.kind in self._held and act.kind in FIGURES_OF_USERS:
-                yield self._for(group, self._dropped(act.kind, whom), "too dropped", act.kind)
+                yield self._for(group, dropped(act.kind, whom, self.figures, self.users), "too dropped", act.kind)
         base = self.context.past[-1] if self.context.past else None
         of_users = [act for act in self.context.acts if isinstance(act, Serve | LeaveOut)
                     or (isinstance(act, Limit | Scale | Drop) and act.kind in FIGURES_OF_USERS)]  # fmt: skip
@@ -353,20 +353,11 @@ class Possible:
                 continue
             for group in self._groups:
                 if isinstance(group.whom, Named):
-                    yield self._for(group, self._dropped(kind, group.whom), "drop", kind)
+                    yield self._for(group, dropped(kind, group.whom, self.figures, self.users), "drop", kind)
                     yield self._for(group, [Drop(kind=kind, whom=group.whom, own=True)], "drop own", kind)
                 else:
                     own = isinstance(group.whom, Others)
                     yield self._for(group, [Drop(kind=kind, whom=group.whom, own=own)], "drop", kind)
-
-    def _dropped(self, kind: str, whom: Named) -> list[Act]:
-        """A limit taken off some users; a ceiling of all is written out for the others, as there is none for nobody."""
-        common = self.figures.get((kind, EVERYBODY))
-        if kind != "max_rate_bps" or common is None:
-            return [Drop(kind=kind, whom=whom)]
-        kept = [user for user in self.users if user not in whom.users]
-        return [Drop(kind=kind), *(Limit(kind=kind, value=self.figures.get((kind, user), common), whom=Named((user,)))
-                                   for user in kept)]  # fmt: skip
 
     def _back_and_aims(self) -> Iterator[Change]:
         said = [int(figure.value) for figure in self.line.figures if figure.kind == "number"]
@@ -390,6 +381,16 @@ class Possible:
         return Change(
             acts=tuple(acts), effect=frozenset(), form=form, kind=kind, source=source, figure=figure, users=users
         )
+
+
+def dropped(kind: str, whom: Named, figures: Mapping[Key, float], users: Sequence[str]) -> list[Act]:
+    """A limit taken off some users; a ceiling of all is written out for the others, as there is none for nobody."""
+    common = figures.get((kind, EVERYBODY))
+    if kind != "max_rate_bps" or common is None:
+        return [Drop(kind=kind, whom=whom)]
+    kept = [user for user in users if user not in whom.users]
+    return [Drop(kind=kind), *(Limit(kind=kind, value=figures.get((kind, user), common), whom=Named((user,)))
+                               for user in kept)]  # fmt: skip
 
 
 def _may_hold(effect: Effect) -> bool:

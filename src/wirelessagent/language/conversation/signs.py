@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from wirelessagent.language.acts import Act
 from wirelessagent.language.base_words import based
-from wirelessagent.language.conversation.anchors import FIGURES, Anchor
+from wirelessagent.language.conversation.anchors import Anchor
 from wirelessagent.language.conversation.changes import RATES, Change, Effect, Possible
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.tokens import tokens_of
@@ -145,7 +145,6 @@ class Signs:
         self._all = _hashes([*words, *bases, *single, *pairs, *moods])
         self._single = _hashes([*words, *bases, *single])
         self._classes = _hashes([*single, *self._of_line()])
-        self._directed = _hashes([*words, *bases, *single])
         self._padded = ["<"] * _NEAR + [*words] + [">"] * _NEAR
         self._last = "+".join(sorted({_name(act) for act in possible.context.acts}))[:60]
         self._last_kinds = {getattr(act, "kind", "") for act in possible.context.acts}
@@ -159,7 +158,6 @@ class Signs:
         """What is said of a line as a whole."""
         read, kinds = self._read, self._read.kinds
         asked = sum(share for kind, share in kinds.items() if kind.startswith(("question", "out_of_scope")))
-        figures = sum(anchor.kind in FIGURES for anchor in self._anchored.anchors)
         yield f"asked:{self._line.is_asked}"
         yield f"q:{level(asked)}"
         yield f"o:{level(read.order)}"
@@ -168,7 +166,7 @@ class Signs:
         yield f"length:{min(len(self._anchored.words) // 3, 8)}"
         yield f"aims:{level(max(kinds[aim] for aim in BUILT_IN))}"
         yield f"read:{read.kind}:{read.topic}"
-        yield f"figures:{figures}"
+        yield f"figures:{len(self._anchored.figures)}"
         yield "anchors:" + "+".join(anchor.kind for anchor in self._anchored.anchors)
 
     def blocks(self, change: Change) -> list[tuple[str, npt.NDArray[np.uint32]]]:
@@ -176,7 +174,7 @@ class Signs:
         form, kind = change.form, f"{change.form}:{change.kind}"
         whole = f"{kind}:{change.source}"
         blocks = [(form, self._all), (kind, self._single), (whole, self._classes)]
-        return blocks + [(f"{way}:{form}", self._directed) for way in self._way(change)]
+        return blocks + [(f"{way}:{form}", self._single) for way in self._way(change)]
 
     def _way(self, change: Change) -> Iterator[str]:
         """Whether the figure goes up or down, where it does either."""
@@ -301,7 +299,7 @@ class Signs:
     @property
     def together(self) -> Together:
         """What several changes together are judged by."""
-        figures = sum(anchor.kind in FIGURES for anchor in self._anchored.anchors)
+        figures = len(self._anchored.figures)
         return Together(figures=figures, read=self._read.effect, kind=_KINDS.index(self._read.kind))
 
 

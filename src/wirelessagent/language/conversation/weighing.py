@@ -26,7 +26,6 @@ from wirelessagent.language.conversation.tokens import tokens_of
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.request import changed, constraints_of
-from wirelessagent.language.text import language_in_a_talk
 
 TALKS_FILE = Path(__file__).parent.parent / "talks.npz"
 BLOCK, OWN = 1.0, 0.25
@@ -114,10 +113,10 @@ def meanings(
 ) -> list[Meaning]:
     """No change, each one, and those that score best together."""
     found = [Meaning(places=(), effect=frozenset())]
-    found += [Meaning(places=(place,), effect=change.effect) for place, change in enumerate(changes) if change.effect]
+    found += [Meaning(places=(place,), effect=change.effect) for place, change in enumerate(changes)]
     best = dict[Effect, int]()
     for place in sorted(range(len(changes)), key=lambda place: -scores[place]):
-        if changes[place].effect and not any(isinstance(act, Undo) for act in changes[place].acts):
+        if not any(isinstance(act, Undo) for act in changes[place].acts):
             best.setdefault(changes[place].effect, place)
     likely = list(best.values())[:_IN_PAIRS]
     pairs = {pair for pair in itertools.combinations(likely, 2) if _go_together(changes[pair[0]], changes[pair[1]])}
@@ -138,11 +137,11 @@ def _go_together(one: Change, other: Change) -> bool:
 def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     """What a line means likeliest, by the model of this release or another one."""
     model, changes = model or shipped_talk_model(), signs.changes()
-    scores = model.scores(signs, changes)
+    scores, together = model.scores(signs, changes), signs.together
     found = meanings(changes, scores)
     total = np.array([
         sum(scores[place] for place in each.places)
-        + model.together[signs.together.signs([changes[place] for place in each.places], each.effect)].sum()
+        + model.together[together.signs([changes[place] for place in each.places], each.effect)].sum()
         for each in found
     ])  # fmt: skip
     likely = np.exp(total - total.max())
@@ -153,9 +152,8 @@ def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     effect = max(shares, key=lambda each: shares[each])
     alike = [place for place, each in enumerate(found) if each.effect == effect]
     best = max(alike, key=lambda place: (all(changes[one].is_said for one in found[place].places), likely[place]))
-    in_order = sorted(found[best].places, key=lambda place: _start(changes[place]))
-    acts = tuple(act for place in in_order for act in changes[place].acts)
-    parts = [changes[place] for place in in_order]
+    parts = sorted((changes[place] for place in found[best].places), key=_start)
+    acts = tuple(act for change in parts for act in change.acts)
     used = frozenset(anchor for change in parts for anchor in (change.figure, *change.users) if anchor is not None)
     return Weighed(acts=acts, effect=effect, share=shares[effect], shares=shares, used=used)
 
@@ -173,7 +171,7 @@ def weighed(line: Line, intent: Intent) -> Intent:
     context = line.context
     if context.objective is None or _stands(intent, answers=context.awaits == "clarification"):
         return intent
-    language = language_in_a_talk(line.text, context.language)
+    language = line.voice.language
     if any("denial" in token.classes for token in tokens_of(line, language, lenient=True) or ()):
         return intent  # what is denied the readers and the guard know
     possible = Possible(Anchored.of(line.text, language, context.user_names), context)

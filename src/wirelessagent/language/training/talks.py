@@ -36,7 +36,7 @@ from wirelessagent.language.acts import (
 )
 from wirelessagent.language.conversation import read_by_rules
 from wirelessagent.language.conversation.anchors import Anchored, numbered
-from wirelessagent.language.conversation.changes import Change, Effect, Possible, effect_of, visible
+from wirelessagent.language.conversation.changes import Change, Effect, Possible, dropped, effect_of, visible
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.signs import (
     BUCKETS,
@@ -156,7 +156,9 @@ class _Talk:
         if verb == "drop":
             if not own:
                 raise NotationError(f"{' '.join(words)}: no such limit holds")
-            return [*self._dropped(kind, whom, own)]
+            if isinstance(whom, Named):
+                return dropped(kind, whom, figures, _NUMBERS)
+            return [Drop(kind=kind, whom=whom, own=isinstance(whom, Others))]
         if verb == "swap":
             one, other = (Named((user,)) for user in whom.users) if isinstance(whom, Named) else (None, None)
             if one is None or other is None:
@@ -171,17 +173,6 @@ class _Talk:
         if kind == "max_power_w" and not own:
             own = {EVERYBODY: _MAX_POWER_W}
         return [*_scaled(kind, figure, whom, own, adds=verb == "add")]
-
-    @staticmethod
-    def _dropped(kind: str, whom: Whom, own: Mapping[str, float]) -> Iterator[Act]:
-        common = own.get(EVERYBODY)
-        if not isinstance(whom, Named) or kind != "max_rate_bps" or common is None:
-            yield Drop(kind=kind, whom=whom, own=isinstance(whom, Others))
-            return
-        yield Drop(kind=kind)
-        for user in _NUMBERS:
-            if user not in whom.users:
-                yield Limit(kind=kind, value=own.get(user, common), whom=Named((user,)))
 
     def _took(self, text: str, acts: Sequence[Act], after: Request | None) -> None:
         """Remember a line that was understood."""
@@ -280,7 +271,7 @@ def parsed(example: Example) -> Parsed:
     possible = Possible(Anchored.of(example.text, example.language, USERS), example.context)
     read = Read.of(line, read_by_rules(example.text, example.context, OfflineRecogniser()), possible)
     signs = Signs(line, possible, read, example.language)
-    changes = tuple(change for change in signs.changes() if change.effect)
+    changes = tuple(signs.changes())
     named = [signs.blocks(change) for change in changes]
     blocks = {name: words for each in named for name, words in each}
     places = {name: place for place, name in enumerate(blocks)}
