@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from tests.support.conversations import talked_into
+from tests.support.conversations import agreed_into, talked_into
 
-from wirelessagent.language.acts import Limit, Named
+from wirelessagent.language.acts import Limit, Named, Suppose
 from wirelessagent.language.conversation import weighing
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.changes import Possible
+from wirelessagent.language.conversation.signs import SUPPOSED
 from wirelessagent.language.conversation.weighing import meanings
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import Request
@@ -21,13 +22,9 @@ LEAST = ("least power, 300 kbit/s each",)
 @pytest.mark.parametrize(
     ("lines", "holds"),
     [
-        (("max bits per joule, the box itself eats 40 watts", "45, read it wrong"), {"circuit_power_w": 45.0}),
         (("émets le moins possible et personne sous deux cents kilobits", "trois cents pardon"), {"min_rate_bps": 3e5}),
         (("max rate, 16 W tops", "4 at least a meg"), {"max_power_w": 16.0, "min_rate_bps": {"4": 1e6}}),
-        (("max rate", "3 + 4 are visitors. skip"), {"leave_out": ("3", "4")}),
         (("max rate", "leave user 3 out", "venga, todos otra vez"), {}),
-        ((*LEAST, "al 4 no le hace falta"), {"min_rate_bps": {"all": 3e5, "4": 0.0}}),
-        (("总速率最高,功率不超过12瓦", "改成10瓦", "往回退一步吧兄弟"), {"max_power_w": 12.0}),
         (("least power, user 2 at least 2 Mbit/s", "bump all the others up by a fifth"), {"min_rate_bps": {"2": 2e6}}),
         ((*LEAST, "user 2 at least 100 kbit/s", "bump all the others up by a fifth"),
          {"min_rate_bps": {"all": 3.6e5, "2": 1e5}}),
@@ -35,10 +32,19 @@ LEAST = ("least power, 300 kbit/s each",)
     ],
 )  # fmt: skip
 def test_lines_in_other_words_do_what_they_say_or_do_it_at_a_yes(lines: tuple[str, ...], holds: dict[str, Any]) -> None:
-    held, turns = talked_into(*lines)
-    if turns[-1].stage == "asked":  # whether just this is meant
-        held, _ = talked_into(*lines, "yes")
+    held, _ = agreed_into(*lines)
     assert held == {name: pytest.approx(value) if isinstance(value, float) else value for name, value in holds.items()}
+
+
+@pytest.mark.parametrize(
+    "wondered",
+    ["how would it look at 7?", "¿qué pasaría con cinco vatios menos, digamos 7?", "und mit 7, was wäre dann"],
+)
+def test_what_is_only_supposed_changes_nothing_until_it_is_taken_up(wondered: str) -> None:
+    held, turns = talked_into("highest total rate, at most 12 W", wondered)
+    assert held == {"max_power_w": 12.0}
+    assert turns[1].acts == (Suppose(acts=(Limit(kind="max_power_w", value=7.0),)),)
+    assert talked_into("highest total rate, at most 12 W", wondered, "do that")[0] == {"max_power_w": 7.0}
 
 
 @pytest.mark.parametrize(
@@ -69,7 +75,8 @@ def test_only_what_the_line_or_the_talk_says_can_be_meant() -> None:
                if kind == "min_rate_bps" and value is not None}  # fmt: skip
     assert 5e5 in figures
     assert figures <= {5e5, 3e5, 6e5, 5e8, 4e6, 4e3, 8e5, 1.1e6, 1e5, 4.3e6, 4.6e6, 1.2e6, 2.4e6, 1.5e5, 7.5e4, 6.4e5,
-                       3.4e5, 3.04e5, 6.04e5, 5.96e5, 2.96e5, 6.01e5, 5.99e5, 3e5 + 5e8, 6e5 + 5e8}  # fmt: skip
+                       3.4e5, 3.04e5, 6.04e5, 5.96e5, 2.96e5, 6.01e5, 5.99e5, 6e8, 6e2,
+                       3e5 + 5e8, 6e5 + 5e8}  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -92,11 +99,11 @@ def test_what_a_line_means_is_among_what_it_may(text: str, effect: dict[tuple[st
 
 
 def test_changes_of_the_same_thing_or_by_the_same_figure_are_not_meant_together() -> None:
-    changes = possible("4 gets 500k, leave 3 out").changes()
+    changes = [*possible("4 gets 500k, leave 3 out").changes(), SUPPOSED]
     scores = [0.0] * len(changes)
-    together = [meaning for meaning in meanings(changes, scores) if len(meaning.places) > 1]
-    for meaning in together:
+    for meaning in meanings(changes, scores):
         parts = [changes[place] for place in meaning.places]
+        assert meaning.supposed == (SUPPOSED in parts)
         keys = [key for change in parts for key, _ in change.effect]
         figures = [change.figure for change in parts if change.figure is not None]
         assert len(keys) == len({*keys})
@@ -108,6 +115,6 @@ def test_changes_of_the_same_thing_or_by_the_same_figure_are_not_meant_together(
 
 def test_what_nobody_is_sure_of_is_asked_and_done_at_a_yes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(weighing, "SURE", 1.01)
-    held, turns = talked_into("max bits per joule, the box itself eats 40 watts", "45, read it wrong", "yes")
-    assert turns[1].stage == "asked"
-    assert held == {"circuit_power_w": 45.0}
+    held, turns = talked_into("max rate", "leave user 3 out", "venga, todos otra vez", "yes")
+    assert turns[2].stage == "asked"
+    assert held == {}

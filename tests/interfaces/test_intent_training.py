@@ -109,7 +109,7 @@ def test_no_long_sentence_of_the_test_sets_is_drawn(drawn: list[tuple[str, str]]
 
 def test_no_sentence_of_the_test_sets_was_written_for_training(tested: set[str]) -> None:
     by_name = (unmarked(line)[0] for path in NAMED.glob("*.txt") for line in path.read_text("utf-8").splitlines())
-    in_talks = (text for _, lines in talks.talks() for text, _ in lines)
+    in_talks = (text for _, lines, _ in talks.talks() for text, _ in lines)
     written = [*(each.text for each in spoken()), *(text for text, _ in meant.sentences()), *by_name, *in_talks]
     assert len(written) > 30_000
     assert [text for text in written if letters(text) in tested] == []
@@ -263,6 +263,7 @@ thanks => nothing
 no, 6 => undo 1; limit min_rate_bps 1000000 @6
 the others half of that => scale min_rate_bps 0.5 @others
 drop the floor of 4 => drop min_rate_bps @4
+what if we left 2 out => suppose out 2
 lift a cap that is not there => drop max_rate_bps
 """
 
@@ -276,6 +277,8 @@ def test_a_talk_is_an_example_a_line_with_what_it_comes_to(tmp_path: Path) -> No
     assert dict(found[3].effect) == {("min_rate_bps", "7"): 3e5, ("min_rate_bps", "6"): 1e6}
     assert dict(found[4].effect) == {("min_rate_bps", user): 1.5e5 for user in "123578"}
     assert dict(found[5].effect) == {("min_rate_bps", "4"): None}
+    assert dict(found[6].effect) == {("leave_out", "2"): 1.0, ("min_rate_bps", "2"): None}
+    assert [each.supposed for each in found] == [False] * 6 + [True]
 
 
 def test_a_model_of_talks_learns_what_it_is_shown_and_is_the_same_each_time(tmp_path: Path) -> None:
@@ -287,4 +290,4 @@ def test_a_model_of_talks_learns_what_it_is_shown_and_is_the_same_each_time(tmp_
         line = Line.of(example.text, example.context)
         possible = Possible(Anchored.of(example.text, "en", talks.USERS), example.context)
         read = Read.of(line, read_as_a_sentence(example.text, example.context, OfflineRecogniser()), possible)
-        assert weigh(Signs(line, possible, read, "en"), model).effect == each.effect
+        assert weigh(Signs(line, possible, read, "en"), model).said == (each.supposed, each.effect)

@@ -27,8 +27,26 @@ def talk(*lines: str, confirm: bool = False) -> tuple[Session, list[Turn]]:
 def talked_into(*lines: str) -> tuple[dict[str, Any], list[Turn]]:
     """The constraints that are asked for after these lines, and their turns."""
     session, turns = talk(*lines)
+    return asked_for(session), turns
+
+
+def asked_for(session: Session) -> dict[str, Any]:
+    """The constraints that are asked for."""
     held = {} if session.request is None else session.request.constraints
-    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in held.items()}, turns
+    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in held.items()}
+
+
+def agreed(session: Session, said: str) -> Turn:
+    """The turn of a line, or of a yes where it is asked whether just that is meant."""
+    turn = session.say(said)
+    return session.say("yes") if turn.stage == "asked" and turn.intent.guess is not None else turn
+
+
+def agreed_into(*lines: str) -> tuple[dict[str, Any], list[Turn]]:
+    """The constraints that are asked for after these lines and a yes to each question whether one is meant."""
+    session = Session(SCENE, LOSS, seed=SEED, confirm=False)
+    turns = [agreed(session, line) for line in lines]
+    return asked_for(session), turns
 
 
 class Scripted(Recogniser):

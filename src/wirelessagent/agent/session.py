@@ -29,15 +29,14 @@ from wirelessagent.agent.turn import Lines, Run, Tools, Turn, shift_between
 from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Press, Suppose, Undo, Yes
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import called, unanswered, understood, with_users
+from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.open_question import Missing, Question
 from wirelessagent.language.followups import users_in
 from wirelessagent.language.intent import Constraint, Detail, Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
-from wirelessagent.language.mentions import mentions
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.request import Request, difference, stated_by
-from wirelessagent.language.text import normalise
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.telling.catalogue import message
@@ -213,8 +212,8 @@ class Session:
     def _spoken_of(self, names: Mapping[str, str]) -> tuple[str, ...]:
         """The users whom the last line that named any named, unless something was changed since."""
         for turn in reversed(self._turns):
-            found = mentions(normalise(with_users(turn.text, names)), self._site.user_names)
-            users = tuple(dict.fromkeys(user for each in found for user in each.users))
+            said = Anchored.of(with_users(turn.text, names), turn.intent.language, self._site.user_names)
+            users = said.named(len(self._site.user_names))
             if users or any(_changes_or_supposes(act) for act in turn.acts):
                 return users
         return ()

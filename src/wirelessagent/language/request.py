@@ -19,7 +19,7 @@ ASSUMED_MIN_RATE_BPS = 200e3
 Key: TypeAlias = tuple[str, str]
 """A constraint and a user; :data:`EVERYBODY` for a figure of everybody or of the cell."""
 
-_NUMBERED = re.compile(r"(?i)user\s*0*([1-9]\d*)")
+_NUMBERED = re.compile(r"(?i)(?:user\s*)?0*([1-9]\d*)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,10 +89,10 @@ def applied(before: Request | None, said: Iterable[Act], *, radiated_w: float = 
 
     ``radiated_w`` is the power of the last decision, which shares of the power refer to where no limit holds.
     """
-    said = tuple(said)
-    limits = [act for act in said if isinstance(act, acts.Limit)]
-    of_users = any(act.kind == "min_rate_bps" and isinstance(act.whom, Named) for act in limits)
-    request = _with_the_assumed(before) if of_users else before  # which holds for the others
+    said, request = tuple(said), before
+    if before is not None:
+        figures = with_the_assumed(before.objective, figures_of(before.constraints), said)
+        request = dataclasses.replace(before, constraints=constraints_of(figures))
     for act in said:
         request = _after(request, act, radiated_w)
     return request, difference(before, request)
@@ -164,13 +164,18 @@ def _figures_between(before: Mapping[Key, float], after: Mapping[Key, float]) ->
             yield acts.Limit(kind=kind, value=value, whom=common if user == EVERYBODY else Named((user,)))
 
 
-def _with_the_assumed(request: Request | None) -> Request | None:
-    """A request with the rate for each user that is assumed where least power is asked for and no rate is named."""
-    if request is None or "min_rate_bps" in request.constraints:
-        return request
-    if plugins.objective(request.objective).measure != "power":
-        return request
-    return dataclasses.replace(request, constraints={**request.constraints, "min_rate_bps": ASSUMED_MIN_RATE_BPS})
+def with_the_assumed(objective: str | None, figures: Mapping[Key, float], said: Iterable[Act]) -> dict[Key, float]:
+    """Figures with the rate that is assumed for each user of whom no promise is named, where acts promise to others.
+
+    Of the least power, a rate is assumed for each user.
+    """
+    promises = any(
+        isinstance(act, acts.Limit) and act.kind == "min_rate_bps" and isinstance(act.whom, Named) for act in said
+    )
+    named = any(kind == "min_rate_bps" for kind, _ in figures)
+    if not promises or named or objective is None or plugins.objective(objective).measure != "power":
+        return dict(figures)
+    return {**figures, ("min_rate_bps", EVERYBODY): ASSUMED_MIN_RATE_BPS}
 
 
 def _change(figures: dict[Key, float], act: Act, radiated_w: float) -> None:
@@ -227,13 +232,13 @@ def _meant(figures: Mapping[Key, float], kind: str, whom: Whom) -> list[Key]:
 
 
 def _names(whom: Named) -> list[str]:
-    return [_name(user) for user in whom.users]
+    return [numbered(user) for user in whom.users]
 
 
-def _name(user: str) -> str:
+def numbered(user: str) -> str:
     """One name for a user who can be named by number: "user 3" is "3"."""
-    numbered = _NUMBERED.fullmatch(user.strip())
-    return numbered[1] if numbered else user
+    found = _NUMBERED.fullmatch(user.strip())
+    return found[1] if found else user
 
 
 def _held(request: Request | None) -> dict[Key, float]:
@@ -249,9 +254,9 @@ def figures_of(constraints: Mapping[str, Constraint]) -> dict[Key, float]:
     figures: dict[Key, float] = {}
     for kind, value in constraints.items():
         if isinstance(value, Mapping):
-            figures |= {(kind, _name(user)): figure for user, figure in value.items()}
+            figures |= {(kind, numbered(user)): figure for user, figure in value.items()}
         elif isinstance(value, tuple):
-            figures |= {(kind, _name(user)): 1.0 for user in value}
+            figures |= {(kind, numbered(user)): 1.0 for user in value}
         else:
             figures[kind, EVERYBODY] = value
     return figures
@@ -273,7 +278,9 @@ def constraints_of(figures: Mapping[Key, float]) -> dict[str, Constraint]:
 
 def stated_by(after: Request, before: Request | None) -> dict[str, Constraint]:
     """What a request says that the one before it did not: what "that" refers to in the line behind it."""
-    old = _held(_with_the_assumed(before))
+    old = _held(before)
+    if before is not None:
+        old = with_the_assumed(before.objective, old, [acts.Limit(kind="min_rate_bps", value=1.0, whom=Named(()))])
     return constraints_of({
         key: value for key, value in _held(after).items() if old.get(key, old.get((key[0], EVERYBODY))) != value
     })  # fmt: skip

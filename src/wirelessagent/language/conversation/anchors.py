@@ -11,16 +11,21 @@ from typing import Literal, TypeAlias, cast
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.mentions import JOINT, mentions
+from wirelessagent.language.number_words import listed
 from wirelessagent.language.numerals import factors, numbers
 from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.request import numbered
 from wirelessagent.language.text import CJK, normalise, unaccented
 from wirelessagent.language.word_tables import table
 
-AnchorKind: TypeAlias = Literal["rate", "power", "ratio", "factor", "number", "users", "others", "everybody", "pronoun"]
+AnchorKind: TypeAlias = Literal[
+    "rate", "power", "ratio", "factor", "number", "users", "ordinal", "others", "everybody", "pronoun"
+]
 
 FIGURES = ("rate", "power", "ratio", "factor", "number")
 _SCALE = re.compile(r"[kKMG](?![^\W_])")
 _SCALES = {"": 1.0, "K": 1e3, "M": 1e6, "G": 1e9}
+_ORDINALS = {unaccented(word.lower()): f"{place:g}" for word, place in listed("ordinals").items() if word.isalpha()}
 _LARGEST_NUMBER = 1e4
 """From where on a number without a unit is a rate."""
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s]")
@@ -75,7 +80,7 @@ class Anchored:
 
     def groups(self, most: int) -> Iterator[tuple[tuple[str, ...], tuple[Anchor, ...]]]:
         """The users who are named alone, in a list, in a range, or as two; a number up to ``most`` may be a user."""
-        named = [anchor for anchor in self.anchors if anchor.kind == "users" or _counts(anchor, most)]
+        named = [anchor for anchor in self.anchors if anchor.users or _counts(anchor, most)]
         for anchor in named:
             yield _users(anchor), (anchor,)
         for first, last in _lists(self.plain, named):
@@ -88,6 +93,12 @@ class Anchored:
                 yield tuple(str(user) for user in range(int(one.value), int(other.value) + 1)), (one, other)
         if len(named) == 2 and JOINT.fullmatch(self.plain, named[0].end, named[1].start) is None:
             yield _together(named)
+
+    def named(self, most: int) -> tuple[str, ...]:
+        """Whoever is named, by numbers alone where nobody is by more."""
+        users = [user for anchor in self.anchors if anchor.kind == "users" for user in anchor.users]
+        alone = [f"{anchor.value:g}" for anchor in self.anchors if _counts(anchor, most)]
+        return tuple(dict.fromkeys(users or alone))
 
 
 _RANGE = deferred(r"(?i)\s*(?:-|–|~|\.{2,}|to|thru|through|bis|à|al?|到|至)\s*(?:(?:la|le|el|zur?)\s+)?")
@@ -139,20 +150,27 @@ def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iter
     found = [(share.start(), share.end(), shares[share[0]]) for share in pattern.finditer(low)]
     found += [(each.start, each.end, float(each.value)) for each in factors(low)
               if each.value is not None and low[each.start : each.end].strip()[:1] in "x0123456789"]  # fmt: skip
+    counted = [(each.start, each.end, float(each.value)) for each in numbers(low, language) if each.value is not None]
     for start, end, value in found:
-        if free(start, end):
+        part = any(first < start and end <= last and number >= 1 for first, last, number in counted)
+        if free(start, end) and not part:  # "two and a half"
             taken.append((start, end))
             yield Anchor("factor", start, end, value)
-    for number in numbers(low, language):
-        if number.value is None or not free(number.start, number.end):
+    for word in _WORD.finditer(low):
+        place = _ORDINALS.get(word[0])
+        if place is not None and free(*word.span()):  # "the third"
+            taken.append(word.span())
+            yield Anchor("ordinal", *word.span(), users=(place,))
+    for start, end, value in counted:
+        if not free(start, end):
             continue
-        scale, value = _SCALE.match(plain, number.end), float(number.value)
-        if value < 1 and not low[number.start].isdigit():  # "a quarter"
-            yield Anchor("factor", number.start, number.end, value)
+        scale = _SCALE.match(plain, end)
+        if value < 1 and not low[start].isdigit():  # "a quarter"
+            yield Anchor("factor", start, end, value)
         else:
-            end = number.end if scale is None else scale.end()
             value *= _SCALES["" if scale is None else scale[0].upper()]
-            yield Anchor("rate" if scale or value >= _LARGEST_NUMBER else "number", number.start, end, value)
+            is_rate = scale is not None or value >= _LARGEST_NUMBER
+            yield Anchor("rate" if is_rate else "number", start, end if scale is None else scale.end(), value)
 
 
 @functools.cache
@@ -163,12 +181,3 @@ def _shares(language: str) -> tuple[Mapping[str, float], re.Pattern[str]]:
     parts = (rf"(?<!\w){re.escape(word)}(?!\w)" if not re.match(f"[{CJK}]", word) else re.escape(word)
              for word in sorted(shares, key=len, reverse=True))  # fmt: skip
     return shares, re.compile("|".join(parts))
-
-
-def numbered(user: str) -> str:
-    """A user by the number where it is named by it: "user 3" is "3"."""
-    found = _NUMBERED.fullmatch(user.strip())
-    return found[1] if found else user
-
-
-_NUMBERED = re.compile(r"(?i)(?:user\s*)?0*([1-9]\d*)")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -25,16 +26,17 @@ from wirelessagent.language.acts import (
     Others,
     Scale,
     Serve,
+    Suppose,
     Undo,
     Whom,
 )
-from wirelessagent.language.conversation.anchors import Anchor, Anchored, numbered
-from wirelessagent.language.conversation.figure_in_place import unit_of
+from wirelessagent.language.conversation.anchors import Anchor, Anchored
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.recogniser import Context
-from wirelessagent.language.request import Key, Request, acts_between, changed, figures_of
+from wirelessagent.language.request import Key, Request, acts_between, changed, figures_of, numbered, with_the_assumed
 from wirelessagent.language.sentence import BUILT_IN
+from wirelessagent.model.units import human
 
 Effect: TypeAlias = frozenset[tuple[Key, float | str | None]]
 """What holds after a change and did not before, by kind and user; None for what holds no longer."""
@@ -42,8 +44,11 @@ Effect: TypeAlias = frozenset[tuple[Key, float | str | None]]
 RATES, POWERS = ("min_rate_bps", "max_rate_bps"), ("max_power_w", "subcarrier_max_power_w", "circuit_power_w")
 OF_THE_CELL = (*POWERS, "outage_probability", "resource_block_group_size")
 OBJECTIVE, _OUT = "objective", "leave_out"
-_FEW, _MOST_STEPS, _EARLIER = 20.0, 3, 2
+_FEW, _MOST_STEPS, _EARLIER, _LISTED = 20.0, 3, 2, 4
 _DIVISORS = (2, 3, 4, 5, 10)
+_LIKENED = ("named", "last", "spoken", "out")
+_WITH_UNIT = ("rate", "power")
+_NUMBER = re.compile(r"^[-+\d.,\s]+")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,6 +63,7 @@ class Change:
         source: where the users whom it is about are from: "named" in the line, of the "last" act, "others", ...
         figure: that the line says, None where it needs none.
         users: where the line names them.
+        model: where it names the user whose figure it is.
     """
 
     acts: tuple[Act, ...]
@@ -67,6 +73,17 @@ class Change:
     source: str = ""
     figure: Anchor | None = None
     users: tuple[Anchor, ...] = ()
+    model: Anchor | None = None
+
+    @property
+    def is_supposition(self) -> bool:
+        """Whether it changes nothing, and says of others that they are only supposed."""
+        return not self.acts
+
+    @property
+    def is_of_readers(self) -> bool:
+        """Whether it is all that the readers of sentences make of the line, or ask about."""
+        return self.form in ("read", "guessed")
 
     @property
     def is_said(self) -> bool:
@@ -126,15 +143,17 @@ class Possible:
     """What a line may change in its talk."""
 
     def __init__(self, line: Anchored, context: Context) -> None:
-        assert context.objective is not None
         self.line, self.context = line, context
         self.users = tuple(numbered(name) for name in context.user_names)
-        self.request = Request(objective=context.objective, constraints=context.constraints)
-        self.figures = figures_of(self.request.constraints)
-        self.before = visible(self.request, self.users)
+        aim, held = context.objective, context.constraints
+        self.figures = figures_of(held)
+        self.before = visible(None if aim is None else Request(objective=aim, constraints=held), self.users)
         self._held = [kind for kind in (*FIGURES_OF_USERS, *OF_THE_CELL) if kind in context.constraints]
         self.out = tuple(user for user in self.users if (_OUT, user) in self.before)
-        self._last = [limit for act in context.acts for limit in _as_limits(act, self.figures)]
+        self._supposed = tuple(act for one in context.acts if isinstance(one, Suppose) for act in one.acts)
+        self._said = self._supposed or context.acts
+        self._last = [limit for act in self._said for limit in _as_limits(act, self.figures)]
+        self.last_users = {*_users_of(self._said)}
         self._named = [(users, anchors) for users, anchors in line.groups(len(self.users)) if {*users} <= {*self.users}]
         self._groups = list(self._whom())
 
@@ -143,17 +162,27 @@ class Possible:
         if isinstance(acts[0], Undo):
             return effect_of(self.before, visible(self.context.past[-(acts[0].steps or 1)], self.users))
         aims = [act.objective for act in acts if isinstance(act, Aim)]
-        held = {} if any(isinstance(act, Forget) for act in acts) else self.figures
-        figures = changed(held, acts) if len(acts) > len(aims) else held
-        aim = {(OBJECTIVE, ""): aims[-1] if aims else self.request.objective}
-        return effect_of(self.before, {**aim, **_shown(figures, self.users)})
+        before = self.context.objective
+        aim = aims[-1] if aims else before
+        held = {} if any(isinstance(act, Forget) for act in acts) else with_the_assumed(before, self.figures, acts)
+        after: dict[Key, float | str] = {} if aim is None else {(OBJECTIVE, ""): aim}
+        return effect_of(self.before, {**after, **_shown(changed(held, acts), self.users)})
+
+    def changed(self, acts: Sequence[Act]) -> dict[Key, float]:
+        """The figures after acts."""
+        return changed(self.figures, acts)
+
+    def is_out_of_sight(self, acts: Sequence[Act]) -> bool:
+        """Whether acts change figures, and nothing that is visible."""
+        return self.changed(acts) != self.figures and not self.effect(acts)
 
     def changes(self) -> list[Change]:
-        """Each that changes anything, the likeliest reading of none first."""
+        """Each that a line may say; what can't hold, or holds already, comes to nothing."""
         found = itertools.chain(self._of_figures(), self._of_shares(), self._like_another(), self._of_users(),
                                 self._of_limits(), self._back_and_aims())  # fmt: skip
-        effects = ((each, self.effect(each.acts)) for each in found)
-        return [dataclasses.replace(each, effect=effect) for each, effect in effects if effect and _may_hold(effect)]
+        effects = ((each, self.effect(each.acts)) for each in found if each.acts)
+        return [dataclasses.replace(each, effect=effect if _may_hold(effect) else frozenset())
+                for each, effect in effects]  # fmt: skip
 
     # for whom
 
@@ -169,8 +198,11 @@ class Possible:
 
         for users, anchors in self._named:
             add(users, "named", anchors)
-        add(_users_of(self.context.acts), "last")
+        add(_users_of(self._said), "last")
         add(map(numbered, self.context.spoken_of), "spoken")
+        listed = _users_of(self._said)
+        for place, user in enumerate(listed if 1 < len(listed) <= _LISTED else ()):  # "the second one"
+            add((user,), "last one" if place == len(listed) - 1 else f"one {place}")
         earlier = [users for acts in self.context.earlier[::-1] if (users := _users_of(acts))]
         for place, users in enumerate(list(dict.fromkeys(earlier))[: _EARLIER + 1]):
             add(users, f"earlier{place}")
@@ -207,15 +239,21 @@ class Possible:
                 for value in self._values(figure, kind):
                     yield self._change([Limit(kind=kind, value=value)], "set", kind, figure=figure)
                     held = self.figures.get((kind, EVERYBODY))
+                    if held is None and kind == "max_power_w":  # the cell's, which can only become less
+                        less = self.context.max_power_w - value
+                        yield self._change([Limit(kind=kind, value=less)], "minus", kind, figure=figure)
                     if held is not None and kind in POWERS:
                         for form, sum_ in (("plus", held + value), ("minus", held - value)):
-                            if sum_ > 0:
-                                yield self._change([Limit(kind=kind, value=sum_)], form, kind, figure=figure)
+                            yield self._change([Limit(kind=kind, value=sum_)], form, kind, figure=figure)
         for limit in self._last:  # "one more"
             one = _in_its_unit(1.0, limit)
             for form, value in (("one more", limit.value + one), ("one less", limit.value - one)):
                 if one and value > 0:
                     yield self._change([dataclasses.replace(limit, value=value)], form, limit.kind, "last")
+            for form, factor in (("in thousands", 1e3), ("in thousandths", 1e-3)):  # "kilobits, sorry"
+                if limit.kind in (*RATES, *POWERS):
+                    again = dataclasses.replace(limit, value=limit.value * factor)
+                    yield self._change([again], form, limit.kind, "last")
 
     def _figure_for(self, figure: Anchor, kind: str, value: float, group: _Group) -> Iterator[Change]:
         """A figure for a group: in the place of theirs, or so much more or less."""
@@ -227,7 +265,7 @@ class Possible:
             return
         for form, sign in (("plus", 1), ("minus", -1)):
             sums = [(whose, held + sign * value) for whose, held in self._figures_of(kind, whom)]
-            if sums and all(sum_ > 0 for _, sum_ in sums):
+            if sums:
                 acts = [Limit(kind=kind, value=sum_, whom=whose) for whose, sum_ in sums]
                 yield self._for(group, acts, form, kind, figure)
 
@@ -275,7 +313,7 @@ class Possible:
             multiple = figure.kind != "ratio" and share > 1
             ways = (("times", share), ("part", 1 / share)) if multiple else _ways(share)
             for form, factor in ways:
-                for kind in self._held:
+                for kind in dict.fromkeys((*self._held, "min_rate_bps")):
                     if kind in FIGURES_OF_USERS:
                         for group in self._groups:
                             if figure not in group.anchors:
@@ -293,27 +331,31 @@ class Possible:
 
     def _like_another(self) -> Iterator[Change]:
         """The figure of one user, or a share of it, for others: "8 the same as 3", "half of what 1 gets for 6"."""
-        for (users, anchors), (models, others) in itertools.permutations(self._named, 2):
-            if len(models) != 1 or {*anchors} & {*others} or {*users} & {*models}:
+        alone = [(users[0], anchors[0]) for users, anchors in self._named if len(users) == 1]
+        for group, (model, other) in itertools.product(self._groups, alone):
+            users = group.whom.users if isinstance(group.whom, Named) and group.source in _LIKENED else ()
+            if not users or other in group.anchors or model in users:
                 continue
-            side = "ahead" if anchors[0].start < others[0].start else "behind"
-            group = _Group(whom=Named(users), source="named", anchors=anchors)
-            for kind in self._held:
-                figure = self.before.get((kind, models[0]))
-                if kind not in FIGURES_OF_USERS or not isinstance(figure, float):
-                    continue
-                yield self._for(group, [Limit(kind=kind, value=figure, whom=group.whom)], f"like {side}", kind, None)
+            side = "of" if not group.anchors else "ahead" if group.anchors[0].start < other.start else "behind"
+            found = {kind: self.before.get((kind, model)) for kind in FIGURES_OF_USERS}
+            limits = [Limit(kind=kind, value=figure, whom=group.whom) for kind, figure in found.items()
+                      if isinstance(figure, float)]  # fmt: skip
+            if len(limits) > 1:
+                yield self._for(group, limits, f"all like {side}", model=other)
+            for limit in limits:
+                yield self._for(group, [limit], f"like {side}", limit.kind, model=other)
                 for share in self.line.figures:
                     for form, factor in _ways(share.value) if share.kind in ("ratio", "factor") else ():
-                        limit = Limit(kind=kind, value=figure * factor, whom=group.whom)
-                        yield self._for(group, [limit], f"{form} like {side}", kind, share)
-        for users, anchors in [*self._named, *((_users_of(self.context.acts), ()),)]:
+                        of_it = dataclasses.replace(limit, value=limit.value * factor)
+                        yield self._for(group, [of_it], f"{form} like {side}", limit.kind, share, other)
+        for group in self._groups:
+            users = group.whom.users if isinstance(group.whom, Named) else ()
             for kind in FIGURES_OF_USERS if len(users) == 2 else ():
                 one, other = (self.figures.get((kind, user)) for user in users)
                 if one and other:
                     acts = [Limit(kind=kind, value=other, whom=Named(users[:1])),
                             Limit(kind=kind, value=one, whom=Named(users[1:]))]  # fmt: skip
-                    yield self._change(acts, "swap", kind, "named" if anchors else "last", users=anchors)
+                    yield self._for(group, acts, "swap", kind)
 
     # users and limits without a figure
 
@@ -332,23 +374,25 @@ class Possible:
         for limit in self._last if group.source != "last" else ():
             if limit.kind in FIGURES_OF_USERS:
                 yield self._for(group, [dataclasses.replace(limit, whom=whom)], "too", limit.kind)
-        for act in self.context.acts if group.source != "last" else ():
+        for act in self._said if group.source != "last" else ():
             if isinstance(act, Scale) and act.kind in FIGURES_OF_USERS:
                 yield self._for(group, [dataclasses.replace(act, whom=whom)], "too scaled", act.kind)
             elif isinstance(act, Drop) and act.kind in self._held and act.kind in FIGURES_OF_USERS:
                 yield self._for(group, dropped(act.kind, whom, self.figures, self.users), "too dropped", act.kind)
-        base = self.context.past[-1] if self.context.past else None
+        past = () if self._supposed else self.context.past[-1:]
         of_users = [act for act in self.context.acts if isinstance(act, Serve | LeaveOut)
                     or (isinstance(act, Limit | Scale | Drop) and act.kind in FIGURES_OF_USERS)]  # fmt: skip
-        if base is not None and of_users:
+        for base in past if of_users else ():
             meant = [dataclasses.replace(act, whom=whom) if act in of_users else act for act in self.context.acts]
-            acts = acts_between(self.figures, changed(figures_of(base.constraints), meant))
+            held = {} if base is None else figures_of(base.constraints)
+            held = with_the_assumed(None if base is None else base.objective, held, meant)
+            acts = acts_between(self.figures, changed(held, meant))
             if acts:
                 yield self._for(group, acts, "instead")
 
     def _of_limits(self) -> Iterator[Change]:
-        for kind in self._held:
-            if kind not in FIGURES_OF_USERS:
+        for kind in (*FIGURES_OF_USERS, *OF_THE_CELL):
+            if kind not in FIGURES_OF_USERS or kind not in self._held:
                 yield self._change([Drop(kind=kind)], "drop", kind)
                 continue
             for group in self._groups:
@@ -360,6 +404,8 @@ class Possible:
                     yield self._for(group, [Drop(kind=kind, whom=group.whom, own=own)], "drop", kind)
 
     def _back_and_aims(self) -> Iterator[Change]:
+        if self._supposed:
+            yield self._change(self._supposed, "as supposed")
         said = [int(figure.value) for figure in self.line.figures if figure.kind == "number"]
         for steps in dict.fromkeys((*range(1, _MOST_STEPS + 1), *said)):
             if 0 < steps <= len(self.context.past):
@@ -367,20 +413,41 @@ class Possible:
                 yield self._change([Undo(steps=steps)], form, "", "said" if steps in said else "")
         for objective in BUILT_IN:
             yield self._change([Aim(objective=objective)], "aim", objective)
+        yield from self._as_before()
+        before = self.context.past[-1] if self.context.past else None
+        figures = {} if before is None else figures_of(before.constraints)
+        stepped = [(key, figures[key], after) for key, after in self.figures.items() if after and figures.get(key)]
+        if any(one != other for _, one, other in stepped):
+            sums, products = {k: 2 * b - a for k, a, b in stepped}, {k: b * b / a for k, a, b in stepped}
+            for form, again in (("again", sums), ("as much again", products)):  # "once more"
+                yield self._change(acts_between(self.figures, {**self.figures, **again}), form, "", "last")
+
+    def _as_before(self) -> Iterator[Change]:
+        """A limit as it last was when it was otherwise: "the cap holds again", "back to ten"."""
+        for kind in (*FIGURES_OF_USERS, *OF_THE_CELL):
+            now = {key: figure for key, figure in self.figures.items() if key[0] == kind}
+            for before in self.context.past[::-1]:
+                held = figures_of({} if before is None else before.constraints)
+                then = {key: figure for key, figure in held.items() if key[0] == kind}
+                if then and then != now:
+                    yield self._change(acts_between(now, then), "as before", kind, "held" if now else "gone")
+                    break
 
     def _for(
-        self, group: _Group, acts: Sequence[Act], form: str, kind: str = "", figure: Anchor | None = None
-    ) -> Change:
-        return self._change(acts, form, kind, group.source, figure, group.anchors)
+        self, group: _Group, acts: Sequence[Act], form: str, kind: str = "", figure: Anchor | None = None,
+        model: Anchor | None = None,
+    ) -> Change:  # fmt: skip
+        return self._change(acts, form, kind, group.source, figure, group.anchors, model)
 
     @staticmethod
     def _change(
         acts: Sequence[Act], form: str, kind: str = "", source: str = "", figure: Anchor | None = None,
-        users: tuple[Anchor, ...] = (),
+        users: tuple[Anchor, ...] = (), model: Anchor | None = None,
     ) -> Change:  # fmt: skip
         return Change(
-            acts=tuple(acts), effect=frozenset(), form=form, kind=kind, source=source, figure=figure, users=users
-        )
+            acts=tuple(acts), effect=frozenset(), form=form, kind=kind, source=source, figure=figure, users=users,
+            model=model,
+        )  # fmt: skip
 
 
 def dropped(kind: str, whom: Named, figures: Mapping[Key, float], users: Sequence[str]) -> list[Act]:
@@ -429,5 +496,7 @@ def _in_its_unit(value: float, limit: Limit) -> float:
         return value
     if limit.kind == "outage_probability":
         return 0.0
-    found = parse_quantities(f"{value:g} {unit_of(limit)}")
+    shown = human(limit.value, "W" if limit.kind.endswith("_w") else "bit/s")
+    said = [one.text for one in parse_quantities(limit.words) if one.kind in _WITH_UNIT and one.text[:1].isdigit()]
+    found = parse_quantities(f"{value:g} {_NUMBER.sub('', (said or [shown])[0]).strip()}")
     return found[0].value if found and found[0].kind != "bare" else 0.0

@@ -15,15 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.acts import Act
+from wirelessagent.language.acts import Act, Aim, Suppose, Undo
 from wirelessagent.language.base_words import based
 from wirelessagent.language.conversation.anchors import Anchor
 from wirelessagent.language.conversation.changes import RATES, Change, Effect, Possible
 from wirelessagent.language.conversation.line import NAME, Line
-from wirelessagent.language.conversation.tokens import tokens_of
 from wirelessagent.language.figure_roles import answers
 from wirelessagent.language.intent import Intent
-from wirelessagent.language.intent_acts import acts_of
+from wirelessagent.language.intent_acts import acts_of, stated
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.looks import first_look
 from wirelessagent.language.moods import classes_in
@@ -39,9 +38,8 @@ _KINDS = ("allocate", "command", "question", "clarify", "out_of_scope")
 _STEPS = (0.02, 0.1, 0.3, 0.5, 0.7, 0.9)
 _NEAR, _MOST = 3, 3
 _LIKELY = 0.15
-_SILENT = {"skip", "unknown"}
 _SPREAD = np.uint32(2654435761)
-TOGETHER = 44
+TOGETHER = 60
 
 
 def place_of(sign: str) -> int:
@@ -76,8 +74,10 @@ class Read:
 
     Attributes:
         kind: of their intent; ``topic`` is who read it, and what it is about or what it asks.
-        acts: what they would do.
-        effect, guess: of what they would do, and of what they ask whether to do; None for nothing.
+        acts, guessed: what they would do, or suppose, and what they ask whether to do.
+        effect, guess: what that comes to; None for nothing.
+        supposes: whether they would only suppose it.
+        rests: whether it changes what shows only later, such as a promise to a user who is left out.
         order: how likely its frame is one of an order.
         kinds: how likely each kind of sentence is.
         roles: by where a figure, a number or users stand, how likely they are there for what.
@@ -86,8 +86,11 @@ class Read:
     kind: str
     topic: str
     acts: tuple[Act, ...]
+    guessed: tuple[Act, ...]
     effect: Effect | None
     guess: Effect | None
+    supposes: bool
+    rests: bool
     order: float
     kinds: Mapping[str, float]
     roles: Mapping[int, Mapping[str, float]]
@@ -96,9 +99,11 @@ class Read:
     def of(cls, line: Line, intent: Intent, possible: Possible) -> Read:
         """What an intent does to what holds."""
         sentence, topic = line.sentence, intent.asks or intent.topic or ""
+        acts, guessed = _changing(intent), _guessed(intent)
         return cls(
-            kind=intent.kind, topic=f"{intent.recogniser == NAME}:{topic}", effect=_effect(intent, possible),
-            acts=acts_of(intent), guess=None if intent.guess is None else _effect(intent.guess, possible),
+            kind=intent.kind, topic=f"{intent.recogniser == NAME}:{topic}", acts=acts, guessed=guessed,
+            effect=_effect(acts, possible), guess=_effect(guessed, possible), supposes=intent.kind == "question",
+            rests=bool(acts) and possible.is_out_of_sight(acts),
             order=shipped_order_model().probability(frame_of(sentence)),
             kinds=shipped_model().probabilities(*sentence.for_model()), roles=_roles(line),
         )  # fmt: skip
@@ -118,14 +123,30 @@ def _roles(line: Line) -> dict[int, Mapping[str, float]]:
     return found
 
 
-def _effect(intent: Intent, possible: Possible) -> Effect | None:
-    if intent.kind != "allocate" and intent.topic != "undo":
-        return None
-    acts, past = acts_of(intent), possible.context.past
-    steps = [getattr(act, "steps", None) for act in acts]
-    if intent.topic == "undo" and not (isinstance(steps[0], int) and 0 < steps[0] <= len(past)):
-        return None
-    return possible.effect(acts)
+def _changing(intent: Intent | None) -> tuple[Act, ...]:
+    """What an intent does to the request, or supposes of it."""
+    acts = () if intent is None else acts_of(intent)
+    if len(acts) == 1 and type(acts[0]) is Suppose and acts[0].missing_share is None:
+        return acts[0].acts
+    return acts if intent is not None and (intent.kind == "allocate" or intent.topic == "undo") else ()
+
+
+def _guessed(intent: Intent) -> tuple[Act, ...]:
+    """What a question back has understood, or offers for a yes."""
+    if intent.guess is not None:
+        return _changing(intent.guess)
+    aim = (Aim(objective=intent.offered),) if intent.offered in BUILT_IN else ()
+    return (*aim, *stated(intent.pending)) if intent.kind == "clarify" else ()
+
+
+def _effect(acts: Sequence[Act], possible: Possible) -> Effect | None:
+    steps = [act.steps for act in acts if isinstance(act, Undo)]
+    too_many = steps and not (steps[0] is not None and 0 < steps[0] <= len(possible.context.past))
+    return None if too_many or not acts else possible.effect(acts)
+
+
+SUPPOSED = Change(acts=(), effect=frozenset(), form="suppose")
+"""That what a line names is only supposed."""
 
 
 class Signs:
@@ -135,24 +156,34 @@ class Signs:
         self._line, self._possible, self._read, self._anchored = line, possible, read, possible.line
         words = self._anchored.words
         bases = [f"B{word}" for word in based(words, language)]
-        classes = ["+".join(sorted(token.classes - _SILENT)) for token in tokens_of(line, language, lenient=True) or ()]
-        classes = [each for each in classes if each]
-        single = {f"K{name}" for each in classes for name in each.split("+")}
         pairs = [f"{a} {b}" for a, b in itertools.pairwise(["<", *words, ">"])]
         pairs += [f"B{a} {b}" for a, b in itertools.pairwise(bases)]
-        pairs += [f"K{a} {b}" for a, b in itertools.pairwise(["<", *classes, ">"])]
         moods = [f"M{name}" for name, _ in classes_in(self._anchored.plain)]
-        self._all = _hashes([*words, *bases, *single, *pairs, *moods])
-        self._single = _hashes([*words, *bases, *single])
-        self._classes = _hashes([*single, *self._of_line()])
+        self._all = _hashes([*words, *bases, *pairs, *moods])
+        self._single = _hashes([*words, *bases])
+        self._whole = _hashes(self._of_line())
         self._padded = ["<"] * _NEAR + [*words] + [">"] * _NEAR
         self._last = "+".join(sorted({_name(act) for act in possible.context.acts}))[:60]
         self._last_kinds = {getattr(act, "kind", "") for act in possible.context.acts}
 
+    def plainness(self, changes: Sequence[Change], likely: float) -> tuple[bool, int, float]:
+        """How plainly changes say what they come to: of those whom the line names, with few figures."""
+        acts = [act for change in changes for act in change.acts]
+        written = len(self._possible.changed(acts))
+        return all(change.is_said for change in changes), -written, likely
+
+    @property
+    def new_figures(self) -> set[Anchor]:
+        """The figures of the line that don't hold already."""
+        kinds = {kind for kind, _ in self._possible.before}
+        return {each for each in self._anchored.figures if not any(self._is_of(each, kind) for kind in kinds)}
+
     def changes(self) -> list[Change]:
-        """Each change that is possible, and all that the readers of sentences would do."""
-        found, effect = self._possible.changes(), self._read.effect
-        return [*found, Change(acts=self._read.acts, effect=effect, form="read")] if effect else found
+        """Each change that is possible, all that the readers take the line for, and last, that it is supposed."""
+        read = self._read
+        whole = [Change(acts=acts, effect=effect, form=form) for form, acts, effect
+                 in (("read", read.acts, read.effect), ("guessed", read.guessed, read.guess)) if effect]  # fmt: skip
+        return [*self._possible.changes(), *whole, SUPPOSED]
 
     def _of_line(self) -> Iterator[str]:
         """What is said of a line as a whole."""
@@ -173,7 +204,7 @@ class Signs:
         """What a change does, coarse to fine, each beside the words of the line that speak of so much."""
         form, kind = change.form, f"{change.form}:{change.kind}"
         whole = f"{kind}:{change.source}"
-        blocks = [(form, self._all), (kind, self._single), (whole, self._classes)]
+        blocks = [(form, self._all), (kind, self._single), (whole, self._whole)]
         return blocks + [(f"{way}:{form}", self._single) for way in self._way(change)]
 
     def _way(self, change: Change) -> Iterator[str]:
@@ -214,6 +245,10 @@ class Signs:
         yield f"out:{bool(self._possible.out)}|{form}:{change.source}"
         if any(self._is_of(anchor, change.kind) for anchor in left):
             yield from (f"old|{form}", f"old|{kind}")
+        if any(self._is_of_last(anchor) for anchor in left):  # "not 4, 5" behind what was said of 4
+            yield from (f"last left|{form}", f"last left|{whole}")
+        if change.is_supposition:
+            yield f"supposes:{self._read.supposes}:{bool(self._read.effect)}"
         if form == "aim":
             share, order = self._read.kinds[change.kind], self._read.order
             yield from (f"aim:{level(share)}", f"aim:{level(share)}:{level(order)}")
@@ -237,6 +272,11 @@ class Signs:
                         yield from (f"{sign}|{form}", f"{sign}|{kind}")
                         if name != "left":
                             yield f"{sign}|{whole}"
+
+    def _is_of_last(self, anchor: Anchor) -> bool:
+        """Whether an anchor names users of whom something was said last."""
+        users = anchor.users or ((f"{anchor.value:g}",) if anchor.kind == "number" else ())
+        return bool(users) and {*users} <= self._possible.last_users
 
     def _is_of(self, anchor: Anchor, kind: str) -> bool:
         """Whether a figure is one that holds of a kind, so that another may stand in its place."""
@@ -300,7 +340,8 @@ class Signs:
     def together(self) -> Together:
         """What several changes together are judged by."""
         figures = len(self._anchored.figures)
-        return Together(figures=figures, read=self._read.effect, kind=_KINDS.index(self._read.kind))
+        read = self._read
+        return Together(figures=figures, read=read.effect, kind=_KINDS.index(read.kind), supposes=read.supposes)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -311,21 +352,26 @@ class Together:
         figures: how many the line says.
         read: what the readers of sentences would do.
         kind: of what they take the line for.
+        supposes: whether they would only suppose it.
+        rests: whether it changes what shows only later, such as a promise to a user who is left out.
     """
 
     figures: int
     read: Effect | None
     kind: int
+    supposes: bool
 
-    def signs(self, changes: Sequence[Change], effect: Effect) -> list[int]:
+    def signs(self, said: Sequence[Change], effect: Effect) -> list[int]:
         """The signs of changes together, each by its number below :data:`TOGETHER`."""
+        changes = [change for change in said if not change.is_supposition]
         used = len({change.figure for change in changes if change.figure is not None})
         related, some = RELATIONS.index(relation(effect, self.read)), bool(changes)
         found = [
             related, 8 + min(len(changes), 3), 12 + min(self.figures - used, 3), 16 + 4 * some + min(self.figures, 3),
             24 + self.kind + 6 * some,
         ]  # fmt: skip
-        return [*found, 36 + related] if len(changes) > 1 else found
+        found += [36 + related] if len(changes) > 1 else []
+        return found if len(said) == len(changes) else [*found, 44 + 8 * self.supposes + related]
 
 
 def _name(act: object) -> str:

@@ -13,27 +13,28 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.acts import Act, Aim, Undo
-from wirelessagent.language.conversation.anchors import Anchor, Anchored
+from wirelessagent.language.acts import Act, Aim, Suppose, Undo
+from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.changes import Change, Effect, Possible
 from wirelessagent.language.conversation.line import NAME, Line
 from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
-from wirelessagent.language.conversation.tokens import tokens_of
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import NAME as OFFLINE
+from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import changed, constraints_of
 
 TALKS_FILE = Path(__file__).parent.parent / "talks.npz"
 BLOCK, OWN = 1.0, 0.25
 """What a sign counts: one of all the words beside what is done (over the root of how many they are), and one alone."""
 
-SURE, AGREED, LIKELY = 0.8, 0.25, 0.3
-"""From where on a line does what it likeliest means, from where on what its readers make of it, and from where on it is
-asked whether it does."""
+SURE, SURER, AGREED, LIKELY = 0.6, 0.95, 0.25, 0.3
+"""From where on a line does what it likeliest means, from where on if that leaves out a figure, from where on what its
+readers make of it, and from where on it is asked whether it does."""
 
 UNLIKELY = 0.25
 """How likely a frame is one of an order, below which a line does nothing that its readers don't hear."""
@@ -44,18 +45,19 @@ _FACTS = frozenset({
 })  # fmt: skip
 """Questions back that tell what holds or what was heard, and that no other reading answers."""
 
-_FEW_WORDS = 3
-"""And figures, of a line that says no more than its reader makes of it."""
-
 _IN_PAIRS, _IN_THREES = 10, 6
 
 
 @dataclass(frozen=True, kw_only=True)
 class Meaning:
-    """What a line may mean: no change, one, or several together, as places among those that are possible."""
+    """What a line may mean: no change, one, or several together, as places among those that are possible.
+
+    Such changes may be ``supposed``; the last place says so.
+    """
 
     places: tuple[int, ...]
     effect: Effect
+    supposed: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,34 +91,41 @@ class TalkModel:
         return found * self.scale
 
 
+Said: TypeAlias = tuple[bool, Effect]
+"""Whether something is only supposed, and what it comes to."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Weighed:
     """What a line means likeliest.
 
     Attributes:
-        acts: what it does; nothing where it changes nothing.
-        effect: what that comes to.
-        share: how likely it is.
-        shares: how likely each effect is.
-        used: the figures and the users that say it.
+        acts: what it does or supposes; nothing where it changes nothing.
+        said: what that comes to.
+        shares: how likely each is.
+        whole: whether each new figure of the line says something of it.
     """
 
     acts: tuple[Act, ...]
-    effect: Effect
-    share: float
-    shares: dict[Effect, float]
-    used: frozenset[Anchor] = frozenset()
+    said: Said
+    shares: dict[Said, float]
+    whole: bool
+
+    @property
+    def share(self) -> float:
+        """How likely it is."""
+        return self.shares[self.said]
 
 
 def meanings(
     changes: Sequence[Change], scores: Sequence[float] | npt.NDArray[np.float32] | npt.NDArray[np.float64]
 ) -> list[Meaning]:
-    """No change, each one, and those that score best together."""
-    found = [Meaning(places=(), effect=frozenset())]
-    found += [Meaning(places=(place,), effect=change.effect) for place, change in enumerate(changes)]
+    """No change, each one, those that score best together, and all this as suppositions, which the last one marks."""
+    mark = len(changes) - 1
+    found = [Meaning(places=(place,), effect=changes[place].effect) for place in range(mark)]
     best = dict[Effect, int]()
-    for place in sorted(range(len(changes)), key=lambda place: -scores[place]):
-        if not any(isinstance(act, Undo) for act in changes[place].acts):
+    for place in sorted(range(mark), key=lambda place: -scores[place]):
+        if changes[place].effect and not any(isinstance(act, Undo) for act in changes[place].acts):
             best.setdefault(changes[place].effect, place)
     likely = list(best.values())[:_IN_PAIRS]
     pairs = {pair for pair in itertools.combinations(likely, 2) if _go_together(changes[pair[0]], changes[pair[1]])}
@@ -125,7 +134,9 @@ def meanings(
     for places in (*sorted(pairs), *threes):
         effect = frozenset(item for place in places for item in changes[place].effect)
         found.append(Meaning(places=places, effect=effect))
-    return found
+    supposed = [Meaning(places=(*each.places, mark), effect=each.effect, supposed=True) for each in found
+                if not any(isinstance(act, Undo) for place in each.places for act in changes[place].acts)]  # fmt: skip
+    return [Meaning(places=(), effect=frozenset()), *found, *supposed]
 
 
 def _go_together(one: Change, other: Change) -> bool:
@@ -146,16 +157,17 @@ def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     ])  # fmt: skip
     likely = np.exp(total - total.max())
     likely /= likely.sum()
-    shares = dict[Effect, float]()
+    shares = dict[Said, float]()
     for each, share in zip(found, likely.tolist(), strict=True):
-        shares[each.effect] = shares.get(each.effect, 0.0) + share
-    effect = max(shares, key=lambda each: shares[each])
-    alike = [place for place, each in enumerate(found) if each.effect == effect]
-    best = max(alike, key=lambda place: (all(changes[one].is_said for one in found[place].places), likely[place]))
-    parts = sorted((changes[place] for place in found[best].places), key=_start)
+        shares[each.supposed, each.effect] = shares.get((each.supposed, each.effect), 0.0) + share
+    said = max(shares, key=lambda each: shares[each])
+    alike = [place for place, each in enumerate(found) if (each.supposed, each.effect) == said]
+    best = max(alike, key=lambda place: signs.plainness([changes[one] for one in found[place].places], likely[place]))
+    parts = sorted((changes[place] for place in found[best].places if said[1]), key=_start)
     acts = tuple(act for change in parts for act in change.acts)
-    used = frozenset(anchor for change in parts for anchor in (change.figure, *change.users) if anchor is not None)
-    return Weighed(acts=acts, effect=effect, share=shares[effect], shares=shares, used=used)
+    used = {anchor for change in parts for anchor in (change.figure, change.model, *change.users)}
+    whole = signs.new_figures <= used or any(change.is_of_readers for change in parts)
+    return Weighed(acts=acts, said=said, shares=shares, whole=whole)
 
 
 def _start(change: Change) -> int:
@@ -169,49 +181,56 @@ def weighed(line: Line, intent: Intent) -> Intent:
     What nobody is sure of is asked about, with the likeliest meaning for a plain yes.
     """
     context = line.context
-    if context.objective is None or _stands(intent, answers=context.awaits == "clarification"):
+    if context.objective is None or _stands(intent, context):
         return intent
     language = line.voice.language
-    if any("denial" in token.classes for token in tokens_of(line, language, lenient=True) or ()):
-        return intent  # what is denied the readers and the guard know
     possible = Possible(Anchored.of(line.text, language, context.user_names), context)
     read = Read.of(line, intent, possible)
-    if intent.kind in ("allocate", "command") and not read.effect:  # of a method, of a promise that rests
+    if read.rests:
         return intent
     found = weigh(Signs(line, possible, read, language))
-    share = found.shares.get(read.effect or frozenset(), 0.0)
-    says_little = bool(read.effect) and len(possible.line.words) <= _FEW_WORDS
-    if share >= AGREED or found.effect == read.effect or says_little:
+    heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
+    share = found.shares.get(heard, 0.0)
+    if share >= AGREED or found.said == heard:
         return intent
     if not found.acts:
-        return asking_whether(line, intent) if read.effect else intent
-    meant = _done(line, possible, found.acts)
+        return asking_whether(line, intent) if read.effect and not read.supposes else intent
+    meant = _done(line, possible, found)
+    if found.said[0]:  # nothing is done
+        return meant if found.whole and found.share > (LIKELY if intent.kind == "question" else SURE) else intent
+    aims = any(isinstance(act, Aim) for act in found.acts)
+    sure = SURE if found.whole and not (aims or read.effect) else SURER
+    if found.share >= sure and read.order >= UNLIKELY and intent.guess is None and intent.offered is None:
+        return meant
     if read.effect:  # readers and weights are of two minds
         return asking_whether(line, meant if found.share > share else intent)
-    whole = {*possible.line.figures} <= found.used
-    if found.share >= SURE and read.order >= UNLIKELY and intent.guess is None and whole:
-        return meant
-    likelier = found.share > max(LIKELY, found.shares.get(read.guess or frozenset(), 0.0))
+    likelier = found.share > max(LIKELY, found.shares.get((False, read.guess or frozenset()), 0.0))
     return asking_whether(line, meant) if intent.kind == "clarify" and likelier else intent
 
 
-def _stands(intent: Intent, *, answers: bool) -> bool:
-    """Whether what is read of a line is not weighed; ``answers`` where a question back went before it.
+def _stands(intent: Intent, context: Context) -> bool:
+    """Whether what is read of a line is not weighed.
 
-    That is a line of closed words, a request with its aim, a command, what names a method, what a language model read,
-    and what has to be asked about whatever the line may mean.
+    That is a line of closed words, a request with its aim, a command, what names a method, a question of a certain
+    thing, what a language model read, and what has to be asked about whatever the line may mean.
     """
-    if intent.recogniser not in (OFFLINE, NAME) or "method" in intent.details or intent.asks in _FACTS:
-        return True
     meant = intent.guess or intent
     whole = meant.kind == "allocate" and "objective" in meant.evidence
+    another = intent.recogniser not in (OFFLINE, NAME)
+    if another or whole or "method" in intent.details or intent.asks in _FACTS:
+        return True
+    if intent.kind == "question":
+        return bool(intent.details) or intent.topic not in ("other", "what_if")
     if intent.kind == "clarify":
-        return answers or whole
-    return whole or intent.recogniser == NAME or (intent.kind == "command" and intent.topic != "undo")
+        return context.awaits == "clarification"
+    return intent.recogniser == NAME or (intent.kind == "command" and intent.topic != "undo")
 
 
-def _done(line: Line, possible: Possible, acts: Sequence[Act]) -> Intent:
-    """The intent of acts, and what they change in words."""
+def _done(line: Line, possible: Possible, found: Weighed) -> Intent:
+    """The intent of what is meant, with what it changes in words."""
+    acts = found.acts
+    if found.said[0]:
+        return dataclasses.replace(line.question("what_if"), acts=(Suppose(acts=acts),))
     undone = next((act for act in acts if isinstance(act, Undo)), None)
     if undone is not None and len(acts) == 1:
         return line.command("undo", steps=float(undone.steps or 1))

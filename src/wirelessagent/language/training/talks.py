@@ -31,11 +31,12 @@ from wirelessagent.language.acts import (
     Others,
     Scale,
     Serve,
+    Suppose,
     Undo,
     Whom,
 )
 from wirelessagent.language.conversation import read_by_rules
-from wirelessagent.language.conversation.anchors import Anchored, numbered
+from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.changes import Change, Effect, Possible, dropped, effect_of, visible
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.signs import (
@@ -47,14 +48,12 @@ from wirelessagent.language.conversation.signs import (
     block_places,
     place_of,
 )
-from wirelessagent.language.conversation.weighing import BLOCK, OWN, TALKS_FILE, TalkModel, meanings
+from wirelessagent.language.conversation.weighing import BLOCK, OWN, TALKS_FILE, Meaning, TalkModel, meanings
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS
-from wirelessagent.language.mentions import mentions
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import Request, applied, figures_of, stated_by
 from wirelessagent.language.sentence import BUILT_IN
-from wirelessagent.language.text import normalise
 from wirelessagent.language.training.fit import rounded
 
 TALKS = Path(__file__).with_name("talks")
@@ -72,12 +71,18 @@ class NotationError(ValueError):
 
 @dataclass(frozen=True, kw_only=True)
 class Example:
-    """A line in its conversation, and what it comes to."""
+    """A line in its conversation, and what it comes to.
+
+    Attributes:
+        effect: what it does to the request, or would do where it is only ``supposed``.
+        may_suppose: whether one that does nothing may suppose something that is not written down.
+    """
 
     text: str
     context: Context
-    past: tuple[Request | None, ...]
     effect: Effect
+    supposed: bool
+    may_suppose: bool
     language: str
 
 
@@ -93,13 +98,16 @@ class _Talk:
     spoken_of: tuple[str, ...] = ()
     named: tuple[str, ...] = ()
     waiting: list[Act] = field(default_factory=list[Act])
+    supposed: tuple[Act, ...] = ()
+    may_suppose: bool = True
 
     @property
     def context(self) -> Context:
         assert self.request is not None
         return Context(
             user_names=USERS, max_power_w=_MAX_POWER_W, objective=self.request.objective,
-            constraints=self.request.constraints, acts=self.acts, earlier=tuple(self.earlier), past=tuple(self.past),
+            constraints=self.request.constraints, earlier=tuple(self.earlier), past=tuple(self.past),
+            acts=(Suppose(acts=self.supposed),) if self.supposed else self.acts,
             spoken_of=self.spoken_of, language=self.language,
             stated={} if not self.past else stated_by(self.request, self.past[-1]),
         )  # fmt: skip
@@ -107,12 +115,17 @@ class _Talk:
     def say(self, text: str, notation: str) -> Example | None:
         """Take a line; the example that it is, where something was asked for before it."""
         context = None if self.request is None else self.context
-        before, after, acts = self.request, *self._done(notation)
+        supposed = notation.startswith("suppose ")
+        before, after, acts = self.request, *self._done(notation.replace("suppose ", ""))
         example = None
         if context is not None:
             effect = effect_of(visible(before, _NUMBERS), visible(after, _NUMBERS))
-            example = Example(text=text, context=context, past=context.past, effect=effect, language=self.language)
-        self._took(text, acts, after)
+            example = Example(
+                text=text, context=context, effect=effect, language=self.language, supposed=supposed,
+                may_suppose=self.may_suppose and not effect,
+            )  # fmt: skip
+        self.supposed = tuple(acts) if supposed else ()
+        self._took(text, () if supposed else acts, before if supposed else after, supposes=supposed)
         return example
 
     def _done(self, notation: str) -> tuple[Request | None, list[Act]]:
@@ -129,12 +142,13 @@ class _Talk:
                 now, said = self.past[-steps], [Undo(steps=steps)]
             else:
                 said = self._acts(words, now)
-                if now is None and not any(isinstance(act, Aim) for act in said):
-                    self.waiting += said  # limits before an aim are asked about, and kept
-                    continue
-                now, _ = applied(now, [*said, *self.waiting], radiated_w=_RADIATED_W)
-                self.waiting.clear()
+                now = now and applied(now, said, radiated_w=_RADIATED_W)[0]
             acts += said
+        if self.request is None and not any(isinstance(act, Aim) for act in acts):
+            self.waiting += acts  # limits before an aim are asked about, and kept
+        elif self.request is None:
+            now, _ = applied(None, [*acts, *self.waiting])
+            self.waiting.clear()
         return now, acts
 
     def _acts(self, words: Sequence[str], now: Request | None) -> Sequence[Act]:
@@ -174,13 +188,13 @@ class _Talk:
             own = {EVERYBODY: _MAX_POWER_W}
         return [*_scaled(kind, figure, whom, own, adds=verb == "add")]
 
-    def _took(self, text: str, acts: Sequence[Act], after: Request | None) -> None:
+    def _took(self, text: str, acts: Sequence[Act], after: Request | None, *, supposes: bool) -> None:
         """Remember a line that was understood."""
-        found = [numbered(user) for each in mentions(normalise(text), USERS) for user in each.users]
+        found = Anchored.of(text, self.language, USERS).named(len(USERS))
         changing = [act for act in acts if isinstance(act, _CHANGING)]
-        self.spoken_of = tuple(dict.fromkeys(found)) if found or changing else self.spoken_of
+        self.spoken_of = found if found or changing or supposes else self.spoken_of
         by_name = [user for act in acts if isinstance(whom := getattr(act, "whom", None), Named) for user in whom.users]
-        self.named = tuple(dict.fromkeys(by_name or found)) or self.named
+        self.named = tuple(dict.fromkeys(by_name)) or found or self.named
         steps = sum(act.steps or 1 for act in acts if isinstance(act, Undo))
         if steps:
             base = self.past[-steps]
@@ -222,19 +236,24 @@ def _scaled(kind: str, figure: float, whom: Whom, own: Mapping[str, float], *, a
         yield Limit(kind=kind, value=held + figure if adds else held * figure, whom=each)
 
 
-def talks(folder: Path = TALKS) -> Iterator[tuple[str, list[tuple[str, str]]]]:
-    """The talks: of each its language, and its lines with what they do."""
+def talks(folder: Path = TALKS) -> Iterator[tuple[str, list[tuple[str, str]], bool]]:
+    """The talks: of each its language, its lines with what they do, and whether what is supposed is not written down.
+
+    It is in the files that have suppositions at all.
+    """
     for path in sorted(folder.glob("*.txt")):
-        for block in re.split(r"\n\s*\n", path.read_text("utf-8").strip()):
+        written = path.read_text("utf-8").strip()
+        for block in re.split(r"\n\s*\n", written):
             head, *lines = block.splitlines()
             said = [line.rsplit("=>", 1) for line in lines if "=>" in line]
-            yield head.strip("# ")[:2], [(text.strip(), notation.strip()) for text, notation in said]
+            listed = [(text.strip(), notation.strip()) for text, notation in said]
+            yield head.strip("# ")[:2], listed, "=> suppose" not in written
 
 
 def examples(folder: Path = TALKS) -> Iterator[Example]:
     """Each line behind a request; a line whose notation can't be done to what holds is left out."""
-    for language, lines in talks(folder):
-        talk = _Talk(language=language)
+    for language, lines, may_suppose in talks(folder):
+        talk = _Talk(language=language, may_suppose=may_suppose)
         for text, notation in lines:
             try:
                 example = talk.say(text, notation)
@@ -254,7 +273,7 @@ class Parsed:
         blocks: the buckets of each block, once.
         blocks_of: of each change which blocks it has.
         together: what changes together are judged by.
-        effect: what the line comes to.
+        effect, supposed, may_suppose: of the example.
     """
 
     changes: tuple[Change, ...]
@@ -263,6 +282,14 @@ class Parsed:
     blocks_of: tuple[tuple[int, ...], ...]
     together: Together
     effect: Effect
+    supposed: bool
+    may_suppose: bool
+
+    def is_meant(self, meaning: Meaning) -> bool:
+        """Whether a meaning is what the line comes to."""
+        if self.may_suppose and meaning.supposed:
+            return True
+        return meaning.effect == self.effect and meaning.supposed == self.supposed
 
 
 def parsed(example: Example) -> Parsed:
@@ -276,7 +303,8 @@ def parsed(example: Example) -> Parsed:
     blocks = {name: words for each in named for name, words in each}
     places = {name: place for place, name in enumerate(blocks)}
     return Parsed(
-        changes=changes, together=signs.together, effect=example.effect,
+        changes=changes, together=signs.together, effect=example.effect, supposed=example.supposed,
+        may_suppose=example.may_suppose,
         own=tuple(np.array([place_of(sign) for sign in signs.own(change)], dtype=np.int32) for change in changes),
         blocks=tuple(block_places(name, words).astype(np.int32) for name, words in blocks.items()),
         blocks_of=tuple(tuple(places[name] for name, _ in each) for each in named),
@@ -348,13 +376,13 @@ def fit(
     for line, each in enumerate(said):
         first = int(scored.starts[line])
         found = meanings(each.changes, scores[first : int(scored.starts[line + 1])])
-        if not any(meaning.effect == each.effect for meaning in found):
+        if not any(map(each.is_meant, found)):
             continue
         begins.append(len(members))
         for meaning in found:
             members.append([first + place for place in meaning.places])
             lines.append(len(begins) - 1)
-            right.append(meaning.effect == each.effect)
+            right.append(each.is_meant(meaning))
             signs.append(each.together.signs([each.changes[place] for place in meaning.places], meaning.effect))
     sums, of_signs = _incidence(members, len(scores)), _incidence(signs, TOGETHER)
     back_sums, back_signs = sums.T.tocsr(), of_signs.T.tocsr()
