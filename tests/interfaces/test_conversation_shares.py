@@ -71,9 +71,7 @@ def test_another_share_corrects_the_one_before(said: str, corrected: str, power_
     assert held == {"max_power_w": pytest.approx(power_w), "min_rate_bps": 1e5}
 
 
-def test_a_corrected_share_of_nothing_is_asked_about_unless_a_reliability_was_stated() -> None:
-    held, turns = talk(HELD, "no, a third")
-    assert (turns[-1].stage, held["max_power_w"]) == ("asked", 10.0)
+def test_a_corrected_share_of_nothing_is_left_to_the_recogniser_where_a_reliability_was_stated() -> None:
     stated = Context(objective="max_rate", stated={"outage_probability": 0.1})
     assert understood("no, 95 %", stated, Scripted([means("out_of_scope")])).kind == "out_of_scope"
 
