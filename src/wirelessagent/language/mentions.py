@@ -21,7 +21,7 @@ from wirelessagent.language.word_tables import either, words_of
 
 Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
 
-_ORDINALS = {word: str(place) for word, place in listed("ordinals").items()}
+ORDINALS = {word: str(place) for word, place in listed("ordinals").items()}
 _NUMBER_WORDS = {word: str(value) for word, value in cardinals(1, 20).items() if word != "once"} | {"un": "1"}
 
 _NOUN = f"(?:{'|'.join(words_of('figures', 'users', 'nouns', 'things'))})"
@@ -49,7 +49,7 @@ _NAMED = Phrases(
     rf"|(?<![A-Za-z0-9])r(?P<rate_of>[0-9]{{1,2}})(?![A-Za-z0-9.])|"
     rf"#\s?(?P<hash>[0-9]{{1,4}}(?:{_AND}#?\s?[0-9]{{1,4}})*)"
     rf"|(?<![A-Za-z])(?:numbers?|n[úu]mero|numéro|nummer|no\.)\s+(?P<number>{_LIST})"
-    rf"|(?<![A-Za-z])(?P<ordinal>{'|'.join(sorted(_ORDINALS, key=len, reverse=True))})\s+{_NOUN}(?![A-Za-z])"
+    rf"|(?<![A-Za-z])(?P<ordinal>{'|'.join(sorted(ORDINALS, key=len, reverse=True))})\s+{_NOUN}(?![A-Za-z])"
 )
 _ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
 _ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手机|节点)"
@@ -87,7 +87,7 @@ LISTED = deferred(  # between the figures of a list
 )
 _RANGE = deferred(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
 _UP_TO = deferred(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*")
-_ITEM = deferred(rf"(?i)[0-9]+|\b(?:{'|'.join(_ORDINALS)})\b|{_WORD_NUMBER}\b|[一二三四五六七八九十]+")
+_ITEM = deferred(rf"(?i)[0-9]+|\b(?:{'|'.join(ORDINALS)})\b|{_WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
 _GOES_ON = deferred(r"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)")
 
@@ -178,7 +178,7 @@ def _listed(text: str) -> tuple[str, ...]:
 def _number(word: str) -> str:
     if word.isdigit():
         return str(int(word))
-    known = _ORDINALS.get(word) or _NUMBER_WORDS.get(word)
+    known = ORDINALS.get(word) or _NUMBER_WORDS.get(word)
     value = chinese_value(word) if known is None else None
     return known or ("" if value is None else str(int(value)))
 

@@ -90,8 +90,8 @@ def applied(before: Request | None, said: Iterable[Act], *, radiated_w: float = 
     ``radiated_w`` is the power of the last decision, which shares of the power refer to where no limit holds.
     """
     said, request = tuple(said), before
-    if before is not None:
-        figures = with_the_assumed(before.objective, figures_of(before.constraints), said)
+    if before is not None and _promises_to_some(said):
+        figures = _with_the_assumed(before.objective, figures_of(before.constraints))
         request = dataclasses.replace(before, constraints=constraints_of(figures))
     for act in said:
         request = _after(request, act, radiated_w)
@@ -165,15 +165,20 @@ def _figures_between(before: Mapping[Key, float], after: Mapping[Key, float]) ->
 
 
 def with_the_assumed(objective: str | None, figures: Mapping[Key, float], said: Iterable[Act]) -> dict[Key, float]:
-    """Figures with the rate that is assumed for each user of whom no promise is named, where acts promise to others.
+    """Figures as acts find them: where these promise to some users, what is assumed holds for the others."""
+    return _with_the_assumed(objective, figures) if _promises_to_some(said) else dict(figures)
 
-    Of the least power, a rate is assumed for each user.
-    """
-    promises = any(
+
+def _promises_to_some(said: Iterable[Act]) -> bool:
+    return any(
         isinstance(act, acts.Limit) and act.kind == "min_rate_bps" and isinstance(act.whom, Named) for act in said
     )
+
+
+def _with_the_assumed(objective: str | None, figures: Mapping[Key, float]) -> dict[Key, float]:
+    """Figures with the rate for each user that is assumed where least power is asked for and no rate is named."""
     named = any(kind == "min_rate_bps" for kind, _ in figures)
-    if not promises or named or objective is None or plugins.objective(objective).measure != "power":
+    if named or objective is None or plugins.objective(objective).measure != "power":
         return dict(figures)
     return {**figures, ("min_rate_bps", EVERYBODY): ASSUMED_MIN_RATE_BPS}
 
@@ -278,9 +283,7 @@ def constraints_of(figures: Mapping[Key, float]) -> dict[str, Constraint]:
 
 def stated_by(after: Request, before: Request | None) -> dict[str, Constraint]:
     """What a request says that the one before it did not: what "that" refers to in the line behind it."""
-    old = _held(before)
-    if before is not None:
-        old = with_the_assumed(before.objective, old, [acts.Limit(kind="min_rate_bps", value=1.0, whom=Named(()))])
+    old = _with_the_assumed(before and before.objective, _held(before))
     return constraints_of({
         key: value for key, value in _held(after).items() if old.get(key, old.get((key[0], EVERYBODY))) != value
     })  # fmt: skip

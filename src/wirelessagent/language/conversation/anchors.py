@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias, cast
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.mentions import JOINT, mentions
-from wirelessagent.language.number_words import listed
+from wirelessagent.language.mentions import JOINT, ORDINALS, mentions
 from wirelessagent.language.numerals import factors, numbers
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.request import numbered
@@ -25,7 +24,7 @@ AnchorKind: TypeAlias = Literal[
 FIGURES = ("rate", "power", "ratio", "factor", "number")
 _SCALE = re.compile(r"[kKMG](?![^\W_])")
 _SCALES = {"": 1.0, "K": 1e3, "M": 1e6, "G": 1e9}
-_ORDINALS = {unaccented(word.lower()): f"{place:g}" for word, place in listed("ordinals").items() if word.isalpha()}
+_ORDINALS = {unaccented(word): place for word, place in ORDINALS.items() if word.isalpha()}
 _LARGEST_NUMBER = 1e4
 """From where on a number without a unit is a rate."""
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s]")

@@ -152,6 +152,7 @@ class Possible:
         self.out = tuple(user for user in self.users if (_OUT, user) in self.before)
         self._supposed = tuple(act for one in context.acts if isinstance(one, Suppose) for act in one.acts)
         self._said = self._supposed or context.acts
+        self._past = [{} if held is None else figures_of(held.constraints) for held in context.past[::-1]]
         self._last = [limit for act in self._said for limit in _as_limits(act, self.figures)]
         self.last_users = {*_users_of(self._said)}
         self._named = [(users, anchors) for users, anchors in line.groups(len(self.users)) if {*users} <= {*self.users}]
@@ -384,8 +385,7 @@ class Possible:
                     or (isinstance(act, Limit | Scale | Drop) and act.kind in FIGURES_OF_USERS)]  # fmt: skip
         for base in past if of_users else ():
             meant = [dataclasses.replace(act, whom=whom) if act in of_users else act for act in self.context.acts]
-            held = {} if base is None else figures_of(base.constraints)
-            held = with_the_assumed(None if base is None else base.objective, held, meant)
+            held = with_the_assumed(None if base is None else base.objective, self._past[0], meant)
             acts = acts_between(self.figures, changed(held, meant))
             if acts:
                 yield self._for(group, acts, "instead")
@@ -414,20 +414,22 @@ class Possible:
         for objective in BUILT_IN:
             yield self._change([Aim(objective=objective)], "aim", objective)
         yield from self._as_before()
-        before = self.context.past[-1] if self.context.past else None
-        figures = {} if before is None else figures_of(before.constraints)
-        stepped = [(key, figures[key], after) for key, after in self.figures.items() if after and figures.get(key)]
+        yield from self._once_more()
+
+    def _once_more(self) -> Iterator[Change]:
+        """The last change of figures again, by as much or as many times."""
+        before = self._past[0] if self._past else {}
+        stepped = [(key, before[key], after) for key, after in self.figures.items() if after and before.get(key)]
         if any(one != other for _, one, other in stepped):
             sums, products = {k: 2 * b - a for k, a, b in stepped}, {k: b * b / a for k, a, b in stepped}
-            for form, again in (("again", sums), ("as much again", products)):  # "once more"
+            for form, again in (("again", sums), ("as much again", products)):
                 yield self._change(acts_between(self.figures, {**self.figures, **again}), form, "", "last")
 
     def _as_before(self) -> Iterator[Change]:
         """A limit as it last was when it was otherwise: "the cap holds again", "back to ten"."""
         for kind in (*FIGURES_OF_USERS, *OF_THE_CELL):
             now = {key: figure for key, figure in self.figures.items() if key[0] == kind}
-            for before in self.context.past[::-1]:
-                held = figures_of({} if before is None else before.constraints)
+            for held in self._past:
                 then = {key: figure for key, figure in held.items() if key[0] == kind}
                 if then and then != now:
                     yield self._change(acts_between(now, then), "as before", kind, "held" if now else "gone")
