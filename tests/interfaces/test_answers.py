@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.support.conversations import LOSS, SCENE, SEED, Scripted, asks, means
+from conversations import LOSS, SCENE, SEED, Scripted, asks, means
 
 import wirelessagent as wa
 from wirelessagent.agent.dialogue import restated

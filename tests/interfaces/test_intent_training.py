@@ -18,10 +18,11 @@ from wirelessagent.language.base_words import FOLDER as FOLDER_OF_BASE_WORDS
 from wirelessagent.language.base_words import based
 from wirelessagent.language.conversation import read_by_rules as read_as_a_sentence
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.changes import Possible
+from wirelessagent.language.conversation.heard import Read
 from wirelessagent.language.conversation.line import Line
-from wirelessagent.language.conversation.signs import Read, Signs
-from wirelessagent.language.conversation.weighing import weigh
+from wirelessagent.language.conversation.possible import Possible
+from wirelessagent.language.conversation.signs import Signs
+from wirelessagent.language.conversation.talk_model import weigh
 from wirelessagent.language.features import BUCKETS, buckets, word_hashes
 from wirelessagent.language.figure_roles import LABELS
 from wirelessagent.language.intent import COMMANDS, QUESTIONS, checked_constraints

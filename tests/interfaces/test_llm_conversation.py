@@ -43,11 +43,14 @@ def unmapped(values: Any) -> Any:
 def test_a_conversation_of_fifteen_turns(lines: tuple[Line, ...]) -> None:
     with StubLlm(truthful(map(row, lines))) as stub:
         recogniser = LlmRecogniser(LlmSettings(base_url=stub.url, model="m"))
-        session = Session(SCENE, LOSS, seed=SEED, recogniser=recogniser)
+        session, read_by = Session(SCENE, LOSS, seed=SEED, recogniser=recogniser), list[str]()
         for line in lines:
             turn = session.say(line.text)
-            assert (turn.recogniser, turn.stage) == ("llm", line.stage), line.text
+            read_by.append(turn.recogniser)
+            assert turn.stage == line.stage, line.text
             assert session.request is not None
             assert session.request.objective == line.objective
             assert plain(session.request.constraints) == plain(line.constraints)
             assert all(told in turn.reply or told in str(turn.tables) for told in line.told), line.text
+        assert {*read_by} == {"llm", "conversation"}  # and nobody fell back
+        assert read_by[0] == "llm"

@@ -38,7 +38,7 @@ def allocate(talk: Talk, acts: tuple[Act, ...]) -> Reply:
     assert request is not None  # an intent that allocates names an aim
     check_promised(request, diff, talk.site.user_names, language)
     run = talk.site.plan(talk.intent, request)
-    new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good, stated=state.stated)
+    new = State(request=request, run=run, on_air=state.on_air, last_good=state.last_good)
     same = _same_on_air(state, run)
     shift = None if same or state.run is None else shift_between(state.run.decision, run.decision)
     turn = talk.intent.details.get("turn")

@@ -15,9 +15,9 @@ import numpy as np
 
 from wirelessagent import chain, plugins
 from wirelessagent.language.acts import with_another
+from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.open_question import Missing
-from wirelessagent.language.conversation.references import named_alone
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Detail, Intent
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import ASSUMED_MIN_RATE_BPS, Diff, Request
@@ -228,7 +228,7 @@ def completed(missing: Missing, said: str, context: Context) -> Intent | None:
     """
     if len(said) > _LONGEST_NAME:
         return None
-    match, named = _USER.fullmatch(said), named_alone(Line.of(said, context))
+    match, named = _USER.fullmatch(said), _named_alone(said, context)
     try:
         number, _ = user_number(named[0] if len(named) == 1 else match[1] if match else "", context.user_names)
     except UnknownUserError:
@@ -244,6 +244,14 @@ def completed(missing: Missing, said: str, context: Context) -> Intent | None:
         details["called"] = {reference.lower(): (str(number + 1),)}
     acts = tuple(with_another(act, reference, name) for act in intent.acts)
     return dataclasses.replace(intent, details=details, constraints=constraints, pending=pending, acts=acts)
+
+
+def _named_alone(said: str, context: Context) -> tuple[str, ...]:
+    """The users whom a line names, where it asks for nothing else: "excuse me, I meant user 2"."""
+    line = Line.of(said, context)
+    anchored = Anchored.of(said, line.voice.language, context.user_names)
+    alone = not line.sentence.reading.values and {anchor.kind for anchor in anchored.anchors} <= {"users", "number"}
+    return anchored.named(len(context.user_names)) if alone else ()
 
 
 def _renamed(value: Constraint | Detail, reference: str, name: str) -> Any:

@@ -32,11 +32,11 @@ from wirelessagent.language.conversation import called, unanswered, understood, 
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.open_question import Missing, Question
 from wirelessagent.language.followups import users_in
-from wirelessagent.language.intent import Constraint, Detail, Intent
+from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
-from wirelessagent.language.request import Request, difference, stated_by
+from wirelessagent.language.request import Request, difference
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.telling.catalogue import message
@@ -180,7 +180,6 @@ class Session:
     def _context(self) -> Context:
         state, request, supposed = self._state, self._state.request, self._state.supposed
         question = state.question or Question()
-        before: Mapping[str, Detail] = self._turns[-1].intent.details if self._turns else {}
         names = dict(called([turn.text for turn in self._turns]))
         for turn in self._turns:  # who "the ambulance" is was asked, and answered
             told = cast("Mapping[str, tuple[str]]", turn.intent.details.get("called") or {})
@@ -191,12 +190,10 @@ class Session:
             constraints={} if request is None else request.constraints,
             awaits=state.awaits, pending=question.pending, pending_objective=question.objective,
             pending_users=question.users, pending_caps=question.caps, offered=question.offered,
-            guess=question.guess, stated=state.stated,
+            guess=question.guess,
             supposed_objective=None if supposed is None else supposed.objective,
             supposed={} if supposed is None else supposed.constraints,
             ways=asking.unmet(self._turns) is not None, offers=len(state.offers),
-            share_of=cast("Mapping[str, Constraint]", before.get("share_of") or {}),
-            share_how=str(before.get("share_how", "of")),
             acts=self._last_acts(), spoken_of=self._spoken_of(names), called=names,
             earlier=tuple(turn.acts for turn in self._turns), past=tuple(state.request for state in self._past),
         )  # fmt: skip
@@ -253,11 +250,6 @@ class Session:
             del self._past[-reply.undone :]
         elif new.request != before.request:
             self._past.append(before.settled)
-            stated: Mapping[str, Constraint] = {}
-            if new.request is not None:
-                taken_off = cast("Mapping[str, Constraint]", talk.intent.details.get("taken_off") or {})
-                stated = taken_off or stated_by(new.request, before.request) or before.stated
-            new = dataclasses.replace(new, stated=stated)
         noted = before.noted_after(reply.run, requested=talk.intent.kind == "allocate")
         self._state = dataclasses.replace(new, noted=noted)
         self._requests.append(new.request)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, TypeAlias, TypeVar
 
 from wirelessagent.agent.dialogue import restated
@@ -13,7 +13,7 @@ from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Lines, Run, Stage, Turn
 from wirelessagent.language.acts import Act, Press
 from wirelessagent.language.conversation.open_question import Question
-from wirelessagent.language.intent import Constraint, Intent
+from wirelessagent.language.intent import Intent
 from wirelessagent.language.recogniser import Awaited
 from wirelessagent.language.request import Request
 from wirelessagent.model.errors import WirelessAgentError
@@ -42,7 +42,6 @@ class State(Plain):
         on_air: what is in effect at the base station, as it was read back; None where that is nothing or not known.
         last_good: what to go back to; None where nothing was good yet.
         question: what the last turn asked back; None where it asked nothing.
-        stated: what the last change of the request stated, which "that" refers to.
         supposed: the request of the what-if that was the last turn; None where it was something else.
         offers: what can be met instead of the request, each as the acts that ask for it; the next lines may take one.
         noted: whether it was told that rates are promised at a probability that nobody named.
@@ -55,7 +54,6 @@ class State(Plain):
     on_air: Run | None = None
     last_good: Run | None = None
     question: Question | None = None
-    stated: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     supposed: Request | None = None
     offers: tuple[tuple[Act, ...], ...] = ()
     noted: bool = False

@@ -82,6 +82,17 @@ _LAST_WORD = deferred(  # "10 W, no more", "10 kbit/s, no less and no more"
     rf"(?P<at_least>{either('figures', 'bounds', 'at_least_last')}))(?=\s*(?:$|[.,;:!?)\uff0c。\uff1b、]))"
 )
 _LOOSE = deferred(r"(?i)(?:max|min)(?:imum)?\b")  # "maximum rate at 1 Mbit/s minimum" wishes first and bounds after
+
+
+def speaks_of(plain: str) -> frozenset[str]:
+    """Whether a text speaks of "power", of "rate", or of both.
+
+    >>> sorted(speaks_of("double the rates")), sorted(speaks_of("half the power")), sorted(speaks_of("twice that"))
+    (['rate'], ['power'], [])
+    """
+    return frozenset(name for name, noun in (("power", _POWER_RE), ("rate", _RATE_RE)) if noun.search(plain))
+
+
 _POWER_RE = deferred("(?i)" + _any_of(_POWER_NOUNS))
 _RATE_RE = deferred("(?i)" + _any_of(_RATE_NOUNS))
 _WISH_WITH = deferred("(?i)" + _any_of(_RATE_NOUNS) + r"\s+(?:with|con|avec|mit|bei)\b")

@@ -15,11 +15,12 @@ from typing import TYPE_CHECKING
 from wirelessagent.language.followups import users_in
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.lifted import dropped_in
-from wirelessagent.language.moods import Span, standing
+from wirelessagent.language.moods import Span
 from wirelessagent.language.order_model import frame_of, shipped_order_model
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
-from wirelessagent.language.text import languages_of, normalise
+from wirelessagent.language.text import languages_of
+from wirelessagent.language.word_tables import table
 
 if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Context
@@ -32,9 +33,6 @@ READ_IN_A_TALK = "conversation"
 _NAMES_SHOWN = 12
 _FEWEST_WORDS = 3
 """And signs, of a sentence that can be judged."""
-
-_NO_FACT = ("refusal", "report", "quotation", "time", "condition", "irony", "others")
-"""Classes of mood whose words say more than that something is so."""
 
 
 def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
@@ -54,10 +52,14 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
     doubt = doubted(text, context, intent)
     if doubt is None:
         return intent
+    return asking_whether(intent, voice, text[slice(*doubt)].strip())
+
+
+def asking_whether(intent: Intent, voice: Voice, doubt: str | None = None) -> Intent:
+    """The question whether an intent is meant, or ordered now, with the words that speak against that."""
     guess = intent.reply.rstrip(" .。")
-    guess = guess[:1].lower() + guess[1:]
-    said = text[slice(*doubt)].strip()
-    reply = voice.say("mood", text=said, guess=guess) if said else voice.say("no_order", guess=guess)
+    key = "do_you_mean" if doubt is None else "mood" if doubt else "no_order"
+    reply = voice.say(key, text=doubt or "", guess=guess[:1].lower() + guess[1:])
     return dataclasses.replace(_asking(intent, reply), guess=intent)
 
 
@@ -82,16 +84,6 @@ def _asking(intent: Intent, reply: str) -> Intent:
     )  # fmt: skip
 
 
-def tells_no_mere_fact(text: str) -> bool:
-    """Whether a clause that is no order has a word of a mood in it, but of what was or what is denied.
-
-    >>> tells_no_mere_fact("user 7 has paid"), tells_no_mere_fact("once user 7 has paid")
-    (False, True)
-    """
-    plain = normalise(text)
-    return any(True for language in languages_of(text) for _ in standing(plain, language, _NO_FACT))
-
-
 def stranger(text: str, context: Context | None) -> str:
     """The name of somebody who is no user of the cell, where one is to be served, promised or left out; "" for none.
 
@@ -99,5 +91,7 @@ def stranger(text: str, context: Context | None) -> str:
     'Brenda'
     """
     own = re.findall(r"\w+", " ".join(context.user_names).casefold()) if context is not None else []
+    own += [word for language in languages_of(text) for share in table("figures", language)["shares"]
+            for word in share.split()]  # "vier Fünftel"  # fmt: skip
     found = (text[slice(*span)] for span in read_once(text, own_words(), context).reading.strangers)
     return next((name for name in found if name.casefold() not in own), "")

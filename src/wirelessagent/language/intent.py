@@ -143,8 +143,13 @@ def _figure(name: str, value: object, *, user: str = EVERYBODY) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise InputError(f"{name} must be {limits}; got {value!r}")
     figure = float(cast(float, value))
-    top = 1 if name == "outage_probability" else math.inf
-    zero = name == "weights" or (name == "min_rate_bps" and user != EVERYBODY)
-    if not (0 < figure < top or (zero and figure == 0)):
+    if not is_allowed(name, figure, user=user):
         raise InputError(f"{name} must be {limits}; got {value!r}")
     return figure
+
+
+def is_allowed(name: str, figure: float, *, user: str = EVERYBODY) -> bool:
+    """Whether a limit may have a figure, for everybody or for one user."""
+    top = 1 if name == "outage_probability" else math.inf
+    zero = name == "weights" or (name == "min_rate_bps" and user != EVERYBODY)
+    return 0 < figure < top or (zero and figure == 0)

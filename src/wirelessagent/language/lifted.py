@@ -51,6 +51,23 @@ def lifted_in(plain: str) -> dict[str, Span]:
     return found
 
 
+def is_denied(plain: str) -> bool:
+    """Whether a word that lifts a limit is denied.
+
+    >>> is_denied("don't drop user 2's minimum"), is_denied("drop the limit"), is_denied("no limit any more")
+    (True, False, False)
+    """
+    lifts = [*places(_lifted("go"), plain), *places(_lifted("gone"), plain)]
+    denials = [*places(words_of("moods", "negation", "clause"), plain)]
+    return any(_is_beside(plain, one, other) for one in denials for other in lifts)
+
+
+def may_lift(name: str, plain: str) -> bool:
+    """Whether a sentence names a limit, and has a word that may take it back."""
+    back = (*_lifted("go"), *_lifted("gone"), *words_of("moods", "negation", "clause"))
+    return any(each == name for _, each in named_in(plain)) and any(places(back, plain))
+
+
 def named_in(plain: str) -> list[tuple[Span, str]]:
     """Where a sentence names a limit, and which, "all" for any; a name within a longer one is none."""
     named = [(span, name) for name in (*CONSTRAINTS, "all") for span in places(_lifted(name), plain)]

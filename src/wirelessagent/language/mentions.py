@@ -85,6 +85,7 @@ LISTED = deferred(  # between the figures of a list
     rf"(?i)\s*(?:[,;、\uff0c]|{JOINT.pattern.removeprefix('(?i)')}|,?\s*(?:and then|beziehungsweise|bzw\.?|"
     r"respectively))\s*"
 )
+_LONGEST_RANGE = 100
 _RANGE = deferred(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
 _UP_TO = deferred(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*")
 _ITEM = deferred(rf"(?i)[0-9]+|\b(?:{'|'.join(ORDINALS)})\b|{_WORD_NUMBER}\b|[一二三四五六七八九十]+")
@@ -149,13 +150,16 @@ def _named(plain: str) -> Iterator[Mention]:
 
 
 def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
-    """Where the list ends when its last number belongs to a unit: "users 1 and 2, 10 W"."""
+    """Where the list ends when its last number is no user: "users 1 and 2, 10 W", "user 5 to 450"."""
     if group in ("ordinal", "short", "symbol", "rate_of", "nth"):
         return match.end()
     parts = list(_ITEM.finditer(match.group(group)))
     offset = match.start(group)
     if parts and unit_at(plain, offset + parts[-1].end()) is not None:
         return offset + parts[-2].end() if len(parts) > 1 else offset
+    if len(parts) > 1 and _UP_TO.fullmatch(plain, offset + parts[-2].end(), offset + parts[-1].start()):
+        first, last = (int(_number(part.group().lower()) or 0) for part in parts[-2:])
+        return match.end() if last - first < _LONGEST_RANGE else offset + parts[-2].end()
     return match.end()
 
 
@@ -168,7 +172,7 @@ def _listed(text: str) -> tuple[str, ...]:
         if not user:
             continue
         spans = previous and _UP_TO.fullmatch(text, previous_end, part.start())
-        if spans and int(previous) < int(user) < int(previous) + 1000:
+        if spans and int(previous) < int(user) < int(previous) + _LONGEST_RANGE:
             users.extend(str(number) for number in range(int(previous) + 1, int(user)))
         users.append(user)
         previous, previous_end = user, part.end()

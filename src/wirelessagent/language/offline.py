@@ -254,7 +254,8 @@ class _Understanding:
             key = "rate_only" if "min_rate_bps" in values else "limits_only"
             return self._answer.ask(key, 0.5, values, constraints=self._quoted(values))
         if self._dropped or self._reading.back:
-            return self._answer.ask("nothing_yet", 0.5, text=f"“{self._text.strip()}”")
+            holds = self._context is not None and self._context.objective is not None
+            return self._answer.ask("so_already" if holds else "nothing_yet", 0.5, text=f"“{self._text.strip()}”")
         return None
 
     def _unclear(self) -> Intent:

@@ -30,12 +30,9 @@ class Context:
         pending_caps: whether the most of something was named before it, without its figure.
         offered: the objective or the command that a yes to the question means; None where it has no such meaning.
         guess: what a yes to the question carries out; None where it has no such meaning.
-        stated: what the last request stated, which "it" and "that" refer to.
         supposed_objective, supposed: the request of a what-if right before; None and empty where there was none.
         ways: whether the line right before was told that it can't be met, and what can be met instead.
         offers: how many ways were offered that the next line may choose from.
-        share_of, share_how: what the line right before changed by a share or an amount, as it was before, and whether
-            it became that share "of" it, or that much "less" or "more"; empty where it did not.
         acts: those of the last line that changed or supposed something.
         spoken_of: the users whom a line named behind the last change, or with it: whom "give them 1 Mbit/s" is about.
         earlier: the acts of each turn so far, from the first.
@@ -55,13 +52,10 @@ class Context:
     pending_caps: bool = False
     offered: str | None = None
     guess: Intent | None = None
-    stated: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     supposed_objective: str | None = None
     supposed: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     ways: bool = False
     offers: int = 0
-    share_of: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
-    share_how: str = "of"
     acts: tuple[Act, ...] = ()
     spoken_of: tuple[str, ...] = ()
     earlier: tuple[tuple[Act, ...], ...] = ()
@@ -74,6 +68,8 @@ class Recogniser(ABC):
     """Turns an operator's sentence into an intent."""
 
     name: ClassVar[str]
+    is_spared: ClassVar[bool] = False
+    """Whether it is asked only about what the offline recogniser does not surely understand."""
 
     @abstractmethod
     def read(self, text: str, context: Context | None = None) -> Intent:

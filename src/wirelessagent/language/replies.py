@@ -62,6 +62,16 @@ class Voice:
         said = message(self.language, "text.comma").join(parts)
         return message(self.language, "text.sentence", line=said[:1].upper() + said[1:]) if said else ""
 
+    def changed(
+        self, aims: Sequence[str], values: Mapping[str, Constraint], dropped: Sequence[str],
+        lost: Mapping[str, Constraint],
+    ) -> str:  # fmt: skip
+        """What becomes of a request, as one sentence: another aim, limits, and those that hold no longer."""
+        gone = message(self.language, "request.no_longer", limits=self.constraints(lost)) if lost else ""
+        parts = [*aims, self.amended(values, dropped), gone]
+        said = [f"{part[:1].lower()}{part[1:]}".rstrip(" .。") for part in parts if part]
+        return message(self.language, "text.sentence", line=message(self.language, "text.comma").join(said))
+
     def restated(self, objective: str, values: Mapping[str, Constraint], not_used: Sequence[str]) -> str:
         """What was understood, as one sentence."""
         label, limits = self.label(objective), self.constraints(values)

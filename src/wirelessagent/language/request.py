@@ -91,7 +91,7 @@ def applied(before: Request | None, said: Iterable[Act], *, radiated_w: float = 
     """
     said, request = tuple(said), before
     if before is not None and _promises_to_some(said):
-        figures = _with_the_assumed(before.objective, figures_of(before.constraints))
+        figures = assuming(before.objective, figures_of(before.constraints))
         request = dataclasses.replace(before, constraints=constraints_of(figures))
     for act in said:
         request = _after(request, act, radiated_w)
@@ -166,7 +166,7 @@ def _figures_between(before: Mapping[Key, float], after: Mapping[Key, float]) ->
 
 def with_the_assumed(objective: str | None, figures: Mapping[Key, float], said: Iterable[Act]) -> dict[Key, float]:
     """Figures as acts find them: where these promise to some users, what is assumed holds for the others."""
-    return _with_the_assumed(objective, figures) if _promises_to_some(said) else dict(figures)
+    return assuming(objective, figures) if _promises_to_some(said) else dict(figures)
 
 
 def _promises_to_some(said: Iterable[Act]) -> bool:
@@ -175,7 +175,7 @@ def _promises_to_some(said: Iterable[Act]) -> bool:
     )
 
 
-def _with_the_assumed(objective: str | None, figures: Mapping[Key, float]) -> dict[Key, float]:
+def assuming(objective: str | None, figures: Mapping[Key, float]) -> dict[Key, float]:
     """Figures with the rate for each user that is assumed where least power is asked for and no rate is named."""
     named = any(kind == "min_rate_bps" for kind, _ in figures)
     if named or objective is None or plugins.objective(objective).measure != "power":
@@ -279,11 +279,3 @@ def constraints_of(figures: Mapping[Key, float]) -> dict[str, Constraint]:
         else:
             found[kind] = by_user[EVERYBODY]
     return found
-
-
-def stated_by(after: Request, before: Request | None) -> dict[str, Constraint]:
-    """What a request says that the one before it did not: what "that" refers to in the line behind it."""
-    old = _with_the_assumed(before and before.objective, _held(before))
-    return constraints_of({
-        key: value for key, value in _held(after).items() if old.get(key, old.get((key[0], EVERYBODY))) != value
-    })  # fmt: skip

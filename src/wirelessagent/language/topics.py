@@ -92,6 +92,9 @@ def _step(sentence: Sentence) -> Mapping[str, Detail]:
         figure = next((figure.value for figure in said if figure.kind == kind and figure.value > 0), None)
         if figure is not None and not steps:
             steps[name] = figure
+    share = next((figure.value for figure in said if figure.kind == "ratio"), None)
+    if share is not None and "rate" in sentence.concepts:
+        steps = {"rate_share": share}
     steps = steps or _stated(sentence.reading.values) or {"power_w": 1.0}
     if "rate_bps" in steps and _EACH.search(plain):
         steps["each"] = 1.0

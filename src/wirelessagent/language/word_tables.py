@@ -17,7 +17,7 @@ _PART = re.compile(r"\{([a-z_]+)\}")
 def table(subject: str, language: str) -> Mapping[str, Any]:
     """What the file of a language says on a subject.
 
-    >>> table("fragment_words", "en")["factors"]["double"]
+    >>> table("figures", "en")["shares"]["double"]
     2
     """
     return tomllib.loads((_FOLDER / subject / f"{language}.toml").read_text(encoding="utf-8"))

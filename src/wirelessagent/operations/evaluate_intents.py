@@ -17,7 +17,7 @@ from wirelessagent import __version__
 from wirelessagent.experiments.evaluate_intents import Figures, Understood, evaluate, figures_of, read_meant
 from wirelessagent.experiments.evaluation import make_folder
 from wirelessagent.language import base_words
-from wirelessagent.language.conversation.weighing import TALKS_FILE
+from wirelessagent.language.conversation.talk_model import TALKS_FILE
 from wirelessagent.language.figure_roles import ROLES_FILE
 from wirelessagent.language.linear_model import MODEL_FILE
 from wirelessagent.language.order_model import ORDER_FILE

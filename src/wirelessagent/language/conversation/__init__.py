@@ -19,26 +19,22 @@ from wirelessagent.language.conversation.commands import (
     read_method,
     with_method,
 )
-from wirelessagent.language.conversation.fragments import read_fragment, read_wondered
-from wirelessagent.language.conversation.line import NAME, Line
+from wirelessagent.language.conversation.line import NAME, Line, has
 from wirelessagent.language.conversation.nicknames import called, only_called, with_users
 from wirelessagent.language.conversation.open_question import leaves_the_question, read_answer, unanswered
 from wirelessagent.language.conversation.questions import (
     asked_instead,
     given_instead,
-    is_worked_out,
     only_supposed,
     read_comparison,
     read_needed,
     read_promisable,
     read_question,
-    supposed,
-    wondered,
 )
-from wirelessagent.language.conversation.references import keeping_what_holds, referred
 from wirelessagent.language.conversation.weighing import weighed
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
 
 __all__ = ["NAME", "called", "unanswered", "understood", "with_users"]
@@ -55,10 +51,18 @@ _READERS = (
 def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     """What a line means in its conversation; never raises, whatever the text.
 
-    Behind a request, what the readers make of a line is weighed against everything else that it may change.
+    Behind a request, what the offline reader makes of a line is weighed against everything else that it may change.
+    A recogniser that is to be spared, such as an LLM, is asked about what is not surely meant.
     """
-    intent = read_by_rules(text, context, recogniser)
-    return weighed(Line.of(with_users(text, context.called), context), intent) if len(text) <= _LONGEST else intent
+    if len(text) > _LONGEST or (recogniser.is_spared and context.objective is None):
+        return read_by_rules(text, context, recogniser)
+    line, first = Line.of(with_users(text, context.called), context), recogniser
+    if recogniser.is_spared:
+        first = OfflineRecogniser()
+    intent, sure = weighed(line, read_by_rules(text, context, first))
+    if first is recogniser:
+        return intent
+    return dataclasses.replace(intent, recogniser=NAME) if sure else read_by_rules(text, context, recogniser)
 
 
 def read_by_rules(text: str, context: Context, recogniser: Recogniser) -> Intent:
@@ -73,7 +77,7 @@ def read_by_rules(text: str, context: Context, recogniser: Recogniser) -> Intent
     if noted:
         return line.courtesy("called", users=", ".join(f"{name} = {number}" for name, number in noted.items()))
     intent = made_certain(line, _read(text, line, context, recogniser), text)
-    return guarded(text, context, referred(line, keeping_what_holds(line, only_supposed(line, intent))))
+    return guarded(text, context, _keeping_what_holds(line, only_supposed(line, intent)))
 
 
 def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> Intent:
@@ -85,13 +89,10 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         by = with_method(line, _read(rest, Line.of(rest, context), context, recogniser), name)
         if by is not None:
             return by
-    for read in (read_fragment, *_READERS):
+    for read in _READERS:
         intent = read(line)
         if intent is not None:
             return intent
-    asked = wondered(text) if context.objective is not None else None
-    if asked is not None:
-        return _possible(line, asked, recogniser)
     if leaves_the_question(line):
         context = dataclasses.replace(
             context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
@@ -101,15 +102,16 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
     return given_instead(line, read)
 
 
-def _possible(line: Line, asked: str, recogniser: Recogniser) -> Intent:
-    """A what-if of what a line asks to be possible, where that is a request; else what the whole line means."""
-    plain = Line.of(asked, line.context)
-    for read in (read_wondered, read_answer):
-        intent = read(plain)
-        if intent is not None and intent.kind != "clarify":
-            return supposed(line, intent)
-    whole = recogniser.read(line.text, line.context)
-    if whole.kind in ("allocate", "command") or is_worked_out(whole):
-        return supposed(line, whole)
-    intent = recogniser.read(asked, line.context)
-    return supposed(line, intent) if intent.kind == "allocate" and (intent.constraints or intent.dropped) else whole
+def _keeping_what_holds(line: Line, intent: Intent) -> Intent:
+    """A request as a change of the one that holds, or in its place where it starts over; other intents as they are.
+
+    Replacing it would let a power limit go, or a rate that was promised, because a line names an aim and any other
+    figure: that is for the operator to say. What was read by its conversation alone is what it is.
+    """
+    objective = line.context.objective
+    if intent.kind != "allocate" or objective is None or intent.recogniser == NAME:
+        return intent
+    if not has("starts_over", line.shape):
+        return dataclasses.replace(intent, amends=True)
+    aims = intent.objective != objective or "objective" in intent.evidence
+    return dataclasses.replace(intent, amends=False, dropped=()) if aims else intent

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -23,8 +24,12 @@ AnchorKind: TypeAlias = Literal[
 
 FIGURES = ("rate", "power", "ratio", "factor", "number")
 _SCALE = re.compile(r"[kKMG](?![^\W_])")
+_DECIBEL = deferred(r"(?i)\s*(?:db(?![a-z\d])|decibel(?:io)?s?(?!\w)|dezibel(?!\w)|décibels?(?!\w)|分贝)")
+_MOST_DECIBELS = 100.0
 _SCALES = {"": 1.0, "K": 1e3, "M": 1e6, "G": 1e9}
 _ORDINALS = {unaccented(word): place for word, place in ORDINALS.items() if word.isalpha()}
+_WITH = deferred("[跟和与]")
+_QUOTIENT = deferred(r"(?<![\d.,/])([1-9])\s?/\s?(1\d|[2-9])(?![\d/]|[.,]\d)")
 _LARGEST_NUMBER = 1e4
 """From where on a number without a unit is a rate."""
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s]")
@@ -39,6 +44,9 @@ class Anchor:
     end: int
     value: float = 0.0
     users: tuple[str, ...] = ()
+    is_bounded: bool = False
+    """Whether the line says that it is a bound: "at most 5 W"."""
+    is_negative: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,18 +58,21 @@ class Anchored:
         anchors: from left to right.
         words: in lower case and without accents, anchors as "@rate", "@users" and so on.
         places: of each anchor among the words; a pronoun is a word.
+        becoming: figures to which the words lead, or that bound: "down to a third" is no third less.
     """
 
     plain: str
     anchors: tuple[Anchor, ...]
     words: tuple[str, ...]
     places: Mapping[Anchor, int]
+    becoming: frozenset[Anchor]
 
     @classmethod
     def of(cls, text: str, language: str, names: Sequence[str]) -> Anchored:
         """The line of a text in a language, in a cell of users with these names."""
         plain = normalise(text)
-        anchors = tuple(sorted(_anchors(text, plain, language, names), key=lambda anchor: (anchor.start, -anchor.end)))
+        found = (each for each in _anchors(text, plain, language, names) if math.isfinite(each.value))
+        anchors = tuple(sorted(found, key=lambda anchor: (anchor.start, -anchor.end)))
         words, places, begin = list[str](), dict[Anchor, int](), 0
         for anchor in anchors:
             if anchor.kind == "pronoun" or anchor.start < begin:
@@ -71,7 +82,10 @@ class Anchored:
             words.append(f"@{anchor.kind}")
             begin = anchor.end
         words += _words(plain, begin, len(plain))
-        return cls(plain=plain, anchors=anchors, words=tuple(words), places=places)
+        leads = {*table("figures", language)["becoming"]["words"]}
+        becoming = frozenset(anchor for anchor, place in places.items()
+                             if anchor.is_bounded or (place and words[place - 1] in leads))  # fmt: skip
+        return cls(plain=plain, anchors=anchors, words=tuple(words), places=places, becoming=becoming)
 
     @property
     def figures(self) -> list[Anchor]:
@@ -138,33 +152,49 @@ def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iter
     for figure in parse_quantities(text):
         if figure.kind in ("rate", "power", "ratio"):
             taken.append((figure.start, figure.end))
-            yield Anchor(figure.kind, figure.start, figure.end, figure.value)
+            bounded = figure.comparator is not None
+            yield Anchor(figure.kind, figure.start, figure.end, abs(figure.value), is_bounded=bounded,
+                         is_negative=figure.value < 0)  # fmt: skip
     for mention in mentions(plain, names, taken):
         if mention.role != "pronoun":
             taken.append((mention.start, mention.end))
         kind: AnchorKind = "users" if mention.role == "named" else mention.role
-        yield Anchor(kind, mention.start, mention.end, users=tuple(map(numbered, mention.users)))
+        users, joint = tuple(map(numbered, mention.users)), _WITH.search(plain, mention.start, mention.end)
+        if joint is not None and len(users) == 2:  # "5号跟3号一样"
+            yield Anchor(kind, mention.start, joint.start(), users=users[:1])
+            yield Anchor(kind, joint.end(), mention.end, users=users[1:])
+        else:
+            yield Anchor(kind, mention.start, mention.end, users=users)
     low = "".join(unaccented(letter)[:1] or letter for letter in plain.lower())
     shares, pattern = _shares(language)
     found = [(share.start(), share.end(), shares[share[0]]) for share in pattern.finditer(low)]
-    found += [(each.start, each.end, float(each.value)) for each in factors(low)
-              if each.value is not None and low[each.start : each.end].strip()[:1] in "x0123456789"]  # fmt: skip
+    found += [(each.start, each.end, float(each.value)) for each in factors(low) if each.value is not None]
     counted = [(each.start, each.end, float(each.value)) for each in numbers(low, language) if each.value is not None]
     for start, end, value in found:
         part = any(first < start and end <= last and number >= 1 for first, last, number in counted)
+        value = abs(value)
         if free(start, end) and not part:  # "two and a half"
             taken.append((start, end))
             yield Anchor("factor", start, end, value)
+    for each in _QUOTIENT.finditer(low):  # "3/4", or users 3 and 4
+        if free(*each.span()):
+            yield Anchor("factor", *each.span(), int(each[1]) / int(each[2]))
     for word in _WORD.finditer(low):
         place = _ORDINALS.get(word[0])
         if place is not None and free(*word.span()):  # "the third"
             taken.append(word.span())
             yield Anchor("ordinal", *word.span(), users=(place,))
-    for start, end, value in counted:
+    for start, end, signed in counted:
         if not free(start, end):
             continue
+        value = abs(signed)
         scale = _SCALE.match(plain, end)
-        if value < 1 and not low[start].isdigit():  # "a quarter"
+        decibel = _DECIBEL.match(plain, end)
+        if decibel is not None and value > _MOST_DECIBELS:
+            continue
+        if decibel is not None:  # "3 dB less"
+            yield Anchor("factor", start, decibel.end(), 10 ** (signed / 10))
+        elif value < 1 and not low[start].isdigit():  # "a quarter"
             yield Anchor("factor", start, end, value)
         else:
             value *= _SCALES["" if scale is None else scale[0].upper()]
@@ -175,7 +205,7 @@ def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iter
 @functools.cache
 def _shares(language: str) -> tuple[Mapping[str, float], re.Pattern[str]]:
     """Words for shares and multiples with what they are worth, and the pattern that finds them."""
-    listed = cast("dict[str, float]", table("fragment_words", language)["factors"])
+    listed = cast("dict[str, float]", table("figures", language)["shares"])
     shares = {own: share for word, share in listed.items() for own in (word, unaccented(word))}
     parts = (rf"(?<!\w){re.escape(word)}(?!\w)" if not re.match(f"[{CJK}]", word) else re.escape(word)
              for word in sorted(shares, key=len, reverse=True))  # fmt: skip

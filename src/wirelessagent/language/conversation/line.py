@@ -123,11 +123,6 @@ class Line:
         return _ASKED.search(self.text) is not None
 
     @property
-    def is_read(self) -> bool:
-        """Whether recognisers read whole sentences of the language well."""
-        return self.voice.language in ("en", "zh")
-
-    @property
     def sentence(self) -> Sentence:
         """The line as those who read sentences see it."""
         return read_once(self.text, own_words(), self.context)
@@ -147,12 +142,11 @@ class Line:
 
     def amend(
         self, constraints: Mapping[str, Constraint], dropped: tuple[str, ...] = (), *,
-        taken_off: Mapping[str, Constraint] | None = None, details: Mapping[str, Detail] | None = None,
+        details: Mapping[str, Detail] | None = None,
     ) -> Intent:  # fmt: skip
-        """A change of the request that holds; ``taken_off`` are figures of users that no longer hold."""
-        further: dict[str, Detail] = {**(details or {}), **({"taken_off": taken_off} if taken_off else {})}
+        """A change of the request that holds."""
         return self.allocate(
-            str(self.context.objective), constraints, amends=True, dropped=dropped, details=further
+            str(self.context.objective), constraints, amends=True, dropped=dropped, details=details
         )  # fmt: skip
 
     def changed_by(self, acts: Sequence[Act], details: Mapping[str, Detail] | None = None) -> Intent:

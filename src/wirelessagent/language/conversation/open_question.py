@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.assent import is_assent
 from wirelessagent.language.conversation.line import NAME, Line, has, is_all
-from wirelessagent.language.conversation.tokens import numbered, speaks_of_one, words_of
 from wirelessagent.language.followups import merged, users_in
 from wirelessagent.language.intent import (
     COMMANDS,
@@ -99,9 +98,7 @@ def _answered(line: Line) -> Intent | None:
 
 def _only_figures(line: Line) -> bool:
     """Whether a line says figures, and at most what they bound."""
-    around = {"figure", "lead", "at_most", "make", "to", "moves", "up_to", "limit", "promise", "correct", "take"}
-    bound = any(all(token.classes & around for token in words.tokens) for words in words_of(line))
-    return bool(line.figures) and (bound or is_all("only_figures", line.wish) is not None)
+    return bool(line.figures) and is_all("only_figures", line.wish) is not None
 
 
 def _users_with_rates(pending: Mapping[str, Constraint]) -> tuple[str, ...]:
@@ -118,9 +115,9 @@ def unanswered(text: str, intent: Intent, context: Context) -> Question:
         return Question(pending=intent.pending)
     goal = Sentence(text, own_words()).goal
     settled = users_in(intent.pending)
-    users = tuple(user for user in line.users or numbered(line) if user not in settled)
+    users = tuple(user for user in line.users if user not in settled)
     objective = goal.objective if goal.verdict == "clear" else None
-    offered, caps = intent.offered, any(speaks_of_one(line.text, name) for name in ("limit", "rate_limit"))
+    offered, caps = intent.offered, has("cap", line.shape) is not None
     if context.awaits != "clarification" or leaves_the_question(line):
         return Question(pending=intent.pending, objective=objective, users=users, caps=caps, offered=offered)
     return Question(

@@ -39,7 +39,6 @@ _ORDERED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
 _RATES = ("min_rate_bps", "outage_probability", "users", "leave_out")
 _LIMITS = ("max_power_w", "outage_probability", "users", "leave_out")
 _MOST_COMPARED = 4
-_WORKED_OUT = ("constraints", "rate_bps", "missing_share")
 
 
 def read_question(line: Line) -> Intent | None:
@@ -238,26 +237,11 @@ def _without_the_aim(line: Line, understood: Intent) -> Intent | None:
     return None
 
 
-def wondered(text: str) -> str | None:
-    """What a line asks to be possible, without the words that ask; None for any other line.
-
-    >>> wondered("can we leave user 8 out?"), wondered("could you leave user 8 out?")
-    ('leave user 8 out', None)
-    """
-    plain = lowered(normalise(text))
-    match = None if has("polite", plain) else is_all("possible", plain.strip())
-    if match is None:
-        return None
-    start, end = match.span("rest")
-    ahead = len(plain) - len(plain.lstrip())
-    return text[ahead + start : ahead + end]
-
-
 def supposed(line: Line, intent: Intent) -> Intent:
     """A what-if of what an intent would ask for; an intent that asks for nothing as it is."""
     if intent.kind != "allocate":
         return intent
-    details: dict[str, Detail] = {key: value for key, value in intent.details.items() if key.startswith("share_")}
+    details: dict[str, Detail] = {}
     if intent.constraints:
         details["constraints"] = intent.constraints
     if intent.objective != line.context.objective:
@@ -265,11 +249,6 @@ def supposed(line: Line, intent: Intent) -> Intent:
     if intent.dropped:
         details["dropped"] = " ".join(intent.dropped)
     return dataclasses.replace(line.question("what_if", **details), recogniser=intent.recogniser)
-
-
-def is_worked_out(intent: Intent) -> bool:
-    """Whether a question names the figures that it is about, so that it is solved for them."""
-    return intent.kind == "question" and any(intent.details.get(name) for name in _WORKED_OUT)
 
 
 def only_supposed(line: Line, intent: Intent) -> Intent:
@@ -289,9 +268,13 @@ def is_courtesy(text: str) -> bool:
 
 
 def supposes(text: str) -> bool:
-    """Whether a line only supposes or weighs something, and asks for nothing.
+    """Whether a line only supposes or weighs something, or whether it is possible, and asks for nothing.
 
     >>> supposes("what if we used 5 W"), supposes("if possible, 1 Mbit/s each"), supposes("要不要省点电？")
     (True, False, True)
+    >>> supposes("can we leave user 8 out?"), supposes("could you leave user 8 out?")
+    (True, False)
     """
-    return begins("supposes", " ".join(normalise(text).lower().split())) is not None
+    plain = " ".join(lowered(normalise(text)).split())
+    possible = is_all("possible", plain) is not None and not has("polite", plain) and not is_courtesy(text)
+    return possible or begins("supposes", plain) is not None

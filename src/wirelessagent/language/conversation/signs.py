@@ -9,27 +9,24 @@ from __future__ import annotations
 import itertools
 import math
 import zlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.acts import Act, Aim, Suppose, Undo
 from wirelessagent.language.base_words import based
 from wirelessagent.language.conversation.anchors import Anchor
-from wirelessagent.language.conversation.changes import RATES, Change, Effect, Possible
-from wirelessagent.language.conversation.line import NAME, Line
-from wirelessagent.language.figure_roles import answers
-from wirelessagent.language.intent import Intent
-from wirelessagent.language.intent_acts import acts_of, stated
-from wirelessagent.language.linear_model import shipped_model
-from wirelessagent.language.looks import first_look
+from wirelessagent.language.conversation.change import Change
+from wirelessagent.language.conversation.changes import changes_of
+from wirelessagent.language.conversation.effects import Effect
+from wirelessagent.language.conversation.heard import Read
+from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.possible import RATES, Possible
 from wirelessagent.language.moods import classes_in
-from wirelessagent.language.order_model import frame_of, shipped_order_model
 from wirelessagent.language.sentence import BUILT_IN
 
-BUCKETS = 1 << 18
+BUCKETS = 1 << 20
 Places = npt.NDArray[np.int64]
 
 RELATIONS = ("none", "equal", "part", "more", "other", "apart", "nothing")
@@ -68,83 +65,6 @@ def relation(effect: Effect, other: Effect | None) -> str:
     return "other" if {key for key, _ in effect} & {key for key, _ in other} else "apart"
 
 
-@dataclass(frozen=True, kw_only=True)
-class Read:
-    """A line as the readers of sentences see it.
-
-    Attributes:
-        kind: of their intent; ``topic`` is who read it, and what it is about or what it asks.
-        acts, guessed: what they would do, or suppose, and what they ask whether to do.
-        effect, guess: what that comes to; None for nothing.
-        supposes: whether they would only suppose it.
-        rests: whether it changes what shows only later, such as a promise to a user who is left out.
-        order: how likely its frame is one of an order.
-        kinds: how likely each kind of sentence is.
-        roles: by where a figure, a number or users stand, how likely they are there for what.
-    """
-
-    kind: str
-    topic: str
-    acts: tuple[Act, ...]
-    guessed: tuple[Act, ...]
-    effect: Effect | None
-    guess: Effect | None
-    supposes: bool
-    rests: bool
-    order: float
-    kinds: Mapping[str, float]
-    roles: Mapping[int, Mapping[str, float]]
-
-    @classmethod
-    def of(cls, line: Line, intent: Intent, possible: Possible) -> Read:
-        """What an intent does to what holds."""
-        sentence, topic = line.sentence, intent.asks or intent.topic or ""
-        acts, guessed = _changing(intent), _guessed(intent)
-        return cls(
-            kind=intent.kind, topic=f"{intent.recogniser == NAME}:{topic}", acts=acts, guessed=guessed,
-            effect=_effect(acts, possible), guess=_effect(guessed, possible), supposes=intent.kind == "question",
-            rests=bool(acts) and possible.is_out_of_sight(acts),
-            order=shipped_order_model().probability(frame_of(sentence)),
-            kinds=shipped_model().probabilities(*sentence.for_model()), roles=_roles(line),
-        )  # fmt: skip
-
-
-def _roles(line: Line) -> dict[int, Mapping[str, float]]:
-    """What the figures, the numbers and the users of a line are there for, each by where it stands."""
-    look = first_look(line.sentence.plain, line.sentence.quantities, line.context.user_names)
-    view, found = look.view(), dict[int, Mapping[str, float]]()
-    for place, figure in enumerate(look.figures):
-        found[figure.start] = answers(figure.kind, view.figure(place))
-    for mention in look.mentions:
-        if mention.role == "named":
-            found[mention.start] = answers("user", view.user(mention))
-    for number in look.loose:
-        found[number.start] = answers("number", view.number(number, look.bound(number)))
-    return found
-
-
-def _changing(intent: Intent | None) -> tuple[Act, ...]:
-    """What an intent does to the request, or supposes of it."""
-    acts = () if intent is None else acts_of(intent)
-    if len(acts) == 1 and type(acts[0]) is Suppose and acts[0].missing_share is None:
-        return acts[0].acts
-    return acts if intent is not None and (intent.kind == "allocate" or intent.topic == "undo") else ()
-
-
-def _guessed(intent: Intent) -> tuple[Act, ...]:
-    """What a question back has understood, or offers for a yes."""
-    if intent.guess is not None:
-        return _changing(intent.guess)
-    aim = (Aim(objective=intent.offered),) if intent.offered in BUILT_IN else ()
-    return (*aim, *stated(intent.pending)) if intent.kind == "clarify" else ()
-
-
-def _effect(acts: Sequence[Act], possible: Possible) -> Effect | None:
-    steps = [act.steps for act in acts if isinstance(act, Undo)]
-    too_many = steps and not (steps[0] is not None and 0 < steps[0] <= len(possible.context.past))
-    return None if too_many or not acts else possible.effect(acts)
-
-
 SUPPOSED = Change(acts=(), effect=frozenset(), form="suppose")
 """That what a line names is only supposed."""
 
@@ -167,23 +87,29 @@ class Signs:
         self._last_kinds = {getattr(act, "kind", "") for act in possible.context.acts}
 
     def plainness(self, changes: Sequence[Change], likely: float) -> tuple[bool, int, float]:
-        """How plainly changes say what they come to: of those whom the line names, with few figures."""
-        acts = [act for change in changes for act in change.acts]
-        written = len(self._possible.changed(acts))
-        return all(change.is_said for change in changes), -written, likely
+        """How plainly changes say what they come to: of those whom the line names, with few figures that change."""
+        before, after = self._possible.figures, self._possible.changed([act for each in changes for act in each.acts])
+        written = sum(before.get(key) != after.get(key) for key in {*before, *after})
+        return all(change.is_said for change in changes), -written - len(changes), likely
+
+    def in_order(self, changes: Sequence[Change]) -> list[Change] | None:
+        """Changes in an order in which they come to all that each comes to, as they are said if so; None for none."""
+        effect = frozenset(item for change in changes for item in change.effect)
+        orders = itertools.permutations(sorted(changes, key=_start))
+        together = ((order, [act for change in order for act in change.acts]) for order in orders)
+        return next(([*order] for order, acts in together if not acts or self._possible.effect(acts) == effect), None)
 
     @property
-    def new_figures(self) -> set[Anchor]:
-        """The figures of the line that don't hold already."""
-        kinds = {kind for kind, _ in self._possible.before}
-        return {each for each in self._anchored.figures if not any(self._is_of(each, kind) for kind in kinds)}
+    def anchors(self) -> tuple[Anchor, ...]:
+        """What the line names."""
+        return self._anchored.anchors
 
     def changes(self) -> list[Change]:
         """Each change that is possible, all that the readers take the line for, and last, that it is supposed."""
         read = self._read
         whole = [Change(acts=acts, effect=effect, form=form) for form, acts, effect
                  in (("read", read.acts, read.effect), ("guessed", read.guessed, read.guess)) if effect]  # fmt: skip
-        return [*self._possible.changes(), *whole, SUPPOSED]
+        return [*changes_of(self._possible), *whole, SUPPOSED]
 
     def _of_line(self) -> Iterator[str]:
         """What is said of a line as a whole."""
@@ -372,6 +298,11 @@ class Together:
         ]  # fmt: skip
         found += [36 + related] if len(changes) > 1 else []
         return found if len(said) == len(changes) else [*found, 44 + 8 * self.supposes + related]
+
+
+def _start(change: Change) -> int:
+    """Where a change is said first; what has no figure and names no users is said ahead."""
+    return min((anchor.start for anchor in (*change.users, change.figure) if anchor is not None), default=-1)
 
 
 def _name(act: object) -> str:

@@ -1,256 +1,146 @@
-"""Which of the changes that a line of a talk may mean it does mean, and how surely.
+"""What a line of a talk means: what its reader hears, or what the model of talks finds likelier.
 
-A log-linear model weighs no change at all, each change that is possible (:mod:`.changes`), and two or three of them
-together, by their signs (:mod:`.signs`); trained by :mod:`wirelessagent.language.training.talks`. What the readers of
-sentences make of the line is a sign among others.
+What is likely enough is done, or worked out as a what-if; what is only likeliest is asked about.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import functools
-import itertools
-from collections.abc import Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from typing import TypeAlias
+from collections.abc import Iterable
 
-import numpy as np
-import numpy.typing as npt
-
-from wirelessagent.language.acts import Act, Aim, Suppose, Undo
+from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Named, Suppose, Undo
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.changes import Change, Effect, Possible
-from wirelessagent.language.conversation.line import NAME, Line
-from wirelessagent.language.conversation.signs import Read, Signs, block_places, place_of
+from wirelessagent.language.conversation.assent import speaks_of_applying
+from wirelessagent.language.conversation.heard import Read
+from wirelessagent.language.conversation.line import NAME, Line, is_all
+from wirelessagent.language.conversation.possible import Possible
+from wirelessagent.language.conversation.signs import Signs
+from wirelessagent.language.conversation.talk_model import Said, Weighed, weigh
+from wirelessagent.language.guard import asking_whether, guarded, stranger
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.lifted import is_denied
+from wirelessagent.language.moods import classes_in
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import changed, constraints_of
 
-TALKS_FILE = Path(__file__).parent.parent / "talks.npz"
-BLOCK, OWN = 1.0, 0.25
-"""What a sign counts: one of all the words beside what is done (over the root of how many they are), and one alone."""
+SURE, SURER, AGREED, LIKELY = 0.6, 0.9, 0.5, 0.3
+"""From where on a line does what it likeliest means, from where on if that is another aim or hardly an order, from
+where on if its reader hears it too and nothing is taken from anybody, and from where on it is asked whether it does."""
 
-SURE, SURER, AGREED, LIKELY = 0.6, 0.95, 0.25, 0.3
-"""From where on a line does what it likeliest means, from where on if that leaves out a figure, from where on what its
-readers make of it, and from where on it is asked whether it does."""
-
+HEARD = 0.06
+"""How likely what a line's reader hears has to be to be asked about, or, a request with its aim, to be done."""
 UNLIKELY = 0.25
-"""How likely a frame is one of an order, below which a line does nothing that its readers don't hear."""
+"""How likely a frame is one of an order, below which a line has to be surer."""
+FRAMED = 8
+"""From how many words on a line has a frame that can be judged like that of a sentence."""
 
-_FACTS = frozenset({
-    "not_promised", "no_limit_of_its_own", "nothing_left_of_it", "served_already", "all_served", "who_is_back",
-    "negated", "refused", "no_rate_to_change", "not_understood",
-})  # fmt: skip
-"""Questions back that tell what holds or what was heard, and that no other reading answers."""
-
-_IN_PAIRS, _IN_THREES = 10, 6
+_DENYING, _WITH_UNITS = ("negation", "refusal"), ("rate", "power", "ratio", "factor")
+_DENIED = frozenset({"negated", "refused"})
+"""What a reader asks about who hears that something is not to be."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Meaning:
-    """What a line may mean: no change, one, or several together, as places among those that are possible.
-
-    Such changes may be ``supposed``; the last place says so.
-    """
-
-    places: tuple[int, ...]
-    effect: Effect
-    supposed: bool = False
-
-
-@dataclass(frozen=True, kw_only=True)
-class TalkModel:
-    """Weights of signs, as int8 with their ``scale``, and of what changes are together."""
-
-    weights: npt.NDArray[np.int8]
-    scale: float
-    together: npt.NDArray[np.float32]
-
-    @classmethod
-    def load(cls, path: Path) -> TalkModel:
-        with np.load(path) as arrays:
-            return cls(weights=arrays["weights"], scale=float(arrays["scale"]), together=arrays["together"])
-
-    def save(self, path: Path) -> None:
-        np.savez_compressed(path, weights=self.weights, scale=self.scale, together=self.together)
-
-    def scores(self, signs: Signs, changes: Sequence[Change]) -> npt.NDArray[np.float64]:
-        """How strongly the signs speak for each change."""
-        blocks: dict[str, float] = {}
-        found = np.zeros(len(changes))
-        for place, change in enumerate(changes):
-            for name, words in signs.blocks(change):
-                if name not in blocks:
-                    total = self.weights[block_places(name, words)].sum(dtype=np.int64)
-                    blocks[name] = BLOCK * float(total) / max(len(words), 1) ** 0.5
-                found[place] += blocks[name]
-            own = [place_of(sign) for sign in signs.own(change)]
-            found[place] += OWN * float(self.weights[own].sum(dtype=np.int64))
-        return found * self.scale
-
-
-Said: TypeAlias = tuple[bool, Effect]
-"""Whether something is only supposed, and what it comes to."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Weighed:
-    """What a line means likeliest.
-
-    Attributes:
-        acts: what it does or supposes; nothing where it changes nothing.
-        said: what that comes to.
-        shares: how likely each is.
-        whole: whether each new figure of the line says something of it.
-    """
-
-    acts: tuple[Act, ...]
-    said: Said
-    shares: dict[Said, float]
-    whole: bool
-
-    @property
-    def share(self) -> float:
-        """How likely it is."""
-        return self.shares[self.said]
-
-
-def meanings(
-    changes: Sequence[Change], scores: Sequence[float] | npt.NDArray[np.float32] | npt.NDArray[np.float64]
-) -> list[Meaning]:
-    """No change, each one, those that score best together, and all this as suppositions, which the last one marks."""
-    mark = len(changes) - 1
-    found = [Meaning(places=(place,), effect=changes[place].effect) for place in range(mark)]
-    best = dict[Effect, int]()
-    for place in sorted(range(mark), key=lambda place: -scores[place]):
-        if changes[place].effect and not any(isinstance(act, Undo) for act in changes[place].acts):
-            best.setdefault(changes[place].effect, place)
-    likely = list(best.values())[:_IN_PAIRS]
-    pairs = {pair for pair in itertools.combinations(likely, 2) if _go_together(changes[pair[0]], changes[pair[1]])}
-    threes = [three for three in itertools.combinations(likely[:_IN_THREES], 3)
-              if {*itertools.combinations(three, 2)} <= pairs]  # fmt: skip
-    for places in (*sorted(pairs), *threes):
-        effect = frozenset(item for place in places for item in changes[place].effect)
-        found.append(Meaning(places=places, effect=effect))
-    supposed = [Meaning(places=(*each.places, mark), effect=each.effect, supposed=True) for each in found
-                if not any(isinstance(act, Undo) for place in each.places for act in changes[place].acts)]  # fmt: skip
-    return [Meaning(places=(), effect=frozenset()), *found, *supposed]
-
-
-def _go_together(one: Change, other: Change) -> bool:
-    """Whether two changes are of different figures, and of different things that hold."""
-    apart = not {key for key, _ in one.effect} & {key for key, _ in other.effect}
-    return apart and (one.figure is None or one.figure is not other.figure)
-
-
-def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
-    """What a line means likeliest, by the model of this release or another one."""
-    model, changes = model or shipped_talk_model(), signs.changes()
-    scores, together = model.scores(signs, changes), signs.together
-    found = meanings(changes, scores)
-    total = np.array([
-        sum(scores[place] for place in each.places)
-        + model.together[together.signs([changes[place] for place in each.places], each.effect)].sum()
-        for each in found
-    ])  # fmt: skip
-    likely = np.exp(total - total.max())
-    likely /= likely.sum()
-    shares = dict[Said, float]()
-    for each, share in zip(found, likely.tolist(), strict=True):
-        shares[each.supposed, each.effect] = shares.get((each.supposed, each.effect), 0.0) + share
-    said = max(shares, key=lambda each: shares[each])
-    alike = [place for place, each in enumerate(found) if (each.supposed, each.effect) == said]
-    best = max(alike, key=lambda place: signs.plainness([changes[one] for one in found[place].places], likely[place]))
-    parts = sorted((changes[place] for place in found[best].places if said[1]), key=_start)
-    acts = tuple(act for change in parts for act in change.acts)
-    used = {anchor for change in parts for anchor in (change.figure, change.model, *change.users)}
-    whole = signs.new_figures <= used or any(change.is_of_readers for change in parts)
-    return Weighed(acts=acts, said=said, shares=shares, whole=whole)
-
-
-def _start(change: Change) -> int:
-    """Where a change is said first; what has no figure and names no users is said ahead."""
-    return min((anchor.start for anchor in (*change.users, change.figure) if anchor is not None), default=-1)
-
-
-def weighed(line: Line, intent: Intent) -> Intent:
-    """What a line means behind a request: what its readers make of it, or what it means surely instead.
+def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
+    """What a line means behind a request, by its reader and by the weights, and whether it surely does.
 
     What nobody is sure of is asked about, with the likeliest meaning for a plain yes.
     """
     context = line.context
-    if context.objective is None or _stands(intent, context):
-        return intent
-    language = line.voice.language
-    possible = Possible(Anchored.of(line.text, language, context.user_names), context)
+    if context.objective is None or _stands(line, intent, context):
+        return intent, False
+    possible = Possible(Anchored.of(line.text, line.voice.language, context.user_names), context)
     read = Read.of(line, intent, possible)
     if read.rests:
-        return intent
-    found = weigh(Signs(line, possible, read, language))
+        return intent, False
+    found = weigh(Signs(line, possible, read, line.voice.language))
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
-    share = found.shares.get(heard, 0.0)
-    if share >= AGREED or found.said == heard:
-        return intent
-    if not found.acts:
-        return asking_whether(line, intent) if read.effect and not read.supposes else intent
-    meant = _done(line, possible, found)
-    if found.said[0]:  # nothing is done
-        return meant if found.whole and found.share > (LIKELY if intent.kind == "question" else SURE) else intent
-    aims = any(isinstance(act, Aim) for act in found.acts)
-    sure = SURE if found.whole and not (aims or read.effect) else SURER
-    if found.share >= sure and read.order >= UNLIKELY and intent.guess is None and intent.offered is None:
-        return meant
-    if read.effect:  # readers and weights are of two minds
-        return asking_whether(line, meant if found.share > share else intent)
-    likelier = found.share > max(LIKELY, found.shares.get((False, read.guess or frozenset()), 0.0))
-    return asking_whether(line, meant) if intent.kind == "clarify" and likelier else intent
+    if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
+        return intent, False  # who is that?
+    share, acts = found.shares.get(heard, 0.0), bool(read.effect) and not read.supposes
+    stays = is_all("kept", line.said) or is_denied(possible.line.plain)  # "user 2's minimum stays", "don't drop it"
+    if not found.acts or (stays and _takes_away(found.acts)):
+        doubted = asking_whether(intent, line.voice) if share > HEARD else line.ask("what_changes")
+        return (doubted if acts else intent), False
+    either = sum(found.shares.get((supposed, found.said[1]), 0.0) for supposed in (False, True))
+    if found.said[0] or (line.is_asked and found.share < SURE < either):  # nothing is done
+        asked = not intent.details if intent.kind == "question" else line.is_asked
+        sure = either > (LIKELY if asked else SURE)
+        return (_supposed(line, found) if sure else intent), sure
+    denied, meant = _denies(possible.line, found), _done(line, possible, found)
+    takes = _takes_away(read.acts)
+    if share >= (HEARD if _names_its_aim(intent) else SURER if denied else SURE if takes else AGREED):
+        return intent, found.said == heard and share >= SURE
+    aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
+    short = len(possible.line.words) < FRAMED
+    hardly = aims or read.order < UNLIKELY or intent.asks in _DENIED or denied
+    if found.share >= (SURER if hardly else SURE):
+        done = meant if short else guarded(line.text, context, dataclasses.replace(meant, recogniser=OFFLINE))
+        return done, done.kind != "clarify"
+    unsure = bool(read.effect) or (intent.kind == "clarify" and found.share > LIKELY and intent.asks not in _DENIED)
+    return (asking_whether(meant, line.voice) if unsure else intent), False
 
 
-def _stands(intent: Intent, context: Context) -> bool:
+def _takes_away(acts: Iterable[Act]) -> bool:
+    """Whether acts take a limit, a promise or service from somebody, or the last change back."""
+    return any(isinstance(act, Drop | LeaveOut | Undo) for act in acts)
+
+
+def _denies(anchored: Anchored, found: Weighed) -> bool:
+    """Whether a line says "not" of all that it names, or a figure that nothing is done with.
+
+    "Don't halve it", "lift it by 2 W" as no limit at all.
+    """
+    denials = [span for name, span in classes_in(anchored.plain) if name.partition(":")[0] in _DENYING]
+    alone = [span for span in denials if span[0] > 0 or anchored.plain[span[1] : span[1] + 1].isspace()]  # "no, 8"
+    bounds = any(anchor.is_bounded for anchor in anchored.anchors)  # "never more than 5 W"
+    named = {anchor for anchor in anchored.anchors if anchor.kind != "pronoun"}
+    corrects = bounds or not named <= found.used  # "not 7, 8"
+    figures = {anchor for anchor in named if anchor.kind in _WITH_UNITS}
+    idle = bool(figures) and not figures & found.used
+    return idle or (bool(alone) and not corrects)
+
+
+def _names_its_aim(intent: Intent) -> bool:
+    """Whether an intent, or what a question back guesses, is a request whose words name its aim."""
+    request = intent.guess or intent
+    return request.kind == "allocate" and "objective" in request.evidence
+
+
+def _stands(line: Line, intent: Intent, context: Context) -> bool:
     """Whether what is read of a line is not weighed.
 
-    That is a line of closed words, a request with its aim, a command, what names a method, a question of a certain
-    thing, what a language model read, and what has to be asked about whatever the line may mean.
+    That is a line of closed words, a command, what names a method, a question of a certain thing, what a language model
+    read, an answer to a question, and words about applying a plan that waits ("apply it at 6 pm").
     """
-    meant = intent.guess or intent
-    whole = meant.kind == "allocate" and "objective" in meant.evidence
     another = intent.recogniser not in (OFFLINE, NAME)
-    if another or whole or "method" in intent.details or intent.asks in _FACTS:
+    about_the_plan = context.awaits == "confirmation" and speaks_of_applying(line.text)
+    if another or about_the_plan or "method" in intent.details:
         return True
     if intent.kind == "question":
-        return bool(intent.details) or intent.topic not in ("other", "what_if")
+        return intent.recogniser == NAME or intent.topic not in ("other", "what_if", "concept")
     if intent.kind == "clarify":
         return context.awaits == "clarification"
-    return intent.recogniser == NAME or (intent.kind == "command" and intent.topic != "undo")
+    answers_nothing = intent.topic in ("confirm", "reject") and context.awaits == "nothing"
+    commands = intent.kind == "command" and intent.topic != "undo" and not answers_nothing
+    return intent.recogniser == NAME or commands
+
+
+def _supposed(line: Line, found: Weighed) -> Intent:
+    """The question what would be if what is meant were done."""
+    return dataclasses.replace(line.question("what_if"), acts=(Suppose(acts=found.acts),))
 
 
 def _done(line: Line, possible: Possible, found: Weighed) -> Intent:
     """The intent of what is meant, with what it changes in words."""
     acts = found.acts
-    if found.said[0]:
-        return dataclasses.replace(line.question("what_if"), acts=(Suppose(acts=acts),))
     undone = next((act for act in acts if isinstance(act, Undo)), None)
     if undone is not None and len(acts) == 1:
         return line.command("undo", steps=float(undone.steps or 1))
     intent, before = line.changed_by(acts), possible.figures
     after = changed(before, acts)
     stated = constraints_of({key: figure for key, figure in after.items() if before.get(key) != figure})
-    gone = dict.fromkeys(kind for kind, user in before if (kind, user) not in after)
+    lost = {key: figure for key, figure in before.items() if key not in after}
+    gone = dict.fromkeys(kind for kind, _ in before if not any(kind == still for still, _ in after))
     aims = [line.voice.label(act.objective) for act in acts if isinstance(act, Aim)]
-    said = ", ".join([*aims, line.voice.amended(stated, tuple(gone))])
-    return dataclasses.replace(intent, reply=said.strip(", "))
-
-
-def asking_whether(line: Line, guess: Intent) -> Intent:
-    """The question whether an intent is meant."""
-    said = guess.reply.rstrip(" .。")
-    question = line.ask("no_order", guess=said[:1].lower() + said[1:])
-    return dataclasses.replace(question, guess=guess)
-
-
-@functools.cache
-def shipped_talk_model() -> TalkModel:
-    """The model of this release."""
-    return TalkModel.load(TALKS_FILE)
+    own = constraints_of({key: figure for key, figure in lost.items() if key[0] not in gone})
+    return dataclasses.replace(intent, reply=line.voice.changed(aims, stated, tuple(gone), own))

@@ -19,25 +19,23 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wirelessagent.language import forms
-from wirelessagent.language.conversation.tokens import NOUNS
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.followups import keeps_the_limits, with_users_back
 from wirelessagent.language.guard import CHANGING
 from wirelessagent.language.intent import EVERYBODY, LISTS_OF_USERS, Constraint, Detail, Intent, checked_constraints
 from wirelessagent.language.leftovers import unread
-from wirelessagent.language.lifted import dropped_in
+from wirelessagent.language.lifted import dropped_in, may_lift
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.llm.client import Objection
 from wirelessagent.language.llm.meaning import Meaning, Reference
 from wirelessagent.language.llm.prompt import KINDS, figures_of, matching, plain
-from wirelessagent.language.moods import places, table_of
 from wirelessagent.language.quantities import amount_of_another_time, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
-from wirelessagent.language.text import languages_of, normalise
+from wirelessagent.language.text import normalise
 from wirelessagent.language.vocabulary import OwnWords
-from wirelessagent.language.word_tables import either, table
+from wirelessagent.language.word_tables import either
 from wirelessagent.model.errors import InputError
 
 NAME = "llm"
@@ -173,19 +171,9 @@ class Case:
             expected = self._offline.amends if self._offline.kind == "allocate" else keeps
             if amends != expected:
                 raise Objection("let_go" if expected else "no_request", f"amends must be {str(expected).lower()} here")
-        if drops != self._dropped if self._dropped else not all(map(self._takes_back, drops)):
+        if drops != self._dropped if self._dropped else not all(may_lift(name, self._plain) for name in drops):
             expected = ", ".join(sorted(self._dropped)) or "nothing"
             raise Objection("let_go", f"the sentence takes back {expected}: drops must be that, or use clarify")
-
-    def _takes_back(self, name: str) -> bool:
-        """Whether the sentence has a word for taking something back and one for a constraint."""
-        for language in languages_of(self._text):
-            listed = table("fragment_words", language)
-            back = [listed["remove"], *table_of(language)["negation"].values()]
-            spoken = [listed[noun] for noun, kinds in NOUNS.items() if name in kinds]
-            if all(any(any(places(words, self._plain)) for words in each) for each in (back, spoken)):
-                return True
-        return False
 
     def _constraints(self, meaning: Meaning) -> dict[str, Constraint]:
         found: dict[str, dict[str, float]] = {}
@@ -222,7 +210,7 @@ class Case:
         """Everybody whom the sentence or the session names."""
         context = self._context
         named = {*self._reading.named, *context.pending_users, str(self._offline.details.get("user", EVERYBODY))}
-        for limits in (self.rules, context.pending, context.constraints, context.supposed, context.stated):
+        for limits in (self.rules, context.pending, context.constraints, context.supposed):
             for value in limits.values():
                 named.update(by_user(value))
         return named

@@ -37,6 +37,7 @@ class LlmRecogniser(Recogniser):
     """
 
     name = NAME
+    is_spared = True
 
     def __init__(self, settings: LlmSettings | None = None, offline: Recogniser | None = None) -> None:
         require_llm()

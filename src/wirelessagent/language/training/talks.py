@@ -1,5 +1,6 @@
-"""Make the model of talks anew: ``python -m wirelessagent.language.training.talks [FILE]``; ten minutes on two cores.
+"""Make the model of talks anew: ``python -m wirelessagent.language.training.talks [FILE]``.
 
+It takes twenty minutes on two cores, and 18 GB of memory.
 It learns from ``talks/*.txt``: talks line by line, each with what it does to the request, in a notation of a few words
 (``limit min_rate_bps 300000 @4``). Each line is put into its conversation as it would be with all lines before it
 understood, and each change that it may mean is labelled by whether it comes to what the line does.
@@ -7,8 +8,10 @@ understood, and each change that it may mean is labelled by whether it comes to 
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import logging
+import math
 import multiprocessing
 import re
 import sys
@@ -37,22 +40,25 @@ from wirelessagent.language.acts import (
 )
 from wirelessagent.language.conversation import read_by_rules
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.changes import Change, Effect, Possible, dropped, effect_of, visible
+from wirelessagent.language.conversation.change import Change
+from wirelessagent.language.conversation.effects import Effect, effect_between
+from wirelessagent.language.conversation.heard import Read
 from wirelessagent.language.conversation.line import Line
+from wirelessagent.language.conversation.possible import Possible
 from wirelessagent.language.conversation.signs import (
     BUCKETS,
     TOGETHER,
-    Read,
     Signs,
     Together,
     block_places,
     place_of,
 )
-from wirelessagent.language.conversation.weighing import BLOCK, OWN, TALKS_FILE, Meaning, TalkModel, meanings
+from wirelessagent.language.conversation.talk_model import BLOCK, OWN, TALKS_FILE, Meaning, TalkModel, meanings
+from wirelessagent.language.conversation.users_said import dropped
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
-from wirelessagent.language.request import Request, applied, figures_of, stated_by
+from wirelessagent.language.request import Key, Request, applied, figures_of
 from wirelessagent.language.sentence import BUILT_IN
 from wirelessagent.language.training.fit import rounded
 
@@ -60,7 +66,9 @@ TALKS = Path(__file__).with_name("talks")
 USERS = tuple(f"user {number}" for number in range(1, 9))
 _NUMBERS = tuple(str(number) for number in range(1, len(USERS) + 1))
 _MAX_POWER_W, _RADIATED_W = 20.0, 5.0
+_DIGITS = 1e-3
 _RIDGE, _STEPS, _ROUNDS, _FAINT = 3e-6, 90, 2, 1
+_SOMETHING: tuple[Act, ...] = (Serve(whom=Everybody()),)
 _LOG = logging.getLogger(__name__)
 _CHANGING = (Aim, Limit, Scale, Drop, Serve, LeaveOut)
 
@@ -109,7 +117,6 @@ class _Talk:
             constraints=self.request.constraints, earlier=tuple(self.earlier), past=tuple(self.past),
             acts=(Suppose(acts=self.supposed),) if self.supposed else self.acts,
             spoken_of=self.spoken_of, language=self.language,
-            stated={} if not self.past else stated_by(self.request, self.past[-1]),
         )  # fmt: skip
 
     def say(self, text: str, notation: str) -> Example | None:
@@ -117,9 +124,10 @@ class _Talk:
         context = None if self.request is None else self.context
         supposed = notation.startswith("suppose ")
         before, after, acts = self.request, *self._done(notation.replace("suppose ", ""))
+        acts = [dataclasses.replace(act, words=text) if isinstance(act, Limit) else act for act in acts]
         example = None
         if context is not None:
-            effect = effect_of(visible(before, _NUMBERS), visible(after, _NUMBERS))
+            effect = effect_between(before, after, _NUMBERS)
             example = Example(
                 text=text, context=context, effect=effect, language=self.language, supposed=supposed,
                 may_suppose=self.may_suppose and not effect,
@@ -159,17 +167,19 @@ class _Talk:
         if verb == "aim" and rest[0] in BUILT_IN:
             return [Aim(objective=rest[0])]
         if verb in ("out", "in", "only", "allin"):
-            users = Named(tuple(re.findall(r"\d+", " ".join(rest))))
+            users = Named(_listed(",".join(rest)))
             return {"out": [LeaveOut(whom=users)], "in": [Serve(whom=users)], "only": [Serve(whom=users, alone=True)],
                     "allin": [Serve(whom=Everybody())]}[verb]  # fmt: skip
-        if verb not in ("limit", "scale", "add", "drop", "swap") or rest[0] not in CONSTRAINTS:
+        if verb not in ("limit", "scale", "add", "drop", "dropown", "swap") or rest[0] not in CONSTRAINTS:
             raise NotationError(" ".join(words))
         kind = rest[0]
         whom = whom if kind in FIGURES_OF_USERS else Everybody()
         own = {user: value for (name, user), value in figures.items() if name == kind}
-        if verb == "drop":
+        if verb in ("drop", "dropown"):
             if not own:
                 raise NotationError(f"{' '.join(words)}: no such limit holds")
+            if verb == "dropown":
+                return [Drop(kind=kind, whom=whom, own=True)]
             if isinstance(whom, Named):
                 return dropped(kind, whom, figures, _NUMBERS)
             return [Drop(kind=kind, whom=whom, own=isinstance(whom, Others))]
@@ -214,11 +224,16 @@ def _whom(words: str) -> Whom:
         return Everybody()
     if words == "@others":
         return Others()
+    return Named(_listed(words))
+
+
+def _listed(words: str) -> tuple[str, ...]:
+    """The users of a list: "3,5", "@4-6"."""
     users = list[str]()
-    for part in filter(None, words[1:].split(",")):
+    for part in filter(None, re.split(r"[@,\s]+", words)):
         first, _, last = part.partition("-")
         users += [str(user) for user in range(int(first), int(last or first) + 1)]
-    return Named(tuple(users))
+    return tuple(users)
 
 
 def _scaled(kind: str, figure: float, whom: Whom, own: Mapping[str, float], *, adds: bool) -> Iterator[Act]:
@@ -289,7 +304,19 @@ class Parsed:
         """Whether a meaning is what the line comes to."""
         if self.may_suppose and meaning.supposed:
             return True
-        return meaning.effect == self.effect and meaning.supposed == self.supposed
+        return meaning.supposed == self.supposed and is_same(meaning.effect, self.effect)
+
+
+def is_same(one: Effect, other: Effect) -> bool:
+    """Whether two effects are the same, but for the digits of a third."""
+    if len(one) != len(other):
+        return False
+    known = dict(other)
+    return one == other or all(
+        key in known and (value == known[key] or (isinstance(value, float) and isinstance(other_ := known[key], float)
+                          and math.isclose(value, other_, rel_tol=_DIGITS)))
+        for key, value in one
+    )  # fmt: skip
 
 
 def parsed(example: Example) -> Parsed:
@@ -303,12 +330,25 @@ def parsed(example: Example) -> Parsed:
     blocks = {name: words for each in named for name, words in each}
     places = {name: place for place, name in enumerate(blocks)}
     return Parsed(
-        changes=changes, together=signs.together, effect=example.effect, supposed=example.supposed,
+        changes=_light(changes), together=signs.together, effect=example.effect, supposed=example.supposed,
         may_suppose=example.may_suppose,
         own=tuple(np.array([place_of(sign) for sign in signs.own(change)], dtype=np.int32) for change in changes),
         blocks=tuple(block_places(name, words).astype(np.int32) for name, words in blocks.items()),
         blocks_of=tuple(tuple(places[name] for name, _ in each) for each in named),
     )  # fmt: skip
+
+
+def _light(changes: Sequence[Change]) -> tuple[Change, ...]:
+    """Changes with no more than their weighing asks for, so that millions of them fit into memory."""
+    items, effects = dict[object, tuple[Key, float | str | None]](), dict[Effect, Effect]()
+    found = list[Change]()
+    for change in changes:
+        effect = change.effect
+        if effect not in effects:
+            effects[effect] = frozenset(items.setdefault(item, item) for item in effect)
+        acts = change.acts if any(isinstance(act, Undo) for act in change.acts) else _SOMETHING[: len(change.acts)]
+        found.append(dataclasses.replace(change, acts=acts, effect=effects[effect], users=(), model=None))
+    return tuple(found)
 
 
 _EXAMPLES = list[Example]()

@@ -1,0 +1,198 @@
+"""What a line of a talk may be about: what holds, what was said before, whom it may be for, and its figures' worth."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from wirelessagent.language.acts import (
+    Act,
+    Aim,
+    Everybody,
+    Forget,
+    Limit,
+    Named,
+    Others,
+    Scale,
+    Suppose,
+    Undo,
+    Whom,
+)  # fmt: skip
+from wirelessagent.language.conversation.anchors import Anchor, Anchored
+from wirelessagent.language.conversation.effects import OUT, Effect, difference, effect_between, seen, visible
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS
+from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.recogniser import Context
+from wirelessagent.language.request import (
+    Key,
+    Request,
+    assuming,
+    changed,
+    figures_of,
+    numbered,
+    with_the_assumed,
+)  # fmt: skip
+from wirelessagent.model.units import human
+
+RATES, POWERS = ("min_rate_bps", "max_rate_bps"), ("max_power_w", "subcarrier_max_power_w", "circuit_power_w")
+OF_THE_CELL = (*POWERS, "outage_probability", "resource_block_group_size")
+_FEW, _EARLIER, _LISTED = 20.0, 2, 4
+_WITH_UNIT = ("rate", "power")
+_NUMBER = re.compile(r"^[-+\d.,\s]+")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Group:
+    """For whom a change may be."""
+
+    whom: Whom
+    source: str
+    anchors: tuple[Anchor, ...] = ()
+
+
+class Possible:
+    """What a line may change in its talk."""
+
+    def __init__(self, line: Anchored, context: Context) -> None:
+        self.line, self.context = line, context
+        unknown = (user for anchor in line.anchors if anchor.kind == "users" for user in anchor.users)
+        self.users = tuple(dict.fromkeys((*(numbered(name) for name in context.user_names), *unknown)))
+        aim, held = context.objective, context.constraints
+        self.figures = figures_of(held)
+        self.request = None if aim is None else Request(objective=aim, constraints=held)
+        self.before = visible(self.request, self.users, assumed=True)
+        self.held = [kind for kind in (*FIGURES_OF_USERS, *OF_THE_CELL) if kind in context.constraints]
+        self.out = tuple(user for user in self.users if (OUT, user) in self.before)
+        self.supposed = tuple(act for one in context.acts if isinstance(one, Suppose) for act in one.acts)
+        self.said = self.supposed or context.acts
+        self.past = [{} if held is None else figures_of(held.constraints) for held in context.past[::-1]]
+        self.last = [limit for act in self.said for limit in _as_limits(act, self.figures)]
+        self.last_users = {*users_of(self.said)}
+        self.named = [(users, anchors) for users, anchors in line.groups(len(self.users)) if {*users} <= {*self.users}]
+        self.groups = list(self._whom())
+
+    def effect(self, acts: Sequence[Act]) -> Effect:
+        """What acts come to."""
+        if isinstance(acts[0], Undo):
+            return effect_between(self.request, self.context.past[-(acts[0].steps or 1)], self.users)
+        aims = [act.objective for act in acts if isinstance(act, Aim)]
+        before = self.context.objective
+        held = {} if any(isinstance(act, Forget) for act in acts) else with_the_assumed(before, self.figures, acts)
+        after = changed(held, acts)
+        if not aims or aims[-1] == before:
+            return difference(self.before, seen(before, assuming(before, after), self.users))
+        return difference(visible(self.request, self.users), seen(aims[-1], after, self.users))
+
+    def changed(self, acts: Sequence[Act]) -> dict[Key, float]:
+        """The figures after acts."""
+        return changed(self.figures, acts)
+
+    def is_out_of_sight(self, acts: Sequence[Act]) -> bool:
+        """Whether acts change figures, and nothing that is visible."""
+        return self.changed(acts) != self.figures and not self.effect(acts)
+
+    def _whom(self) -> Iterator[Group]:
+        seen = set[frozenset[str]]()
+        named = list[tuple[tuple[str, ...], str, tuple[Anchor, ...]]]()
+
+        def add(users: Iterable[str], source: str, anchors: tuple[Anchor, ...] = ()) -> None:
+            found = tuple(users)
+            if found and {*found} <= {*self.users} and (anchors or frozenset(found) not in seen):
+                seen.add(frozenset(found))
+                named.append((found, source, anchors))
+
+        for users, anchors in self.named:
+            add(users, "named", anchors)
+        add(users_of(self.said), "last")
+        add(map(numbered, self.context.spoken_of), "spoken")
+        listed = users_of(self.said)
+        for place, user in enumerate(listed if 1 < len(listed) <= _LISTED else ()):  # "the second one"
+            add((user,), "last one" if place == len(listed) - 1 else f"one {place}")
+        earlier = [users for acts in self.context.earlier[::-1] if (users := users_of(acts))]
+        for place, users in enumerate(list(dict.fromkeys(earlier))[: _EARLIER + 1]):
+            add(users, f"earlier{place}")
+        for kind in FIGURES_OF_USERS:
+            own = tuple(user for name, user in self.figures if name == kind and user != EVERYBODY)
+            if 1 < len(own) <= _LISTED:  # "both", "those three"
+                add(own, f"own {len(own)}")
+        for users, source, anchors in list(named):
+            add((user for user in self.users if user not in (*users, *self.out)), f"not:{source}", anchors)
+        for kind in FIGURES_OF_USERS:
+            alike = dict[float | str | None, list[str]]()
+            for user in self.users:
+                alike.setdefault(self.before.get((kind, user)), []).append(user)
+            for figure, users in alike.items() if len(alike) > 1 else ():
+                size = "none" if figure is None else "most" if 2 * len(users) > len(self.users) else "few"
+                add(users, f"alike:{size}")
+        add(self.out, "out")
+        for users, source, anchors in named:
+            if len(users) < len(self.users):
+                yield Group(whom=Named(users), source=source, anchors=anchors)
+        for kind, whom in (("others", Others()), ("everybody", Everybody())):
+            yield Group(whom=whom, source=kind, anchors=tuple(a for a in self.line.anchors if a.kind == kind))
+
+    def figures_of(self, kind: str, whom: Whom) -> list[tuple[Whom, float]]:
+        """The figures that hold for somebody, each with whose it is; none where somebody has none."""
+        common = self.figures.get((kind, EVERYBODY))
+        if isinstance(whom, Named):
+            found = [(Named((user,)), self.figures.get((kind, user), common)) for user in whom.users]
+            return [(whose, figure) for whose, figure in found if figure] if all(f for _, f in found) else []
+        return [] if common is None else [(whom, common)]
+
+    def values(self, figure: Anchor, kind: str) -> set[float]:
+        """What a figure may be worth as one of a kind; without a unit it may have that of what holds or was said."""
+        value, unitless = figure.value, figure.kind == "number"
+        if kind in ("weights", "resource_block_group_size"):
+            whole = kind == "weights" or value == int(value)
+            return (
+                {value} if (unitless or (figure.kind == "factor" and kind == "weights")) and whole and value else set()
+            )
+        if kind == "outage_probability":
+            share = value if figure.kind == "ratio" else value / 100 if unitless else 0.0
+            known = figure.kind == "ratio" or kind in self.held
+            return {round(1 - share if share > 0.5 else share, 9)} if known and 0 < share < 1 else set()
+        if figure.kind == ("rate" if kind in RATES else "power"):
+            return {value} if value > 0 else set()
+        if not unitless or value <= 0:
+            return set()
+        if kind in RATES:
+            found = {value * 1e6} if value <= _FEW else set[float]()
+            found |= {value * 1e3} if value >= _FEW / 2 else set()
+        else:
+            found = {value / 1e3 if kind == "subcarrier_max_power_w" and value >= _FEW / 4 else value}
+        models = [limit for limit in self.last if limit.kind == kind]
+        held = [figure for (name, _), figure in self.figures.items() if name == kind]
+        models = models or [Limit(kind=kind, value=figure) for figure in held[:1]]
+        return found | {worth for limit in models if (worth := in_its_unit(value, limit)) > 0}
+
+
+def users_of(acts: Iterable[Act]) -> tuple[str, ...]:
+    """The users whom acts name, each once."""
+    named = [whom for act in acts if isinstance(whom := getattr(act, "whom", None), Named)]
+    return tuple(dict.fromkeys(numbered(user) for whom in named for user in whom.users))
+
+
+def _as_limits(act: Act, figures: Mapping[Key, float]) -> Iterator[Limit]:
+    """The figure that an act stated, or that it made of another."""
+    if isinstance(act, Limit):
+        yield act
+    elif isinstance(act, Scale):
+        user = numbered(act.whom.users[0]) if isinstance(act.whom, Named) else EVERYBODY
+        value = figures.get((act.kind, user), figures.get((act.kind, EVERYBODY)))
+        if value is not None:
+            yield Limit(kind=act.kind, value=value, whom=act.whom)
+
+
+def in_its_unit(value: float, limit: Limit) -> float:
+    """A figure in the unit of a limit, in SI units; 0 where it has none."""
+    if limit.kind in ("weights", "resource_block_group_size"):
+        return value
+    if limit.kind == "outage_probability":
+        return 0.0
+    shown = human(limit.value, "W" if limit.kind.endswith("_w") else "bit/s")
+    said = [one.text for one in parse_quantities(limit.words) if one.kind in _WITH_UNIT and one.text[:1].isdigit()
+            and math.isclose(one.value, limit.value, rel_tol=1e-3)]  # fmt: skip
+    found = parse_quantities(f"{value:g} {_NUMBER.sub('', (said or [shown])[0]).strip()}")
+    return found[0].value if found and found[0].kind != "bare" else 0.0
