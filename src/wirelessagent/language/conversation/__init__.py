@@ -1,8 +1,8 @@
-"""What a line means because of the conversation that it stands in, by patterns, whichever recogniser is at work.
+"""What a line means in the conversation that it stands in.
 
-A recogniser reads sentences; here is read what only the turns before give a meaning: "undo twice", "no, I meant user
-3", "double the rates", "do that" behind a what-if, figures that answer a question back. Everything else is left to the
-recogniser. What that comes to is weighed against everything else that the line may change (:mod:`.weighing`).
+What is a command or a question about the conversation ("undo twice", "compare with turn 2"), a yes, or an answer to a
+question back is read by patterns, whichever recogniser is at work; everything else is left to the recogniser. What that
+comes to is weighed against everything else that the line may change (:mod:`.weighing`).
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
 
 
 def read_by_rules(text: str, context: Context, recogniser: Recogniser) -> Intent:
-    """What a line means by the readers of sentences and of lines that lean on what was said before.
+    """What a line means by the patterns of commands, questions and answers, and by the reader of sentences.
 
     Nothing that is only supposed is asked for, what holds stays where another aim is named, and a command that changes
     something is all that its line says. What is not clearly asked for now is asked about.

@@ -149,7 +149,7 @@ class Line:
             str(self.context.objective), constraints, amends=True, dropped=dropped, details=details
         )  # fmt: skip
 
-    def changed_by(self, acts: Sequence[Act], details: Mapping[str, Detail] | None = None) -> Intent:
+    def changed_by(self, acts: Sequence[Act]) -> Intent:
         """A change of the request by these acts."""
         stated: dict[str, Constraint] = {}
         for act in acts:
@@ -162,7 +162,7 @@ class Line:
             elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
                 stated["leave_out"] = act.whom.users
         dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
-        intent = self.amend(stated, dropped=dropped, details=details)
+        intent = self.amend(stated, dropped=dropped)
         aims = [act.objective for act in acts if isinstance(act, Aim)]
         if aims:
             intent = dataclasses.replace(intent, objective=aims[-1], reply=self.voice.restated(aims[-1], stated, ()))
