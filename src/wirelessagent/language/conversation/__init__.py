@@ -56,9 +56,8 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     """
     if len(text) > _LONGEST or (recogniser.is_spared and context.objective is None):
         return read_by_rules(text, context, recogniser)
-    line, first = Line.of(with_users(text, context.called), context), recogniser
-    if recogniser.is_spared:
-        first = OfflineRecogniser()
+    line = Line.of(with_users(text, context.called), context)
+    first = OfflineRecogniser() if recogniser.is_spared else recogniser
     intent, sure = weighed(line, read_by_rules(text, context, first))
     if first is recogniser:
         return intent

@@ -80,10 +80,14 @@ def _figure_for(possible: Possible, figure: Anchor, kind: str, value: float, gro
 
 
 def of_shares(possible: Possible) -> Iterator[Change]:
+    """By shares and multiples of what holds, or of what was said last; "double the rates" is about no power."""
+    noun = speaks_of(possible.line.plain) if possible.line.figures else ()
+    others = () if len(noun) != 1 else RATES if "power" in noun else POWERS
+    kinds = [kind for kind in dict.fromkeys((*possible.held, "min_rate_bps")) if kind not in others]
+    most_w = possible.figures.get(("max_power_w", EVERYBODY), math.inf)
+    of_the_cell = most_w > possible.context.max_power_w  # what it may radiate at all is less than the limit
     for figure in possible.line.figures:
-        becomes, noun = figure in possible.line.becoming, speaks_of(possible.line.plain)
-        others = () if len(noun) != 1 else RATES if "power" in noun else POWERS
-        kinds = [kind for kind in dict.fromkeys((*possible.held, "min_rate_bps")) if kind not in others]
+        becomes = figure in possible.line.becoming
         for form, factor in ways_of(figure):
             if becomes and form in ("less", "more"):
                 continue
@@ -93,10 +97,9 @@ def of_shares(possible: Possible) -> Iterator[Change]:
                         if figure not in group.anchors:
                             scaled = [Scale(kind=kind, factor=factor, whom=group.whom)]
                             yield change_for(group, scaled, form, kind, figure)
-                elif kind != "max_power_w" or possible.figures[kind, EVERYBODY] <= possible.context.max_power_w:
+                elif kind != "max_power_w" or not of_the_cell:
                     yield changed_by([Scale(kind=kind, factor=factor)], form, kind, figure=figure)
-            most_w = possible.figures.get(("max_power_w", EVERYBODY), math.inf)
-            if most_w > possible.context.max_power_w and "max_power_w" not in others:
+            if of_the_cell and "max_power_w" not in others:
                 limit = Limit(kind="max_power_w", value=possible.context.max_power_w * factor)
                 yield changed_by([limit], form, "max_power_w", "cell", figure)
             for last, group in itertools.product(possible.last, possible.groups):  # "half of that for 7"

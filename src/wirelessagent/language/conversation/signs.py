@@ -279,7 +279,6 @@ class Together:
         read: what the readers of sentences would do.
         kind: of what they take the line for.
         supposes: whether they would only suppose it.
-        rests: whether it changes what shows only later, such as a promise to a user who is left out.
     """
 
     figures: int

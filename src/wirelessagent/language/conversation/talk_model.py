@@ -143,10 +143,11 @@ def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     for each, share in zip(found, likely.tolist(), strict=True):
         shares[each.supposed, each.effect] = shares.get((each.supposed, each.effect), 0.0) + share
     said = max(shares, key=lambda each: shares[each])
-    alike = [place for place, each in enumerate(found) if (each.supposed, each.effect) == said]
-    alike.sort(key=lambda at: signs.plainness([changes[one] for one in found[at].places], likely[at]), reverse=True)
-    ways = ([changes[place] for place in found[at].places] if said[1] else [] for at in alike)
-    parts = next((way for way in map(signs.in_order, ways) if way is not None), None)
+    alike = {at: likely[at] for at, each in enumerate(found) if said[1] and (each.supposed, each.effect) == said}
+    ways = {at: [changes[place] for place in found[at].places] for at in alike}
+    plainest = sorted(ways, key=lambda at: signs.plainness(ways[at], alike[at]), reverse=True)
+    in_order = (signs.in_order(ways[at]) for at in plainest)
+    parts = next((way for way in in_order if way is not None), None) if said[1] else []
     if parts is None:  # one undoes what the other does
         said, parts = NOTHING, list[Change]()
     acts = tuple(act for change in parts for act in change.acts)

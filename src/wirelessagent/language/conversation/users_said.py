@@ -78,16 +78,8 @@ def of_users(possible: Possible) -> Iterator[Change]:
 
 def _too(possible: Possible, group: Group, whom: Named) -> Iterator[Change]:
     """What was said last, of these users too, or of them instead."""
-    for limit in possible.last if group.source != "last" else ():
-        if limit.kind in FIGURES_OF_USERS:
-            yield change_for(group, [dataclasses.replace(limit, whom=whom)], "too", limit.kind)
     if group.source != "last":
-        yield from stepped(possible, group, whom.users)
-    for act in possible.said if group.source != "last" else ():
-        if isinstance(act, Scale) and act.kind in FIGURES_OF_USERS:
-            yield change_for(group, [dataclasses.replace(act, whom=whom)], "too scaled", act.kind)
-        elif isinstance(act, Drop) and act.kind in possible.held and act.kind in FIGURES_OF_USERS:
-            yield change_for(group, dropped(act.kind, whom, possible.figures, possible.users), "too dropped", act.kind)
+        yield from _of_these_too(possible, group, whom)
     past = () if possible.supposed else possible.context.past[-1:]
     of_users = [act for act in possible.context.acts if isinstance(act, Serve | LeaveOut)
                 or (isinstance(act, Limit | Scale | Drop) and act.kind in FIGURES_OF_USERS)]  # fmt: skip
@@ -97,6 +89,18 @@ def _too(possible: Possible, group: Group, whom: Named) -> Iterator[Change]:
         acts = acts_between(possible.figures, changed(held, meant))
         if acts:
             yield change_for(group, acts, "instead")
+
+
+def _of_these_too(possible: Possible, group: Group, whom: Named) -> Iterator[Change]:
+    for limit in possible.last:
+        if limit.kind in FIGURES_OF_USERS:
+            yield change_for(group, [dataclasses.replace(limit, whom=whom)], "too", limit.kind)
+    yield from stepped(possible, group, whom.users)
+    for act in possible.said:
+        if isinstance(act, Scale) and act.kind in FIGURES_OF_USERS:
+            yield change_for(group, [dataclasses.replace(act, whom=whom)], "too scaled", act.kind)
+        elif isinstance(act, Drop) and act.kind in possible.held and act.kind in FIGURES_OF_USERS:
+            yield change_for(group, dropped(act.kind, whom, possible.figures, possible.users), "too dropped", act.kind)
 
 
 def of_limits(possible: Possible) -> Iterator[Change]:

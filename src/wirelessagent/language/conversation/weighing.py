@@ -22,7 +22,7 @@ from wirelessagent.language.lifted import is_denied
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.recogniser import Context
-from wirelessagent.language.request import changed, constraints_of
+from wirelessagent.language.request import constraints_of
 
 SURE, SURER, AGREED, LIKELY = 0.6, 0.9, 0.5, 0.3
 """From where on a line does what it likeliest means, from where on if that is another aim or hardly an order, from
@@ -57,8 +57,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
         return intent, False  # who is that?
     share, acts = found.shares.get(heard, 0.0), bool(read.effect) and not read.supposes
-    stays = is_all("kept", line.said) or is_denied(possible.line.plain)  # "user 2's minimum stays", "don't drop it"
-    if not found.acts or (stays and _takes_away(found.acts)):
+    if not found.acts or (_takes_away(found.acts) and _stays(line, possible.line.plain)):
         doubted = asking_whether(intent, line.voice) if share > HEARD else line.ask("what_changes")
         return (doubted if acts else intent), False
     either = sum(found.shares.get((supposed, found.said[1]), 0.0) for supposed in (False, True))
@@ -66,10 +65,10 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         asked = not intent.details if intent.kind == "question" else line.is_asked
         sure = either > (LIKELY if asked else SURE)
         return (_supposed(line, found) if sure else intent), sure
-    denied, meant = _denies(possible.line, found), _done(line, possible, found)
-    takes = _takes_away(read.acts)
+    denied, takes = _denies(possible.line, found), _takes_away(read.acts)
     if share >= (HEARD if _names_its_aim(intent) else SURER if denied else SURE if takes else AGREED):
         return intent, found.said == heard and share >= SURE
+    meant = _done(line, possible, found)
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
     short = len(possible.line.words) < FRAMED
     hardly = aims or read.order < UNLIKELY or intent.asks in _DENIED or denied
@@ -83,6 +82,11 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
 def _takes_away(acts: Iterable[Act]) -> bool:
     """Whether acts take a limit, a promise or service from somebody, or the last change back."""
     return any(isinstance(act, Drop | LeaveOut | Undo) for act in acts)
+
+
+def _stays(line: Line, plain: str) -> bool:
+    """Whether a line says what stays, or what is not to go: "user 2's minimum stays", "don't drop it"."""
+    return is_all("kept", line.said) is not None or is_denied(plain)
 
 
 def _denies(anchored: Anchored, found: Weighed) -> bool:
@@ -136,11 +140,10 @@ def _done(line: Line, possible: Possible, found: Weighed) -> Intent:
     undone = next((act for act in acts if isinstance(act, Undo)), None)
     if undone is not None and len(acts) == 1:
         return line.command("undo", steps=float(undone.steps or 1))
-    intent, before = line.changed_by(acts), possible.figures
-    after = changed(before, acts)
+    before, after = possible.figures, possible.changed(acts)
+    kinds = {kind for kind, _ in after}
     stated = constraints_of({key: figure for key, figure in after.items() if before.get(key) != figure})
-    lost = {key: figure for key, figure in before.items() if key not in after}
-    gone = dict.fromkeys(kind for kind, _ in before if not any(kind == still for still, _ in after))
+    gone = dict.fromkeys(kind for kind, _ in before if kind not in kinds)
+    lost = constraints_of({key: figure for key, figure in before.items() if key not in after and key[0] in kinds})
     aims = [line.voice.label(act.objective) for act in acts if isinstance(act, Aim)]
-    own = constraints_of({key: figure for key, figure in lost.items() if key[0] not in gone})
-    return dataclasses.replace(intent, reply=line.voice.changed(aims, stated, tuple(gone), own))
+    return dataclasses.replace(line.changed_by(acts), reply=line.voice.changed(aims, stated, tuple(gone), lost))
