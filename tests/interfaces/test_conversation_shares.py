@@ -98,10 +98,6 @@ def test_a_limit_that_would_go_goes_in_the_what_if_and_in_what_takes_it() -> Non
     assert "max_power_w" not in talk(HELD, ("can we drop the power limit?", free), "do that")[0]
 
 
-def test_could_you_is_a_polite_command() -> None:
-    assert talk(HELD, "could you halve the power?")[0]["max_power_w"] == 5.0
-
-
 @pytest.mark.parametrize("said", ["yesterday we had 15 W", "昨天我们是15瓦", "3号投诉说他只有15瓦"])
 def test_a_report_is_noted_and_asked_about(said: str) -> None:
     read = (said, asks("max_rate", amends=True, max_power_w=15.0))

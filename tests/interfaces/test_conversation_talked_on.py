@@ -45,7 +45,6 @@ def test_a_bare_figure_goes_on_with_the_power_that_was_said(lines: tuple[str, ..
         (("highest total rate, 250 kbit/s each", "250k was a bit stingy, let's say 400"), {"min_rate_bps": 4e5}),
         (("highest total rate, 250 kbit/s for user 3", "It's 4K, so raise his to 350 please"),
          {"min_rate_bps": {"3": 3.5e5}}),
-        (("highest total rate, cap everybody at 5 Mbit/s", "user 4 only 2", "no caps for anyone after all"), {}),
         (("总速率尽量高，用户1至少200 kbit/s", "用户2也一样", "2不用了"), {"min_rate_bps": {"1": 2e5}}),
         (("让最慢的用户尽量快，不服务用户2和用户3", "2回来了，把他加上"), {"leave_out": ("3",)}),
         (("proportional fairness, weight 2 for user 1", "max-min, sans priorités"), {}),
@@ -56,7 +55,7 @@ def test_a_line_goes_on_with_any_limit(lines: tuple[str, ...], held: dict[str, A
                                       for name, value in held.items()}  # fmt: skip
 
 
-@pytest.mark.parametrize("said", ["if the surgeon calls, make it 9", "500 was too much", "again"])
+@pytest.mark.parametrize("said", ["if the surgeon calls, make it 9", "500 was too much"])
 def test_what_only_may_be_meant_changes_nothing(said: str) -> None:
     assert agreed_into(POWER_W, said)[0] == {"max_power_w": 12.0}
 

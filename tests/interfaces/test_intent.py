@@ -31,7 +31,6 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
     ("Fairness I couldn't care less about, total rate please", RATE, {}),
     ("Everyone the same rate", LEAST, {}),
     ("user one hundred kilobits, save power", POWER, {"min_rate_bps": {"1": 1e5}}),
-    ("user 3 counts for three, proportional fairness", FAIR, {"weights": {"3": 3.0}}),
     ("usuario 2 cuenta por dos, reparto proporcional", FAIR, {"weights": {"2": 2.0}}),
     ("max rate, promises kept nineteen times out of twenty", RATE, {"outage_probability": 0.05}),
     ("Save power, 200 kbit/s each, 99 times in a hundred", POWER, {"min_rate_bps": 2e5, "outage_probability": 0.01}),

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from wirelessagent import language
-from wirelessagent.language.clauses import clause_end, clause_start
-from wirelessagent.language.text import Phrases, lowered, normalise
+from wirelessagent.language.text import Phrases, clause_end, clause_start, lowered, normalise
 
 SPOKEN = Path(language.__file__).parent / "training" / "spoken"
 MARKED = {

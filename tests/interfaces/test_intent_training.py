@@ -23,15 +23,14 @@ from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.conversation.possible import Possible
 from wirelessagent.language.conversation.signs import Signs
 from wirelessagent.language.conversation.talk_model import weigh
-from wirelessagent.language.features import BUCKETS, buckets, word_hashes
 from wirelessagent.language.figure_roles import LABELS
 from wirelessagent.language.intent import COMMANDS, QUESTIONS, checked_constraints
-from wirelessagent.language.linear_model import MODEL_FILE, shipped_model
+from wirelessagent.language.linear_model import BUCKETS, MODEL_FILE, buckets, shipped_model, word_hashes
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.order_model import LIKELY, Frame, OrderModel, frame_of
 from wirelessagent.language.sentence import BUILT_IN, Sentence, own_words
 from wirelessagent.language.spelling import nearest, respelt
-from wirelessagent.language.training import meant, orders, talks
+from wirelessagent.language.training import meant, orders, talk_fit, talk_notation, talks
 from wirelessagent.language.training.compose import LANGUAGES, SLOTS, SURROUNDINGS, sentences
 from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save
 from wirelessagent.language.training.grammar import Grammar
@@ -110,7 +109,7 @@ def test_no_long_sentence_of_the_test_sets_is_drawn(drawn: list[tuple[str, str]]
 
 def test_no_sentence_of_the_test_sets_was_written_for_training(tested: set[str]) -> None:
     by_name = (unmarked(line)[0] for path in NAMED.glob("*.txt") for line in path.read_text("utf-8").splitlines())
-    in_talks = (text for _, lines, _ in talks.talks() for text, _ in lines)
+    in_talks = (text for _, lines, _ in talk_notation.talks() for text, _ in lines)
     written = [*(each.text for each in spoken()), *(text for text, _ in meant.sentences()), *by_name, *in_talks]
     assert len(written) > 30_000
     assert [text for text in written if letters(text) in tested] == []
@@ -190,7 +189,7 @@ def test_the_judge_of_orders_sees_the_frame_and_not_the_wish(tmp_path: Path) -> 
     model = OrderModel.load(tmp_path / "orders.npz")
     told = {form: model.probability(frame(form.format(wishes[2]))) >= LIKELY for form in frames}
     assert told == {form: label == "yes" for form, label in frames.items()}
-    assert frame("Please max total rate").tokens == frame("Please save power").tokens == ("please", "@")
+    assert frame("Please max rate").tokens == frame("Please save power").tokens == ("please", "@")
 
 
 def test_words_that_no_order_has_must_be_outweighed_and_are_quoted() -> None:
@@ -220,7 +219,7 @@ def test_marked_sentences_have_known_roles_and_are_no_sentence_of_a_test(tested:
     lines = [unmarked(line) for line in marked()]
     known = {role for labels in LABELS.values() for role in labels}
     assert {role for _, marks in lines for *_, role in marks} - {""} <= known
-    assert not [text for text, _ in lines if set(text) & set("[]{}<>|")]
+    assert not [text for text, _ in lines if set(text) & set("[]{}|")]
     assert not [text for text, _ in lines if letters(text) in tested]
 
 
@@ -271,7 +270,7 @@ lift a cap that is not there => drop max_rate_bps
 
 def test_a_talk_is_an_example_a_line_with_what_it_comes_to(tmp_path: Path) -> None:
     (tmp_path / "one.txt").write_text(SAID, "utf-8")
-    found = list(talks.examples(tmp_path))
+    found = list(talk_notation.examples(tmp_path))
     assert [each.text for each in found] == [line.split(" => ")[0] for line in SAID.splitlines()[2:-1]]
     assert dict(found[1].effect) == {("min_rate_bps", "7"): 1e6}
     assert not found[2].effect
@@ -284,11 +283,11 @@ def test_a_talk_is_an_example_a_line_with_what_it_comes_to(tmp_path: Path) -> No
 
 def test_a_model_of_talks_learns_what_it_is_shown_and_is_the_same_each_time(tmp_path: Path) -> None:
     (tmp_path / "one.txt").write_text(SAID, "utf-8")
-    said = talks.parsed_all(list(talks.examples(tmp_path)), processes=1)
-    model, again = (talks.trained(said) for _ in range(2))
+    said = talks.parsed_all(list(talk_notation.examples(tmp_path)), processes=1)
+    model, again = (talk_fit.trained(said) for _ in range(2))
     assert (model.weights == again.weights).all()
-    for each, example in zip(said, talks.examples(tmp_path), strict=True):
+    for example in talk_notation.examples(tmp_path):
         line = Line.of(example.text, example.context)
-        possible = Possible(Anchored.of(example.text, "en", talks.USERS), example.context)
+        possible = Possible(Anchored.of(example.text, "en", talk_notation.USERS), example.context)
         read = Read.of(line, read_as_a_sentence(example.text, example.context, OfflineRecogniser()), possible)
-        assert weigh(Signs(line, possible, read, "en"), model).said == (each.supposed, each.effect)
+        assert weigh(Signs(line, possible, read, "en"), model).said == (example.supposed, example.effect)

@@ -6,8 +6,8 @@ only source of figures) → ``mentions`` (who is spoken of), ``ratios`` and ``le
 ``role_features``, ``figure_roles``, ``looks``, ``judged`` (what each figure and user is there for, and the words that
 say so, by a small model) → ``allotments`` (who gets which figure), ``whole_cell`` → ``constraints`` (which field a
 figure means) and ``vocabulary``, ``goals`` (which objective the words mean) → ``sentence`` (all of that, once) →
-``features``, ``linear_model``, ``forms`` → ``judgement`` (what the sentence wants) → ``topics``, ``followups``
-(details, changes of a request), ``nobody_starves`` (a wish beside the wish) → ``offline`` (the recogniser).
+``linear_model``, ``forms`` → ``judgement`` (what the sentence wants) → ``topics``, ``followups`` (details, changes of a
+request) → ``offline`` (the recogniser).
 ``figures`` holds the words beside figures and users, ``lexicon`` those of wishes and ``replies`` the sentences, as
 data; ``training`` makes the models.
 """

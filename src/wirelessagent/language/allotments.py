@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import Mention, Role
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.text import clause_end, clause_start
 
 _SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.8, 0.5, 0.45
 _SAID = 0.4
@@ -50,7 +50,7 @@ class Allotments:
         self._unsure: list[Mention] = []
         self._excepted: set[Mention] = set()
         self.exact: set[str] = set()
-        self._of_others = False
+        self._of_others = set[str]()
         self.spans: list[tuple[int, int]] = []
         self._roles: dict[Mention, str] = {}
         for mention in self._found:
@@ -96,12 +96,12 @@ class Allotments:
         if EVERYBODY not in floors or EVERYBODY in caps:
             return
         for mention in self._excepted:
-            if not any(user in rates for user in mention.users for rates in (floors, caps)):
+            if not any(user in floors for user in mention.users):
                 self._used.add(mention)
                 self._unsure.remove(mention)
                 text = self._text[mention.start : mention.end]
                 floors.update({user: _Given(value=0.0, text=text) for user in mention.users})
-        if self._of_others:
+        if "min_rate_bps" in self._of_others:
             for user in [user for user in caps if user not in floors]:
                 floors[user] = _Given(value=0.0, text=caps[user].text)
 
@@ -183,7 +183,8 @@ class Allotments:
             self._used.add(target.mention)
             if target.role == "named":
                 self.spans.append((target.mention.start, target.mention.end))
-        self._of_others = self._of_others or (name == "min_rate_bps" and target.role == "others")
+        if target.role == "others":
+            self._of_others.add(name)
         for key in target.keys:
             earlier = self._given[name].get(key)
             if earlier is not None and earlier.value != figure.value:
@@ -216,7 +217,7 @@ class Allotments:
     def values(self) -> dict[str, Constraint]:
         values: dict[str, Constraint] = {}
         for name, given in self._given.items():
-            figures = {user: each.value for user, each in given.items()}
+            figures = self._without_the_named(name, {user: each.value for user, each in given.items()})
             if name == "weights" and (figures.get(EVERYBODY) == 1 or set(figures) == {EVERYBODY}):
                 del figures[EVERYBODY]  # "all others 1" is what they count anyway
             if set(figures) == {EVERYBODY}:
@@ -224,6 +225,15 @@ class Allotments:
             elif figures:
                 values[name] = figures if name == "weights" else self._of_all_served(figures)
         return values | {name: tuple(self._lists[name]) for name in LISTS_OF_USERS if self._lists[name]}
+
+    def _without_the_named(self, name: str, figures: dict[str, float]) -> dict[str, float]:
+        """A ceiling of the others written out for each of them, where users are named who have none."""
+        free = [user for user in self.named if user not in figures]
+        if name != "max_rate_bps" or name not in self._of_others or EVERYBODY not in figures or not free:
+            return figures
+        others = [user for user in self._judged.users_of_the_cell if user not in (*free, *figures)]
+        own = {user: figure for user, figure in figures.items() if user != EVERYBODY}
+        return dict.fromkeys(others, figures[EVERYBODY]) | own if others else figures
 
     def _of_all_served(self, figures: dict[str, float]) -> Constraint:
         """Rates by user; one figure where it is that of everybody who is served."""
@@ -239,8 +249,10 @@ class Allotments:
     def crossed(self) -> Iterator[tuple[str, str, str]]:
         """Figures that cannot hold together, with the key of the question to ask."""
         low, high = (self._given[name] for name in _RATES)
+        apart = "max_rate_bps" in self._of_others and bool(self._judged.users_of_the_cell)
         for user in {*low, *high}:
-            least, most = low.get(user, low.get(EVERYBODY)), high.get(user, high.get(EVERYBODY))
+            least = low.get(user, low.get(EVERYBODY))
+            most = high.get(user, None if apart and user != EVERYBODY else high.get(EVERYBODY))
             if least is not None and most is not None and least.value > most.value:
                 yield least.text, most.text, "rates_crossed"
         both = [user for user in self._lists["users"] if user in self._lists["leave_out"]]

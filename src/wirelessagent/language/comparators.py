@@ -81,6 +81,7 @@ _LAST_WORD = deferred(  # "10 W, no more", "10 kbit/s, no less and no more"
     rf"(?P<at_most>{either('figures', 'bounds', 'at_most_last')})|"
     rf"(?P<at_least>{either('figures', 'bounds', 'at_least_last')}))(?=\s*(?:$|[.,;:!?)\uff0c。\uff1b、]))"
 )
+_SHORTENED = deferred(r"(?i)\b(?:m[aá]x|m[ií]n|mind|höchst)\.")
 _LOOSE = deferred(r"(?i)(?:max|min)(?:imum)?\b")  # "maximum rate at 1 Mbit/s minimum" wishes first and bounds after
 
 
@@ -110,6 +111,7 @@ class Comparison:
 
 def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Comparison:
     """How the figure at [start, end) of a normalised text is bounded; words before ``after`` are another's."""
+    text = _SHORTENED.sub(lambda short: short[0][:-1] + " ", text)  # "max. 10 W"
     found = _before(text, start, end, kind=kind, after=after)
     behind = _AFTER_RE.match(text, end)
     own = behind is None or not _LOOSE.match(text, found[1]) if found is not None else False

@@ -35,7 +35,9 @@ _ASKED = {
 _UNSURE = {"rate": "status", "power": "whose_power", "ratio": "share"}
 _NEAR = 60
 _HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
-_SURE, _SURE_OF_A_LIMIT = 0.6, 0.75  # most figures are limits, so that the model takes a strange one for one too easily
+_TINY_POWER_W = 1e-8  # nor so little: that is noise
+_SURE, _SURE_OF_A_LIMIT = 0.6, {"power": 0.75, "rate": 0.6, "ratio": 0.6}
+"""Most figures are limits, so that the model takes a strange one for one too easily."""
 
 
 def read_constraints(
@@ -131,7 +133,7 @@ class _Reader:
             else:
                 notes.counted.append((figure.start, figure.end))
             return ""
-        if limits < _SURE_OF_A_LIMIT or chances[role] < _SURE * limits:
+        if limits < _SURE_OF_A_LIMIT[figure.kind] or chances[role] < _SURE * limits:
             return _UNSURE[figure.kind]
         if figure.kind == "ratio" and not 0 < figure.value < 1:
             return "impossible"
@@ -162,6 +164,8 @@ class _Reader:
         elif figure.kind == "power":
             if figure.value > _HUGE_POWER_W:
                 return "huge"
+            if figure.value < _TINY_POWER_W:
+                return "whose_power"
             self._notes.take(role, figure.value, figure)
         else:
             target = self._allotments.target_of(figure.start)

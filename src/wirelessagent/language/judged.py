@@ -22,8 +22,9 @@ from wirelessagent.language.looks import BORROWING, Look, first_look, second_loo
 from wirelessagent.language.mentions import JOINT, LISTED, Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.text import is_within
+from wirelessagent.language.text import Phrases, is_within
 from wirelessagent.language.whole_cell import COUNTED_USERS
+from wirelessagent.language.word_tables import either
 
 _Answer = TypeVar("_Answer")
 _Item = TypeVar("_Item", Quantity, Number)
@@ -39,6 +40,8 @@ _WEIGHTS = deferred(  # what follows are weights, whatever else they may look li
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
 _SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.7, 0.6, 0.6, 0.6, 0.5
 _LIKELY, _PERHAPS = 0.4, 0.2
+_CARRIERS = Phrases(either("figures", "bounds", "carriers"))
+_BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _Roles = Mapping[Number, Mapping[str, float]]
 """How likely each number has each role."""
 _ONCE, _MOST_POWERS, _HARDLY = ("max_power_w", "circuit_power_w"), 4, 0.01
@@ -56,11 +59,13 @@ class Judged:
         doubtful: the spans of words such as "one" that may be figures and may be nothing.
         harmless: the spans of numbers that describe and limit nothing, such as a time of day.
         strangers: the spans of names that no user is known by; they are mentions, too.
+        users_of_the_cell: as they are referred to, "3" being "user 3".
     """
 
     def __init__(
         self, plain: str, quantities: Sequence[Quantity], names: Sequence[str], taken: Sequence[tuple[int, int]]
     ) -> None:
+        self.users_of_the_cell = [name.removeprefix("user ") for name in names]
         first = first_look(plain, quantities, names, taken)
         view = first.view()
         limits = [span for span, _ in named_in(plain)]
@@ -125,8 +130,10 @@ class Judged:
     def _meanings(self) -> dict[int, Mapping[str, float]]:
         """By place, how likely each figure has each role: those of a list have the same, and a cell has one limit."""
         means: dict[int, Mapping[str, float]] = {}
+        carriers = _CARRIERS.search(self._look.plain) is not None
         for place, figure in enumerate(self._look.figures):
-            means[figure.start] = answers(figure.kind, self._view.figure(place))
+            chances = answers(figure.kind, self._view.figure(place))
+            means[figure.start] = _as_bounded(figure, chances, carriers=carriers)
         for starts in self.lists:
             each = [means[start] for start in starts if start in means]
             if each:
@@ -166,6 +173,24 @@ class Judged:
         """How likely the figure at ``start`` is for each of the candidates, or, as None, for everybody."""
         chances = self._owners[start]
         return _shares({mention: chances[mention] for mention in (*candidates, None)})
+
+
+def _as_bounded(figure: Quantity, chances: Mapping[str, float], *, carriers: bool) -> Mapping[str, float]:
+    """How likely a figure has each role, a limit being the one that its bound says: what is "at least" is no ceiling.
+
+    No power is one of a subcarrier where nothing speaks of ``carriers``.
+    """
+    if figure.kind == "power" and not carriers:
+        return {
+            **chances,
+            "subcarrier_max_power_w": 0.0,
+            "max_power_w": chances["subcarrier_max_power_w"] + chances["max_power_w"],
+        }
+    bound = _BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None
+    if bound is None:
+        return chances
+    others = [role for role in ("min_rate_bps", "max_rate_bps", "both") if role != bound]
+    return {**chances, **dict.fromkeys(others, 0.0), bound: sum(chances[role] for role in (bound, *others))}
 
 
 def _each_once(chances: Sequence[Mapping[str, float]]) -> list[Mapping[str, float]]:
@@ -230,7 +255,10 @@ def _borrowing(look: Look, roles: _Roles, users: Sequence[Number]) -> dict[Numbe
     found: dict[Number, str] = {}
     for number, chances in roles.items():
         role = max(BORROWING, key=lambda each: chances[each])
-        if number not in users and _is_a_figure(look, number, chances, role):
+        foreign = (
+            SCALED.match(look.plain, number.end) is None and FOREIGN_UNIT.match(look.plain, number.end) is not None
+        )
+        if number not in users and not foreign and _is_a_figure(look, number, chances, role):
             found[number] = role
     return found
 
@@ -277,5 +305,6 @@ def _users(plain: str, numbers: Sequence[Number], chances: _Roles) -> list[Numbe
     able = [n for n in numbers if n.value is not None and 0 <= n.value == int(n.value) < _MOST_BARE_USERS]
     able = [n for n in able if COUNTED_USERS.match(plain, n.start) is None and FOREIGN_UNIT.match(plain, n.end) is None]
     lists = [each for each in _runs(plain, able, JOINT) if _WEIGHTS.search(plain, 0, each[0].start) is None]
+    lists = [each for each in lists if len({number.value for number in each}) == len(each)]  # "w = [2, 1, 1]"
     sure = [each for each in lists if max(chances[number]["user"] for number in each) > _SURE_OF_A_USER]
     return [number for each in sure for number in each if chances[number]["user"] > _ONE_OF_A_LIST]

@@ -64,7 +64,8 @@ _RATING = deferred(  # what a device has, and a limit only where nothing else is
 )
 FOREIGN_UNIT = deferred(  # no user's number stands before one
     r"(?i)\s?-?(?:[kMG]?Hz|hertz|[km]?V|volts?|voltios?|[km]?A|[km]?Wh|J|joules?|julios?|dB|°|[kMGT]?B|bits?|bytes?|"
-    r"kilo\w+|mega\w+|giga\w+|cm|mm|km|m²|ms|grad|degrees?|percent)(?![^\W\d_])"
+    r"kilo\w+|mega\w+|giga\w+|cm|mm|km|m²|ms|s|secs?|se[cg]\w{3,6}|sekunden?|min|minut\w+|h|grad|degrees?|percent)"
+    r"(?![^\W\d_])"
 )
 _WHOLE = deferred(r"[0-9]+")
 _IDIOMS = frozenset(

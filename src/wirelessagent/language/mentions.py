@@ -14,7 +14,7 @@ from typing import Literal, TypeAlias
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import cardinals, listed
-from wirelessagent.language.numerals import chinese_value
+from wirelessagent.language.numerals import TIGHT_LIST, chinese_value
 from wirelessagent.language.text import Phrases, overlaps
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.word_tables import either, words_of
@@ -24,32 +24,39 @@ Role: TypeAlias = Literal["named", "everybody", "others", "pronoun"]
 ORDINALS = {word: str(place) for word, place in listed("ordinals").items()}
 _NUMBER_WORDS = {word: str(value) for word, value in cardinals(1, 20).items() if word != "once"} | {"un": "1"}
 
-_NOUN = f"(?:{'|'.join(words_of('figures', 'users', 'nouns', 'things'))})"
+NOUN = f"(?:{'|'.join(words_of('figures', 'users', 'nouns', 'things'))})"
 _EACH = f"(?:{'|'.join(words_of('figures', 'users', 'each'))})"
 _WORD_NUMBER = "(?:" + "|".join(sorted(_NUMBER_WORDS, key=len, reverse=True)) + ")"
 _JOINS, _ARTICLES = (either("figures", "users", name) for name in ("joins", "articles"))
 _AND = rf"(?:\s*(?:,|&|\+|/)\s*(?:(?:and|y|et|und|or)\s+)?|\s+(?:{_JOINS})\s+(?:(?:{_ARTICLES})\s+)?)"
-_TO = r"(?:\s*(?:-|–|~)\s*|\s+(?:up\s+to|to|through|al?|hasta\s+el|hasta|à|au|jusqu'(?:à|au)|bis(?:\s+zu)?)\s+)"
+_TO = (
+    r"(?:\s*(?:-|–|~|\.{2,3}|…)\s*|\s+(?:up\s+to|to|through|al?|hasta\s+el|hasta|à|au|jusqu'(?:à|au)|bis(?:\s+zu)?)\s+)"
+)
 _OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …" is
     r"(?!\s+(?:for|to(?!\s+(?:have|get|receive|be|reach|see|go|run|enjoy|count|share|stay))|para|pour|für)\s)"
 )
 _NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"
-_DIGITS = r"[0-9]{1,4}(?![0-9.,]*[0-9%]|[A-Za-z])"
+_DIGITS = r"[0-9]{1,4}(?!(?!\.\.)[0-9.,]*[0-9%]|[A-Za-z])"
 _WORD_LIST = rf"{_WORD_NUMBER}\b(?:(?:{_AND}|{_TO}){_WORD_NUMBER}\b)*"
 _SPACED = (  # "users 1 2 3", and nothing that is counted behind
     r"(?<=s )[0-9]{1,2}(?:\s+[0-9]{1,2}){1,11}(?:\s+(?:and|y|et|und)\s+[0-9]{1,2})?(?![0-9.,]*[0-9%]|\s+[0-9])"
     r"(?!\s*(?!(?:at|have|get|need|want|should|must|are|with|each|and|only|out|alone|excluded|to|left|not|may|shall|will|"
     r"in|for|on|please)\b)[A-Za-zμ%×*^/])"
 )
-_LIST = rf"(?:{_SPACED}|{_DIGITS}(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
+_LIST = (
+    rf"(?:{_SPACED}|(?:{TIGHT_LIST}|{_DIGITS})(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
+)
+_OPENS = rf"\s*(?::\s*(?={_DIGITS}{_AND}{_DIGITS})|[\[({{{{]\s*(?=[0-9]))"  # "users: 1, 2", "users {{1, 2}}"
+_BOUND = r"(?:≥|≤|>=?|<=?|=|min\.?|max\.?|at (?:least|most))"
 _NAMED = Phrases(
-    rf"(?<![A-Za-z0-9]){_NOUN}(?:[\s_]*|-|\s-\s)(?:ids?\s*|{_NO}\s*|(?:del?|from|von)\s+(?=[0-9]{{1,3}}{_TO}))?\s*(?P<list>{_LIST})"
+    rf"(?<![A-Za-z0-9]){NOUN}(?:[\s_]*|-|\s-\s)(?:ids?\s*|{_NO}\s*|(?:del?|from|von)\s+(?=[0-9]{{1,3}}{_TO})|{_OPENS})?\s*(?P<list>{_LIST})"
+    rf"|(?:(?<=[,;])|(?<=[,;] ))(?P<colon>{_DIGITS}(?:(?:{_AND}|{_TO}){_DIGITS})*)(?=\s?:\s*(?:{_BOUND}\s*)?[0-9])"
     rf"|(?<![A-Za-z0-9])(?:u|ue)(?P<short>[0-9]{{1,4}})(?![A-Za-z0-9])"
-    rf"|(?<![A-Za-z])[RrWw]_?\{{?(?P<symbol>[0-9]{{1,2}})\}}?(?=\s*(?:[=≥≤<>]))"
+    rf"|(?<![A-Za-z])[RrWw]_?\{{?(?P<symbol>[0-9]{{1,2}})\}}?(?=\s*(?:[=≥≤<>∈]|\.\.))"
     rf"|(?<![A-Za-z0-9])r(?P<rate_of>[0-9]{{1,2}})(?![A-Za-z0-9.])|"
     rf"#\s?(?P<hash>[0-9]{{1,4}}(?:{_AND}#?\s?[0-9]{{1,4}})*)"
     rf"|(?<![A-Za-z])(?:numbers?|n[úu]mero|numéro|nummer|no\.)\s+(?P<number>{_LIST})"
-    rf"|(?<![A-Za-z])(?P<ordinal>{'|'.join(sorted(ORDINALS, key=len, reverse=True))})\s+{_NOUN}(?![A-Za-z])"
+    rf"|(?<![A-Za-z])(?P<ordinal>{'|'.join(sorted(ORDINALS, key=len, reverse=True))})\s+{NOUN}(?![A-Za-z])"
 )
 _ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
 _ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手机|节点)"
@@ -74,16 +81,37 @@ _EVERYBODY = Phrases(
     rf"{either('figures', 'users', 'everybody')}|\b(?:(?:per|a|/)\s?(?:{_EACH}|capita)|(?:por|par|pro|je) {_EACH})\b"
 )
 _PRONOUN = Phrases(either("figures", "users", "pronouns"))
-_ODD, _EVEN = (  # "odd-numbered users", "Nutzer mit gerader Nummer"; which ones they are, the cell's size says
-    Phrases(either("figures", "users", name, noun=_NOUN), marks="odd even par pair gerad 单 奇 双 偶")
-    for name in ("odd", "even")
+_FEW = rf"(?:[0-9]{{1,2}}|{_WORD_NUMBER}|beiden)"
+_ENDS = {name: f"(?:{either('figures', 'users', name)})" for name in ("first", "last")}
+_ON = either("figures", "users", "from_on")
+BY_PLACE = Phrases(
+    "|".join(
+        [
+            *(f"(?P<{name}>{either('figures', 'users', name, noun=NOUN)})" for name in ("odd", "even")),
+            *(
+                rf"(?:{end}\s+(?P<{name}>{_FEW})|\b(?P<{name}_>{_FEW})\s+{end})\s+{NOUN}(?![A-Za-z])"
+                for name, end in _ENDS.items()
+            ),
+            *(
+                rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{_ZH_NOUN}"
+                for name, end in _ENDS.items()
+            ),
+            rf"(?:(?<![A-Za-z0-9]){NOUN}|{_ZH_NOUN})\s*(?P<from>[0-9]{{1,3}})\s*(?:{_ON})",
+        ]
+    ),
+    marks="odd even par pair gerad 单 奇 双 偶 first last prim premi erst letzt dern ltim 前 后 above "
+    "on up höher suiv adelante sup 以",
 )
+"""Users by where they stand among all; which ones they are, the cell's size says."""
 JOINT = deferred(
     rf"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|{_JOINS}|\s)+\s*(?:(?:also|{_ARTICLES})\s+)?(?:l'|à\s+l')?"
 )
 LISTED = deferred(  # between the figures of a list
     rf"(?i)\s*(?:[,;、\uff0c]|{JOINT.pattern.removeprefix('(?i)')}|,?\s*(?:and then|beziehungsweise|bzw\.?|"
     r"respectively))\s*"
+)
+_EACH_OF = deferred(
+    rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*(?:{NOUN}|{_ZH_NOUN})?\s*(?:from|de|von|entre)?\s*$"
 )
 _LONGEST_RANGE = 100
 _RANGE = deferred(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
@@ -110,7 +138,7 @@ def mentions(plain: str, names: Sequence[str] = (), taken: Sequence[tuple[int, i
     [('named', ('3', '5')), ('others', ())]
     """
     found: list[Mention] = []
-    for mention in [*_own_names(plain, names), *_every_second(plain, len(names)), *_spoken_of(plain)]:
+    for mention in [*_own_names(plain, names), *_by_place(plain, len(names)), *_spoken_of(plain)]:
         if not overlaps((mention.start, mention.end), [*taken, *((other.start, other.end) for other in found)]):
             found.append(mention)
     return merged(plain, sorted(found, key=lambda mention: mention.start))
@@ -124,11 +152,17 @@ def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
             yield Mention(role="named", users=(name,), start=match.start(), end=match.end())
 
 
-def _every_second(plain: str, count: int) -> Iterator[Mention]:
-    """Users by an odd or an even number, where it is known how many there are."""
-    for first, pattern in ((1, _ODD), (2, _EVEN)) if count > 1 else ():
-        for match in pattern.finditer(plain):
-            users = tuple(str(number) for number in range(first, count + 1, 2))
+def _by_place(plain: str, count: int) -> Iterator[Mention]:
+    """Users by an odd or an even number, the first or the last few, or from one on; most need to be counted."""
+    for match in BY_PLACE.finditer(plain):
+        group, words = next((name, words) for name, words in match.groupdict().items() if words)
+        number = 2 if group in ("odd", "even") or words.lower() == "beiden" else int(_number(words.lower()) or 0)
+        first, last, step = {
+            "odd": (1, count, 2), "even": (2, count, 2), "first": (1, number, 1), "from": (number, count, 1),
+            "last": (count - number + 1, count, 1),
+        }[group.rstrip("_")]  # fmt: skip
+        if 0 < first <= last and (group.startswith("first") or count > 1):
+            users = tuple(str(user) for user in range(first, last + 1, step))
             yield Mention(role="named", users=users, start=match.start(), end=match.end())
 
 
@@ -155,12 +189,21 @@ def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
         return match.end()
     parts = list(_ITEM.finditer(match.group(group)))
     offset = match.start(group)
-    if parts and unit_at(plain, offset + parts[-1].end()) is not None:
-        return offset + parts[-2].end() if len(parts) > 1 else offset
+    measured = bool(parts) and unit_at(plain, offset + parts[-1].end()) is not None
+    if measured and len(parts) == 2 and is_of_each(plain, match.start(group)):
+        return offset  # "each user 1 to 5 Mbit/s"
+    if measured:
+        whole = len(parts) > 1 and plain[offset + parts[-2].end() : offset + parts[-1].start()] != ","  # "1,5 Mbit/s"
+        return offset + parts[-2].end() if whole else offset
     if len(parts) > 1 and _UP_TO.fullmatch(plain, offset + parts[-2].end(), offset + parts[-1].start()):
         first, last = (int(_number(part.group().lower()) or 0) for part in parts[-2:])
         return match.end() if last - first < _LONGEST_RANGE else offset + parts[-2].end()
     return match.end()
+
+
+def is_of_each(plain: str, start: int) -> bool:
+    """Whether what begins here is said of each user: "each user 1 to 5 Mbit/s" names nobody."""
+    return _EACH_OF.search(plain, max(0, start - 40), start) is not None
 
 
 def _listed(text: str) -> tuple[str, ...]:

@@ -6,8 +6,7 @@ import functools
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from wirelessagent.language.clauses import clause_start
-from wirelessagent.language.text import languages_of
+from wirelessagent.language.text import clause_start, languages_of
 from wirelessagent.language.word_tables import table
 
 LANGUAGES = ("en", "zh", "es", "fr", "de")
@@ -57,20 +56,19 @@ def standing(plain: str, language: str, names: Iterable[str]) -> Iterator[tuple[
                 yield name, reach, span
 
 
-def classes_in(plain: str) -> list[tuple[str, Span]]:
+@functools.lru_cache(maxsize=16)
+def classes_in(plain: str) -> tuple[tuple[str, Span], ...]:
     """The classes whose words stand in a text, with how far they reach, and where they stand, from left to right.
 
     >>> classes_in("if only it were 5 W")[0]
     ('condition:sentence', (0, 7))
     """
-    return sorted(
-        (
-            (f"{name}:{reach}", span)
-            for language in languages_of(plain)
-            for name, reach, span in standing(plain, language, table_of(language))
-        ),
-        key=lambda found: (found[1][0], -found[1][1]),
+    found = (
+        (f"{name}:{reach}", span)
+        for language in languages_of(plain)
+        for name, reach, span in standing(plain, language, table_of(language))
     )
+    return tuple(sorted(found, key=lambda each: (each[1][0], -each[1][1])))
 
 
 def is_ordered(plain: str) -> bool:

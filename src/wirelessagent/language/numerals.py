@@ -33,6 +33,13 @@ _DIGITS = (
     r"(?:[.,][0-9]+)?(?![0-9]|[.,][0-9])"
     r"|[0-9]+[.,][0-9]+(?![0-9]|[.,][0-9])|[0-9]+(?:[.,][0-9]+){2,}|\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
 )
+TIGHT_LIST = r"[1-9][0-9]?(?:,[1-9][0-9]?)+(?![0-9.,]*[0-9%]|[A-Za-z])"
+"""Users without a space between: "6,7,8"; two of them may be a decimal."""
+_TIGHT_LIST, _ITEM, _GOES_ON = (
+    deferred(TIGHT_LIST),
+    deferred("[0-9]+"),
+    deferred(r"\s*(?:-|–|~|to\b|or\b|[到至或])\s*[0-9]"),
+)
 _LETTERS = "A-Za-zÀ-ÖØ-öø-ÿ"
 _NUMBER = deferred(
     rf"(?P<minus>(?<![A-Za-z0-9_)])-(?=[0-9.])|(?i:\b(?:minus|negative)\s+)|负\s*)?"
@@ -125,6 +132,11 @@ def _numbers(text: str, language: str) -> Iterator[Number]:
     own, position = "en" if language == "zh" else language, 0
     while match := _NUMBER.search(text, position):
         position = match.end()
+        if match["digits"] and _is_list(text, match, language):
+            for item in _ITEM.finditer(match["digits"]):
+                start = match.start("digits") + item.start()
+                yield Number(value=Decimal(item[0]), start=start, end=start + len(item[0]), form="digits")
+            continue
         if match["word"]:
             number, spoken_in = _in_words(text, match, own)
             own = spoken_in if own == "en" else own  # "dix watts, pardon, douze"
@@ -135,6 +147,15 @@ def _numbers(text: str, language: str) -> Iterator[Number]:
         if number is not None:
             position = max(number.end, match.start() + 1)
             yield number
+
+
+def _is_list(text: str, match: re.Match[str], language: str) -> bool:
+    """Whether digits are several numbers: "6,7,8", or "1,5" without a unit where a decimal has a point."""
+    if _TIGHT_LIST.fullmatch(match["digits"]) is None or match.end() != match.end("digits"):
+        return False
+    several = match["digits"].count(",") > 1
+    alone = unit_at(text, match.end()) is None and _GOES_ON.match(text, match.end()) is None
+    return several or (language in ("en", "zh") and alone)
 
 
 def too_many_figures(plain: str) -> bool:

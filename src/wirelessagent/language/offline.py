@@ -14,8 +14,6 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language import forms
-from wirelessagent.language.answer import Answer
-from wirelessagent.language.command_cues import CHANGING, is_unsure
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.followups import keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
@@ -23,15 +21,15 @@ from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
 from wirelessagent.language.lifted import dropped_in
 from wirelessagent.language.moods import is_ordered, is_supposed
-from wirelessagent.language.nobody_starves import nobody_starves
 from wirelessagent.language.numerals import MOST_FIGURES, too_many_figures
 from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
-from wirelessagent.language.replies import Voice
+from wirelessagent.language.replies import Answer, Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import language_in_a_talk, normalise
 from wirelessagent.language.topics import details_of
 from wirelessagent.language.vocabulary import OwnWords
+from wirelessagent.language.word_tables import either, words_of
 
 NAME = "offline"
 _MAX_CHARACTERS = 2000
@@ -42,6 +40,16 @@ _FAIR_WORDS = {"fair", "same", "fairly"}
 _ONLY_ORDERED = {"users", "weights", "subcarrier_max_power_w", "resource_block_group_size"}
 """What hardly anybody speaks of but to order it."""
 _ASKED = deferred(r"[?\uff1f]\s*$")
+_NOT = f"{either('moods', 'negation', 'clause')}|{either('figures', 'bounds', 'forbids')}"
+_STARVES = either("figures", "starving", "goes_without")
+_NOBODY_STARVES = deferred(
+    rf"(?i)(?:{_NOT})[^,;.!?]{{0,40}}?(?:{_STARVES})|{either('figures', 'starving', 'cared_for')}"
+)
+CHANGING = ("apply", "confirm", "undo", "reset")
+_SURE_OF_A_COMMAND = 0.6
+_CUES = {  # a command that changes something has a part of one of these words in it
+    topic: deferred(f"(?i){'|'.join(words_of('talk_forms', 'cues', topic))}") for topic in ("reset", "undo", "apply")
+}
 
 
 class OfflineRecogniser(Recogniser):
@@ -284,3 +292,23 @@ def _merged(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
         else:
             merged_spans.append((start, end))
     return merged_spans
+
+
+def nobody_starves(plain: str) -> bool:
+    """Whether a normalised sentence wishes that nobody goes without.
+
+    >>> nobody_starves("max rate, but don't starve anyone"), nobody_starves("everyone is starving")
+    (True, False)
+    """
+    return _NOBODY_STARVES.search(plain) is not None
+
+
+def is_unsure(topic: str, plain: str, certainty: float) -> bool:
+    """Whether a command that changes something may have been meant, and has to be asked for.
+
+    >>> is_unsure("undo", "undo that", 0.9), is_unsure("undo", "hmm", 0.9), is_unsure("history", "hmm", 0.5)
+    (False, True, False)
+    """
+    cue = _CUES.get(topic)
+    said = cue is None or cue.search(plain) is not None
+    return topic in CHANGING and not (said and certainty >= _SURE_OF_A_COMMAND)

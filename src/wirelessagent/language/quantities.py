@@ -13,6 +13,7 @@ from typing import Literal, TypeAlias
 
 from wirelessagent.language.comparators import Comparator, comparison
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.mentions import is_of_each
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.readings import GENERATION, Reading
 from wirelessagent.language.readings import readings as read_numbers
@@ -210,4 +211,5 @@ def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> Quanti
 
 def _is_name(plain: str, start: int) -> bool:
     """Whether a number names what stands before it: "user 3", "users 1 and 2", "slot 5"."""
-    return any(pattern.search(plain, max(0, start - 40), start) is not None for pattern in (_NAMES, _USERS))
+    named = any(pattern.search(plain, max(0, start - 40), start) is not None for pattern in (_NAMES, _USERS))
+    return named and not is_of_each(plain, start)

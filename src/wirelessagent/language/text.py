@@ -5,6 +5,7 @@ Deliberately not NFKC: that would turn "10² W" into "102 W".
 
 from __future__ import annotations
 
+import bisect
 import functools
 import re
 import sys
@@ -51,6 +52,7 @@ NUMBERED_USERS = rf"\b{USER_NOUN}\s*(?:[0-9]{{1,2}}\s*(?:,|and|or|y|et|und|oder|
 """What stands before a number that names a user: "user ", "users 1 and "."""
 
 CLAUSE_END = r"[,;:!?()\n\uff0c\uff1b。、…—]|\.(?![0-9])"
+_CUT = deferred(CLAUSE_END)
 
 
 def normalise(text: str) -> str:
@@ -206,3 +208,35 @@ class Phrases:
     def may_match(self, text: str) -> bool:
         """Whether a text in small letters holds any of the marks."""
         return not self.marks or any(mark in text for mark in self.marks)
+
+
+def clause_start(plain: str, place: int, from_: int = 0) -> int:
+    """Where the clause that ``place`` lies in begins, no farther ahead than ``from_``.
+
+    >>> clause_start("leave 3 out, max rate", 17)
+    12
+    """
+    if place > from_ and plain[place - 1] == ".":
+        return place
+    cuts = _cuts(plain)
+    before = bisect.bisect_left(cuts, place)
+    return cuts[before - 1] + 1 if before and cuts[before - 1] >= from_ else from_
+
+
+def clause_end(plain: str, place: int, to: int | None = None) -> int:
+    """Where the clause that goes on at ``place`` ends, no farther behind than ``to``.
+
+    >>> clause_end("leave 3 out, max rate", 7)
+    11
+    """
+    to = len(plain) if to is None else to
+    cuts = _cuts(plain)
+    after = bisect.bisect_left(cuts, place)
+    if after < len(cuts) and cuts[after] < to:
+        return cuts[after]
+    return to - 1 if to > place and plain[to - 1] == "." else to
+
+
+@functools.lru_cache(maxsize=64)
+def _cuts(plain: str) -> tuple[int, ...]:
+    return tuple(cut.start() for cut in _CUT.finditer(plain))

@@ -65,7 +65,8 @@ _RATIO = deferred(
     rf"(?P<thousandth>‰|(?i:(?:per\s+mille?|per\s+thousand|promille|por\s+mil|pour\s+mille){_END}))"
 )
 _NOT_A_RATE_OR_POWER = deferred(
-    r"(?i)(?:/|每)\s?(?!user|ue|person|device|sensor|人|用户|subscriber|customer|head|each)(?=[A-Z])"
+    r"(?i)(?:/|每)\s?(?!user|ue|person|device|sensor|人|用户|subscriber|customer|head|each|sub-?carrier|sub-?channel|sc\b|tone|carrier|"
+    r"ch\b|usuario|utilisateur|nutzer|subportadora|sous-porteuse|(?:unter|sub)träger|子载波)(?=[A-Z子])"
     r"|\s*(?:/|(?:per|pro|par|por)\s)\s*(?:\w?hz|hertz|megahertz|kilohertz|joules?|j|watts?|w|hours?|symbol|bit|"
     r"m2|m²|kg)\b"
     r"|[\s·-]*(?:h|hrs?|hours?|horas?|heures?|stunden?)\b|小时|\s*/?每?(?:赫兹?|焦耳?)"
@@ -107,7 +108,7 @@ _PER_ANOTHER_TIME = deferred(
     r"minutos?|horas?|heures?|jours?|mois|stunden?|tage?|woche|monat|d[ií]as?|mes)\b|\s*[/每]?每(?:分钟?|小时|天|周|月)"
 )
 _OF_ANOTHER_TIME = deferred(r"每个?(?:分钟?|小时|天|周|月)[^,\uff0c。;]{0,6}$")
-_GAP = deferred(r"\s?个\s?|-|\s{0,2}")
+_GAP = deferred(r"\s?个\s?|-|\+?\s{0,2}")
 
 
 def _starts(text: str, position: int) -> list[int]:

@@ -8,16 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from wirelessagent.language.clauses import clause_end, clause_start
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.mentions import BY_PLACE, NOUN
 from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.stated import Notes
-from wirelessagent.language.text import Phrases, Span, is_within, overlaps
+from wirelessagent.language.text import Phrases, Span, clause_end, clause_start, is_within, overlaps
 from wirelessagent.language.word_tables import either
 
 _CARRIER = (
-    r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|(?:unter|sub)träger[ns]?)"
+    r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|"
+    r"(?:unter|sub)träger[ns]?)"
 )
 _CHANGE_BEFORE = deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$")
 _ALL = deferred(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
@@ -26,19 +27,22 @@ _DESCRIBED_AFTER = deferred(rf"(?i)\s*(?:$|(?:{either('figures', 'users', 'behin
 _COUNT = rf"(?:[0-9]+|{'|'.join(cardinals(2, 10))})"
 COUNTED_USERS = deferred(
     rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:of them|of the users|"
-    r"users|ues|subscribers|devices|sensors|terminals|subcarriers|channels|usuarios|"
+    r"(?:waiting |idle |busy |active )?users|ues|subscribers|devices|sensors|terminals|subcarriers|channels|usuarios|"
     r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
     r"设备|传感器|子载波)"
 )
-_SOME_USERS = Phrases(either("figures", "users", "some"))
+_SOME_USERS = Phrases(either("figures", "users", "some", noun=NOUN))
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
 _HALVED = Phrases(either("figures", "one", "halved", ours=_OF_OURS), marks="half halve third quarter 减半 一半 翻倍")
 _OTHERS_HALVED = Phrases(
     r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)",
     marks="一半 减半 翻倍 双倍 加倍",
 )
-_POWER = (
-    r"(?:power|budget|watts|wattage|potencia|presupuesto|puissance|leistung|sendeleistung)\b(?:\s+(?:budget|limit))?"
+_POWER_NOUNS = "power|potencia|puissance|leistung|sendeleistung"
+_POWER = rf"(?:maximalleistung|{_POWER_NOUNS}|budget|watts|wattage|presupuesto)\b(?:\s+(?:budget|limit))?"
+_MOST = (
+    r"(?:(?:max|máx)\w*\.?|limitée?|limitada|begrenzt|limited|at|to|of|auf|à|a|al|is|=|<=|≤|:|at most|up to)?\s*"
+    r"(?:(?:max|to|auf|à|a|al|au|at)\.?\s*)?"
 )
 _FULL = (
     r"(?:\s+|of|de|d'|the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|el|del|notre|nuestra|der|die|"
@@ -61,26 +65,43 @@ _SHARE = Phrases(
     r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:\.[0-9]+)?)\s*(?:%|percent|per cent|prozent|por ciento|pour cent))"
     rf"{_FULL}\s*{_POWER}|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_word>{_SHARE_WORDS})|"
     r"(?<![0-9.])(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|百分之(?P<hundredths>[0-9]{1,3}))的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
-    rf"|功率(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?P<of_word>{_SHARE_WORDS})(?!五)",
+    rf"|功率(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?P<of_word>{_SHARE_WORDS})(?!五)"
+    rf"|\b(?:p_?max|(?:max\w*\.?\s+)?(?:{_POWER_NOUNS}))\s*{_MOST}(?P<of_percent>[0-9]{{1,3}}(?:[.,][0-9]+)?)\s*%"
+    r"|功率(?:只用|最多用|用|不超过|最多|压到|降到|限制在|限制到|上限为?)(?P<zh_of_percent>[0-9]{1,3}(?:\.[0-9]+)?)%",
     marks="half mitad moitié halbe hälfte third tercio tiers drittel quart cuarto viertel % percent per_cent prozent "
     "por_ciento pour_cent 一半 百分之 分之 成",
 )
+_IN = {"pairs": 2, "twos": 2, "threes": 3, "fours": 4, "sixes": 6}
 _SIZE = r"[0-9]{1,3}|[a-zäéöûü]{3,8}"
-_GROUP = r"(?:groups?|blocks?|bundles?|chunks?|clusters?|packs?|rbgs?|grupos|bloques|groupes?|blocs|paquets|paquetes)"
+_GROUP = (
+    r"(?:(?:bloques|blocs) de (?:recursos|ressources)|"
+    r"groups?|blocks?|bundles?|chunks?|clusters?|packs?|p?rbs?|rbgs?|grupos|bloques|groupes?|blocs|paquets|paquetes)"
+)
+_BLOCK = r"(?:p?rbg?|group|block|bundle|grupo|bloque|groupe|bloc|gruppe|(?:ressourcen)?block)"
+_PER = r"(?:per|in (?:a|each|every)|to a|each|por|par|pro|je|bilden einen)"
+_DIGITS, _ZH_DIGITS = "[0-9]{1,3}", "[0-9]{1,3}|[二两三四五六八十]{1,2}"
+_TIED = r"(?:一组|为一组|一块|为一块|捆绑|绑定|分组|一个组|成组|(?:组成|构成)一个?(?:资源)?[块组])"
 _BLOCKS = Phrases(
-    rf"(?:\b{_GROUP}\s+(?:of|de)\s+(?P<of>{_SIZE})\b(?:\s+(?:adjacent\s+|neighbouring\s+)?{_CARRIER}(?!\w))?"
-    rf"|\b(?:gruppen|blöcken?)\s+(?:von|zu|à|aus)\s+(?:je\s+)?(?P<zu>{_SIZE})\b"
-    rf"|\b(?P<per>{_SIZE})\s+(?:adjacent\s+|neighbouring\s+)?{_CARRIER}\s+(?:per|in (?:a|each|every)|to a|each)\s+"
-    r"(?:group|block|bundle|rbg)"
-    r"|\b(?:rbg|resource[- ]block[- ]group|block|group)\s?(?:size|大小)\s*(?:of|=|:|is|为|是)?\s*(?P<size>[0-9]{1,3})"
-    rf"|{_CARRIER}(?:\s+\w+){{0,3}}\s+(?:in|par)\s+(?P<in>pairs|deux|trois|quatre|six|huit|[0-9]{{1,3}})\b"
+    rf"(?:\b{_GROUP}\s+(?:of|de|with)\s+(?:size\s+|tamaño\s+|taille\s+)?(?P<of>{_SIZE})\b"
+    rf"(?:\s+(?:adjacent\s+|neighbouring\s+)?{_CARRIER}(?!\w))?"
+    rf"|\b(?:gruppen|(?:ressourcen)?blöcken?|rbs?)\s+(?:von|zu|à|aus|mit)\s+(?:je\s+)?(?P<zu>{_SIZE})\b"
+    rf"(?:\s+{_CARRIER}(?!\w))?"
+    rf"|\b(?P<per>{_SIZE})\s+(?:adjacent\s+|neighbouring\s+)?{_CARRIER}\s+{_PER}\s+{_BLOCK}\b"
+    rf"|\b(?P<dashed>{_DIGITS})-{_CARRIER}\s+{_GROUP}\b"
+    rf"|\b(?:resource[- ]block[- ]group|{_BLOCK})[\s-]?(?:size|大小|größe)"
+    rf"\s*(?:of|=|:|is|为|是|von)?\s*(?P<size>{_DIGITS})"
+    rf"|\b(?:tamaño|taille)\s+(?:de|du|del)\s+{_BLOCK}\s*(?:de|=|:)?\s*(?P<de>{_DIGITS})"
+    rf"|\bp?rbg?\s*=\s*(?P<equals>{_DIGITS})"
+    rf"|\bgroup(?:ed|ing)?\s+(?:the\s+)?{_CARRIER}\s+(?:by|in)\s+(?P<grouped>{_DIGITS})\b"
+    rf"|{_CARRIER}(?:\s+\w+){{0,3}}\s+(?:in|par)\s+(?P<in>{'|'.join(_IN)}|deux|trois|quatre|six|huit|{_DIGITS})\b"
     rf"|{_CARRIER}(?:\s+\w+){{0,2}}\s+(?P<by>[a-z]{{3,6}}) by (?P=by)\b"
     r"|\b(?P<fold>zweier|dreier|vierer|fünfer|sechser|achter|zehner|zwölfer)(?:gruppen|blöcken?|päckchen)\b"
-    r"|(?:每|按)?(?P<zh>[0-9]{1,3}|[二两三四五六八十]{1,2})个?子载波(?:一组|为一组|一块|为一块|捆绑|绑定|分组|一个组|成组)"
-    r"|子载波(?:按|以|每)?(?P<apart>[0-9]{1,3}|[二两三四五六八十]{1,2})个?(?:为|分)?(?:一|成)?[组块](?:来?分(?:配)?)?)",
-    marks="group block bundle chunk cluster pack rbg 子载波 grup bloq bloc paq gruppe blöck päck pair carrier porteuse",
+    rf"|(?:每|按)?(?P<zh>{_ZH_DIGITS})个?(?:子载波|资源块){_TIED}"
+    rf"|(?:子载波|资源块)(?:按|以|每)?(?P<apart>{_ZH_DIGITS})个?(?:为|分)?(?:一|成)?[组块](?:来?分(?:配)?)?"
+    rf"|(?:资源块|块|rb)大小(?:为|是|=)?(?P<big>{_DIGITS})|每个?(?:资源)?(?:块|rb)\s?(?P<each>{_DIGITS})个子载波)",
+    marks="group block bundle chunk cluster pack rb 子载波 块 grup bloq bloc paq blöck päck pair carrier porteus",
 )
-_BLOCK_WORDS = {"pairs": 2, **{f"{word}er": size for word, size in cardinals(2, 12, ("de",)).items()}}
+_BLOCK_WORDS = _IN | {f"{word}er": size for word, size in cardinals(2, 12, ("de",)).items()}
 
 
 def take_blocks(notes: Notes) -> None:
@@ -140,7 +161,8 @@ def take_counts(notes: Notes, recounted: Sequence[Span], allotted: Sequence[Span
 def doubt_parts(notes: Notes, allotted: Sequence[Span]) -> None:
     """Some of the users, half of something, nobody at all: each a question."""
     settled = [*notes.spoken_for, *allotted, *notes.counted]
-    for key, pattern in (("some_users", _SOME_USERS), ("change", _HALVED), ("change", _OTHERS_HALVED)):
+    asked = [("some_users", _SOME_USERS), ("some_users", BY_PLACE), ("change", _HALVED), ("change", _OTHERS_HALVED)]
+    for key, pattern in asked:
         match = pattern.search(notes.plain)
         if match is None or (pattern is _HALVED and overlaps(match.span(), settled)):
             continue

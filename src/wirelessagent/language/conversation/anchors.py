@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias, cast
 
 from wirelessagent.language.deferred import deferred
+from wirelessagent.language.lifted import named_in
 from wirelessagent.language.mentions import JOINT, ORDINALS, mentions
-from wirelessagent.language.numerals import factors, numbers
+from wirelessagent.language.numerals import Number, and_part, factors, numbers
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.request import numbered
 from wirelessagent.language.text import CJK, normalise, unaccented
@@ -30,6 +31,7 @@ _SCALES = {"": 1.0, "K": 1e3, "M": 1e6, "G": 1e9}
 _ORDINALS = {unaccented(word): place for word, place in ORDINALS.items() if word.isalpha()}
 _WITH = deferred("[跟和与]")
 _QUOTIENT = deferred(r"(?<![\d.,/])([1-9])\s?/\s?(1\d|[2-9])(?![\d/]|[.,]\d)")
+_INTEGER = deferred(r"(?<![\d.,])\d{1,4}(?![\d.,]*\d)")
 _LARGEST_NUMBER = 1e4
 """From where on a number without a unit is a rate."""
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s]")
@@ -56,6 +58,7 @@ class Anchored:
     Attributes:
         plain: the normalised text.
         anchors: from left to right.
+        others: what parts of them may be as well: a user and a figure in "user 2 to 5".
         words: in lower case and without accents, anchors as "@rate", "@users" and so on.
         places: of each anchor among the words; a pronoun is a word.
         becoming: figures to which the words lead, or that bound: "down to a third" is no third less.
@@ -63,6 +66,7 @@ class Anchored:
 
     plain: str
     anchors: tuple[Anchor, ...]
+    others: tuple[Anchor, ...]
     words: tuple[str, ...]
     places: Mapping[Anchor, int]
     becoming: frozenset[Anchor]
@@ -85,25 +89,30 @@ class Anchored:
         leads = {*table("figures", language)["becoming"]["words"]}
         becoming = frozenset(anchor for anchor, place in places.items()
                              if anchor.is_bounded or (place and words[place - 1] in leads))  # fmt: skip
-        return cls(plain=plain, anchors=anchors, words=tuple(words), places=places, becoming=becoming)
+        others = tuple(part for anchor in anchors for part in _parts(plain, anchor, len(names)))
+        holding = ((part, anchor) for part in others for anchor in places if anchor.start <= part.start < anchor.end)
+        places |= {part: places[anchor] for part, anchor in holding}
+        return cls(plain=plain, anchors=anchors, others=others, words=tuple(words), places=places, becoming=becoming)
 
     @property
     def figures(self) -> list[Anchor]:
-        return [anchor for anchor in self.anchors if anchor.kind in FIGURES]
+        return [anchor for anchor in (*self.anchors, *self.others) if anchor.kind in FIGURES]
 
     def groups(self, most: int) -> Iterator[tuple[tuple[str, ...], tuple[Anchor, ...]]]:
         """The users who are named alone, in a list, in a range, or as two; a number up to ``most`` may be a user."""
+        for anchor in (*self.anchors, *self.others):
+            if anchor.users or _counts(anchor, most):
+                yield _users(anchor), (anchor,)
         named = [anchor for anchor in self.anchors if anchor.users or _counts(anchor, most)]
-        for anchor in named:
-            yield _users(anchor), (anchor,)
         for first, last in _lists(self.plain, named):
             for begin in range(first, last):
                 for end in range(begin + 1, last + 1):
                     yield _together(named[begin : end + 1])
         for one, other in itertools.pairwise(named):
-            numbered = one.kind == other.kind == "number" and one.value < other.value
-            if numbered and _RANGE.fullmatch(self.plain, one.end, other.start):
-                yield tuple(str(user) for user in range(int(one.value), int(other.value) + 1)), (one, other)
+            first, last = (int(users[0]) if users[0].isdecimal() else 0 for users in (_users(one), _users(other)))
+            alone = len(_users(one)) == len(_users(other)) == 1
+            if alone and 0 < first < last <= most and _RANGE.fullmatch(self.plain, one.end, other.start):
+                yield tuple(str(user) for user in range(first, last + 1)), (one, other)
         if len(named) == 2 and JOINT.fullmatch(self.plain, named[0].end, named[1].start) is None:
             yield _together(named)
 
@@ -115,6 +124,29 @@ class Anchored:
 
 
 _RANGE = deferred(r"(?i)\s*(?:-|–|~|\.{2,}|to|thru|through|bis|à|al?|到|至)\s*(?:(?:la|le|el|zur?)\s+)?")
+
+
+def _parts(plain: str, anchor: Anchor, most: int) -> Iterator[Anchor]:
+    """What parts of an anchor may be: "user 2 to 5" a user and a figure, "le 3 à 2 W" the same, "1 auf 10" figures.
+
+    A user whom the cell does not have may be a figure: "all users 700".
+    """
+    digits = [
+        (found.start(), found.end(), int(found[0])) for found in _INTEGER.finditer(plain, anchor.start, anchor.end)
+    ]
+    if anchor.kind == "users" and len(digits) == 2 and _RANGE.fullmatch(plain, digits[0][1], digits[1][0]):
+        (_, middle, user), (start, end, value) = digits
+        yield Anchor("users", anchor.start, middle, users=(str(user),))
+        yield Anchor("number", start, end, float(value))
+    elif anchor.kind == "users" and len(digits) == len(anchor.users) == 1 and digits[0][2] > most:
+        yield Anchor("number", *digits[0][:2], float(digits[0][2]))
+    elif len(digits) == 2 and (
+        (anchor.kind == "ratio" and "%" not in plain[anchor.start : anchor.end])
+        or (anchor.kind == "number" and plain[digits[0][1]] == " ")  # "4 900"
+    ):
+        yield from (Anchor("number", start, end, float(value)) for start, end, value in digits)
+    elif anchor.kind in ("rate", "power") and len(digits) == 1 and plain[anchor.start : anchor.end].isdecimal():
+        yield Anchor("number", anchor.start, anchor.end, float(digits[0][2]))
 
 
 def _words(plain: str, begin: int, end: int) -> list[str]:
@@ -152,7 +184,8 @@ def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iter
     for figure in parse_quantities(text):
         if figure.kind in ("rate", "power", "ratio"):
             taken.append((figure.start, figure.end))
-            bounded = figure.comparator is not None
+            bound = plain[figure.phrase_start : figure.start] if figure.comparator == "at_most" else ""
+            bounded = bool(bound) and not named_in(bound) and figure.value > 0  # "at most", and no "limit"
             yield Anchor(figure.kind, figure.start, figure.end, abs(figure.value), is_bounded=bounded,
                          is_negative=figure.value < 0)  # fmt: skip
     for mention in mentions(plain, names, taken):
@@ -169,7 +202,7 @@ def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iter
     shares, pattern = _shares(language)
     found = [(share.start(), share.end(), shares[share[0]]) for share in pattern.finditer(low)]
     found += [(each.start, each.end, float(each.value)) for each in factors(low) if each.value is not None]
-    counted = [(each.start, each.end, float(each.value)) for each in numbers(low, language) if each.value is not None]
+    counted = [_with_its_part(low, each) for each in numbers(low, language) if each.value is not None]
     for start, end, value in found:
         part = any(first < start and end <= last and number >= 1 for first, last, number in counted)
         value = abs(value)
@@ -200,6 +233,13 @@ def _anchors(text: str, plain: str, language: str, names: Sequence[str]) -> Iter
             value *= _SCALES["" if scale is None else scale[0].upper()]
             is_rate = scale is not None or value >= _LARGEST_NUMBER
             yield Anchor("rate" if is_rate else "number", start, end if scale is None else scale.end(), value)
+
+
+def _with_its_part(low: str, number: Number) -> tuple[int, int, float]:
+    """Where a number stands, and its value: "11 y medio" is one."""
+    part = and_part(low, number.end)
+    value = float(number.value or 0)
+    return (number.start, number.end, value) if part is None else (number.start, part[1], value + float(part[0]))
 
 
 @functools.cache

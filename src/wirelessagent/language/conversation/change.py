@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 from wirelessagent.language.acts import Act
 from wirelessagent.language.conversation.anchors import Anchor
-from wirelessagent.language.conversation.effects import Effect
-from wirelessagent.language.conversation.possible import Group
+from wirelessagent.language.conversation.possible import Effect, Group
 
 
 @dataclass(frozen=True, kw_only=True)

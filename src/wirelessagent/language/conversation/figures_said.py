@@ -127,6 +127,23 @@ def corrected(possible: Possible) -> Iterator[Change]:
             other = dataclasses.replace(limit, kind=RATES[limit.kind == RATES[0]])
             acts = acts_between(possible.figures, changed(then.figures, [other]))
             yield changed_by(acts, "other bound", other.kind, "last")
+    yield from _same_step_of_another(possible, then)
+
+
+def _same_step_of_another(possible: Possible, then: Possible) -> Iterator[Change]:
+    """The step of the last change, of another limit instead: "the floor, not the cap" behind "double the cap"."""
+    before = {key: then.figures.get(key, then.figures.get((key[0], EVERYBODY))) for key in possible.figures}
+    steps = {key: (old, after) for key, after in possible.figures.items()
+             if after and (old := before[key]) and old != after}  # fmt: skip
+    for kind in (*RATES, "max_power_w"):
+        others = {user: step for (name, user), step in steps.items() if name != kind}
+        users = {EVERYBODY: next(iter(others.values()))} if kind == "max_power_w" and len(others) == 1 else others
+        held = {user: then.figures.get((kind, user)) or then.figures.get((kind, EVERYBODY)) for user in users}
+        scaled = {(kind, user): old * users[user][1] / users[user][0] for user, old in held.items() if old}
+        moved = {(kind, user): old + users[user][1] - users[user][0] for user, old in held.items() if old}
+        for form, after in (("other scaled", scaled), ("other moved", moved)):
+            if after and all(value > 0 for value in after.values()):
+                yield changed_by(acts_between(possible.figures, {**then.figures, **after}), form, kind, "last")
 
 
 def stepped(possible: Possible, group: Group, users: Sequence[str]) -> Iterator[Change]:

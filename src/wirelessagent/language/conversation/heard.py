@@ -6,9 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from wirelessagent.language.acts import Act, Aim, Suppose, Undo
-from wirelessagent.language.conversation.effects import Effect
 from wirelessagent.language.conversation.line import NAME, Line
-from wirelessagent.language.conversation.possible import Possible
+from wirelessagent.language.conversation.possible import Effect, Possible
 from wirelessagent.language.figure_roles import answers
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import acts_of, stated

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from wirelessagent.language.acts import (
     Act,
@@ -21,8 +22,7 @@ from wirelessagent.language.acts import (
     Whom,
 )  # fmt: skip
 from wirelessagent.language.conversation.anchors import Anchor, Anchored
-from wirelessagent.language.conversation.effects import OUT, Effect, difference, effect_between, seen, visible
-from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS
+from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import (
@@ -41,6 +41,9 @@ OF_THE_CELL = (*POWERS, "outage_probability", "resource_block_group_size")
 _FEW, _EARLIER, _LISTED = 20.0, 2, 4
 _WITH_UNIT = ("rate", "power")
 _NUMBER = re.compile(r"^[-+\d.,\s]+")
+Effect: TypeAlias = frozenset[tuple[Key, float | str | None]]
+"""What holds after a change and did not before, by kind and user; None for what holds no longer."""
+OBJECTIVE, OUT = "objective", "leave_out"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,8 +153,8 @@ class Possible:
                 {value} if (unitless or (figure.kind == "factor" and kind == "weights")) and whole and value else set()
             )
         if kind == "outage_probability":
-            share = value if figure.kind == "ratio" else value / 100 if unitless else 0.0
-            known = figure.kind == "ratio" or kind in self.held
+            share = value if figure.kind == "ratio" or value < 1 else value / 100
+            known = figure.kind == "ratio" or (unitless and (value < 1 or kind in self.held))
             return {round(1 - share if share > 0.5 else share, 9)} if known and 0 < share < 1 else set()
         if figure.kind == ("rate" if kind in RATES else "power"):
             return {value} if value > 0 else set()
@@ -196,3 +199,62 @@ def in_its_unit(value: float, limit: Limit) -> float:
             and math.isclose(one.value, limit.value, rel_tol=1e-3)]  # fmt: skip
     found = parse_quantities(f"{value:g} {_NUMBER.sub('', (said or [shown])[0]).strip()}")
     return found[0].value if found and found[0].kind != "bare" else 0.0
+
+
+def visible(request: Request | None, users: Sequence[str], *, assumed: bool = False) -> dict[Key, float | str]:
+    """What holds for each user who is served, however it was said; users are referred to by number or name.
+
+    With what is ``assumed``, a rate for each user is part of the least power.
+
+    >>> visible(Request(objective="max_rate", constraints={"min_rate_bps": {"all": 1e5, "2": 2e5}}), ("1", "2"))
+    {('objective', ''): 'max_rate', ('min_rate_bps', '1'): 100000.0, ('min_rate_bps', '2'): 200000.0}
+    """
+    if request is None:
+        return {}
+    figures = figures_of(request.constraints)
+    return seen(request.objective, assuming(request.objective, figures) if assumed else figures, users)
+
+
+def seen(objective: str | None, figures: Mapping[Key, float], users: Sequence[str]) -> dict[Key, float | str]:
+    """What is visible of an aim and figures."""
+    return {**({} if objective is None else {(OBJECTIVE, ""): objective}), **_shown(figures, users)}
+
+
+def _shown(figures: Mapping[Key, float], users: Sequence[str]) -> dict[Key, float | str]:
+    alone = {user for kind, user in figures if kind == "users"}
+    out = {user for user in users if (OUT, user) in figures or (alone and user not in alone)}
+    shown: dict[Key, float | str] = {(OUT, user): 1.0 for user in users if user in out}
+    for kind in dict.fromkeys(kind for kind, _ in figures):
+        if kind in LISTS_OF_USERS:
+            continue
+        common = figures.get((kind, EVERYBODY), 0.0)
+        if kind not in FIGURES_OF_USERS:
+            shown[kind, ""] = _rounded(common)
+            continue
+        none = 1.0 if kind == "weights" else 0.0
+        for user in users:
+            figure = figures.get((kind, user), common or none)
+            if figure != none and user not in out:
+                shown[kind, user] = _rounded(figure)
+    return shown
+
+
+def _rounded(figure: float) -> float:
+    return float(f"{figure:.6g}")
+
+
+def effect_between(before: Request | None, after: Request | None, users: Sequence[str]) -> Effect:
+    """What differs between two requests; what is assumed with an aim does not where the aim is another."""
+    assumed = before is not None and after is not None and before.objective == after.objective
+    return difference(visible(before, users, assumed=assumed), visible(after, users, assumed=assumed))
+
+
+def difference(before: Mapping[Key, float | str], after: Mapping[Key, float | str]) -> Effect:
+    """What differs between what is visible before and after."""
+    return frozenset((key, after.get(key)) for key in {*before, *after} if before.get(key) != after.get(key))
+
+
+def may_hold(effect: Effect) -> bool:
+    """Whether each figure of an effect is one that may hold."""
+    return all(not isinstance(value, float) or 0 < value < (1 if kind == "outage_probability" else math.inf)
+               for (kind, _), value in effect)  # fmt: skip

@@ -19,10 +19,9 @@ from wirelessagent.language.base_words import based
 from wirelessagent.language.conversation.anchors import Anchor
 from wirelessagent.language.conversation.change import Change
 from wirelessagent.language.conversation.changes import changes_of
-from wirelessagent.language.conversation.effects import Effect
 from wirelessagent.language.conversation.heard import Read
 from wirelessagent.language.conversation.line import Line
-from wirelessagent.language.conversation.possible import RATES, Possible
+from wirelessagent.language.conversation.possible import RATES, Effect, Possible
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.sentence import BUILT_IN
 
@@ -153,8 +152,9 @@ class Signs:
         whole = f"{kind}:{change.source}"
         figure, anchors = change.figure, self._anchored.anchors
         said = "-" if figure is None else figure.kind
-        left = [anchor for anchor in anchors
-                if anchor is not figure and anchor not in change.users and anchor.kind != "pronoun"]  # fmt: skip
+        used = [anchor for anchor in (figure, *change.users) if anchor is not None]
+        left = [anchor for anchor in anchors if anchor.kind != "pronoun"
+                and not any(each.start < anchor.end and anchor.start < each.end for each in used)]  # fmt: skip
         others = "+".join(sorted(anchor.kind for anchor in left))
         yield from (form, kind, whole, f"{whole}:{said}", f"left:{others}|{form}", f"left:{others}|{whole}")
         yield f"left:{len(left)}|{form}:{change.source}"

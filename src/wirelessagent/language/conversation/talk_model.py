@@ -19,7 +19,7 @@ import numpy.typing as npt
 from wirelessagent.language.acts import Act, Undo
 from wirelessagent.language.conversation.anchors import Anchor
 from wirelessagent.language.conversation.change import Change
-from wirelessagent.language.conversation.effects import Effect
+from wirelessagent.language.conversation.possible import Effect
 from wirelessagent.language.conversation.signs import Signs, block_places, place_of
 
 TALKS_FILE = Path(__file__).parent.parent / "talks.npz"

@@ -94,7 +94,10 @@ def _too(possible: Possible, group: Group, whom: Named) -> Iterator[Change]:
 def _of_these_too(possible: Possible, group: Group, whom: Named) -> Iterator[Change]:
     for limit in possible.last:
         if limit.kind in FIGURES_OF_USERS:
-            yield change_for(group, [dataclasses.replace(limit, whom=whom)], "too", limit.kind)
+            acts = [dataclasses.replace(limit, whom=whom)]
+            yield change_for(group, acts, "too", limit.kind)
+            if {*whom.users} & {*possible.out}:  # "6 comes in as well, the same rate"
+                yield change_for(group, [Serve(whom=whom), *acts], "in too", limit.kind)
     yield from stepped(possible, group, whom.users)
     for act in possible.said:
         if isinstance(act, Scale) and act.kind in FIGURES_OF_USERS:

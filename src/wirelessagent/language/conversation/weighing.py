@@ -57,6 +57,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
         return intent, False  # who is that?
     share, acts = found.shares.get(heard, 0.0), bool(read.effect) and not read.supposes
+    if not found.acts and _names_its_aim(intent) and acts and share > LIKELY:
+        return intent, False
     if not found.acts or (_takes_away(found.acts) and _stays(line, possible.line.plain)):
         doubted = asking_whether(intent, line.voice) if share > HEARD else line.ask("what_changes")
         return (doubted if acts else intent), False
@@ -72,7 +74,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
     short = len(possible.line.words) < FRAMED
     hardly = aims or read.order < UNLIKELY or intent.asks in _DENIED or denied
-    if found.share >= (SURER if hardly else SURE):
+    doubted = aims and intent.guess is not None  # whether another aim is ordered, the guard knows better
+    if found.share >= (SURER if hardly else SURE) and not doubted:
         done = meant if short else guarded(line.text, context, dataclasses.replace(meant, recogniser=OFFLINE))
         return done, done.kind != "clarify"
     unsure = bool(read.effect) or (intent.kind == "clarify" and found.share > LIKELY and intent.asks not in _DENIED)

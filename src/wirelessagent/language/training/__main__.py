@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wirelessagent.language.features import BUCKETS, buckets, word_hashes
-from wirelessagent.language.linear_model import MODEL_FILE
+from wirelessagent.language.linear_model import BUCKETS, MODEL_FILE, buckets, word_hashes
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.training.compose import sentences
 from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save

@@ -79,6 +79,8 @@ class Marked:
         roles = self._roles(number.start, number.end)
         if roles == {"unclear"}:
             return {"limit"}
+        if roles and roles <= {"user", "weight"}:
+            return roles
         means = (means for means in ("user", "rate", "power") if roles and roles <= set(LABELS[means]))
         return {next(means, "harmless")}
 

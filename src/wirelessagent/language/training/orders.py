@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 import logging
+import multiprocessing
 import random
 import sys
 import time
@@ -71,10 +72,11 @@ def framed(folder: Path = FRAMES, seed: int = 1) -> Iterator[tuple[str, bool]]:
 def main(path: Path) -> None:
     """Read, fit, write, and say how well the sentences are told apart that were written to be mistaken."""
     logging.basicConfig(level=logging.INFO, format="%(message)s")
-    log, start, own = logging.getLogger(__name__), time.perf_counter(), own_words()
+    log, start = logging.getLogger(__name__), time.perf_counter()
     said = [(each.text, each.is_order, 1.0 if each.near else MILD) for each in spoken() if each.is_order is not None]
     said += [(text, orders, FRAME / FILLED) for text, orders in framed()]
-    frames = [frame_of(Sentence(text, own)) for text, *_ in said]
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        frames = pool.map(_frame, [text for text, *_ in said], chunksize=500)
     log.info("%d sentences (%.0f s)", len(said), time.perf_counter() - start)
     labels, weight = ["yes" if orders else "no" for _, orders, _ in said], np.array([each[2] for each in said])
     model = made(frames, labels, weight)
@@ -82,6 +84,10 @@ def main(path: Path) -> None:
     right = [model.is_order(each) == (label == "yes") for each, label in zip(frames, labels, strict=True)]
     log.info("%.1f %% of them told apart; %s: %d kB (%.0f s)", 100 * np.average(right, weights=weight), path.name,
              path.stat().st_size // 1000, time.perf_counter() - start)  # fmt: skip
+
+
+def _frame(text: str) -> Frame:
+    return frame_of(Sentence(text, own_words()))
 
 
 def made(frames: Sequence[Frame], labels: Sequence[str], weight: npt.NDArray[np.float64]) -> OrderModel:
