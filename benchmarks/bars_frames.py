@@ -21,7 +21,7 @@ from bars_talks import is_same, plain
 from wirelessagent.language.conversation import understood
 from wirelessagent.language.followups import numbers_of, users_in
 from wirelessagent.language.guard import CHANGING
-from wirelessagent.language.intent import Intent
+from wirelessagent.language.intent import EVERYBODY, Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 
@@ -61,8 +61,11 @@ def verdict(row: dict[str, Any], intent: Intent) -> str:
 
 
 def _plain(constraints: Mapping[str, Any]) -> dict[str, Any]:
-    """Constraints in one form; people round what a dBm is in watts."""
-    return {name: plain(value, 0.0) for name, value in constraints.items()}
+    """Constraints in one form; people round what a dBm is in watts, and whoever else weighs 1 weighs what all do."""
+    found = {name: plain(value, 0.0) for name, value in constraints.items()}
+    if isinstance(found.get("weights"), dict) and found["weights"].get(EVERYBODY) == 1.0:
+        del found["weights"][EVERYBODY]
+    return found
 
 
 def score(rows: list[dict[str, Any]], context: Context = FIRST) -> list[tuple[dict[str, Any], str]]:

@@ -122,6 +122,7 @@ def test_figures_with_their_bounds(text: str, constraints: dict[str, Any]) -> No
         "group subcarriers by 4, PF",
         "4-subcarrier RBs, sum rate",
         "sum rate, RB=4",
+        "Sum rate max. RBG 4.",
         "group the resource blocks in fours, sum rate",
         "Gesamtrate maximieren, Ressourcenblöcke zu je 4 Unterträgern",
         "Gesamtrate maximieren, Blockgröße 4",

@@ -91,7 +91,7 @@ _BLOCKS = Phrases(
     rf"|\b(?:resource[- ]block[- ]group|{_BLOCK})[\s-]?(?:size|大小|größe)"
     rf"\s*(?:of|=|:|is|为|是|von)?\s*(?P<size>{_DIGITS})"
     rf"|\b(?:tamaño|taille)\s+(?:de|du|del)\s+{_BLOCK}\s*(?:de|=|:)?\s*(?P<de>{_DIGITS})"
-    rf"|\bp?rbg?\s*=\s*(?P<equals>{_DIGITS})"
+    rf"|\b(?:p?rb\s*=|rbg\s*[=:]?)\s*(?P<equals>{_DIGITS})\b"
     rf"|\bgroup(?:ed|ing)?\s+(?:the\s+)?{_CARRIER}\s+(?:by|in)\s+(?P<grouped>{_DIGITS})\b"
     rf"|{_CARRIER}(?:\s+\w+){{0,3}}\s+(?:in|par)\s+(?P<in>{'|'.join(_IN)}|deux|trois|quatre|six|huit|{_DIGITS})\b"
     rf"|{_CARRIER}(?:\s+\w+){{0,2}}\s+(?P<by>[a-z]{{3,6}}) by (?P=by)\b"
