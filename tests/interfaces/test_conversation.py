@@ -120,11 +120,10 @@ def test_what_was_taken_off_one_user_can_be_corrected() -> None:
 
 
 def test_it_is_what_was_stated_last() -> None:
-    said, factor = "double it", 2.0
-    session, _ = talk(request(max_power_w=4.0, min_rate_bps=1e5), change(min_rate_bps={"2": 4e5}), said)
-    assert asked_for(session) == {"max_power_w": 4.0, "min_rate_bps": {"all": 1e5, "2": 4e5 * factor}}
-    session, _ = talk(request(min_rate_bps=1e5), change(max_power_w=4.0), said)
-    assert asked_for(session) == {"max_power_w": 4.0 * factor, "min_rate_bps": 1e5}
+    session, _ = talk(request(max_power_w=4.0, min_rate_bps=1e5), change(min_rate_bps={"2": 4e5}), "double it")
+    assert asked_for(session) == {"max_power_w": 4.0, "min_rate_bps": {"all": 1e5, "2": 8e5}}
+    session, _ = talk(request(min_rate_bps=1e5), change(max_power_w=4.0), "double it")
+    assert asked_for(session) == {"max_power_w": 8.0, "min_rate_bps": 1e5}
 
 
 def test_half_the_power_is_half_of_what_may_be_radiated() -> None:

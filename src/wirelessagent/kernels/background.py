@@ -137,7 +137,6 @@ def _lock(folder: Path) -> Lock:
 
 @functools.cache
 def _number_of_kernels() -> int:
-    sources = (
-        one for one in kernel_sources(PACKAGE) if "training" not in one.parts
-    )  # that is compiled where it is run
+    # What only training needs is compiled where that is run.
+    sources = (one for one in kernel_sources(PACKAGE) if "training" not in one.parts)
     return sum(len(re.findall(r"^@kernel$", one.read_text("utf-8"), re.MULTILINE)) for one in sources)

@@ -105,6 +105,15 @@ class Allotments:
             for user in [user for user in caps if user not in floors]:
                 floors[user] = _Given(value=0.0, text=caps[user].text)
 
+    def _write_out_the_others(self) -> None:
+        """A ceiling of the others becomes one of each of them, where users are named who have none."""
+        caps = self._given["max_rate_bps"]
+        free = [user for user in self.named if user not in caps]
+        others = [user for user in self._judged.users_of_the_cell if user not in (*free, *caps)]
+        if "max_rate_bps" in self._of_others and EVERYBODY in caps and free and others:
+            own = {user: given for user, given in caps.items() if user != EVERYBODY}
+            self._given["max_rate_bps"] = dict.fromkeys(others, caps[EVERYBODY]) | own
+
     def _likeliest(self, mention: Mention) -> str:
         """What somebody is there for; without certainty it is unclear."""
         chances, said = self._judged.user(mention), self._judged.said_of(mention)
@@ -195,6 +204,7 @@ class Allotments:
     def take_users(self) -> Iterator[tuple[int, int]]:
         """The named users of whom nothing was said, or nothing certain, as spans."""
         self._exempt()
+        self._write_out_the_others()
         spoken_of = {user for mention in self._used for user in mention.users} | set(self._given["weights"])
         for mention in self._found:
             if mention.role != "named":
@@ -217,7 +227,7 @@ class Allotments:
     def values(self) -> dict[str, Constraint]:
         values: dict[str, Constraint] = {}
         for name, given in self._given.items():
-            figures = self._without_the_named(name, {user: each.value for user, each in given.items()})
+            figures = {user: each.value for user, each in given.items()}
             if name == "weights" and (figures.get(EVERYBODY) == 1 or set(figures) == {EVERYBODY}):
                 del figures[EVERYBODY]  # "all others 1" is what they count anyway
             if set(figures) == {EVERYBODY}:
@@ -225,15 +235,6 @@ class Allotments:
             elif figures:
                 values[name] = figures if name == "weights" else self._of_all_served(figures)
         return values | {name: tuple(self._lists[name]) for name in LISTS_OF_USERS if self._lists[name]}
-
-    def _without_the_named(self, name: str, figures: dict[str, float]) -> dict[str, float]:
-        """A ceiling of the others written out for each of them, where users are named who have none."""
-        free = [user for user in self.named if user not in figures]
-        if name != "max_rate_bps" or name not in self._of_others or EVERYBODY not in figures or not free:
-            return figures
-        others = [user for user in self._judged.users_of_the_cell if user not in (*free, *figures)]
-        own = {user: figure for user, figure in figures.items() if user != EVERYBODY}
-        return dict.fromkeys(others, figures[EVERYBODY]) | own if others else figures
 
     def _of_all_served(self, figures: dict[str, float]) -> Constraint:
         """Rates by user; one figure where it is that of everybody who is served."""
@@ -249,10 +250,8 @@ class Allotments:
     def crossed(self) -> Iterator[tuple[str, str, str]]:
         """Figures that cannot hold together, with the key of the question to ask."""
         low, high = (self._given[name] for name in _RATES)
-        apart = "max_rate_bps" in self._of_others and bool(self._judged.users_of_the_cell)
         for user in {*low, *high}:
-            least = low.get(user, low.get(EVERYBODY))
-            most = high.get(user, None if apart and user != EVERYBODY else high.get(EVERYBODY))
+            least, most = low.get(user, low.get(EVERYBODY)), high.get(user, high.get(EVERYBODY))
             if least is not None and most is not None and least.value > most.value:
                 yield least.text, most.text, "rates_crossed"
         both = [user for user in self._lists["users"] if user in self._lists["leave_out"]]

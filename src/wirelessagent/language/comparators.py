@@ -5,6 +5,7 @@ Comparatives turn round under a negation ("nobody below 1 Mbit/s" is a floor); "
 
 from __future__ import annotations
 
+import functools
 import re
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -111,7 +112,7 @@ class Comparison:
 
 def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Comparison:
     """How the figure at [start, end) of a normalised text is bounded; words before ``after`` are another's."""
-    text = _SHORTENED.sub(lambda short: short[0][:-1] + " ", text)  # "max. 10 W"
+    text = _without_stops(text)
     found = _before(text, start, end, kind=kind, after=after)
     behind = _AFTER_RE.match(text, end)
     own = behind is None or not _LOOSE.match(text, found[1]) if found is not None else False
@@ -124,6 +125,12 @@ def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Com
     if behind is not None and _takes(kind, text[behind.end() : behind.end() + 12]):
         return Comparison(comparator=_BEHIND[" ".join(behind["word"].lower().split())], start=start, end=behind.end())
     return Comparison(comparator=None, start=start, end=end)
+
+
+@functools.lru_cache(maxsize=16)
+def _without_stops(text: str) -> str:
+    """A text whose shortened bounds end no clause: "max. 10 W"; same length."""
+    return _SHORTENED.sub(lambda short: short[0][:-1] + " ", text)
 
 
 def _takes(kind: str, rest: str) -> bool:

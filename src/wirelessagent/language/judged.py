@@ -22,6 +22,7 @@ from wirelessagent.language.looks import BORROWING, Look, first_look, second_loo
 from wirelessagent.language.mentions import JOINT, LISTED, Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.request import numbered
 from wirelessagent.language.text import Phrases, is_within
 from wirelessagent.language.whole_cell import COUNTED_USERS
 from wirelessagent.language.word_tables import either
@@ -65,7 +66,7 @@ class Judged:
     def __init__(
         self, plain: str, quantities: Sequence[Quantity], names: Sequence[str], taken: Sequence[tuple[int, int]]
     ) -> None:
-        self.users_of_the_cell = [name.removeprefix("user ") for name in names]
+        self.users_of_the_cell = [numbered(name) for name in names]
         first = first_look(plain, quantities, names, taken)
         view = first.view()
         limits = [span for span, _ in named_in(plain)]

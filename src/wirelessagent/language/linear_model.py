@@ -85,16 +85,11 @@ def _tokens(text: str) -> tuple[str, ...]:
 
 
 def _grams(tokens: Sequence[str], concepts: Sequence[str], language: str) -> Iterator[str]:
-    yield from _of_base_words(["<", *based(tokens, language), ">"])
+    yield from _runs(["<", *based(tokens, language), ">"], "WBST")
     padded = ["<", *tokens, ">"]
-    for place, token in enumerate(padded):
-        yield "w" + token
-        if place + 1 < len(padded):
-            yield f"b{token} {padded[place + 1]}"
-        if place + 2 < len(padded):
-            yield f"t{token} {padded[place + 1]} {padded[place + 2]}"
-            yield f"s{token} _ {padded[place + 2]}"
-        if place + 3 < len(padded) and is_chinese(token):
+    yield from _runs(padded, "wbst")
+    for place in range(len(padded) - 3):
+        if is_chinese(padded[place]):
             yield f"q{''.join(padded[place : place + 4])}"
     heard = [SOUND_OF.get(token, token) for token in tokens if is_chinese(token)]
     for place in range(len(heard) - 1):
@@ -117,11 +112,13 @@ def _letter_buckets(token: str) -> frozenset[int]:
     return frozenset(zlib.crc32(gram.encode("utf-8", "replace")) % BUCKETS for gram in grams)
 
 
-def _of_base_words(words: Sequence[str]) -> Iterator[str]:
+def _runs(words: Sequence[str], marks: str) -> Iterator[str]:
+    """Words alone, two side by side, two with one between, and three, each behind its mark."""
+    one, two, skip, three = marks
     for place, word in enumerate(words):
-        yield "W" + word
+        yield one + word
         if place + 1 < len(words):
-            yield f"B{word} {words[place + 1]}"
+            yield f"{two}{word} {words[place + 1]}"
         if place + 2 < len(words):
-            yield f"S{word} _ {words[place + 2]}"
-            yield f"T{word} {words[place + 1]} {words[place + 2]}"
+            yield f"{skip}{word} _ {words[place + 2]}"
+            yield f"{three}{word} {words[place + 1]} {words[place + 2]}"

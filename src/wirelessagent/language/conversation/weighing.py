@@ -74,8 +74,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
     short = len(possible.line.words) < FRAMED
     hardly = aims or read.order < UNLIKELY or intent.asks in _DENIED or denied
-    doubted = aims and intent.guess is not None  # whether another aim is ordered, the guard knows better
-    if found.share >= (SURER if hardly else SURE) and not doubted:
+    doubts = aims and intent.guess is not None  # whether another aim is ordered, the guard knows better
+    if found.share >= (SURER if hardly else SURE) and not doubts:
         done = meant if short else guarded(line.text, context, dataclasses.replace(meant, recogniser=OFFLINE))
         return done, done.kind != "clarify"
     unsure = bool(read.effect) or (intent.kind == "clarify" and found.share > LIKELY and intent.asks not in _DENIED)

@@ -22,7 +22,7 @@ from wirelessagent.language.conversation.talk_model import BLOCK, OWN, Meaning, 
 from wirelessagent.language.training.fit import rounded
 from wirelessagent.language.training.talk_fit_kernel import Places, one_pass, scores_of
 
-_PASSES, _STEP, _RIDGE, _FAINT = (2, 3, 5), 0.3, 0.0, 1
+_PASSES, _STEP, _FAINT = (2, 4), 0.2, 1
 """Passes of each round, in which those changes may go together that scored best before it; the size of a step."""
 _EPSILON = 1e-3
 _LOG = logging.getLogger(__name__)

@@ -44,6 +44,33 @@ def scores_of(
 
 
 @kernel
+def likelihoods(
+    begin: int, end: int, places: Places, places_at: Places, signs: Places, signs_at: Places, scores: Floats,
+    joint: Floats,
+) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:  # fmt: skip
+    """How likely each of the meanings from ``begin`` to ``end`` is, by its changes and by what they are together."""
+    likely = np.zeros(end - begin)
+    for meaning in range(begin, end):
+        for place in range(places_at[meaning], places_at[meaning + 1]):
+            likely[meaning - begin] += scores[places[place]]
+        for place in range(signs_at[meaning], signs_at[meaning + 1]):
+            likely[meaning - begin] += joint[signs[place]]
+    likely = np.exp(likely - likely.max())
+    return likely / likely.sum()
+
+
+@kernel
+def descend(touched: Places, many: int, slopes: Floats, weights: Floats, squares: Floats, step: float) -> None:
+    """A step of the first ``many`` weights that are touched; their slopes are zero then."""
+    for place in range(many):
+        bucket = touched[place]
+        if slopes[bucket] != 0:
+            squares[bucket] += slopes[bucket] ** 2
+            weights[bucket] -= step * slopes[bucket] / np.sqrt(squares[bucket])
+            slopes[bucket] = 0
+
+
+@kernel
 def one_pass(
     order: Places, changes_at: Places, own: Places, own_at: Places, blocks_at: Places, blocks: Places,
     block_at: Places, has: Places, has_at: Places, of_own: float, of_block: float, counts: Places, places: Places,
@@ -58,15 +85,8 @@ def one_pass(
         scores = scores_of(
             line, changes_at, own, own_at, blocks_at, blocks, block_at, has, has_at, of_own, of_block, weights
         )
-        begin, end = counts[line], counts[line + 1]
-        likely = np.zeros(end - begin)
-        for meaning in range(begin, end):
-            for place in range(places_at[meaning], places_at[meaning + 1]):
-                likely[meaning - begin] += scores[places[place]]
-            for place in range(signs_at[meaning], signs_at[meaning + 1]):
-                likely[meaning - begin] += joint[signs[place]]
-        likely = np.exp(likely - likely.max())
-        likely /= likely.sum()
+        begin, end = int(counts[line]), int(counts[line + 1])
+        likely = likelihoods(begin, end, places, places_at, signs, signs_at, scores, joint)
         share = 1e-30
         for meaning in range(begin, end):
             if right[meaning]:
@@ -107,10 +127,5 @@ def one_pass(
                     touched[many] = blocks[place]
                     many += 1
                 slopes[blocks[place]] += down
-        for place in range(many):
-            bucket = touched[place]
-            if slopes[bucket] != 0:
-                squares[bucket] += slopes[bucket] ** 2
-                weights[bucket] -= step * slopes[bucket] / np.sqrt(squares[bucket])
-                slopes[bucket] = 0
+        descend(touched, many, slopes, weights, squares, step)
     return loss
