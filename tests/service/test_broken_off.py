@@ -21,6 +21,7 @@ from servers import Server, started
 
 from wirelessagent.acting.base_station import BaseStation
 from wirelessagent.model.decision import Decision
+from wirelessagent.model.errors import StoreError
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.operations import hosted
 from wirelessagent.operations.chat import ChatRequest
@@ -372,6 +373,37 @@ def test_no_caller_takes_all_the_room_for_jobs(tmp_path: Path) -> None:
                 job.cancel()
 
     asyncio.run(work())
+
+
+def test_a_store_that_refuses_once_is_told_of_a_job_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("wirelessagent.service.jobs._BEAT_S", 0.05)
+
+    async def work() -> None:
+        with contextlib.closing(Ledger.open(str(tmp_path / "store.sqlite3"))) as ledger:
+            put, refused, over = ledger.put, list[str](), asyncio.Event()
+
+            def refusing(kind: str, id: str, *args: Any, **kwargs: Any) -> int:
+                if kwargs["seen"] and not refused:
+                    refused.append(id)
+                    raise StoreError("the database is locked")
+                return put(kind, id, *args, **kwargs)
+
+            async def wait(tell: Callable[[dict[str, Any]], None]) -> None:
+                del tell
+                await over.wait()
+
+            monkeypatch.setattr(ledger, "put", refusing)
+            jobs = Jobs(ledger, 4)
+            job = jobs.start("viewer", wait)
+            await jobs.share(job)
+            while (item := ledger.find("job", job.id)) is None or item.version < 3:
+                await asyncio.sleep(0.02)
+            over.set()
+            await jobs.settled(job)
+            assert refused == [job.id]
+            assert ledger.find("job", job.id).data["state"] == "done"
+
+    asyncio.run(asyncio.wait_for(work(), 20))
 
 
 def _unheard(event: dict[str, Any]) -> None:

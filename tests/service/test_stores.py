@@ -136,7 +136,6 @@ def test_a_job_is_followed_and_ended_at_another_server(pair: tuple[Server, Serve
     later = {"Prefer": "respond-async"}
     session = one.cell()["session"]
     said = one.post(f"v1/sessions/{session}/turns", {"text": "fair"}, headers=later).json()
-    endless = one.post("v1/operations/evaluate%20repair", {"draws": 100_000}, headers=later).json()
     with one.client as here, two.client as client:
         there, told = (
             [line for line in asked.get(f"v1/jobs/{said['id']}/events").text.split("\n") if line[:3] == "id:"]
@@ -144,7 +143,9 @@ def test_a_job_is_followed_and_ended_at_another_server(pair: tuple[Server, Serve
         )
         assert told == there
         assert client.get(f"v1/jobs/{said['id']}").json()["result"]["stage"] == "planned"
-        assert client.get(f"v1/jobs/{endless['id']}").json()["state"] == "running"
+        endless = one.post("v1/operations/evaluate%20repair", {"draws": 100_000}, headers=later).json()
+        seen = client.get(f"v1/jobs/{endless['id']}").json()
+        assert seen["state"] == "running", seen
         until = time.monotonic() + 30
         while client.get(f"v1/jobs/{endless['id']}").json()["state"] == "running" and time.monotonic() < until:
             assert client.delete(f"v1/jobs/{endless['id']}").status_code == 204
