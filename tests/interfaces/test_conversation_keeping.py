@@ -34,7 +34,7 @@ def test_a_rate_that_nobody_promised_takes_no_other_one_away(said: str) -> None:
 @pytest.mark.parametrize(
     "said",
     ["what if instead we maximise energy efficiency", "what if we used the least power instead, 200 kbit/s each",
-     "suppose we went for least power", "imagine 2 Mbit/s for user 3", "let's say 5 W", "should we save power?",
+     "suppose we went for least power", "imagine 2 Mbit/s for user 3", "should we save power?",
      "would it be better to save power?", "how about 5 W", "if we used 5 W instead", "要不要省点电？",
      "每人1兆最少要多少瓦", "假如改成最低功率", "如果只用5瓦会怎样", "换成最低功率呢"],
 )  # fmt: skip

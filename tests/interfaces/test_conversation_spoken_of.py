@@ -51,10 +51,7 @@ def test_users_by_odd_and_even_numbers(said: str, users: str) -> None:
 
 @pytest.mark.parametrize(
     ("lines", "held"),
-    [(("serve only user 1, highest total rate", "let the other three in"), {}),
-     ((MAX, "at most 12 W", "user 2 at least 1 Mbit/s", "go back to how it was after the power limit"),
-      {"max_power_w": 12.0}),
-     ((MAX, "at most 12 W", "user 2 at least 1 Mbit/s", "go back to how it was before the guarantee"),
+    [((MAX, "at most 12 W", "user 2 at least 1 Mbit/s", "go back to how it was before the guarantee"),
       {"max_power_w": 12.0}),
      ((HELD, "user 2 needs double", "no sorry, I meant user 3"), {"min_rate_bps": {"all": 3e5, "3": 6e5}}),
      ((HELD, "except for user 3, who gets 600"), {"min_rate_bps": {"all": 3e5, "3": 6e5}}),

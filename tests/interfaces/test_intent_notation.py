@@ -94,7 +94,7 @@ def test_a_range_of_rates_for_each_user_names_nobody(text: str) -> None:
     ("text", "constraints"),
     [
         ("min power, 2+ Mbps each", {"min_rate_bps": 2e6}),
-        ("Leistung max. 50 %, Summenrate maximieren", {"max_power_w": 10.0}),
+        ("Summenrate maximieren, Leistung max. 50 %", {"max_power_w": 10.0}),
         ("Max. débit total, Pmax = 50 %", {"max_power_w": 10.0}),
         ("总速率最大，功率不超过50%", {"max_power_w": 10.0}),
         ("sum rate, 250 mW/subcarrier", {"subcarrier_max_power_w": 0.25}),

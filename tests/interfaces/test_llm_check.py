@@ -198,7 +198,7 @@ class TestConversation:
             assert offline.topic != topic, text
             with pytest.raises(Objection):
                 read(text, offline, self.context, **said)
-        words = {"undo": "oops, reverted it should be", "reset": "a restart would do us good"}
+        words = {"undo": "oops, reverted it should be", "reset": "all of that was nonsense, a fresh start please"}
         assert read(words[topic], by_rules(), self.context, **said).topic == topic
 
     @pytest.mark.parametrize("topic", ["apply", "confirm"])

@@ -190,7 +190,8 @@ def check_promised(request: Request, diff: Diff, user_names: tuple[str, ...], la
         UnclearRequestError: the question which of the two should hold.
     """
     out = {
-        user_number(user, user_names)[0] for user in cast("tuple[str, ...]", request.constraints.get("leave_out", ()))
+        user_number(user, user_names, language)[0]
+        for user in cast("tuple[str, ...]", request.constraints.get("leave_out", ()))
     }
     for one in diff.changes if out else ():
         if one.kind == "min_rate_bps" and one.user != EVERYBODY and one.after:
@@ -200,7 +201,7 @@ def check_promised(request: Request, diff: Diff, user_names: tuple[str, ...], la
                 raise UnclearRequestError(message(language, "ask_back.promised_and_left_out", user=user, rate=rate))
 
 
-def user_number(reference: str, user_names: tuple[str, ...], language: str = "en") -> tuple[int, bool]:
+def user_number(reference: str, user_names: tuple[str, ...], language: str) -> tuple[int, bool]:
     """Who is meant, from 0, and whether it had to be taken as a place in the list.
 
     "3" is the user named "user 3", else the one named "3", else the third one.
@@ -230,7 +231,8 @@ def completed(missing: Missing, said: str, context: Context) -> Intent | None:
         return None
     match, named = _USER.fullmatch(said), _named_alone(said, context)
     try:
-        number, _ = user_number(named[0] if len(named) == 1 else match[1] if match else "", context.user_names)
+        said_name = named[0] if len(named) == 1 else match[1] if match else ""
+        number, _ = user_number(said_name, context.user_names, context.language or "en")
     except UnknownUserError:
         return None
     intent, reference, name = missing.intent, missing.reference, context.user_names[number]

@@ -99,12 +99,19 @@ def _left_open(talk: Talk, reply: Reply, supposed: Request | None) -> Reply:
 
 
 def _supposed(talk: Talk, act: acts.Suppose) -> Request:
-    """The request of a what-if; one of the most that can be promised is kept with the probability that is assumed."""
+    """The request of a what-if; one of the most that can be promised is kept with the probability that is assumed.
+
+    Where nothing holds yet and no aim is named, promised rates are asked for with the least power, unless that is
+    limited; anything else is asked for with the highest total rate.
+    """
     held, wanted = talk.state.request, act.acts
     named = {*(() if held is None else held.constraints), *(one.kind for one in wanted if isinstance(one, acts.Limit))}
     if isinstance(act, acts.AskMost) and "outage_probability" not in named:
         wanted = *wanted, acts.Limit(kind="outage_probability", value=ASSUMED_OUTAGE_PROBABILITY)
     aims = [one for one in wanted if isinstance(one, acts.Aim)]
+    if held is None:
+        least = "min_rate_bps" in named and "max_power_w" not in named
+        held = Request(objective="min_power" if least else "max_rate")
     return talk.needed(applied(held, (*aims, *wanted), radiated_w=talk.state.radiated_w)[0])
 
 

@@ -52,7 +52,8 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
     doubt = doubted(text, context, intent)
     if doubt is None:
         return intent
-    return asking_whether(intent, voice, text[slice(*doubt)].strip())
+    words = text[slice(*doubt)].strip()
+    return asking_whether(intent, voice, words if any(map(str.isalnum, words)) else "")
 
 
 def asking_whether(intent: Intent, voice: Voice, doubt: str | None = None) -> Intent:

@@ -16,11 +16,16 @@ from wirelessagent.language.intent import IntentKind
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.sentence import BUILT_IN, Sentence
 
-_ENOUGH, _ENOUGH_AGAINST_THE_LEXICON, _ENOUGH_FOR_THE_OPPOSITE = 0.45, 0.65, 0.98
+_ENOUGH, _ENOUGH_AGAINST_THE_LEXICON, _ENOUGH_FOR_THE_OPPOSITE = 0.45, 0.8, 0.98
 _ENOUGH_FOR_THE_SLOWEST = 0.8
 _OWN_PHRASE_ASKED = 0.8
 _FAMILIAR = 0.25
+_NAMED, _CLEAR = 0.02, 0.6
+"""How likely an aim is, at least, that a question speaks of, and its share among all that it may speak of."""
 _OTHER_KINDS = ("question", "command", "clarify", "out_of_scope")
+_ALSO_NAMED, _PERHAPS = ("negated", "rivals"), 0.12
+"""What a sentence is taken for that names another aim beside its own, and how likely its own has to be."""
+
 _WHAT_IF, _LIMITS = "question.what_if", "clarify.limits"
 
 
@@ -80,12 +85,25 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     topic = "" if acts else shares.topics[kind]
     if topic == "what_if" and sentence.reading.steps and shares.labels["question.step"] > shares.labels[_WHAT_IF] / 2:
         topic = "step"
+    if topic == "step" and "rate" not in sentence.concepts and {q.kind for q in sentence.quantities} == {"ratio"}:
+        topic = "what_if"  # "how much would 10 % less power cost?"
     agreed = goal.confidence if goal.verdict == "clear" and goal.objective == objective else 0.0
     sure = max(agreed, share) if acts else shares.kinds[kind]
     return Judgement(
         kind=kind, topic=topic, objective=objective, likeliest=share, limits=limits,
         certainty=round(min(1.0, sure), 4), acts=acts,
     )  # fmt: skip
+
+
+def aim_named(sentence: Sentence) -> str | None:
+    """The objective that a sentence speaks of, whatever its kind; None where it speaks of limits or of nothing."""
+    if sentence.goal.verdict == "clear":
+        return sentence.goal.objective
+    labels = _shares(sentence).labels
+    named = {name: labels[name] for name in (*BUILT_IN, _LIMITS)}
+    likeliest = max(named, key=lambda name: named[name])
+    clear = likeliest != _LIMITS and named[likeliest] > max(_NAMED, _CLEAR * sum(named.values()))
+    return likeliest if clear else None
 
 
 def _is_all_said(sentence: Sentence) -> bool:
@@ -119,6 +137,9 @@ def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
     sign = len(sentence.units) == 1 and len(sentence.units[0].word) == 1  # a letter, a Chinese character
     if sign or not sentence.worded or not shares.familiar:
         return "clarify"
+    agreed = sentence.goal.verdict == "clear" and sentence.goal.objective == objective
+    if agreed and other == "clarify" and shares.topics[other] in _ALSO_NAMED and shares.labels[objective] >= _PERHAPS:
+        return "allocate"  # "don't worry about the battery, I want throughput"
     if shares.kinds[other] >= shares.labels[objective]:
         back = other == "command" and sentence.reading.back  # "bring user 3 back" changes a request, it undoes none
         return "clarify" if back else cast("IntentKind", other)
@@ -133,4 +154,5 @@ def _enough(goal: Goal, objective: str) -> float:
         return _ENOUGH_FOR_THE_OPPOSITE
     if goal.verdict == "opposite":
         return _ENOUGH_FOR_THE_SLOWEST
-    return _ENOUGH_AGAINST_THE_LEXICON if goal.verdict == "clear" and goal.objective != objective else _ENOUGH
+    against = goal.verdict == "contradiction" or (goal.verdict == "clear" and goal.objective != objective)
+    return _ENOUGH_AGAINST_THE_LEXICON if against else _ENOUGH

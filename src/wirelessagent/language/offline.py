@@ -17,7 +17,7 @@ from wirelessagent.language import forms
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.followups import keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
-from wirelessagent.language.judgement import Judgement, judge
+from wirelessagent.language.judgement import Judgement, aim_named, judge
 from wirelessagent.language.leftovers import unread
 from wirelessagent.language.lifted import dropped_in
 from wirelessagent.language.moods import is_ordered, is_supposed
@@ -34,6 +34,9 @@ from wirelessagent.language.word_tables import either, words_of
 NAME = "offline"
 _MAX_CHARACTERS = 2000
 _DEFAULT_CONFIDENCE = 0.75
+_OF_A_RESULT = ("other", "users", "step", "prices", "certificate")
+"""Questions that are about a decision, or, before there is one, about what could be."""
+
 _FAIR_OBJECTIVES = ("proportional_fairness", "max_min_rate")
 _UNFAIR_OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency")
 _FAIR_WORDS = {"fair", "same", "fairly"}
@@ -151,7 +154,13 @@ class _Understanding:
         """Commands, questions, and what has nothing to do with a cell."""
         judged, topic = self._judged, self._judged.topic
         if judged.kind == "question":
+            nothing_holds = self._context is None or self._context.objective is None
+            aim = aim_named(self._sentence) if nothing_holds else None
+            if aim is not None and topic in _OF_A_RESULT:
+                topic = "what_if"  # "how fast can the slowest user be?"
             details = details_of(topic, self._sentence)
+            if aim is not None and topic == "what_if":
+                details.setdefault("objective", aim)
             user = self._voice.user(str(details.get("user", "")))
             told = self._answer.tell("question", f"question.{topic}", judged.certainty, user=user)
             return dataclasses.replace(told, topic=topic, details=details)

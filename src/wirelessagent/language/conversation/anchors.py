@@ -126,6 +126,9 @@ class Anchored:
 _RANGE = deferred(r"(?i)\s*(?:-|–|~|\.{2,}|to|thru|through|bis|à|al?|到|至)\s*(?:(?:la|le|el|zur?)\s+)?")
 
 
+_SEVERAL = deferred(r"(?i)[a-zé]+s\b")
+
+
 def _parts(plain: str, anchor: Anchor, most: int) -> Iterator[Anchor]:
     """What parts of an anchor may be: "user 2 to 5" a user and a figure, "le 3 à 2 W" the same, "1 auf 10" figures.
 
@@ -134,7 +137,10 @@ def _parts(plain: str, anchor: Anchor, most: int) -> Iterator[Anchor]:
     digits = [
         (found.start(), found.end(), int(found[0])) for found in _INTEGER.finditer(plain, anchor.start, anchor.end)
     ]
+    several = _SEVERAL.match(plain, anchor.start) is not None  # "users 1 to 4"
     if anchor.kind == "users" and len(digits) == 2 and _RANGE.fullmatch(plain, digits[0][1], digits[1][0]):
+        if several:
+            return
         (_, middle, user), (start, end, value) = digits
         yield Anchor("users", anchor.start, middle, users=(str(user),))
         yield Anchor("number", start, end, float(value))

@@ -13,8 +13,10 @@ from wirelessagent.language.conversation.anchors import Anchor
 from wirelessagent.language.conversation.change import Change, change_for, changed_by
 from wirelessagent.language.conversation.possible import OF_THE_CELL, POWERS, RATES, Group, Possible, in_its_unit
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS
+from wirelessagent.language.lifted import named_in
 from wirelessagent.language.request import acts_between, changed
 
+_BLOCKS = "resource_block_group_size"
 _DIVISORS = (2, 3, 4, 5, 10)
 
 
@@ -83,6 +85,10 @@ def of_shares(possible: Possible) -> Iterator[Change]:
     """By shares and multiples of what holds, or of what was said last; "double the rates" is about no power."""
     noun = speaks_of(possible.line.plain) if possible.line.figures else ()
     others = () if len(noun) != 1 else RATES if "power" in noun else POWERS
+    spoken_of = {name for _, name in named_in(possible.line.plain)} | {
+        getattr(act, "kind", "") for act in possible.said
+    }
+    others = others if _BLOCKS in spoken_of else (*others, _BLOCKS)  # which nobody triples by the way
     kinds = [kind for kind in dict.fromkeys((*possible.held, "min_rate_bps")) if kind not in others]
     most_w = possible.figures.get(("max_power_w", EVERYBODY), math.inf)
     of_the_cell = most_w > possible.context.max_power_w  # what it may radiate at all is less than the limit

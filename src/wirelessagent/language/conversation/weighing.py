@@ -9,6 +9,7 @@ import dataclasses
 from collections.abc import Iterable
 
 from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Named, Suppose, Undo
+from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.assent import speaks_of_applying
 from wirelessagent.language.conversation.heard import Read
@@ -28,8 +29,8 @@ SURE, SURER, AGREED, LIKELY = 0.6, 0.9, 0.5, 0.3
 """From where on a line does what it likeliest means, from where on if that is another aim or hardly an order, from
 where on if its reader hears it too and nothing is taken from anybody, and from where on it is asked whether it does."""
 
-HEARD = 0.06
-"""How likely what a line's reader hears has to be to be asked about, or, a request with its aim, to be done."""
+HEARD, NAMED = 0.06, 0.15
+"""How likely what a line's reader hears has to be to be asked about, and, a request with its aim, to be done."""
 UNLIKELY = 0.25
 """How likely a frame is one of an order, below which a line has to be surer."""
 FRAMED = 8
@@ -68,7 +69,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         sure = either > (LIKELY if asked else SURE)
         return (_supposed(line, found) if sure else intent), sure
     denied, takes = _denies(possible.line, found), _takes_away(read.acts)
-    if share >= (HEARD if _names_its_aim(intent) else SURER if denied else SURE if takes else AGREED):
+    if share >= (NAMED if _names_its_aim(intent) else SURER if denied else SURE if takes else AGREED):
         return intent, found.said == heard and share >= SURE
     meant = _done(line, possible, found)
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
@@ -124,7 +125,9 @@ def _stands(line: Line, intent: Intent, context: Context) -> bool:
     if another or about_the_plan or "method" in intent.details:
         return True
     if intent.kind == "question":
-        return intent.recogniser == NAME or intent.topic not in ("other", "what_if", "concept")
+        missing = "missing_share" in intent.details and not speaks_of(line.sentence.plain)
+        certain = missing or intent.topic not in ("other", "what_if", "concept")
+        return intent.recogniser == NAME or certain
     if intent.kind == "clarify":
         return context.awaits == "clarification"
     answers_nothing = intent.topic in ("confirm", "reject") and context.awaits == "nothing"

@@ -12,7 +12,7 @@ import numpy as np
 from wirelessagent.language.linear_model import BUCKETS, MODEL_FILE, buckets, word_hashes
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.training.compose import sentences
-from wirelessagent.language.training.fit import fit, known_words, matrix_of, read_by_rules, save
+from wirelessagent.language.training.fit import fit, known_words, matrix_of, read, save
 from wirelessagent.language.training.spoken import Spoken, spoken
 
 SPOKEN_WEIGHT = 30.0
@@ -31,15 +31,15 @@ def main(path: Path) -> None:
     texts, labels = [text for text, _ in (*drawn, *said)], [label for _, label in (*drawn, *said)]
     weight = np.array([1.0] * len(drawn) + [SPOKEN_WEIGHT] * len(said))
     log.info("%d sentences, %d labels (%.0f s)", len(texts), len(names), time.perf_counter() - start)
-    read = read_by_rules(texts)
-    rows = matrix_of([buckets(*each) for each in read], BUCKETS)
+    seen = read(texts)
+    rows = matrix_of([buckets(*each) for each in seen], BUCKETS)
     log.info("%d n-grams (%.0f s)", rows.nnz, time.perf_counter() - start)
     weights, intercepts = fit(rows, labels, names, weight)
     told: list[int] = np.argmax(np.asarray(rows @ weights) + intercepts, axis=1).tolist()
     right = sum(
         names[guess].partition(".")[0] == label.partition(".")[0] for guess, label in zip(told, labels, strict=True)
     ) / len(labels)
-    save(path, names, weights, intercepts, known_words(word_hashes(text) for text, *_ in read))
+    save(path, names, weights, intercepts, known_words(word_hashes(text) for text, *_ in seen))
     log.info("%.1f %% of them told apart; %s: %d kB (%.0f s)", 100 * right, path.name, path.stat().st_size // 1000,
              time.perf_counter() - start)  # fmt: skip
 

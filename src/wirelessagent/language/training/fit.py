@@ -1,21 +1,28 @@
-"""The fit: multinomial logistic regression by L-BFGS, weights rounded to eight bits."""
+"""The fit: multinomial logistic regression by adaptive gradient steps, weights rounded to eight bits."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import logging
+import multiprocessing
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
-from scipy import optimize, sparse
+from scipy import sparse
 
+from wirelessagent.kernels.supply import foreground
 from wirelessagent.language.sentence import Sentence, own_words
+from wirelessagent.language.training.fit_kernel import one_pass
 
+Made = TypeVar("Made")
 ForModel: TypeAlias = tuple[str, list[str], str]
-_RIDGE = 5e-7
-_STEPS = 500
-_FAINT = 1
+_PASSES, _AVERAGED, _STEP, _EPSILON, _FAINT = 10, 2, 0.3, 1e-3, 8
+"""Passes, those of them whose weights are averaged, the size of a step, what squares begin at, and weights of how many
+127ths of the largest count as none: those are half of the file and change hardly anything."""
+
+_LOG = logging.getLogger(__name__)
 
 
 def matrix_of(columns: Sequence[npt.NDArray[np.int64]], width: int) -> sparse.csr_matrix:
@@ -26,10 +33,19 @@ def matrix_of(columns: Sequence[npt.NDArray[np.int64]], width: int) -> sparse.cs
     return sparse.csr_matrix((values.astype(np.float32), np.concatenate(columns), starts), shape=(len(columns), width))
 
 
-def read_by_rules(texts: Sequence[str]) -> list[ForModel]:
+def read(texts: Sequence[str]) -> list[ForModel]:
     """What the parsers and the lexicon make of each sentence, as the model gets it at run time."""
-    own = own_words()
-    return [Sentence(text, own).for_model() for text in texts]
+    return in_parallel(_read, texts)
+
+
+def _read(text: str) -> ForModel:
+    return Sentence(text, own_words()).for_model()
+
+
+def in_parallel(do: Callable[[str], Made], texts: Sequence[str]) -> list[Made]:
+    """What two processes make of each text, in order."""
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        return pool.map(do, texts, chunksize=500)
 
 
 def known_words(said: Iterable[Iterable[int]]) -> npt.NDArray[np.uint32]:
@@ -38,41 +54,35 @@ def known_words(said: Iterable[Iterable[int]]) -> npt.NDArray[np.uint32]:
     return np.asarray(words[counts > 1], dtype=np.uint32)
 
 
+@foreground()
 def fit(
-    rows: sparse.csr_matrix, labels: Sequence[str], names: Sequence[str], weight: npt.NDArray[np.float64],
-    ridge: float = _RIDGE,
-) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:  # fmt: skip
-    """Weights (bucket, label) and intercepts (label,) that make the labels likeliest, with a ridge.
+    rows: sparse.csr_matrix,
+    labels: Sequence[str],
+    names: Sequence[str],
+    weight: npt.NDArray[np.float64],
+    passes: int = _PASSES,
+    step: float = _STEP,
+) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+    """Weights (bucket, label) and intercepts (label,) that make the labels likely.
 
-    A label such as "question" stands for all that begin with it. ``weight`` (sentence,) says how much each counts.
+    A label such as "question" stands for all that begin with it. ``weight`` (sentence,) says how much each counts. The
+    order of the sentences is drawn with a fixed seed: equal sentences make equal weights.
     """
-    classes, width = len(names), rows.shape[1]
     meant = {label: [name == label or name.startswith(label + ".") for name in names] for label in set(labels)}
-    target = np.array([meant[label] for label in labels], dtype=np.float64)
-    even = target / target.sum(axis=1, keepdims=True)
+    right = np.array([meant[label] for label in labels], dtype=np.bool_)
+    even = right / right.sum(axis=1, keepdims=True)
     share = even @ (weight @ even) / weight.sum()
-    importance = weight * (classes * share) ** -0.4  # rare labels count more, though not equally
-    importance /= importance.sum()
-    columns = rows.T.tocsr()
-
-    def loss(flat: npt.NDArray[np.float64]) -> tuple[float, npt.NDArray[np.float64]]:
-        weights = flat[: width * classes].reshape(width, classes)
-        score = np.asarray(rows @ weights.astype(np.float32), dtype=np.float64) + flat[width * classes :]
-        score -= score.max(axis=1, keepdims=True)
-        likely = np.exp(score)
-        likely /= likely.sum(axis=1, keepdims=True)
-        right = likely * target
-        total = right.sum(axis=1, keepdims=True) + 1e-300
-        value = -float(importance @ np.log(total[:, 0]))
-        likely -= right / total
-        likely *= importance[:, None]
-        slope = np.asarray(columns @ likely.astype(np.float32), dtype=np.float64) + 2 * ridge * weights
-        return value + ridge * float((weights**2).sum()), np.concatenate([slope.ravel(), likely.sum(axis=0)])
-
-    start = np.zeros((width + 1) * classes)
-    found = optimize.minimize(loss, start, jac=True, method="L-BFGS-B", options={"maxiter": _STEPS, "maxcor": 5})
-    flat = np.asarray(found.x, dtype=np.float32)
-    return flat[: width * classes].reshape(width, classes), flat[width * classes :]
+    importance = weight * (len(names) * share) ** -0.4  # rare labels count more, though not equally
+    importance = np.asarray(importance / importance.mean(), dtype=np.float32)
+    weights = np.zeros((rows.shape[1] + 1, len(names)), np.float32)
+    squares, mean, chance = np.full_like(weights, _EPSILON), np.zeros_like(weights), np.random.default_rng(1)
+    for turn in range(passes):
+        order = chance.permutation(len(labels))
+        lost = one_pass(order, rows.indptr, rows.indices, rows.data, right, importance, weights, squares, step)
+        _LOG.info("pass %d, loss %.3f", turn + 1, lost / len(labels))
+        if turn >= passes - _AVERAGED:
+            mean += weights / _AVERAGED
+    return mean[:-1], mean[-1]
 
 
 def rounded(weights: npt.NDArray[np.float32], faint: int) -> tuple[npt.NDArray[np.int8], npt.NDArray[np.float32]]:

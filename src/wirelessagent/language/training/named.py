@@ -21,6 +21,7 @@ from wirelessagent.language.training.marked import unmarked
 from wirelessagent.language.training.meant import sentences
 from wirelessagent.language.training.orders import FILLED, framed
 from wirelessagent.language.training.spoken import spoken
+from wirelessagent.language.training.talk_notation import talks
 
 NAMED = Path(__file__).with_name("named")
 Span = tuple[int, int]
@@ -29,6 +30,9 @@ _COUNT = 3
 
 _SHARE, _MISSPELT = 0.8, 0.4
 """How many of the others count, and in how many of all a word is misspelt: no name either."""
+
+_OF_TALKS = 3
+"""One of so many lines of a talk that do something; those that do nothing may speak of anybody."""
 
 _LONG_WORD = re.compile(r"[^\W\d_\u3400-\u9fff]{5,}")
 
@@ -78,3 +82,4 @@ def _without_names() -> Iterator[str]:
     wordless = (each for each in spoken() if each.constraints is None)
     yield from (each.text for each in wordless if each.label in OBJECTIVES or each.label.startswith("command"))
     yield from (text for text, _ in itertools.islice(framed(), 0, None, FILLED))
+    yield from (text for _, lines, _ in talks() for text, does in lines[::_OF_TALKS] if does != "nothing")

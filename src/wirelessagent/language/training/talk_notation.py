@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -52,12 +52,14 @@ class Example:
 
     Attributes:
         effect: what it does to the request, or would do where it is only ``supposed``.
+        undoes: whether it takes changes back and does nothing else.
         may_suppose: whether one that does nothing may suppose something that is not written down.
     """
 
     text: str
     context: Context
     effect: Effect
+    undoes: bool
     supposed: bool
     may_suppose: bool
     language: str
@@ -99,7 +101,7 @@ class _Talk:
             effect = effect_between(before, after, _NUMBERS)
             example = Example(
                 text=text, context=context, effect=effect, language=self.language, supposed=supposed,
-                may_suppose=self.may_suppose and not effect,
+                may_suppose=self.may_suppose and not effect, undoes=[type(act) for act in acts] == [Undo],
             )  # fmt: skip
         self.supposed = tuple(acts) if supposed else ()
         self._took(text, () if supposed else acts, before if supposed else after, supposes=supposed)
@@ -118,7 +120,7 @@ class _Talk:
                     raise NotationError(f"{notation}: nothing to undo")
                 now, said = self.past[-steps], [Undo(steps=steps)]
             else:
-                said = self._acts(words, now)
+                said = self._acts(words, now, _named(acts) or self.named)
                 now = now and applied(now, said, radiated_w=_RADIATED_W)[0]
             acts += said
         if self.request is None and not any(isinstance(act, Aim) for act in acts):
@@ -128,8 +130,8 @@ class _Talk:
             self.waiting.clear()
         return now, acts
 
-    def _acts(self, words: Sequence[str], now: Request | None) -> Sequence[Act]:
-        """The acts of one part of a notation."""
+    def _acts(self, words: Sequence[str], now: Request | None, named: Sequence[str]) -> Sequence[Act]:
+        """The acts of one part of a notation; the others are those who are not ``named``."""
         verb, *rest = words
         whom = _whom(rest[-1] if rest and rest[-1][0] == "@" else "")
         figures = {} if now is None else figures_of(now.constraints)
@@ -160,7 +162,7 @@ class _Talk:
             return [Limit(kind=kind, value=second, whom=one), Limit(kind=kind, value=first, whom=other)]
         figure = float(rest[1].replace("_", ""))
         if isinstance(whom, Others) and verb == "limit" and not own.keys() - {EVERYBODY}:
-            whom = Named(tuple(user for user in _NUMBERS if user not in self.named))
+            whom = Named(tuple(user for user in _NUMBERS if user not in named))
         if verb == "limit":
             return [Limit(kind=kind, value=figure, whom=whom)]
         if kind == "max_power_w" and not own:
@@ -172,8 +174,7 @@ class _Talk:
         found = Anchored.of(text, self.language, USERS).named(len(USERS))
         changing = [act for act in acts if isinstance(act, _CHANGING)]
         self.spoken_of = found if found or changing or supposes else self.spoken_of
-        by_name = [user for act in acts if isinstance(whom := getattr(act, "whom", None), Named) for user in whom.users]
-        self.named = tuple(dict.fromkeys(by_name)) or found or self.named
+        self.named = _named(acts) or found or self.named
         steps = sum(act.steps or 1 for act in acts if isinstance(act, Undo))
         if steps:
             base = self.past[-steps]
@@ -185,6 +186,12 @@ class _Talk:
         self.acts = tuple(acts) if changing else self.acts
         self.earlier.append(tuple(acts))
         self.request = after
+
+
+def _named(acts: Iterable[Act]) -> tuple[str, ...]:
+    """The users whom acts name."""
+    named = (user for act in acts if isinstance(whom := getattr(act, "whom", None), Named) for user in whom.users)
+    return tuple(dict.fromkeys(named))
 
 
 def _whom(words: str) -> Whom:

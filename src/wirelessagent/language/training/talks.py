@@ -38,11 +38,14 @@ _SOMETHING: tuple[Act, ...] = (Serve(whom=Everybody()),)
 _LOG = logging.getLogger(__name__)
 
 
-def _is_meant(effect: Effect, meaning: Meaning, *, supposed: bool, may_suppose: bool) -> bool:
-    """Whether a meaning is what a line comes to."""
+def _is_meant(
+    effect: Effect, undoing: frozenset[int], meaning: Meaning, *, undoes: bool, supposed: bool, may_suppose: bool
+) -> bool:
+    """Whether a meaning is what a line comes to, and takes changes back if that does."""
     if may_suppose and meaning.supposed:
         return True
-    return meaning.supposed == supposed and is_same(meaning.effect, effect)
+    same = meaning.supposed == supposed and is_same(meaning.effect, effect)
+    return same and (not effect or undoes != undoing.isdisjoint(meaning.places))
 
 
 def is_same(one: Effect, other: Effect) -> bool:
@@ -67,8 +70,10 @@ def parsed(example: Example) -> talk_fit.Line:
     named = [signs.blocks(change) for change in changes]
     blocks = {name: words for each in named for name, words in each}
     places = {name: place for place, name in enumerate(blocks)}
+    undoing = frozenset(at for at, each in enumerate(changes) if any(isinstance(act, Undo) for act in each.acts))
     is_meant = functools.partial(
-        _is_meant, example.effect, supposed=example.supposed, may_suppose=example.may_suppose
+        _is_meant, example.effect, undoing, undoes=example.undoes, supposed=example.supposed,
+        may_suppose=example.may_suppose,
     )  # fmt: skip
     return talk_fit.Line(
         changes=_light(changes), together=signs.together, is_meant=is_meant,
