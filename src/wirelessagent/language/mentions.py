@@ -32,8 +32,10 @@ _AND = rf"(?:\s*(?:,|&|\+|/)\s*(?:(?:and|y|et|und|or)\s+)?|\s+(?:{_JOINS})\s+(?:
 _TO = (
     r"(?:\s*(?:-|–|~|\.{2,3}|…)\s*|\s+(?:up\s+to|to|through|al?|hasta\s+el|hasta|à|au|jusqu'(?:à|au)|bis(?:\s+zu)?)\s+)"
 )
-_OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 to 4 for now" is
-    rf"(?!\s+(?:for|to|para|pour|für)\s+(?:(?:{_ARTICLES})\s+)?(?:{NOUN}|#?[0-9]))"
+_OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …", "1 to 4 for now" are
+    r"(?!\s+(?:for(?!\s+(?:now|today|tonight|good|once|the\s+moment|this|next)\b)|"
+    r"to(?!\s+(?:have|get|receive|be|reach|see|go|run|enjoy|count|share|stay))|para(?!\s+(?:ahora|hoy|siempre))|"
+    r"pour(?!\s+(?:l'instant|le\s+moment|aujourd))|für(?!\s+(?:heute|jetzt|immer|den\s+Moment)))\s)"
 )
 _NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"
 _DIGITS = r"[0-9]{1,4}(?!(?!\.\.)[0-9.,]*[0-9%]|[A-Za-z])"
