@@ -20,11 +20,12 @@ _ENOUGH, _ENOUGH_AGAINST_THE_LEXICON, _ENOUGH_FOR_THE_OPPOSITE = 0.45, 0.8, 0.98
 _ENOUGH_FOR_THE_SLOWEST = 0.8
 _OWN_PHRASE_ASKED = 0.8
 _FAMILIAR = 0.25
-_NAMED, _CLEAR = 0.02, 0.6
-"""How likely an aim is, at least, that a question speaks of, and its share among all that it may speak of."""
 _OTHER_KINDS = ("question", "command", "clarify", "out_of_scope")
 _ALSO_NAMED, _PERHAPS = ("negated", "rivals"), 0.12
 """What a sentence is taken for that names another aim beside its own, and how likely its own has to be."""
+
+_NAMED, _CLEAR = 0.02, 0.6
+"""How likely an aim is, at least, that a question speaks of, and its share among all that it may speak of."""
 
 _WHAT_IF, _LIMITS = "question.what_if", "clarify.limits"
 
@@ -41,6 +42,7 @@ class Judgement:
         certainty: 0 to 1, of what was decided.
         acts: whether the objective is likely enough to act on it.
         objective_clear: whether the operator named an objective by its own phrase.
+        spoken_of: the objective that a question speaks of; None where it speaks of limits or of nothing.
     """
 
     kind: IntentKind
@@ -51,6 +53,7 @@ class Judgement:
     certainty: float
     acts: bool
     objective_clear: bool = False
+    spoken_of: str | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,15 +94,14 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     sure = max(agreed, share) if acts else shares.kinds[kind]
     return Judgement(
         kind=kind, topic=topic, objective=objective, likeliest=share, limits=limits,
-        certainty=round(min(1.0, sure), 4), acts=acts,
+        certainty=round(min(1.0, sure), 4), acts=acts, spoken_of=_spoken_of(goal, shares.labels),
     )  # fmt: skip
 
 
-def aim_named(sentence: Sentence) -> str | None:
+def _spoken_of(goal: Goal, labels: Mapping[str, float]) -> str | None:
     """The objective that a sentence speaks of, whatever its kind; None where it speaks of limits or of nothing."""
-    if sentence.goal.verdict == "clear":
-        return sentence.goal.objective
-    labels = _shares(sentence).labels
+    if goal.verdict == "clear":
+        return goal.objective
     named = {name: labels[name] for name in (*BUILT_IN, _LIMITS)}
     likeliest = max(named, key=lambda name: named[name])
     clear = likeliest != _LIMITS and named[likeliest] > max(_NAMED, _CLEAR * sum(named.values()))

@@ -17,7 +17,7 @@ from wirelessagent.language import forms
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.followups import keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
-from wirelessagent.language.judgement import Judgement, aim_named, judge
+from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
 from wirelessagent.language.lifted import dropped_in
 from wirelessagent.language.moods import is_ordered, is_supposed
@@ -155,7 +155,7 @@ class _Understanding:
         judged, topic = self._judged, self._judged.topic
         if judged.kind == "question":
             nothing_holds = self._context is None or self._context.objective is None
-            aim = aim_named(self._sentence) if nothing_holds else None
+            aim = judged.spoken_of if nothing_holds else None
             if aim is not None and topic in _OF_A_RESULT:
                 topic = "what_if"  # "how fast can the slowest user be?"
             details = details_of(topic, self._sentence)

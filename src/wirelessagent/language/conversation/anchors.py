@@ -124,9 +124,7 @@ class Anchored:
 
 
 _RANGE = deferred(r"(?i)\s*(?:-|–|~|\.{2,}|to|thru|through|bis|à|al?|到|至)\s*(?:(?:la|le|el|zur?)\s+)?")
-
-
-_SEVERAL = deferred(r"(?i)[a-zé]+s\b")
+_SEVERAL = deferred(r"(?i)[a-zé]+s\b")  # "users 1 to 4" are no user 1
 
 
 def _parts(plain: str, anchor: Anchor, most: int) -> Iterator[Anchor]:
@@ -137,10 +135,8 @@ def _parts(plain: str, anchor: Anchor, most: int) -> Iterator[Anchor]:
     digits = [
         (found.start(), found.end(), int(found[0])) for found in _INTEGER.finditer(plain, anchor.start, anchor.end)
     ]
-    several = _SEVERAL.match(plain, anchor.start) is not None  # "users 1 to 4"
-    if anchor.kind == "users" and len(digits) == 2 and _RANGE.fullmatch(plain, digits[0][1], digits[1][0]):
-        if several:
-            return
+    range_of_one = anchor.kind == "users" and len(digits) == 2 and _SEVERAL.match(plain, anchor.start) is None
+    if range_of_one and _RANGE.fullmatch(plain, digits[0][1], digits[1][0]):
         (_, middle, user), (start, end, value) = digits
         yield Anchor("users", anchor.start, middle, users=(str(user),))
         yield Anchor("number", start, end, float(value))

@@ -7,7 +7,7 @@ import itertools
 import math
 from collections.abc import Iterator, Sequence
 
-from wirelessagent.language.acts import Drop, Limit, Named, Scale, Serve
+from wirelessagent.language.acts import Limit, Named, Scale, Serve
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchor
 from wirelessagent.language.conversation.change import Change, change_for, changed_by
@@ -85,10 +85,8 @@ def of_shares(possible: Possible) -> Iterator[Change]:
     """By shares and multiples of what holds, or of what was said last; "double the rates" is about no power."""
     noun = speaks_of(possible.line.plain) if possible.line.figures else ()
     others = () if len(noun) != 1 else RATES if "power" in noun else POWERS
-    spoken_of = {name for _, name in named_in(possible.line.plain)} | {
-        getattr(act, "kind", "") for act in possible.said
-    }
-    others = others if _BLOCKS in spoken_of else (*others, _BLOCKS)  # which nobody triples by the way
+    if _BLOCKS not in possible.last_kinds.union(name for _, name in named_in(possible.line.plain)):
+        others = (*others, _BLOCKS)  # which nobody triples by the way
     kinds = [kind for kind in dict.fromkeys((*possible.held, "min_rate_bps")) if kind not in others]
     most_w = possible.figures.get(("max_power_w", EVERYBODY), math.inf)
     of_the_cell = most_w > possible.context.max_power_w  # what it may radiate at all is less than the limit
@@ -117,7 +115,7 @@ def of_shares(possible: Possible) -> Iterator[Change]:
 def corrected(possible: Possible) -> Iterator[Change]:
     """What the line says in the place of the last change: "not half, a third", "by 300k, not 200k"."""
     base = None if possible.supposed or not possible.context.past else possible.context.past[-1]
-    kinds = {act.kind for act in possible.said if isinstance(act, Limit | Scale | Drop)}
+    kinds = possible.last_kinds
     if base is None or not kinds:
         return
     context = dataclasses.replace(possible.context, objective=base.objective, constraints=base.constraints, past=())

@@ -11,6 +11,7 @@ from typing import TypeAlias
 from wirelessagent.language.acts import (
     Act,
     Aim,
+    Drop,
     Everybody,
     Forget,
     Limit,
@@ -73,6 +74,7 @@ class Possible:
         self.past = [{} if held is None else figures_of(held.constraints) for held in context.past[::-1]]
         self.last = [limit for act in self.said for limit in _as_limits(act, self.figures)]
         self.last_users = {*users_of(self.said)}
+        self.last_kinds = {act.kind for act in self.said if isinstance(act, Limit | Scale | Drop)}
         self.named = [(users, anchors) for users, anchors in line.groups(len(self.users)) if {*users} <= {*self.users}]
         self.groups = list(self._whom())
 

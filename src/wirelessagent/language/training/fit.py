@@ -16,6 +16,7 @@ from wirelessagent.kernels.supply import foreground
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.training.fit_kernel import one_pass
 
+Item = TypeVar("Item")
 Made = TypeVar("Made")
 ForModel: TypeAlias = tuple[str, list[str], str]
 _PASSES, _AVERAGED, _STEP, _EPSILON, _FAINT = 10, 2, 0.3, 1e-3, 8
@@ -42,10 +43,12 @@ def _read(text: str) -> ForModel:
     return Sentence(text, own_words()).for_model()
 
 
-def in_parallel(do: Callable[[str], Made], texts: Sequence[str]) -> list[Made]:
-    """What two processes make of each text, in order."""
-    with multiprocessing.get_context("fork").Pool(2) as pool:
-        return pool.map(do, texts, chunksize=500)
+def in_parallel(
+    do: Callable[[Item], Made], items: Sequence[Item], processes: int = 2, at_once: int = 500
+) -> list[Made]:
+    """What some processes make of each item, in order."""
+    with multiprocessing.get_context("fork").Pool(processes) as pool:
+        return pool.map(do, items, chunksize=at_once)
 
 
 def known_words(said: Iterable[Iterable[int]]) -> npt.NDArray[np.uint32]:

@@ -20,7 +20,8 @@ from wirelessagent.language.conversation.change import Change
 from wirelessagent.language.conversation.signs import BUCKETS, TOGETHER, Together
 from wirelessagent.language.conversation.talk_model import BLOCK, OWN, Meaning, TalkModel, meanings
 from wirelessagent.language.training.fit import rounded
-from wirelessagent.language.training.talk_fit_kernel import Places, one_pass, scores_of
+from wirelessagent.language.training.fit_kernel import Places
+from wirelessagent.language.training.talk_fit_kernel import one_pass, scores_of
 
 _PASSES, _STEP, _FAINT = (2, 4), 0.2, 1
 """Passes of each round, in which those changes may go together that scored best before it; the size of a step."""

@@ -9,15 +9,10 @@ softmax; a step is −s g/√(Σ g²), summed over all steps before (AdaGrad, Du
 
 from __future__ import annotations
 
-from typing import TypeAlias
-
 import numpy as np
 
 from wirelessagent.kernels import kernel
-
-Places: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.int32 | np.int64]]
-Marks: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
-Floats: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.float32]]
+from wirelessagent.language.training.fit_kernel import Floats, Marks, Places
 
 
 @kernel

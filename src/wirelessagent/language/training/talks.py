@@ -10,7 +10,6 @@ import dataclasses
 import functools
 import logging
 import math
-import multiprocessing
 import sys
 import time
 from collections.abc import Sequence
@@ -30,6 +29,7 @@ from wirelessagent.language.conversation.talk_model import TALKS_FILE, Meaning
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.request import Key
 from wirelessagent.language.training import talk_fit
+from wirelessagent.language.training.fit import in_parallel
 from wirelessagent.language.training.talk_fit import Flat
 from wirelessagent.language.training.talk_notation import USERS, Example, examples
 
@@ -106,8 +106,7 @@ def _parsed_at(place: int) -> talk_fit.Line:
 def parsed_all(found: Sequence[Example], processes: int = 2) -> list[talk_fit.Line]:
     """All examples as numbers."""
     _EXAMPLES[:] = found
-    with multiprocessing.get_context("fork").Pool(processes) as pool:
-        return pool.map(_parsed_at, range(len(found)), chunksize=20)
+    return in_parallel(_parsed_at, range(len(found)), processes, at_once=20)
 
 
 def main(path: Path) -> None:
