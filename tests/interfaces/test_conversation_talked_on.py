@@ -20,7 +20,7 @@ POWER_W = "highest total rate with at most 12 W"
         ((POWER_W, "3 W less", "again"), 6.0), ((POWER_W, "3 W less", "again", "do that again"), 3.0),
         ((POWER_W, "halve that limit", "again"), 3.0), ((POWER_W, "2 W mehr", "noch mal 4"), 18.0),
         ((POWER_W, "减2瓦", "再1瓦"), 9.0),
-        ((POWER_W, "halve that limit", "ok too much, make it 9"), 9.0), ((POWER_W, "ouch. 9 will do"), 9.0),
+        ((POWER_W, "halve that limit", "ok too much, make it 9"), 9.0),
         (("highest total rate", "cap the power at 14"), 14.0), ((POWER_W, "lift it to 14"), 14.0),
         ((POWER_W, "lift it by 2 W", "lift it"), 14.0),
     ],

@@ -533,6 +533,20 @@ def with_third_party(monkeypatch: pytest.MonkeyPatch, *extra: plugins.Plugin) ->
 
 
 @pytest.mark.parametrize(
+    ("text", "constraints"),
+    [
+        ("least power and the five needs one point five megabits", {"min_rate_bps": {"5": 1.5e6}}),
+        ("lift the slowest user and the two is out", {"leave_out": ("2",)}),
+        ("gesamtrate maximieren zwei watt und die fünf bleibt draußen", {"max_power_w": 2.0, "leave_out": ("5",)}),
+        ("least power two megabits for the one and the three", {"min_rate_bps": {"1": 2e6, "3": 2e6}}),
+    ],
+)
+def test_users_are_called_by_number_words_alone(text: str, constraints: dict[str, Any]) -> None:
+    intent = recognise(text)
+    assert (intent.kind, dict(intent.constraints)) == ("allocate", constraints)
+
+
+@pytest.mark.parametrize(
     "text", ["Share alpha-fairly", "please share alpha fairly, at most 10 W", "按α公平分配,最多10瓦", "alpha fairness"]
 )
 def test_a_plugin_brings_its_own_words(text: str, monkeypatch: pytest.MonkeyPatch) -> None:

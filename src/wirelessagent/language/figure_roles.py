@@ -205,7 +205,8 @@ class View:
             known += [f"with:{word}{''.join(around_it[-1:])}", f"behind:{''.join(around_it[:1])}{word}"]
         else:
             first = place == 0 or not self._kinds[place - 1].isalpha()
-            known += [f"large:{self._plain[start].isupper()}:{first}:{self._language}", f"ends:{word[-3:]}"]
+            large = self._plain[start].isupper() and not self._plain.isupper()  # not in "SAVE POWER"
+            known += [f"large:{large}:{first}:{self._language}", f"ends:{word[-3:]}"]
         return around(self._tokens, place, known)
 
     def strangers(self) -> list[tuple[int, int]]:

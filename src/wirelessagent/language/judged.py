@@ -18,7 +18,7 @@ from wirelessagent.language.deferred import deferred
 from wirelessagent.language.figure_roles import SCALED, answers, likely, shipped_roles
 from wirelessagent.language.leftovers import FOREIGN_UNIT, idioms, may_be_a_limit
 from wirelessagent.language.lifted import named_in
-from wirelessagent.language.looks import BORROWING, Look, first_look, second_look, with_strangers
+from wirelessagent.language.looks import BORROWING, Look, first_look, ones, second_look, with_strangers
 from wirelessagent.language.mentions import JOINT, LISTED, Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
@@ -80,7 +80,9 @@ class Judged:
         }
         weighing = _weighing_lists(first, chances)
         plausible = _no_limits(first, weighing)
-        users = _users(plain, plausible, chances)
+        read = [*first.figures, *first.loose, *first.mentions]
+        alone = ones(plain, [*taken, *((each.start, each.end) for each in read)])
+        users = _users(plain, plausible, [number for number in alone if number.value == 1], chances)
         look = second_look(first, users, _borrowing(first, chances, [*users, *weighing]))
         self._look, self._view = look, view if look is first else look.view()
         self.mentions = look.mentions
@@ -301,11 +303,15 @@ def _weighing_lists(look: Look, chances: _Roles) -> list[Number]:
     ]
 
 
-def _users(plain: str, numbers: Sequence[Number], chances: _Roles) -> list[Number]:
-    """The numbers that are users: surely, or likelier than not beside one that surely is ("2, 5 and 7")."""
+def _users(plain: str, numbers: Sequence[Number], ones: Sequence[Number], chances: _Roles) -> list[Number]:
+    """The numbers that are users: surely, or likelier than not beside one that surely is ("2, 5 and 7").
+
+    One of the ``ones`` is a user in a list with others: "for the one and the three".
+    """
     able = [n for n in numbers if n.value is not None and 0 <= n.value == int(n.value) < _MOST_BARE_USERS]
     able = [n for n in able if COUNTED_USERS.match(plain, n.start) is None and FOREIGN_UNIT.match(plain, n.end) is None]
+    able = sorted([*able, *ones], key=lambda number: number.start)
     lists = [each for each in _runs(plain, able, JOINT) if _WEIGHTS.search(plain, 0, each[0].start) is None]
     lists = [each for each in lists if len({number.value for number in each}) == len(each)]  # "w = [2, 1, 1]"
-    sure = [each for each in lists if max(chances[number]["user"] for number in each) > _SURE_OF_A_USER]
-    return [number for each in sure for number in each if chances[number]["user"] > _ONE_OF_A_LIST]
+    sure = [each for each in lists if any(n not in ones and chances[n]["user"] > _SURE_OF_A_USER for n in each)]
+    return [n for each in sure for n in each if n in ones or chances[n]["user"] > _ONE_OF_A_LIST]

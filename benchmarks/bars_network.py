@@ -1,0 +1,135 @@
+"""A small network as the judge of sentences, against the shipped linear models: kinds told right, frames acted upon.
+
+Run with ``uv run --with jax --with optax python benchmarks/bars_network.py FILE.jsonl … [--weights FILE.npz]``; files
+are those of ``bars_frames.py`` and of ``wirelessagent evaluate intents``. The network is taught from scratch (25
+minutes on two cores) where there are no weights yet, by all that the shipped models learn from and by the sentences of
+``network/taught``, which those have not learned. Printed are the sentences whose likeliest kind or aim is right, and
+for those that say whether they act the orders that are not likely enough and the others that are, by the judge alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import logging
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from bars_frames import read
+from network.fit import LENGTHS, PASSES, Shown, fit
+from network.judge import LIKELY, SentenceModel, features, hashed, rows_of, words_of
+from network.layers import MOST_FEATURES
+
+from wirelessagent.language.linear_model import shipped_model
+from wirelessagent.language.order_model import frame_of, shipped_order_model
+from wirelessagent.language.sentence import Sentence, own_words
+from wirelessagent.language.training import orders
+from wirelessagent.language.training.compose import OBJECTIVES, sentences
+from wirelessagent.language.training.fit import in_parallel
+from wirelessagent.language.training.spoken import spoken
+
+TAUGHT = Path(__file__).with_name("network") / "taught"
+TRAINING = Path(orders.__file__).parent
+DRAWN, NEAR = 0.5, 0.3
+"""What the kind of a drawn sentence counts, and of one that only orders or does not, beside one that is known."""
+_ORDERS = (*OBJECTIVES, "clarify.limits", "command")
+_RARE, _LEAST, _MOST = -0.2, 0.5, 3.0
+
+
+def examples() -> list[tuple[str, str, float, bool, float, float]]:
+    """Sentences with their kind and how much it counts, whether they order and how much that counts, and how often."""
+    found = [(text, label, DRAWN, False, 0.0, 0.3) for text, label in sorted(set(sentences(TRAINING)))]
+    own = (dataclasses.replace(each, near=each.label in ("order", "none")) for each in spoken(TAUGHT))
+    for each in (*spoken(), *own):
+        kind = "clarify.limits" if each.label == "clarify" and each.constraints else each.label
+        doubts = kind == "clarify" and Sentence(each.text, own_words()).reading.doubts
+        counts = 0.0 if doubts else NEAR if kind in ("order", "none") else 1.0
+        tells = 0.0 if each.is_order is None else 1.0 if each.near else orders.MILD
+        found.append((each.text, kind, counts, each.is_order is True, tells, 1.0))
+    found += [(text, "", 0.0, does, orders.FRAME / orders.FILLED, 0.5) for text, does in orders.framed()]
+    return found + [(text, "", 0.0, does, orders.TALK, 0.5) for text, does in orders.in_talks()]
+
+
+def seen(text: str) -> tuple[Any, Any, frozenset[int]]:
+    """What is seen of a sentence, of one whose wish is left with what it means alone, and the hashes of its words."""
+    words = words_of(Sentence(text, own_words()))[: LENGTHS[-1] - 1]
+    rows = rows_of(words).astype(np.uint16)
+    bare = rows.copy()
+    for place, word in enumerate(words, 1):
+        if word.wished or word.meant:
+            found = features(word, bare=True)[:MOST_FEATURES]
+            bare[place] = 0
+            bare[place, : len(found)] = found
+    return rows, bare, frozenset(hashed(word.said) for word in words if word.said[0].isalpha())
+
+
+def taught(every: list[tuple[str, str, float, bool, float, float]], passes: float = PASSES) -> SentenceModel:
+    """The network, taught by these sentences."""
+    shown = in_parallel(seen, [text for text, *_ in every])
+    kinds = [kind for _, kind, *_ in every]
+    labels = sorted({kind for kind in kinds if "." in kind or kind in (*OBJECTIVES, "out_of_scope")})
+    meant = {kind: [bool(kind) and f"{label}.".startswith(f"{kind}.") for label in labels] for kind in set(kinds)}
+    meant["order"] = [label.startswith(_ORDERS) for label in labels]
+    meant["none"] = [not each for each in meant["order"]]
+    right, counts = np.array([meant[kind] for kind in kinds]), np.array([each[2] for each in every], np.float32)
+    even = right / np.maximum(1, right.sum(axis=1, keepdims=True))
+    share = even @ (counts @ even / counts.sum())
+    rare = np.where(counts > 0, (len(labels) * np.maximum(share, 1e-6)) ** _RARE, 0)
+    weights = fit(Shown(
+        rows=[rows for rows, *_ in shown], bare=[bare for _, bare, _ in shown], right=right,
+        kind_counts=counts * np.clip(rare / rare[counts > 0].mean(), _LEAST, _MOST).astype(np.float32),
+        orders=np.array([each[3] for each in every], np.float32),
+        order_counts=np.array([each[4] for each in every], np.float32), turns=np.array([each[5] for each in every]),
+    ), passes)  # fmt: skip
+    often = Counter(word for *_, words in shown for word in words)
+    known = frozenset(word for word, times in often.items() if times > 1)
+    return SentenceModel(labels=tuple(labels), weights=weights, known=known)
+
+
+def best_kind(chances: Any) -> str:
+    """The likeliest aim or kind of all its topics together."""
+    sums = Counter[str]()
+    for label, chance in chances.items():
+        sums[label if label in OBJECTIVES else label.partition(".")[0]] += chance
+    return max(sums, key=lambda kind: sums[kind])
+
+
+def main() -> None:
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    parser = argparse.ArgumentParser(description="A network as the judge of sentences, against the linear models.")
+    parser.add_argument("files", nargs="+", type=Path)
+    parser.add_argument("--weights", type=Path, default=Path("network.npz"))
+    given = parser.parse_args()
+    if not given.weights.exists():
+        taught(examples()).save(given.weights)
+    network = SentenceModel.load(given.weights)
+    print(f"{'':40}{'network':>24}{'linear':>24}")
+    for path in given.files:
+        rows = read(path)
+        told, acted, asked = Counter[str](), Counter[str](), Counter[str]()
+        for row in rows:
+            sentence = Sentence(row["text"], own_words())
+            judged, frame = network.chances(words_of(sentence)), frame_of(sentence)
+            linear = shipped_model().probabilities(*sentence.for_model())
+            wanted = row["objective"] if row["act"] and row.get("objective") else row.get("kind")
+            sure = {"network": judged.order >= LIKELY, "linear": shipped_order_model().is_order(frame)}
+            for judge, kinds in (("network", judged.kinds), ("linear", linear)):
+                told[judge] += best_kind(kinds) == wanted
+                acted[judge] += sure[judge] and not row["act"]
+                asked[judge] += row["act"] and not sure[judge]
+        orders_there, known = (
+            sum(row["act"] for row in rows),
+            sum("kind" in row or bool(row["objective"]) for row in rows),
+        )
+        for name, counted, of in (
+            ("kinds right", told, known), ("no orders, likely enough", acted, len(rows) - orders_there),
+            ("orders, not likely enough", asked, orders_there),
+        ):  # fmt: skip
+            shares = (f"{counted[judge]} of {of}" for judge in ("network", "linear"))
+            print(f"{path.stem[:14]:15}{name:25}" + "".join(f"{share:>24}" for share in shares))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,168 @@
+"""The fit of the network: AdamW with a warm start and a cosine, words and features that are lost, averaged weights.
+
+It needs JAX and Optax, which are no dependency of the project.
+"""
+
+from __future__ import annotations
+
+import importlib
+import logging
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from network.layers import (
+    BLOCKS,
+    BUCKETS,
+    EMBEDDED,
+    HEADS,
+    MOST_FEATURES,
+    REACH,
+    WIDTH,
+    embedded,
+    scores,
+)
+
+jax: Any = importlib.import_module("jax")  # neither is typed
+jnp: Any = importlib.import_module("jax.numpy")
+optax: Any = importlib.import_module("optax")
+
+PASSES = 10.0
+BATCH, LENGTHS = 128, (8, 12, 16, 20, 26, 34, 48, 80)
+"""Sentences read at once, all of at most so many words and the mark of their start."""
+
+_PEAK, _LAST, _WARM, _DECAY, _CLIP, _FORGETS = 3e-3, 5e-5, 200, 0.02, 1.0, 0.998
+_LOST, _LOST_WORDS, _LOST_FEATURES, _BARE = 0.1, 0.04, 0.05, 0.2
+"""What is lost of what is seen; of words, of their features; and how often a wish is left with what it means alone,
+which then says nothing about its kind."""
+
+_SMOOTH = 0.01
+_LOG = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shown:
+    """What sentences show, each with the features of its words (word, MOST_FEATURES) and those of bare ones.
+
+    Attributes:
+        right: (sentence, kind) the kinds that are right, of which one is enough; ``kind_counts`` says how much.
+        orders, order_counts: (sentence,) whether it orders something, and how much that counts.
+        turns: (sentence,) in what share of the passes it is read.
+    """
+
+    rows: Sequence[npt.NDArray[np.uint16]]
+    bare: Sequence[npt.NDArray[np.uint16]]
+    right: npt.NDArray[np.bool_]
+    kind_counts: npt.NDArray[np.float32]
+    orders: npt.NDArray[np.float32]
+    order_counts: npt.NDArray[np.float32]
+    turns: npt.NDArray[np.float64]
+
+
+def fit(shown: Shown, passes: float = PASSES, seed: int = 1) -> dict[str, npt.NDArray[np.float32]]:
+    """The weights that make what is shown likely: the same for the same on one machine."""
+    chance = np.random.default_rng(seed)
+    steps = int(passes * (shown.turns.sum() / BATCH + len(LENGTHS) / 2)) + 1
+    rate = optax.warmup_cosine_decay_schedule(0.0, _PEAK, min(_WARM, steps // 10 + 1), steps + 1, _LAST)
+    optimiser = optax.chain(optax.clip_by_global_norm(_CLIP), optax.adamw(rate, b2=0.98, weight_decay=_DECAY))
+    weights = jax.tree.map(jnp.asarray, _first_weights(shown.right.shape[1], chance))
+    state, mean, key = optimiser.init(weights), weights, jax.random.PRNGKey(seed)
+
+    @jax.jit
+    def step(weights: Any, state: Any, mean: Any, batch: Any, key: Any, done: Any) -> tuple[Any, Any, Any, Any]:
+        lost, slope = jax.value_and_grad(_loss)(weights, batch, key)
+        change, state = optimiser.update(slope, state, weights)
+        weights = optax.apply_updates(weights, change)
+        kept = jnp.minimum(_FORGETS, done / (done + 20.0))
+
+        def averaged(one: Any, other: Any) -> Any:
+            return one * kept + other * (1 - kept)
+
+        return weights, state, jax.tree.map(averaged, mean, weights), lost
+
+    done, start, lost = 0, time.perf_counter(), list[Any]()
+    while done < steps:
+        for batch in _batches(shown, chance):
+            key, own = jax.random.split(key)
+            weights, state, mean, each = step(weights, state, mean, batch, own, float(done))
+            lost, done = [*lost[-99:], each], done + 1
+            if done >= steps:
+                break
+        _LOG.info("step %d of %d, loss %.3f (%.0f s)", done, steps, float(sum(lost)) / len(lost),
+                  time.perf_counter() - start)  # fmt: skip
+    return {name: np.asarray(each) for name, each in mean.items()}
+
+
+def _first_weights(kinds: int, chance: np.random.Generator) -> dict[str, Any]:
+    """Where a training begins, for so many kinds."""
+
+    def drawn(*shape: int, gain: float = 1.0) -> Any:
+        return (chance.standard_normal(shape) * gain / np.sqrt(np.prod(shape[:-1]))).astype(np.float32)
+
+    weights: dict[str, Any] = {
+        "embedding": (chance.standard_normal((BUCKETS, EMBEDDED)) * 0.1).astype(np.float32),
+        "in": drawn(EMBEDDED, WIDTH),
+    }
+    for block in map(str, range(BLOCKS)):
+        weights |= {
+            block + "near": drawn(3 * WIDTH, 2 * WIDTH), block + "sought": drawn(WIDTH, 3 * WIDTH),
+            block + "found": drawn(WIDTH, WIDTH, gain=0.5), block + "far": np.zeros((HEADS, 2 * REACH + 1), np.float32),
+            block + "up": drawn(WIDTH, 2 * WIDTH), block + "down": drawn(2 * WIDTH, WIDTH, gain=0.5),
+        }  # fmt: skip
+        weights |= {f"{block}norm{place}": np.ones(WIDTH, np.float32) for place in range(3)}
+    weights["norm"] = np.ones(WIDTH, np.float32)
+    for head, size in (("kind", kinds), ("order", 1)):
+        weights |= {
+            head + "pool": drawn(WIDTH, HEADS), head: drawn(WIDTH * (HEADS + 1), size, gain=0.5),
+            head + "bias": np.zeros(size, np.float32),
+        }  # fmt: skip
+    return weights
+
+
+def _loss(weights: Any, batch: Any, key: Any) -> Any:
+    keys = iter(jax.random.split(key, 32))
+
+    def lose(seen: Any) -> Any:
+        return jnp.where(jax.random.bernoulli(next(keys), 1 - _LOST, seen.shape), seen / (1 - _LOST), 0)
+
+    sentences, length = batch["there"].shape
+    words = embedded(jnp, weights, batch["rows"].reshape(-1, MOST_FEATURES)).reshape(sentences, length, -1)
+    kinds, order = scores(jnp, weights, words, batch["there"], lose)
+    likely = jax.nn.log_softmax(kinds)
+    right = jax.nn.logsumexp(jnp.where(batch["right"], likely, -1e9), -1)
+    of_kind = ((1 - _SMOOTH) * right + _SMOOTH * likely.mean(-1)) @ batch["kind_counts"]
+    of_order = optax.sigmoid_binary_cross_entropy(order, batch["orders"] * 0.98 + 0.01) @ batch["order_counts"]
+    return (of_order - of_kind) / sentences
+
+
+def _batches(shown: Shown, chance: np.random.Generator) -> Iterator[Mapping[str, Any]]:
+    """One pass over the sentences whose turn it is, in batches of about equal length."""
+    turn = np.flatnonzero(chance.random(len(shown.turns)) < shown.turns)
+    chance.shuffle(turn)
+    sizes = np.array([len(shown.rows[each]) for each in list[int](turn.tolist())])
+    fits = np.searchsorted(LENGTHS, sizes)
+    groups = [(length, turn[fits == place]) for place, length in enumerate(LENGTHS)]
+    full = [(length, np.resize(group, -(-len(group) // BATCH) * BATCH)) for length, group in groups]
+    batches: list[tuple[int, npt.NDArray[np.int64]]] = [
+        (length, group[at : at + BATCH]) for length, group in full for at in range(0, len(group), BATCH)
+    ]
+    order: list[int] = chance.permutation(len(batches)).tolist()
+    for place in order:
+        length, chosen = batches[place]
+        rows = np.zeros((BATCH, length, MOST_FEATURES), np.uint16)
+        there = np.zeros((BATCH, length), np.float32)
+        bare, sentences = chance.random(BATCH) < _BARE, list[int](chosen.tolist())
+        for at, sentence in enumerate(sentences):
+            seen = (shown.bare if bare[at] else shown.rows)[sentence]
+            seen = seen[np.append(True, chance.random(len(seen) - 1) >= _LOST_WORDS)]
+            rows[at, : len(seen)], there[at, : len(seen)] = seen, 1
+        rows *= chance.random(rows.shape, np.float32) >= _LOST_FEATURES
+        yield {
+            "rows": rows.astype(np.int32), "there": there, "right": shown.right[chosen],
+            "kind_counts": np.where(bare, np.float32(0), shown.kind_counts[chosen]), "orders": shown.orders[chosen],
+            "order_counts": shown.order_counts[chosen],
+        }  # fmt: skip

@@ -1,0 +1,214 @@
+"""What a sentence wants, whether it orders that now, and by which words: what the network makes of it.
+
+A word is seen as it is said, by its letters and, in Chinese, with its neighbours, as the base word that the languages
+share, by what the lexicon knows of it, by its classes of mood (:mod:`.moods`), and whether it is part of a wish.
+Figures and users are one mark each.
+"""
+
+from __future__ import annotations
+
+import itertools
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from network.layers import BUCKETS, MOST_FEATURES, embedded, scores
+from wirelessagent.language import base_words
+from wirelessagent.language.deferred import deferred
+from wirelessagent.language.mentions import mentions
+from wirelessagent.language.moods import Span, classes_in
+from wirelessagent.language.sentence import Sentence
+from wirelessagent.language.text import CJK, is_chinese, overlaps, unaccented
+
+LIKELY = 0.8
+"""How likely a sentence is one that orders something, at least, to be taken for one: half as many frames are acted upon
+as at 0.6, and 1 % more of the orders are asked about."""
+
+_WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
+_MOST_QUOTED, _LONG_ENOUGH, _MOST_WORDS, _MOST_DOUBTED = 4, 12, 400, 100
+
+
+class Word(NamedTuple):
+    """A word, a Chinese character or a sign: as it is said, as a base word, what it means, its moods, and where.
+
+    Attributes:
+        said: in lower case and without accents; "@power", "@user" and the like for a figure or users.
+        meant: the objective or the concept that the lexicon knows it by, "" for none.
+        wished: whether it is part of a wish: a figure, a user, an aim.
+    """
+
+    said: str
+    base: str
+    meant: str
+    moods: tuple[str, ...]
+    wished: bool
+    span: Span
+
+
+START = Word("<s>", "<s>", "", (), False, (0, 0))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chances:
+    """How likely a sentence is of each kind, and how likely it orders something now, and does not only tell or ask."""
+
+    kinds: Mapping[str, float]
+    order: float
+
+
+def aligned(tokens: Sequence[str], language: str) -> list[str]:
+    """For each of a sentence's tokens its base word, that of a Chinese expression for each of its characters."""
+    own, english, chinese = (base_words._base_words(each) for each in (language, "en", "zh"))
+    found = list[str]()
+    while len(found) < len(tokens):
+        token, ahead = tokens[len(found)], tokens[len(found) : len(found) + base_words._longest("zh")]
+        run = "".join(itertools.takewhile(is_chinese, ahead))
+        if run:
+            size = next((size for size in range(len(run), 0, -1) if run[:size] in chinese), 1)
+            found += [chinese.get(run[:size], token)] * size
+        else:
+            found.append(own.get(token) or (english.get(token, token) if language == "zh" else token))
+    return found
+
+
+def words_of(sentence: Sentence) -> list[Word]:
+    """The words of a sentence, with one mark for each figure and each mention of users."""
+    marked = [(q.phrase_start, q.phrase_end, f"@{q.kind}") for q in sentence.quantities]
+    taken = [(start, end) for start, end, _ in marked]
+    marked += [(m.start, m.end, "@user") for m in mentions(sentence.plain, (), taken) if m.role == "named"]
+    found, place, plain = list[tuple[str, Span]](), 0, sentence.plain
+    for start, end, mark in [*sorted(marked), (len(plain), len(plain), "")]:
+        if start >= place:
+            words = ((each.group(), each.span()) for each in _WORD.finditer(plain, place, start))
+            found += [(word, span) for said, span in words if (word := unaccented(said.lower()))]
+            found += [(mark, (start, end))] if mark else []
+            place = end
+    wished, moods = sentence.wished, classes_in(plain)
+    terms = [((each.start, each.end), each.term.objective or each.term.concept) for each in sentence.found]
+    return [
+        Word(
+            said, base,
+            next((meant for at, meant in terms if overlaps(span, [at])), ""),
+            tuple(name for name, at in moods if overlaps(span, [at])), any(a <= span[0] < b for a, b in wished), span,
+        )
+        for (said, span), base in zip(found, aligned([said for said, _ in found], sentence.language), strict=True)
+    ]  # fmt: skip
+
+
+def features(word: Word, before: str = "", behind: str = "", *, bare: bool = False) -> tuple[int, ...]:
+    """The buckets of a word between two others; of a ``bare`` one without what is said, only what it means."""
+    return tuple(dict.fromkeys(1 + hashed(each) % (BUCKETS - 1) for each in _seen(word, before, behind, bare=bare)))
+
+
+def _seen(word: Word, before: str, behind: str, *, bare: bool) -> Iterator[str]:
+    if not bare:
+        yield "w" + word.said
+        if is_chinese(word.said):
+            yield from (f"p{before}{word.said}", f"p{word.said}{behind}", f"t{before}{word.said}{behind}")
+        if word.base != word.said:
+            yield "b" + word.base
+    if word.meant:
+        yield "C" + word.meant
+    yield from ("m" + mood for mood in word.moods)
+    if word.wished:
+        yield "@"
+    elif bare:
+        yield "~"
+    if not bare and len(word.said) > 3 and word.said.isalpha() and not is_chinese(word.said):
+        letters = f"^{word.said[:_LONG_ENOUGH]}$"
+        yield from ("c" + letters[at : at + size] for size in (3, 4) for at in range(len(letters) - size + 1))
+
+
+def rows_of(words: Sequence[Word]) -> npt.NDArray[np.int64]:
+    """(word, MOST_FEATURES) the buckets of a sentence's words, behind a mark for its start."""
+    rows = np.zeros((len(words) + 1, MOST_FEATURES), np.int64)
+    for place, word in enumerate((START, *words)):
+        around = ("", "")
+        if is_chinese(word.said):
+            around = words[place - 2].said if place > 1 else "<", words[place].said if place < len(words) else ">"
+        found = features(word, *around)[:MOST_FEATURES]
+        rows[place, : len(found)] = found
+    return rows
+
+
+def hashed(text: str) -> int:
+    """A number for a text, the same everywhere."""
+    return zlib.crc32(text.encode("utf-8", "replace"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class SentenceModel:
+    """The network's weights, the kinds that it tells apart, and the hashes of the words that it knows."""
+
+    labels: tuple[str, ...]
+    weights: Mapping[str, npt.NDArray[Any]]
+    known: frozenset[int]
+
+    @classmethod
+    def load(cls, path: Path) -> SentenceModel:
+        with np.load(path) as arrays:
+            held = dict[str, npt.NDArray[Any]](arrays)
+        labels, known, scale = held.pop("labels"), held.pop("known"), held.pop("scale")
+        weights = {name: each.astype(np.float32) for name, each in held.items()}
+        weights["embedding"] *= scale
+        return cls(labels=tuple(map(str, labels)), weights=weights, known=frozenset(known.tolist()))
+
+    def save(self, path: Path) -> None:
+        """Write the model: embeddings as int8 with one scale, other weights with 16 bits."""
+        embedding = self.weights["embedding"]
+        scale = np.float32(np.abs(embedding).max() / 127)
+        weights: dict[str, Any] = {name: each.astype(np.float16) for name, each in self.weights.items()}
+        weights["embedding"] = np.rint(embedding / scale).astype(np.int8)
+        known = np.array(sorted(self.known), np.uint32)
+        np.savez_compressed(path, allow_pickle=False, labels=np.array(self.labels), known=known, scale=scale, **weights)
+
+    def chances(self, words: Sequence[Word]) -> Chances:
+        """What a sentence of these words is; a very long one orders nothing, as its end is not read."""
+        kinds, orders = self._scores(self._seen(words[:_MOST_WORDS])[None])
+        likely = np.exp(kinds[0] - kinds[0].max())
+        likely /= likely.sum()
+        order = float(_logistic(orders)[0]) if len(words) <= _MOST_WORDS else 0.0
+        return Chances(kinds=dict(zip(self.labels, likely.tolist(), strict=True)), order=order)
+
+    def _seen(self, words: Sequence[Word]) -> npt.NDArray[np.float32]:
+        """(word, EMBEDDED) of a sentence, behind its start."""
+        return np.asarray(embedded(np, self.weights, rows_of(words)), np.float32)
+
+    def _scores(self, seen: npt.NDArray[np.float32]) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+        """Scores of the kinds and of orders, of sentences as long as each other (sentence, word, EMBEDDED)."""
+        with np.errstate(over="ignore"):  # exp(88) is infinite here, and 1 divided by it nothing
+            return scores(np, self.weights, seen, np.ones(seen.shape[:2], np.float32))
+
+    def against(self, words: Sequence[Word]) -> Span | None:
+        """Where the words stand, four at most, without which a sentence is likeliest to order something; None for none.
+
+        They stand side by side and are no part of the wish, as few of them as make it likely enough.
+        """
+        seen = self._seen(words[:_MOST_DOUBTED])
+        for size in range(1, min(_MOST_QUOTED, len(seen) - 1) + 1):
+            places = [at for at in range(len(seen) - size) if _may_be_quoted(words[at : at + size])]
+            if places:
+                rest = [np.delete(seen, slice(at + 1, at + 1 + size), axis=0) for at in places]
+                _, orders = self._scores(np.stack(rest))
+                best = int(orders.argmax())
+                if _logistic(orders)[best] >= LIKELY:
+                    return words[places[best]].span[0], words[places[best] + size - 1].span[1]
+        return None
+
+    def familiarity(self, words: Sequence[str]) -> float:
+        """The share of words that the training had, marks and signs aside; 0 for none at all."""
+        counted = [hashed(word) in self.known for word in words if word[0].isalpha()]
+        return sum(counted) / len(counted) if counted else 0.0
+
+
+def _may_be_quoted(words: Sequence[Word]) -> bool:
+    return not any(word.wished for word in words) and any(word.said.isalnum() for word in words)
+
+
+def _logistic(scores: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    return 0.5 + 0.5 * np.tanh(scores / 2)
