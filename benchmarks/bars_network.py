@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from bars_frames import read
 from network.fit import LENGTHS, PASSES, Shown, fit
-from network.judge import LIKELY, SentenceModel, features, hashed, rows_of, words_of
+from network.judge import LIKELY, SentenceModel, features, rows_of, words_of
 from network.layers import MOST_FEATURES
 
 from wirelessagent.language.linear_model import shipped_model
@@ -52,8 +52,8 @@ def examples() -> list[tuple[str, str, float, bool, float, float]]:
     return found + [(text, "", 0.0, does, orders.TALK, 0.5) for text, does in orders.in_talks()]
 
 
-def seen(text: str) -> tuple[Any, Any, frozenset[int]]:
-    """What is seen of a sentence, of one whose wish is left with what it means alone, and the hashes of its words."""
+def seen(text: str) -> tuple[Any, Any]:
+    """What is seen of a sentence, and of one whose wish is left with what it means alone."""
     words = words_of(Sentence(text, own_words()))[: LENGTHS[-1] - 1]
     rows = rows_of(words).astype(np.uint16)
     bare = rows.copy()
@@ -62,7 +62,7 @@ def seen(text: str) -> tuple[Any, Any, frozenset[int]]:
             found = features(word, bare=True)[:MOST_FEATURES]
             bare[place] = 0
             bare[place, : len(found)] = found
-    return rows, bare, frozenset(hashed(word.said) for word in words if word.said[0].isalpha())
+    return rows, bare
 
 
 def taught(every: list[tuple[str, str, float, bool, float, float]], passes: float = PASSES) -> SentenceModel:
@@ -78,14 +78,12 @@ def taught(every: list[tuple[str, str, float, bool, float, float]], passes: floa
     share = even @ (counts @ even / counts.sum())
     rare = np.where(counts > 0, (len(labels) * np.maximum(share, 1e-6)) ** _RARE, 0)
     weights = fit(Shown(
-        rows=[rows for rows, *_ in shown], bare=[bare for _, bare, _ in shown], right=right,
+        rows=[rows for rows, _ in shown], bare=[bare for _, bare in shown], right=right,
         kind_counts=counts * np.clip(rare / rare[counts > 0].mean(), _LEAST, _MOST).astype(np.float32),
         orders=np.array([each[3] for each in every], np.float32),
         order_counts=np.array([each[4] for each in every], np.float32), turns=np.array([each[5] for each in every]),
     ), passes)  # fmt: skip
-    often = Counter(word for *_, words in shown for word in words)
-    known = frozenset(word for word, times in often.items() if times > 1)
-    return SentenceModel(labels=tuple(labels), weights=weights, known=known)
+    return SentenceModel(labels=tuple(labels), weights=weights)
 
 
 def best_kind(chances: Any) -> str:

@@ -1,4 +1,4 @@
-"""What a sentence wants, whether it orders that now, and by which words: what the network makes of it.
+"""What a sentence wants, and whether it orders that now: what the network makes of it.
 
 A word is seen as it is said, by its letters and, in Chinese, with its neighbours, as the base word that the languages
 share, by what the lexicon knows of it, by its classes of mood (:mod:`.moods`), and whether it is part of a wish.
@@ -30,7 +30,7 @@ LIKELY = 0.8
 as at 0.6, and 1 % more of the orders are asked about."""
 
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
-_MOST_QUOTED, _LONG_ENOUGH, _MOST_WORDS, _MOST_DOUBTED = 4, 12, 400, 100
+_LONG_ENOUGH, _MOST_WORDS = 12, 400
 
 
 class Word(NamedTuple):
@@ -143,20 +143,19 @@ def hashed(text: str) -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class SentenceModel:
-    """The network's weights, the kinds that it tells apart, and the hashes of the words that it knows."""
+    """The network's weights, and the kinds that it tells apart."""
 
     labels: tuple[str, ...]
     weights: Mapping[str, npt.NDArray[Any]]
-    known: frozenset[int]
 
     @classmethod
     def load(cls, path: Path) -> SentenceModel:
         with np.load(path) as arrays:
             held = dict[str, npt.NDArray[Any]](arrays)
-        labels, known, scale = held.pop("labels"), held.pop("known"), held.pop("scale")
+        labels, scale = held.pop("labels"), held.pop("scale")
         weights = {name: each.astype(np.float32) for name, each in held.items()}
         weights["embedding"] *= scale
-        return cls(labels=tuple(map(str, labels)), weights=weights, known=frozenset(known.tolist()))
+        return cls(labels=tuple(map(str, labels)), weights=weights)
 
     def save(self, path: Path) -> None:
         """Write the model: embeddings as int8 with one scale, other weights with 16 bits."""
@@ -164,8 +163,7 @@ class SentenceModel:
         scale = np.float32(np.abs(embedding).max() / 127)
         weights: dict[str, Any] = {name: each.astype(np.float16) for name, each in self.weights.items()}
         weights["embedding"] = np.rint(embedding / scale).astype(np.int8)
-        known = np.array(sorted(self.known), np.uint32)
-        np.savez_compressed(path, allow_pickle=False, labels=np.array(self.labels), known=known, scale=scale, **weights)
+        np.savez_compressed(path, allow_pickle=False, labels=np.array(self.labels), scale=scale, **weights)
 
     def chances(self, words: Sequence[Word]) -> Chances:
         """What a sentence of these words is; a very long one orders nothing, as its end is not read."""
@@ -183,31 +181,6 @@ class SentenceModel:
         """Scores of the kinds and of orders, of sentences as long as each other (sentence, word, EMBEDDED)."""
         with np.errstate(over="ignore"):  # exp(88) is infinite here, and 1 divided by it nothing
             return scores(np, self.weights, seen, np.ones(seen.shape[:2], np.float32))
-
-    def against(self, words: Sequence[Word]) -> Span | None:
-        """Where the words stand, four at most, without which a sentence is likeliest to order something; None for none.
-
-        They stand side by side and are no part of the wish, as few of them as make it likely enough.
-        """
-        seen = self._seen(words[:_MOST_DOUBTED])
-        for size in range(1, min(_MOST_QUOTED, len(seen) - 1) + 1):
-            places = [at for at in range(len(seen) - size) if _may_be_quoted(words[at : at + size])]
-            if places:
-                rest = [np.delete(seen, slice(at + 1, at + 1 + size), axis=0) for at in places]
-                _, orders = self._scores(np.stack(rest))
-                best = int(orders.argmax())
-                if _logistic(orders)[best] >= LIKELY:
-                    return words[places[best]].span[0], words[places[best] + size - 1].span[1]
-        return None
-
-    def familiarity(self, words: Sequence[str]) -> float:
-        """The share of words that the training had, marks and signs aside; 0 for none at all."""
-        counted = [hashed(word) in self.known for word in words if word[0].isalpha()]
-        return sum(counted) / len(counted) if counted else 0.0
-
-
-def _may_be_quoted(words: Sequence[Word]) -> bool:
-    return not any(word.wished for word in words) and any(word.said.isalnum() for word in words)
 
 
 def _logistic(scores: npt.NDArray[Any]) -> npt.NDArray[Any]:
