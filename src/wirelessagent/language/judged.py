@@ -81,7 +81,7 @@ class Judged:
         weighing = _weighing_lists(first, chances)
         plausible = _no_limits(first, weighing)
         read = [*first.figures, *first.loose, *first.mentions]
-        alone = ones(plain, [*taken, *((each.start, each.end) for each in read)])
+        alone = ones(plain, [*taken, *((each.start, each.end) for each in read)]) if plausible else ()
         users = _users(plain, plausible, [number for number in alone if number.value == 1], chances)
         look = second_look(first, users, _borrowing(first, chances, [*users, *weighing]))
         self._look, self._view = look, view if look is first else look.view()
@@ -303,15 +303,15 @@ def _weighing_lists(look: Look, chances: _Roles) -> list[Number]:
     ]
 
 
-def _users(plain: str, numbers: Sequence[Number], ones: Sequence[Number], chances: _Roles) -> list[Number]:
+def _users(plain: str, numbers: Sequence[Number], singles: Sequence[Number], chances: _Roles) -> list[Number]:
     """The numbers that are users: surely, or likelier than not beside one that surely is ("2, 5 and 7").
 
-    One of the ``ones`` is a user in a list with others: "for the one and the three".
+    One of the ``singles`` ("one") is a user in a list with others: "for the one and the three".
     """
     able = [n for n in numbers if n.value is not None and 0 <= n.value == int(n.value) < _MOST_BARE_USERS]
     able = [n for n in able if COUNTED_USERS.match(plain, n.start) is None and FOREIGN_UNIT.match(plain, n.end) is None]
-    able = sorted([*able, *ones], key=lambda number: number.start)
+    able = sorted([*able, *singles], key=lambda number: number.start)
     lists = [each for each in _runs(plain, able, JOINT) if _WEIGHTS.search(plain, 0, each[0].start) is None]
     lists = [each for each in lists if len({number.value for number in each}) == len(each)]  # "w = [2, 1, 1]"
-    sure = [each for each in lists if any(n not in ones and chances[n]["user"] > _SURE_OF_A_USER for n in each)]
-    return [n for each in sure for n in each if n in ones or chances[n]["user"] > _ONE_OF_A_LIST]
+    sure = [each for each in lists if any(n not in singles and chances[n]["user"] > _SURE_OF_A_USER for n in each)]
+    return [n for each in sure for n in each if n in singles or chances[n]["user"] > _ONE_OF_A_LIST]
