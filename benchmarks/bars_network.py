@@ -1,7 +1,7 @@
 """A small network as the judge of sentences, against the shipped linear models: kinds told right, frames acted upon.
 
 Run with ``uv run --with jax --with optax python benchmarks/bars_network.py FILE.jsonl … [--weights FILE.npz]``; files
-are those of ``bars_frames.py`` and of ``wirelessagent evaluate intents``. The network is taught from scratch (25
+are those of ``bars_frames.py`` and of ``wirelessagent evaluate intents``. The network is taught from scratch (35
 minutes on two cores) where there are no weights yet, by all that the shipped models learn from and by the sentences of
 ``network/taught``, which those have not learned. Printed are the sentences whose likeliest kind or aim is right, and
 for those that say whether they act the orders that are not likely enough and the others that are, by the judge alone.
@@ -19,8 +19,7 @@ from typing import Any
 import numpy as np
 from bars_frames import read
 from network.fit import LENGTHS, PASSES, Shown, fit
-from network.judge import LIKELY, SentenceModel, features, rows_of, words_of
-from network.layers import MOST_FEATURES
+from network.judge import KNOWN, LIKELY, SentenceModel, hashes_of, rows_of, words_of
 
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.order_model import frame_of, shipped_order_model
@@ -33,21 +32,28 @@ from wirelessagent.language.training.spoken import spoken
 TAUGHT = Path(__file__).with_name("network") / "taught"
 TRAINING = Path(orders.__file__).parent
 DRAWN, NEAR = 0.5, 0.3
-"""What the kind of a drawn sentence counts, and of one that only orders or does not, beside one that is known."""
+"""What the kind of a drawn aim counts, and of one that only orders or does not, beside one that is known."""
 _ORDERS = (*OBJECTIVES, "clarify.limits", "command")
 _RARE, _LEAST, _MOST = -0.2, 0.5, 3.0
+OFTEN = 6
+"""How often something has to be seen to be known: else it falls into the bucket of anything else."""
 
 
 def examples() -> list[tuple[str, str, float, bool, float, float]]:
     """Sentences with their kind and how much it counts, whether they order and how much that counts, and how often."""
-    found = [(text, label, DRAWN, False, 0.0, 0.3) for text, label in sorted(set(sentences(TRAINING)))]
+    found = list[tuple[str, str, float, bool, float, float]]()
+    for text, label in sorted(set(sentences(TRAINING))):
+        aim, tells = label in OBJECTIVES, label.startswith(("command", "question"))
+        found.append((text, label, DRAWN if aim else 1.0, label.startswith("command"), orders.MILD if tells else 0.0,
+                      0.3 if aim else 0.6))  # fmt: skip
     own = (dataclasses.replace(each, near=each.label in ("order", "none")) for each in spoken(TAUGHT))
     for each in (*spoken(), *own):
         kind = "clarify.limits" if each.label == "clarify" and each.constraints else each.label
         doubts = kind == "clarify" and Sentence(each.text, own_words()).reading.doubts
         counts = 0.0 if doubts else NEAR if kind in ("order", "none") else 1.0
-        tells = 0.0 if each.is_order is None else 1.0 if each.near else orders.MILD
-        found.append((each.text, kind, counts, each.is_order is True, tells, 1.0))
+        does = True if kind.startswith("command") else each.is_order
+        tells = 0.0 if does is None else 1.0 if each.near else orders.MILD
+        found.append((each.text, kind, counts, does is True, tells, 1.0))
     found += [(text, "", 0.0, does, orders.FRAME / orders.FILLED, 0.5) for text, does in orders.framed()]
     return found + [(text, "", 0.0, does, orders.TALK, 0.5) for text, does in orders.in_talks()]
 
@@ -55,19 +61,15 @@ def examples() -> list[tuple[str, str, float, bool, float, float]]:
 def seen(text: str) -> tuple[Any, Any]:
     """What is seen of a sentence, and of one whose wish is left with what it means alone."""
     words = words_of(Sentence(text, own_words()))[: LENGTHS[-1] - 1]
-    rows = rows_of(words).astype(np.uint16)
-    bare = rows.copy()
-    for place, word in enumerate(words, 1):
-        if word.wished or word.meant:
-            found = features(word, bare=True)[:MOST_FEATURES]
-            bare[place] = 0
-            bare[place, : len(found)] = found
-    return rows, bare
+    return hashes_of(words), hashes_of(words, bare=True)
 
 
 def taught(every: list[tuple[str, str, float, bool, float, float]], passes: float = PASSES) -> SentenceModel:
     """The network, taught by these sentences."""
     shown = in_parallel(seen, [text for text, *_ in every])
+    found, times = np.unique(np.concatenate([hashes for (hashes, _), _ in shown]), return_counts=True)
+    known = np.zeros(KNOWN, np.bool_)
+    known[found[times >= OFTEN] % KNOWN] = True
     kinds = [kind for _, kind, *_ in every]
     labels = sorted({kind for kind in kinds if "." in kind or kind in (*OBJECTIVES, "out_of_scope")})
     meant = {kind: [bool(kind) and f"{label}.".startswith(f"{kind}.") for label in labels] for kind in set(kinds)}
@@ -78,12 +80,13 @@ def taught(every: list[tuple[str, str, float, bool, float, float]], passes: floa
     share = even @ (counts @ even / counts.sum())
     rare = np.where(counts > 0, (len(labels) * np.maximum(share, 1e-6)) ** _RARE, 0)
     weights = fit(Shown(
-        rows=[rows for rows, _ in shown], bare=[bare for _, bare in shown], right=right,
+        rows=[rows_of(*said, known) for said, _ in shown], bare=[rows_of(*bare, known) for _, bare in shown],
+        right=right,
         kind_counts=counts * np.clip(rare / rare[counts > 0].mean(), _LEAST, _MOST).astype(np.float32),
         orders=np.array([each[3] for each in every], np.float32),
         order_counts=np.array([each[4] for each in every], np.float32), turns=np.array([each[5] for each in every]),
     ), passes)  # fmt: skip
-    return SentenceModel(labels=tuple(labels), weights=weights)
+    return SentenceModel(labels=tuple(labels), weights=weights, known=known)
 
 
 def best_kind(chances: Any) -> str:

@@ -31,12 +31,12 @@ jax: Any = importlib.import_module("jax")  # neither is typed
 jnp: Any = importlib.import_module("jax.numpy")
 optax: Any = importlib.import_module("optax")
 
-PASSES = 10.0
+PASSES = 8.0
 BATCH, LENGTHS = 128, (8, 12, 16, 20, 26, 34, 48, 80)
 """Sentences read at once, all of at most so many words and the mark of their start."""
 
 _PEAK, _LAST, _WARM, _DECAY, _CLIP, _FORGETS = 3e-3, 5e-5, 200, 0.02, 1.0, 0.998
-_LOST, _LOST_WORDS, _LOST_FEATURES, _BARE = 0.1, 0.04, 0.05, 0.2
+_LOST, _LOST_WORDS, _LOST_FEATURES, _BARE = 0.1, 0.05, 0.08, 0.2
 """What is lost of what is seen; of words, of their features; and how often a wish is left with what it means alone,
 which then says nothing about its kind."""
 

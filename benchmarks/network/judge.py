@@ -2,7 +2,7 @@
 
 A word is seen as it is said, by its letters and, in Chinese, with its neighbours, as the base word that the languages
 share, by what the lexicon knows of it, by its classes of mood (:mod:`.moods`), and whether it is part of a wish.
-Figures and users are one mark each.
+Figures and users are one mark each, and so is every word that the training hardly saw.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from wirelessagent.language.deferred import deferred
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.moods import Span, classes_in
 from wirelessagent.language.sentence import Sentence
-from wirelessagent.language.text import CJK, is_chinese, overlaps, unaccented
+from wirelessagent.language.text import CJK, is_chinese, unaccented
 
 LIKELY = 0.8
 """How likely a sentence is one that orders something, at least, to be taken for one: half as many frames are acted upon
@@ -49,6 +49,9 @@ class Word(NamedTuple):
     wished: bool
     span: Span
 
+
+KNOWN = 1 << 20
+"""Of so many hashes it is known whether the training saw them often enough."""
 
 START = Word("<s>", "<s>", "", (), False, (0, 0))
 
@@ -88,30 +91,48 @@ def words_of(sentence: Sentence) -> list[Word]:
             found += [(word, span) for said, span in words if (word := unaccented(said.lower()))]
             found += [(mark, (start, end))] if mark else []
             place = end
-    wished, moods = sentence.wished, classes_in(plain)
-    terms = [((each.start, each.end), each.term.objective or each.term.concept) for each in sentence.found]
+    meant, wished = [""] * len(plain), [False] * len(plain)
+    moods: list[tuple[str, ...]] = [()] * len(plain)
+    for each in reversed(sentence.found):
+        meant[each.start : each.end] = [each.term.objective or each.term.concept] * (each.end - each.start)
+    for name, (start, end) in classes_in(plain):
+        moods[start:end] = [(*said, name) for said in moods[start:end]]
+    for start, end in sentence.wished:
+        wished[start:end] = [True] * (end - start)
     return [
         Word(
-            said, base,
-            next((meant for at, meant in terms if overlaps(span, [at])), ""),
-            tuple(name for name, at in moods if overlaps(span, [at])), any(a <= span[0] < b for a, b in wished), span,
+            said, base, next(filter(None, meant[slice(*span)]), ""),
+            tuple(dict.fromkeys(name for each in moods[slice(*span)] for name in each)), wished[span[0]], span,
         )
         for (said, span), base in zip(found, aligned([said for said, _ in found], sentence.language), strict=True)
     ]  # fmt: skip
 
 
-def features(word: Word, before: str = "", behind: str = "", *, bare: bool = False) -> tuple[int, ...]:
-    """The buckets of a word between two others; of a ``bare`` one without what is said, only what it means."""
-    return tuple(dict.fromkeys(1 + hashed(each) % (BUCKETS - 1) for each in _seen(word, before, behind, bare=bare)))
+def hashes_of(words: Sequence[Word], *, bare: bool = False) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """The hashes of all that is seen of a sentence's words, behind a mark for its start, and how many are of each.
+
+    The first of each is of the word as it is said, 0 for none; of the words of a ``bare`` wish only what they mean is
+    seen.
+    """
+    found, counts = list[int](), list[int]()
+    for place, word in enumerate((START, *words)):
+        before, behind = "", ""
+        if is_chinese(word.said):
+            before = words[place - 2].said if place > 1 else "<"
+            behind = words[place].said if place < len(words) else ">"
+        own = bare and (word.wished or bool(word.meant))
+        seen = dict.fromkeys(_seen(word, before, behind, bare=own))
+        found += [0 if own or not word.said else hashed("w" + word.said), *map(hashed, seen)]
+        counts.append(1 + len(seen))
+    return np.array(found), np.array(counts)
 
 
 def _seen(word: Word, before: str, behind: str, *, bare: bool) -> Iterator[str]:
-    if not bare:
-        yield "w" + word.said
-        if is_chinese(word.said):
-            yield from (f"p{before}{word.said}", f"p{word.said}{behind}", f"t{before}{word.said}{behind}")
-        if word.base != word.said:
-            yield "b" + word.base
+    """What is seen of a word between two others beside what is said; of a ``bare`` one only what it means."""
+    if is_chinese(word.said) and not bare:
+        yield from (f"p{before}{word.said}", f"p{word.said}{behind}", f"t{before}{word.said}{behind}")
+    if word.base != word.said and not bare:
+        yield "b" + word.base
     if word.meant:
         yield "C" + word.meant
     yield from ("m" + mood for mood in word.moods)
@@ -124,15 +145,21 @@ def _seen(word: Word, before: str, behind: str, *, bare: bool) -> Iterator[str]:
         yield from ("c" + letters[at : at + size] for size in (3, 4) for at in range(len(letters) - size + 1))
 
 
-def rows_of(words: Sequence[Word]) -> npt.NDArray[np.int64]:
-    """(word, MOST_FEATURES) the buckets of a sentence's words, behind a mark for its start."""
-    rows = np.zeros((len(words) + 1, MOST_FEATURES), np.int64)
-    for place, word in enumerate((START, *words)):
-        around = ("", "")
-        if is_chinese(word.said):
-            around = words[place - 2].said if place > 1 else "<", words[place].said if place < len(words) else ">"
-        found = features(word, *around)[:MOST_FEATURES]
-        rows[place, : len(found)] = found
+def rows_of(
+    hashes: npt.NDArray[np.int64], counts: npt.NDArray[np.int64], known: npt.NDArray[np.bool_]
+) -> npt.NDArray[np.uint16]:
+    """(word, MOST_FEATURES) the buckets of what is ``known`` of words; a word that is not has the mark of all such.
+
+    What the training hardly saw would fall into the bucket of anything else, and be taken for that.
+    """
+    word, first = np.repeat(np.arange(len(counts)), counts), np.zeros(len(hashes), np.bool_)
+    first[np.cumsum(counts) - counts] = True
+    hashes = np.where(first & (hashes > 0) & ~known[hashes % KNOWN], UNKNOWN, hashes)
+    kept = (hashes > 0) & (known[hashes % KNOWN] | (hashes == UNKNOWN))
+    word, hashes = word[kept], hashes[kept]
+    place = np.arange(len(word)) - np.searchsorted(word, word)
+    some, rows = place < MOST_FEATURES, np.zeros((len(counts), MOST_FEATURES), np.uint16)
+    rows[word[some], place[some]] = 1 + hashes[some] % (BUCKETS - 1)
     return rows
 
 
@@ -141,21 +168,26 @@ def hashed(text: str) -> int:
     return zlib.crc32(text.encode("utf-8", "replace"))
 
 
+UNKNOWN = hashed("?")
+"""What words have in common that the training hardly saw."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class SentenceModel:
-    """The network's weights, and the kinds that it tells apart."""
+    """The network's weights, the kinds that it tells apart, and (KNOWN,) which hashes it knows."""
 
     labels: tuple[str, ...]
     weights: Mapping[str, npt.NDArray[Any]]
+    known: npt.NDArray[np.bool_]
 
     @classmethod
     def load(cls, path: Path) -> SentenceModel:
         with np.load(path) as arrays:
             held = dict[str, npt.NDArray[Any]](arrays)
-        labels, scale = held.pop("labels"), held.pop("scale")
+        labels, scale, known = held.pop("labels"), held.pop("scale"), held.pop("known")
         weights = {name: each.astype(np.float32) for name, each in held.items()}
         weights["embedding"] *= scale
-        return cls(labels=tuple(map(str, labels)), weights=weights)
+        return cls(labels=tuple(map(str, labels)), weights=weights, known=np.unpackbits(known).astype(np.bool_))
 
     def save(self, path: Path) -> None:
         """Write the model: embeddings as int8 with one scale, other weights with 16 bits."""
@@ -163,7 +195,8 @@ class SentenceModel:
         scale = np.float32(np.abs(embedding).max() / 127)
         weights: dict[str, Any] = {name: each.astype(np.float16) for name, each in self.weights.items()}
         weights["embedding"] = np.rint(embedding / scale).astype(np.int8)
-        np.savez_compressed(path, allow_pickle=False, labels=np.array(self.labels), scale=scale, **weights)
+        known = np.packbits(self.known)
+        np.savez_compressed(path, allow_pickle=False, labels=np.array(self.labels), scale=scale, known=known, **weights)
 
     def chances(self, words: Sequence[Word]) -> Chances:
         """What a sentence of these words is; a very long one orders nothing, as its end is not read."""
@@ -175,7 +208,7 @@ class SentenceModel:
 
     def _seen(self, words: Sequence[Word]) -> npt.NDArray[np.float32]:
         """(word, EMBEDDED) of a sentence, behind its start."""
-        return np.asarray(embedded(np, self.weights, rows_of(words)), np.float32)
+        return np.asarray(embedded(np, self.weights, rows_of(*hashes_of(words), self.known)), np.float32)
 
     def _scores(self, seen: npt.NDArray[np.float32]) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
         """Scores of the kinds and of orders, of sentences as long as each other (sentence, word, EMBEDDED)."""

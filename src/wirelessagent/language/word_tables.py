@@ -29,6 +29,7 @@ def languages_with(subject: str) -> tuple[str, ...]:
     return tuple(sorted(file.stem for file in (_FOLDER / subject).glob("*.toml")))
 
 
+@functools.cache
 def words_of(subject: str, section: str, *names: str) -> tuple[str, ...]:
     """The words that the files of all languages list on a subject by these names, each once, the longest first.
 

@@ -33,7 +33,7 @@ HEARD, NAMED = 0.06, 0.15
 """How likely what a line's reader hears has to be to be asked about, and, a request with its aim, to be done."""
 UNLIKELY = 0.25
 """How likely a frame is one of an order, below which a line has to be surer."""
-FRAMED = 8
+FRAMED = 6
 """From how many words on a line has a frame that can be judged like that of a sentence."""
 
 _DENYING, _WITH_UNITS = ("negation", "refusal"), ("rate", "power", "ratio", "factor")
