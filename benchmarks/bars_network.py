@@ -32,7 +32,7 @@ from wirelessagent.language.training.spoken import spoken
 TAUGHT = Path(__file__).with_name("network") / "taught"
 TRAINING = Path(orders.__file__).parent
 DRAWN, NEAR = 0.5, 0.3
-"""What the kind of a drawn aim counts, and of one that only orders or does not, beside one that is known."""
+"""What the kind of a drawn aim counts, and of a sentence that only orders or does not, beside one that is known."""
 _ORDERS = (*OBJECTIVES, "clarify.limits", "command")
 _RARE, _LEAST, _MOST = -0.2, 0.5, 3.0
 OFTEN = 6
@@ -53,7 +53,7 @@ def examples() -> list[tuple[str, str, float, bool, float, float]]:
         counts = 0.0 if doubts else NEAR if kind in ("order", "none") else 1.0
         does = True if kind.startswith("command") else each.is_order
         tells = 0.0 if does is None else 1.0 if each.near else orders.MILD
-        found.append((each.text, kind, counts, does is True, tells, 1.0))
+        found.append((each.text, kind, counts, bool(does), tells, 1.0))
     found += [(text, "", 0.0, does, orders.FRAME / orders.FILLED, 0.5) for text, does in orders.framed()]
     return found + [(text, "", 0.0, does, orders.TALK, 0.5) for text, does in orders.in_talks()]
 

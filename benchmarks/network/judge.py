@@ -29,6 +29,9 @@ LIKELY = 0.8
 """How likely a sentence is one that orders something, at least, to be taken for one: half as many frames are acted upon
 as at 0.6, and 1 % more of the orders are asked about."""
 
+KNOWN = 1 << 20
+"""Of so many hashes it is known whether the training saw them often enough."""
+
 _WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
 _LONG_ENOUGH, _MOST_WORDS = 12, 400
 
@@ -49,9 +52,6 @@ class Word(NamedTuple):
     wished: bool
     span: Span
 
-
-KNOWN = 1 << 20
-"""Of so many hashes it is known whether the training saw them often enough."""
 
 START = Word("<s>", "<s>", "", (), False, (0, 0))
 
@@ -122,7 +122,7 @@ def hashes_of(words: Sequence[Word], *, bare: bool = False) -> tuple[npt.NDArray
             behind = words[place].said if place < len(words) else ">"
         own = bare and (word.wished or bool(word.meant))
         seen = dict.fromkeys(_seen(word, before, behind, bare=own))
-        found += [0 if own or not word.said else hashed("w" + word.said), *map(hashed, seen)]
+        found += [0 if own else hashed("w" + word.said), *map(hashed, seen)]
         counts.append(1 + len(seen))
     return np.array(found), np.array(counts)
 
@@ -154,9 +154,8 @@ def rows_of(
     """
     word, first = np.repeat(np.arange(len(counts)), counts), np.zeros(len(hashes), np.bool_)
     first[np.cumsum(counts) - counts] = True
-    hashes = np.where(first & (hashes > 0) & ~known[hashes % KNOWN], UNKNOWN, hashes)
-    kept = (hashes > 0) & (known[hashes % KNOWN] | (hashes == UNKNOWN))
-    word, hashes = word[kept], hashes[kept]
+    hashes = np.where(known[hashes % KNOWN] | (hashes == 0), hashes, first * UNKNOWN)
+    word, hashes = word[hashes > 0], hashes[hashes > 0]
     place = np.arange(len(word)) - np.searchsorted(word, word)
     some, rows = place < MOST_FEATURES, np.zeros((len(counts), MOST_FEATURES), np.uint16)
     rows[word[some], place[some]] = 1 + hashes[some] % (BUCKETS - 1)
