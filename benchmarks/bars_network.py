@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import logging
+import random
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -25,14 +26,19 @@ from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.order_model import frame_of, shipped_order_model
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.training import orders
-from wirelessagent.language.training.compose import OBJECTIVES, sentences
+from wirelessagent.language.training.compose import OBJECTIVES, mistyped, sentences
 from wirelessagent.language.training.fit import in_parallel
 from wirelessagent.language.training.spoken import spoken
 
 TAUGHT = Path(__file__).with_name("network") / "taught"
 TRAINING = Path(orders.__file__).parent
-DRAWN, NEAR = 0.5, 0.3
-"""What the kind of a drawn aim counts, and of a sentence that only orders or does not, beside one that is known."""
+DRAWN, NEAR, FILLING = 0.5, 0.3, 0.5
+"""What the kind of a drawn aim counts, of a sentence that only orders or does not, and of the wish in a frame that
+orders it, beside one that is known."""
+SLIPS = 0.15
+"""How much of what people wrote of aims is read with a slip as well."""
+TOLD, ASKED = "clarify.told", ("?", "？", "吗")
+"""The kind of what orders nothing and does not ask, either; how most questions end."""
 _ORDERS = (*OBJECTIVES, "clarify.limits", "command")
 _RARE, _LEAST, _MOST = -0.2, 0.5, 3.0
 OFTEN = 6
@@ -46,21 +52,32 @@ def examples() -> list[tuple[str, str, float, bool, float, float]]:
         aim, tells = label in OBJECTIVES, label.startswith(("command", "question"))
         found.append((text, label, DRAWN if aim else 1.0, label.startswith("command"), orders.MILD if tells else 0.0,
                       0.3 if aim else 0.6))  # fmt: skip
+    slips = random.Random(1)
     own = (dataclasses.replace(each, near=each.label in ("order", "none")) for each in spoken(TAUGHT))
     for each in (*spoken(), *own):
         kind = "clarify.limits" if each.label == "clarify" and each.constraints else each.label
         doubts = kind == "clarify" and Sentence(each.text, own_words()).reading.doubts
         counts = 0.0 if doubts else NEAR if kind in ("order", "none") else 1.0
+        kind = _nothing(each.text) if kind == "none" else kind
         does = True if kind.startswith("command") else each.is_order
         tells = 0.0 if does is None else 1.0 if each.near else orders.MILD
         found.append((each.text, kind, counts, bool(does), tells, 1.0))
-    found += [(text, "", 0.0, does, orders.FRAME / orders.FILLED, 0.5) for text, does in orders.framed()]
+        if kind in OBJECTIVES and slips.random() < SLIPS:
+            found.append((mistyped(each.text, slips), kind, counts, bool(does), tells, 1.0))
+    for text, does, kind in orders.framed():
+        taught_kind, counts = (kind, FILLING) if does else (_nothing(text), NEAR)
+        found.append((text, taught_kind, counts, does, orders.FRAME / orders.FILLED, 0.5))
     return found + [(text, "", 0.0, does, orders.TALK, 0.5) for text, does in orders.in_talks()]
+
+
+def _nothing(text: str) -> str:
+    """The kind of what orders nothing: most of it tells of an aim, some asks."""
+    return "none" if text.rstrip(" .。!！").endswith(ASKED) else TOLD
 
 
 def seen(text: str) -> tuple[Any, Any]:
     """What is seen of a sentence, and of one whose wish is left with what it means alone."""
-    words = words_of(Sentence(text, own_words()))[: LENGTHS[-1] - 1]
+    words = words_of(Sentence(text, own_words()))[: LENGTHS[-1]]
     return hashes_of(words), hashes_of(words, bare=True)
 
 
@@ -115,7 +132,8 @@ def main() -> None:
             judged, frame = network.chances(words_of(sentence)), frame_of(sentence)
             linear = shipped_model().probabilities(*sentence.for_model())
             wanted = row["objective"] if row["act"] and row.get("objective") else row.get("kind")
-            sure = {"network": judged.order >= LIKELY, "linear": shipped_order_model().is_order(frame)}
+            tells = max(judged.kinds, key=lambda kind: judged.kinds[kind]) == TOLD
+            sure = {"network": judged.order >= LIKELY and not tells, "linear": shipped_order_model().is_order(frame)}
             for judge, kinds in (("network", judged.kinds), ("linear", linear)):
                 told[judge] += best_kind(kinds) == wanted
                 acted[judge] += sure[judge] and not row["act"]

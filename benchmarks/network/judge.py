@@ -2,7 +2,8 @@
 
 A word is seen as it is said, by its letters and, in Chinese, with its neighbours, as the base word that the languages
 share, by what the lexicon knows of it, by its classes of mood (:mod:`.moods`), and whether it is part of a wish.
-Figures and users are one mark each, and so is every word that the training hardly saw.
+Figures and users are one mark each, and so is every word that the training hardly saw. The mark of the start says what
+the lexicon's rules make of the wish (:mod:`.goals`).
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ class Word(NamedTuple):
     span: Span
 
 
-START = Word("<s>", "<s>", "", (), False, (0, 0))
+START = Word("<s>", "<s>", "", (), True, (0, 0))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,7 +81,7 @@ def aligned(tokens: Sequence[str], language: str) -> list[str]:
 
 
 def words_of(sentence: Sentence) -> list[Word]:
-    """The words of a sentence, with one mark for each figure and each mention of users."""
+    """The words of a sentence behind its start, with one mark for each figure and each mention of users."""
     marked = [(q.phrase_start, q.phrase_end, f"@{q.kind}") for q in sentence.quantities]
     taken = [(start, end) for start, end, _ in marked]
     marked += [(m.start, m.end, "@user") for m in mentions(sentence.plain, (), taken) if m.role == "named"]
@@ -99,7 +100,10 @@ def words_of(sentence: Sentence) -> list[Word]:
         moods[start:end] = [(*said, name) for said in moods[start:end]]
     for start, end in sentence.wished:
         wished[start:end] = [True] * (end - start)
-    return [
+    goal = sentence.goal
+    aims = dict.fromkeys((goal.objective, *goal.options))
+    start = START._replace(moods=(goal.verdict, *(f"{goal.verdict}:{aim}" for aim in aims)))
+    return [start] + [
         Word(
             said, base, next(filter(None, meant[slice(*span)]), ""),
             tuple(dict.fromkeys(name for each in moods[slice(*span)] for name in each)), wished[span[0]], span,
@@ -109,18 +113,18 @@ def words_of(sentence: Sentence) -> list[Word]:
 
 
 def hashes_of(words: Sequence[Word], *, bare: bool = False) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """The hashes of all that is seen of a sentence's words, behind a mark for its start, and how many are of each.
+    """The hashes of all that is seen of a sentence's words, and how many are of each.
 
     The first of each is of the word as it is said, 0 for none; of the words of a ``bare`` wish only what they mean is
     seen.
     """
     found, counts = list[int](), list[int]()
-    for place, word in enumerate((START, *words)):
+    for place, word in enumerate(words):
         before, behind = "", ""
         if is_chinese(word.said):
-            before = words[place - 2].said if place > 1 else "<"
-            behind = words[place].said if place < len(words) else ">"
-        own = bare and (word.wished or bool(word.meant))
+            before = words[place - 1].said if place > 1 else "<"
+            behind = words[place + 1].said if place + 1 < len(words) else ">"
+        own = bare and place > 0 and (word.wished or bool(word.meant))
         seen = dict.fromkeys(_seen(word, before, behind, bare=own))
         found += [0 if own else hashed("w" + word.said), *map(hashed, seen)]
         counts.append(1 + len(seen))
@@ -206,7 +210,7 @@ class SentenceModel:
         return Chances(kinds=dict(zip(self.labels, likely.tolist(), strict=True)), order=order)
 
     def _seen(self, words: Sequence[Word]) -> npt.NDArray[np.float32]:
-        """(word, EMBEDDED) of a sentence, behind its start."""
+        """(word, EMBEDDED) of a sentence."""
         return np.asarray(embedded(np, self.weights, rows_of(*hashes_of(words), self.known)), np.float32)
 
     def _scores(self, seen: npt.NDArray[np.float32]) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:

@@ -80,17 +80,17 @@ def sentences(folder: Path, seed: int = 1) -> Iterator[tuple[str, str]]:
     for language in LANGUAGES:
         maker = _Maker(Grammar.read(folder / f"{language}.txt"), chance)
         for text, label in maker.all():
-            yield (_mistyped(text, chance) if chance.random() < _TYPOS else text), label
+            yield (mistyped(text, chance) if chance.random() < _TYPOS else text), label
 
 
-def wishes(folder: Path, language: str, chance: random.Random) -> Iterator[str]:
-    """What somebody may want of a cell, without end: aims, limits, both, and now and then to go back."""
+def wishes(folder: Path, language: str, chance: random.Random) -> Iterator[tuple[str, str]]:
+    """What somebody may want of a cell, with its kind, without end: aims, limits, both, and at times to go back."""
     maker = _Maker(Grammar.read(folder / f"{language}.txt"), chance)
     while True:
         yield maker.wish()
 
 
-def _mistyped(text: str, chance: random.Random) -> str:
+def mistyped(text: str, chance: random.Random) -> str:
     """A sentence with one slip: a letter lost, doubled, or swapped with its neighbour."""
     if len(text) < 6:
         return text
@@ -110,13 +110,17 @@ class _Maker:
         self._gap = "" if grammar.language == "zh" else " "
         self._comma = "\uff0c" if grammar.language == "zh" else ", "
 
-    def wish(self) -> str:
-        """An aim, a limit, both, or a command that goes back."""
+    def wish(self) -> tuple[str, str]:
+        """An aim, a limit, both, or a command that goes back, with its kind."""
         draw, language = self._chance.random(), self._grammar.language
         if draw < _GOES_BACK:
-            return self._pick(self._chance.choice(("command.undo", "command.reset")))
-        aim, limit = self._plain(self._chance.choice(OBJECTIVES)), self._pick("constraint")
-        return limit if draw < _LIMIT_ALONE else aim if draw < _AIM_ALONE else aim + _AND[language][0] + limit
+            command = self._chance.choice(("command.undo", "command.reset"))
+            return self._pick(command), command
+        objective = self._chance.choice(OBJECTIVES)
+        aim, limit = self._plain(objective), self._pick("constraint")
+        if draw < _LIMIT_ALONE:
+            return limit, "clarify.limits"
+        return (aim if draw < _AIM_ALONE else aim + _AND[language][0] + limit), objective
 
     def all(self) -> Iterator[tuple[str, str]]:
         for label, templates in self._grammar.templates.items():

@@ -81,5 +81,5 @@ def _without_names() -> Iterator[str]:
     yield from (text for text, _ in sentences())
     wordless = (each for each in spoken() if each.constraints is None)
     yield from (each.text for each in wordless if each.label in OBJECTIVES or each.label.startswith("command"))
-    yield from (text for text, _ in itertools.islice(framed(), 0, None, FILLED))
+    yield from (text for text, *_ in itertools.islice(framed(), 0, None, FILLED))
     yield from (text for _, lines, _ in talks() for text, does in lines[::_OF_TALKS] if does != "nothing")

@@ -53,8 +53,8 @@ _OFTEN, _HARDLY = 3.9, 0.1
 """How much is said, at least, with a phrase that orders hardly have, and how much of it orders, at most."""
 
 
-def framed(folder: Path = FRAMES, seed: int = 1) -> Iterator[tuple[str, bool]]:
-    """Each frame, filled with wishes, and whether it orders something.
+def framed(folder: Path = FRAMES, seed: int = 1) -> Iterator[tuple[str, bool, str]]:
+    """Each frame, filled with wishes, whether it orders something, and the kind of its wish.
 
     Raises:
         InputError: there are no frames; an installed package leaves them out.
@@ -66,13 +66,14 @@ def framed(folder: Path = FRAMES, seed: int = 1) -> Iterator[tuple[str, bool]]:
     for path in paths:
         drawn = wishes(path.parent.parent, path.stem, random.Random(seed))
         drawn_ones = list(itertools.islice(drawn, _DRAWN))
-        by_people = [each.text for each in spoken_ones if each.language == path.stem]
+        by_people = [(each.text, each.label) for each in spoken_ones if each.language == path.stem]
         for line in path.read_text(encoding="utf-8").splitlines():
             label, frame = line.split("\t")
             chance = random.Random(f"{seed} {frame}")  # what one is filled with hangs on no other
             for turn in range(FILLED):
-                wish = chance.choice(drawn_ones if turn % 2 else by_people).rstrip(".!。！")
-                yield frame.replace("{}", wish[:1].lower() + wish[1:]), label == "order"
+                wish, kind = chance.choice(drawn_ones if turn % 2 else by_people)
+                wish = wish.rstrip(".!。！")
+                yield frame.replace("{}", wish[:1].lower() + wish[1:]), label == "order", kind
 
 
 def in_talks() -> Iterator[tuple[str, bool]]:
@@ -88,7 +89,7 @@ def main(path: Path) -> None:
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     log, start = logging.getLogger(__name__), time.perf_counter()
     said = [(each.text, each.is_order, 1.0 if each.near else MILD) for each in spoken() if each.is_order is not None]
-    said += [(text, orders, FRAME / FILLED) for text, orders in framed()]
+    said += [(text, orders, FRAME / FILLED) for text, orders, _ in framed()]
     said += [(text, orders, TALK) for text, orders in in_talks()]
     frames = in_parallel(_frame, [text for text, *_ in said])
     log.info("%d sentences (%.0f s)", len(said), time.perf_counter() - start)
