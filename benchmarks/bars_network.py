@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from bars_frames import read
 from network.fit import LENGTHS, PASSES, Shown, fit
-from network.judge import KNOWN, LIKELY, SentenceModel, hashes_of, rows_of, words_of
+from network.judge import KNOWN, TOLD, SentenceModel, hashes_of, rows_of, words_of
 
 from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.order_model import frame_of, shipped_order_model
@@ -37,8 +37,8 @@ DRAWN, NEAR, FILLING = 0.5, 0.3, 0.5
 orders it, beside one that is known."""
 SLIPS = 0.15
 """How much of what people wrote of aims is read with a slip as well."""
-TOLD, ASKED = "clarify.told", ("?", "？", "吗")
-"""The kind of what orders nothing and does not ask, either; how most questions end."""
+ASKED = ("?", "？", "吗")
+"""How most questions end."""
 _ORDERS = (*OBJECTIVES, "clarify.limits", "command")
 _RARE, _LEAST, _MOST = -0.2, 0.5, 3.0
 OFTEN = 6
@@ -61,9 +61,10 @@ def examples() -> list[tuple[str, str, float, bool, float, float]]:
         kind = _nothing(each.text) if kind == "none" else kind
         does = True if kind.startswith("command") else each.is_order
         tells = 0.0 if does is None else 1.0 if each.near else orders.MILD
-        found.append((each.text, kind, counts, bool(does), tells, 1.0))
+        teaches = (kind, counts, bool(does), tells, 1.0)
+        found.append((each.text, *teaches))
         if kind in OBJECTIVES and slips.random() < SLIPS:
-            found.append((mistyped(each.text, slips), kind, counts, bool(does), tells, 1.0))
+            found.append((mistyped(each.text, slips), *teaches))
     for text, does, kind in orders.framed():
         taught_kind, counts = (kind, FILLING) if does else (_nothing(text), NEAR)
         found.append((text, taught_kind, counts, does, orders.FRAME / orders.FILLED, 0.5))
@@ -132,8 +133,7 @@ def main() -> None:
             judged, frame = network.chances(words_of(sentence)), frame_of(sentence)
             linear = shipped_model().probabilities(*sentence.for_model())
             wanted = row["objective"] if row["act"] and row.get("objective") else row.get("kind")
-            tells = max(judged.kinds, key=lambda kind: judged.kinds[kind]) == TOLD
-            sure = {"network": judged.order >= LIKELY and not tells, "linear": shipped_order_model().is_order(frame)}
+            sure = {"network": judged.is_order, "linear": shipped_order_model().is_order(frame)}
             for judge, kinds in (("network", judged.kinds), ("linear", linear)):
                 told[judge] += best_kind(kinds) == wanted
                 acted[judge] += sure[judge] and not row["act"]
