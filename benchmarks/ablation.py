@@ -1,9 +1,9 @@
 """The guard without each of its parts: how many sentences are then acted upon wrongly, how many needlessly asked.
 
 Run with ``python benchmarks/ablation.py [FILE.jsonl…]`` (files as ``bars_frames.py`` reads them; without one, the
-sentences of ``bars_composed.py``); each sentence is said first and where a request holds. Parts are the views that the
-judge of orders has of a frame, the classes of mood, and the names of strangers. A part whose absence changes no figure
-earns nothing on these sentences. The judge is not trained anew for each, so what a view is worth is rather overstated.
+sentences of ``bars_composed.py``); each sentence is said first and where a request holds. Parts are what the network
+sees of a word, the classes of mood, and the names of strangers. A part whose absence changes no figure earns nothing on
+these sentences. The network is not taught anew for each, so what a part is worth is rather overstated.
 """
 
 from __future__ import annotations
@@ -18,13 +18,16 @@ from unittest import mock
 from bars_composed import composed
 from bars_frames import FIRST, LATER, read, score
 
-from wirelessagent.language import guard, order_model
+from wirelessagent.language import guard, sentence, sentence_model
 from wirelessagent.language.figure_roles import View
 from wirelessagent.language.moods import table_of
-from wirelessagent.language.order_model import Frame
 
-VIEWS = {"words": "w", "base words": "b", "classes, in place": "c", "classes, alone": "e"}
+SEEN = {
+    "the word as it is said": "w", "its letters": "c", "Chinese neighbours": "pt", "base words": "b",
+    "what the lexicon knows": "C", "classes of mood": "m", "what is part of a wish": "@",
+}  # fmt: skip
 CLASSES = tuple(table_of("en"))
+VERDICT = "the lexicon's verdict"
 
 
 def figures(rows: list[dict[str, Any]]) -> tuple[int, int]:
@@ -35,33 +38,32 @@ def figures(rows: list[dict[str, Any]]) -> tuple[int, int]:
 
 @contextlib.contextmanager
 def without(part: str) -> Iterator[None]:
-    """The guard without a part."""
-    grams, classes_in = order_model._grams, order_model.classes_in
+    """The reader without a part."""
+    hashed, marks = sentence_model.hashed, SEEN.get(part, "")
 
-    def fewer(frame: Frame, known: frozenset[int]) -> Iterator[str]:
-        return (gram for gram in grams(frame, known) if gram[0] not in VIEWS[part])
+    def fewer(text: str) -> int:
+        return 0 if text[0] in marks or text.startswith(f"m{part}:") else hashed(text)
 
-    if part in VIEWS:
-        patch = mock.patch.object(order_model, "_grams", fewer)
-    elif part == "names":
+    if part == "names":
         patch = mock.patch.object(View, "strangers", return_value=[])
+    elif part == VERDICT:
+        patch = mock.patch.object(sentence, "START", mock.Mock(_replace=lambda moods: sentence_model.START))
     else:
-        patch = mock.patch.object(
-            order_model, "classes_in", lambda plain: [one for one in classes_in(plain) if one[0].split(":")[0] != part]
-        )
+        patch = mock.patch.object(sentence_model, "hashed", fewer)
+    sentence._read.cache_clear()
     with patch:
         yield
 
 
 def main() -> None:
     rows = [row for argument in sys.argv[1:] for row in read(Path(argument))] or list(composed())
-    print(f"{'without':20}{'wrong act':>12}{'asked':>12}")
-    print("{:20}{:12}{:12}".format("(nothing)", *figures(rows)))
-    for part in (*VIEWS, *CLASSES, "names"):
+    print(f"{'without':28}{'wrong act':>12}{'asked':>12}")
+    print("{:28}{:12}{:12}".format("(nothing)", *figures(rows)))
+    for part in (*SEEN, *CLASSES, VERDICT, "names"):
         with without(part):
-            print("{:20}{:12}{:12}".format(part, *figures(rows)))
+            print("{:28}{:12}{:12}".format(part, *figures(rows)))
     with without("names"), mock.patch.object(guard, "doubted", return_value=None):
-        print("{:20}{:12}{:12}".format("the whole guard", *figures(rows)))
+        print("{:28}{:12}{:12}".format("the whole guard", *figures(rows)))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,6 @@ pytestmark = pytest.mark.machine_code
 @pytest.mark.parametrize(
     ("said", "supposed"),
     [
-        ("can you give everyone 1 Mbit/s with 5 W?", "the highest total rate: at most 5 W"),
         ("is 3 Mbit/s each possible?", "the least power: at least 3 Mbit/s for each user"),
         ("what's the highest total rate with 10 W?", "the highest total rate: at most 10 W"),
         ("what if we only had 5 W?", "the highest total rate: at most 5 W"),

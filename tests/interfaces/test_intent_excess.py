@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import time
+import cProfile
 
 import pytest
 
@@ -43,15 +43,14 @@ def test_a_long_list_is_read():
 @pytest.mark.parametrize(
     "text", ["速率最大功率" * 333, "not " * 500, "half of the cap " * 125, "max rate please " * 125]
 )
-def test_a_long_line_of_words_is_read_at_once(text: str):
-    start = time.thread_time()
-    recognise(text)
-    assert time.thread_time() - start < 0.6  # a tenth of a second on a machine that is not busy
+def test_a_long_line_of_words_is_read_in_so_many_steps(text: str):
+    recognise("max rate")  # what loads once is no step
+    profile = cProfile.Profile()
+    profile.runcall(recognise, text)
+    assert sum(each.callcount for each in profile.getstats()) < 3_000_000
 
 
 def test_a_question_back_to_too_many_figures_holds_nothing():
     text = "1 " * 900
-    start = time.thread_time()
     held = unanswered(text, recognise(text), Context())
     assert (held.objective, held.users, dict(held.pending)) == (None, (), {})
-    assert time.thread_time() - start < 1.5

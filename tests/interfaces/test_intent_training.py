@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import itertools
 import json
 import random
@@ -25,17 +24,27 @@ from wirelessagent.language.conversation.signs import Signs
 from wirelessagent.language.conversation.talk_model import weigh
 from wirelessagent.language.figure_roles import LABELS
 from wirelessagent.language.intent import COMMANDS, QUESTIONS, checked_constraints
-from wirelessagent.language.linear_model import BUCKETS, MODEL_FILE, buckets, shipped_model, word_hashes
 from wirelessagent.language.offline import OfflineRecogniser
-from wirelessagent.language.order_model import LIKELY, Frame, OrderModel, frame_of
+from wirelessagent.language.order_model import Frame, OrderModel, shipped_order_model
 from wirelessagent.language.sentence import BUILT_IN, Sentence, own_words
+from wirelessagent.language.sentence_model import (
+    KNOWN,
+    SENTENCES_FILE,
+    SentenceModel,
+    hashed,
+    hashes_of,
+    rows_of,
+    shipped_sentences,
+)
 from wirelessagent.language.spelling import nearest, respelt
 from wirelessagent.language.training import meant, orders, talk_fit, talk_notation, talks
+from wirelessagent.language.training.__main__ import taught
 from wirelessagent.language.training.compose import LANGUAGES, SLOTS, SURROUNDINGS, sentences
-from wirelessagent.language.training.fit import fit, known_words, matrix_of, read, save
+from wirelessagent.language.training.examples import Example
 from wirelessagent.language.training.grammar import Grammar
 from wirelessagent.language.training.marked import marked, unmarked
 from wirelessagent.language.training.named import NAMED
+from wirelessagent.language.training.orders import FRAMES, framed
 from wirelessagent.language.training.spoken import spoken
 from wirelessagent.model.errors import InputError
 
@@ -116,7 +125,8 @@ def test_no_sentence_of_the_test_sets_was_written_for_training(tested: set[str])
 
 
 def test_spoken_sentences_have_labels_of_the_model_and_constraints_of_an_intent() -> None:
-    heads = {label.partition(".")[0] for label in shipped_model().labels} | {*shipped_model().labels, "order", "none"}
+    labels = shipped_sentences().labels
+    heads = {*labels, *(label.partition(".")[0] for label in labels), "order", "none"}
     wrong = [each for each in spoken() if each.label not in heads or not checked_constraints(each.constraints or {})]
     assert [each for each in wrong if each.label not in heads or each.constraints] == []
 
@@ -149,72 +159,79 @@ def test_base_words_are_forms_as_the_features_see_them(language: str) -> None:
     assert [word for word, base in pairs if word != word.lower() or not base.isascii() or not base] == []
 
 
-def test_the_shipped_model_knows_the_labels_of_the_templates(drawn: list[tuple[str, str]]) -> None:
-    model = shipped_model()
-    assert set(model.labels) == {label for _, label in drawn}
-    assert model.weights.shape == (BUCKETS, len(model.labels))
-    assert MODEL_FILE.stat().st_size < 2_000_000
-    shares = model.probabilities(*read(["maximise the total rate"])[0])
-    assert sum(shares.values()) == pytest.approx(1.0)
-    assert max(shares, key=lambda label: shares[label]) == "max_rate"
-    assert model.familiarity("xqzt vbnm") == 0.0
-    assert model.familiarity("") == 0.0
+def test_the_shipped_network_knows_the_labels_of_the_templates(drawn: list[tuple[str, str]]) -> None:
+    assert {label for _, label in drawn} < set(shipped_sentences().labels)
+    assert SENTENCES_FILE.stat().st_size < 3_000_000
+    chances = Sentence("maximise the total rate", own_words()).chances
+    assert sum(chances.kinds.values()) == pytest.approx(1.0)
+    assert max(chances.kinds, key=lambda kind: chances.kinds[kind]) == "max_rate"
+    assert chances.is_order
+    assert not Sentence("yesterday we wanted to maximise the total rate", own_words()).chances.is_order
 
 
-def test_a_fit_tells_its_sentences_apart(tmp_path: Path) -> None:
-    texts = ["save power", "less power please", "max rate", "highest rate now"]
-    labels = ["min_power", "min_power", "max_rate", "max_rate"]
-    seen = read(texts)
-    rows = matrix_of([buckets(*each) for each in seen], BUCKETS)
-    weights, intercepts = fit(rows, labels, ["max_rate", "min_power"], np.ones(len(labels)))
-    told = np.asarray(rows @ weights + intercepts).argmax(axis=1)
-    assert told.tolist() == [1, 1, 0, 0]
-    known = known_words(word_hashes(text) for text, *_ in seen)
-    save(tmp_path / "model.npz", ["max_rate", "min_power"], weights, intercepts, known)
-    with np.load(tmp_path / "model.npz") as arrays:
-        assert arrays["weights"].dtype == np.int8
-        kept = arrays["weights"] != 0
-        assert np.allclose((arrays["weights"] * arrays["scales"])[kept], weights[kept], atol=arrays["scales"].max())
-        assert (np.abs(weights) < 9 * arrays["scales"])[~kept].all()  # the faint ones are none
+FRAMED = {"Yesterday {}": False, "He said {}": False, "Please {}": True, "Now {}": True}
+WISHES = ("max total rate", "save power, 5 W at most", "user 3 at least 2 Mbit/s")
+
+
+@pytest.fixture(scope="module")
+def small() -> SentenceModel:
+    """A network that was taught four frames with two wishes, and nothing else."""
+    kinds = ("max_rate", "min_power")
+    lines = [
+        Example(form.format(wish), kind if does else "clarify.told", 1.0, does, 1.0, 1.0)
+        for form, does in FRAMED.items() for wish, kind in zip(WISHES, kinds, strict=False)
+    ]  # fmt: skip
+    return taught(lines * 8, passes=40, processes=1)
+
+
+def test_a_network_tells_apart_what_it_was_taught_also_once_it_is_written(small: SentenceModel, tmp_path: Path) -> None:
+    small.save(tmp_path / "sentences.npz")
+    for model in (small, SentenceModel.load(tmp_path / "sentences.npz")):
+        for form, does in FRAMED.items():
+            told = [model.chances(Sentence(form.format(wish), own_words()).words) for wish in WISHES]
+            assert [chances.is_order for chances in told] == [does] * 3
+            best = [max(chances.kinds, key=lambda kind: chances.kinds[kind]) for chances in told[:2]]
+            assert best == (["max_rate", "min_power"] if does else ["clarify.told"] * 2)
 
 
 def test_the_judge_of_orders_sees_the_frame_and_not_the_wish(tmp_path: Path) -> None:
-    frames = {"Yesterday {}": "no", "He said {}": "no", "Please {}": "yes", "Now {}": "yes"}
-    wishes = ("max total rate", "save power, 5 W at most", "user 3 at least 2 Mbit/s")
-
     def frame(text: str) -> Frame:
-        return frame_of(Sentence(text, own_words()))
+        return Sentence(text, own_words()).frame
 
-    said = [frame(form.format(wish)) for form in frames for wish in wishes[:2]]
-    labels = [label for label in frames.values() for _ in wishes[:2]]
+    said = [frame(form.format(wish)) for form in FRAMED for wish in WISHES[:2]]
+    labels = ["yes" if does else "no" for does in FRAMED.values() for _ in WISHES[:2]]
     orders.made(said, labels, np.ones(len(labels))).save(tmp_path / "orders.npz")
     model = OrderModel.load(tmp_path / "orders.npz")
-    told = {form: model.probability(frame(form.format(wishes[2]))) >= LIKELY for form in frames}
-    assert told == {form: label == "yes" for form, label in frames.items()}
+    assert {form: model.score(frame(form.format(WISHES[2]))) > 0 for form in FRAMED} == FRAMED
     assert frame("Please max rate").tokens == frame("Please save power").tokens == ("please", "@")
 
 
-def test_words_that_no_order_has_must_be_outweighed_and_are_quoted() -> None:
-    def frame(text: str) -> Frame:
-        return frame_of(Sentence(text, own_words()))
+def test_the_words_that_speak_against_an_order_are_quoted() -> None:
+    said = "Tomorrow at eight, save power"
+    start, end = shipped_order_model().against(Sentence(said, own_words()).frame) or (0, 0)
+    assert said[start:end] == "Tomorrow at eight"
+    assert shipped_order_model().against(Sentence("please save power now", own_words()).frame) is None
 
-    said = {"{}, forget that": "no", "no, forget that: {}": "no", "please {}": "yes", "{}, please": "yes"}
-    frames = [frame(form.format("max rate")) for form in said]
-    fitted = orders.made(frames, list(said.values()), np.full(len(said), 2.0))
-    likely = dataclasses.replace(fitted, weights=np.zeros_like(fitted.weights), intercept=0.8)  # 69 % whatever is said
-    assert likely.is_order(frame("please max rate"))
-    doubtful = "please max rate, forget that"
-    assert not likely.is_order(frame(doubtful))
-    assert dataclasses.replace(likely, intercept=3.0).is_order(frame(doubtful))
-    start, end = likely.against(frame(doubtful)) or (0, 0)
-    assert doubtful[start:end] in ("forget", "that")
+
+def test_what_the_training_hardly_saw_has_one_mark() -> None:
+    words = Sentence("xqzt vbnm", own_words()).words
+    known = np.zeros(KNOWN, np.bool_)
+    rows = rows_of(*hashes_of(words), known)
+    assert rows[1].tolist() == rows[2].tolist()
+    known[hashed("wxqzt") % KNOWN] = True
+    assert rows_of(*hashes_of(words), known)[1].tolist() != rows[2].tolist()
+
+
+def test_a_sentence_too_long_to_be_read_to_its_end_orders_nothing() -> None:
+    assert Sentence("please save power, " + "and so on " * 40, own_words()).chances.order > 0
+    assert Sentence("please save power, " + "and so on " * 140, own_words()).chances.order == 0
 
 
 def test_the_frames_for_training_have_one_place_and_are_no_sentence_of_a_test(tested: set[str]) -> None:
-    lines = [line.split("\t") for path in sorted(orders.FRAMES.glob("*.tsv")) for line in _lines(path)]
+    lines = [line.split("\t") for path in sorted(FRAMES.glob("*.tsv")) for line in _lines(path)]
     assert {label for label, _ in lines} == {"order", "none"}
     assert all(frame.count("{}") <= 1 for _, frame in lines)
-    assert not {letters(text) for text, *_ in orders.framed()} & tested
+    assert not {letters(text) for text, *_ in framed()} & tested
 
 
 def test_marked_sentences_have_known_roles_and_are_no_sentence_of_a_test(tested: set[str]) -> None:
@@ -227,7 +244,7 @@ def test_marked_sentences_have_known_roles_and_are_no_sentence_of_a_test(tested:
 
 def test_the_composed_bench_has_no_frame_of_the_training() -> None:
     """So that it measures what was not learned: the words around its wishes are its own."""
-    trained = {letters(frame) for path in orders.FRAMES.glob("*.tsv") for _, frame in map(_parted, _lines(path))}
+    trained = {letters(frame) for path in FRAMES.glob("*.tsv") for _, frame in map(_parted, _lines(path))}
     bench = [tomllib.loads(path.read_text("utf-8")) for path in (ROOT / "benchmarks" / "composed").glob("*.toml")]
     forms = [form for parts in bench for kind in ("acts", "asks") for each in parts[kind].values() for form in each]
     assert len(forms) > 200
@@ -244,10 +261,12 @@ def _parted(line: str) -> tuple[str, str]:
 
 
 def test_features_are_the_same_everywhere() -> None:
-    assert buckets("save power").tolist() == buckets("SAVE  Power").tolist()
-    assert buckets("máximo").tolist() == buckets("maximo").tolist()
-    assert set(buckets("max rate").tolist()) != set(buckets("rate max").tolist())
-    assert buckets("a").tolist() == [27223, 29937, 30858, 33097, 35084, 36051, 42475, 44032, 50375, 57445]
+    def seen(text: str) -> list[int]:
+        return hashes_of(Sentence(text, own_words()).words)[0].tolist()
+
+    assert seen("save power") == seen("SAVE  Power")
+    assert seen("max rate") != seen("rate max")
+    assert [hashed("save"), hashed("功率")] == [1432763102, 2471434032]
 
 
 def test_slips_of_the_pen() -> None:

@@ -1,4 +1,4 @@
-"""Words of five languages on one small set of English base words, so that the linear model learns from all at once.
+"""Words of five languages on one small set of English base words, so that the models learn from all at once.
 
 ``base_words/<language>.tsv`` has a word form and its base word on each line: "langsamsten", "plus lent" and 最慢 meet
 in "slow". Latin words that are not listed stand for themselves; Chinese is cut into the longest listed expressions.
@@ -7,6 +7,7 @@ in "slow". Latin words that are not listed stand for themselves; Chinese is cut 
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
@@ -25,31 +26,51 @@ def based(tokens: Sequence[str], language: str) -> list[str]:
     >>> based(["dem", "langsamsten", "nutzer"], "de")
     ['slow', 'user']
     """
-    own, english = _base_words(language), _base_words("en")
-    found: list[str] = []
-    run = ""
-    for token in (*tokens, ""):
-        if is_chinese(token):
-            run += token
-            continue
-        found.extend(_cut(run, own))
-        run = ""
-        if token:
-            found.append(own.get(token) or (english.get(token, token) if language == "zh" else token))
-    return [word for word in found if word not in _SMALL]
+    return [base for base, _ in _expressions(tokens, language) if base and base not in _SMALL]
 
 
-def _cut(run: str, words: Mapping[str, str]) -> Iterator[str]:
-    """The base words of the longest listed expressions in a run of Chinese characters, from left to right."""
-    longest, place = _longest("zh"), 0
-    while place < len(run):
-        for size in range(min(longest, len(run) - place), 0, -1):
-            word = words.get(run[place : place + size])
-            if word is not None:
-                yield word
-                break
+def aligned(tokens: Sequence[str], language: str) -> list[str]:
+    """For each of a sentence's tokens its base word, that of a Chinese expression for each of its characters.
+
+    >>> aligned(["die", "langsamsten", "xqzt"], "de")
+    ['the', 'slow', 'xqzt']
+    """
+    found = list[str]()
+    for base, size in _expressions(tokens, language):
+        found += [base or tokens[len(found)]] * size
+    return found
+
+
+def is_listed(word: str) -> bool:
+    """Whether a language lists a word, in lower case and without accents; a Chinese character within an expression.
+
+    >>> is_listed("langsamsten"), is_listed("xqzt")
+    (True, False)
+    """
+    return word in _listed()
+
+
+@functools.cache
+def _listed() -> frozenset[str]:
+    words = [word for path in FOLDER.glob("*.tsv") for word in _base_words(path.stem)]
+    return frozenset((*words, *(sign for word in words if is_chinese(word) for sign in word)))
+
+
+def _expressions(tokens: Sequence[str], language: str) -> Iterator[tuple[str, int]]:
+    """The base words of tokens, or of the longest listed expression where Chinese begins, and of how many it is.
+
+    A Chinese character that is in no listed expression has none.
+    """
+    own, english, chinese = (_base_words(each) for each in (language, "en", "zh"))
+    place, longest = 0, _longest("zh")
+    while place < len(tokens):
+        token, size = tokens[place], 1
+        run = "".join(itertools.takewhile(is_chinese, tokens[place : place + longest]))
+        if run:
+            size = next((size for size in range(len(run), 0, -1) if run[:size] in chinese), 1)
+            yield chinese.get(run[:size], ""), size
         else:
-            size = 1
+            yield own.get(token) or (english.get(token, token) if language == "zh" else token), size
         place += size
 
 

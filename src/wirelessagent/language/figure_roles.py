@@ -18,9 +18,8 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.base_words import based
+from wirelessagent.language.base_words import based, is_listed
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
@@ -199,7 +198,7 @@ class View:
     def word(self, place: int) -> set[str]:
         """The features of a word that may be somebody's name."""
         word, start = self._kinds[place], self._tokens[place].start
-        known = [f"is:{word}", f"new:{not shipped_model().familiarity(word)}"]
+        known = [f"is:{word}", f"new:{not is_listed(word)}"]
         if is_chinese(word):
             around_it = self._kinds[max(0, place - 1) : place + 2]
             known += [f"with:{word}{''.join(around_it[-1:])}", f"behind:{''.join(around_it[:1])}{word}"]

@@ -27,7 +27,7 @@ _COMPARES = deferred(r"(?i)\s*(?:please\s+|请)?(?:compare|vergleiche?|compara|�
 _CODE = deferred(  # programs, mark-up and injections are no wishes
     r"<[|/!a-zA-Z]|\{\{|\}\}|\$\(|--\s*$|\\x|__\w+__|"
     r"(?i:\b(?:select|delete|drop|insert|update)\b.*\b(?:from|table|into|set)\b.*[;*=]|;\s*commit\b|"
-    r"\bbegin\b.*\bdelet|\b(?:os|"
+    r"\bdrop\s+table\b|\bbegin\b.*\bdelet|\b(?:os|"
     r"sys)\.\w+\()|"
     r"(?i:\b(?:ignore|disregard|forget)\s+(?:all\s+|any\s+|the\s+|your\s+)*(?:previous|prior|above|earlier)\s+"
     r"(?:instructions?|rules?|prompts?))|(?:忽略|无视)[^,\uff0c]{0,6}(?:指令|规则|提示)"

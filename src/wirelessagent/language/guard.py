@@ -2,7 +2,8 @@
 
 A sentence may name an act without asking for it: it refuses, reports, quotes, remembers, plans, supposes, jests, tells
 a wish of somebody else's, speaks of another system, or of a user whom the cell does not have. Whether it orders
-something is judged by its frame, all that stands around the wish (:mod:`.order_model`); where an order is unlikely, the
+something is judged by two readers, whose scores count alike: the network reads all its words (:mod:`.sentence_model`),
+a logistic regression its frame, all that stands around the wish (:mod:`.order_model`). Where an order is unlikely, the
 agent asks, with the words that speak against it and with the act for a plain yes.
 """
 
@@ -14,9 +15,8 @@ from typing import TYPE_CHECKING
 
 from wirelessagent.language.followups import users_in
 from wirelessagent.language.intent import Intent
-from wirelessagent.language.lifted import dropped_in
 from wirelessagent.language.moods import Span
-from wirelessagent.language.order_model import frame_of, shipped_order_model
+from wirelessagent.language.order_model import shipped_order_model
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import languages_of
@@ -72,10 +72,9 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
     if intent.recogniser == READ_IN_A_TALK:
         return None
     sentence = read_once(text, own_words(), context)
-    frame = frame_of(sentence, dropped_in(sentence.plain, context)[1])
-    if len(frame.tokens) < _FEWEST_WORDS or shipped_order_model().is_order(frame):
+    if len(sentence.frame.tokens) < _FEWEST_WORDS or sentence.chances.is_order:
         return None
-    return shipped_order_model().against(frame) or (0, 0)
+    return shipped_order_model().against(sentence.frame) or (0, 0)
 
 
 def _asking(intent: Intent, reply: str) -> Intent:

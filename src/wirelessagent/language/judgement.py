@@ -1,7 +1,6 @@
-"""What a sentence wants, as the linear model judges it, with the lexicon's finding among what it sees.
+"""What a sentence wants, as the network judges it, with the lexicon's finding among what it sees.
 
-Something is carried out only where its share of the probability is large enough, larger where the lexicon finds another
-wish than the model does. A question back costs a sentence, a wrong action a cell.
+Something is carried out only where it is likely enough. A question back costs a sentence, a wrong action a cell.
 """
 
 from __future__ import annotations
@@ -13,17 +12,13 @@ from typing import cast
 from wirelessagent.language import forms
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.intent import IntentKind
-from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.sentence import BUILT_IN, Sentence
 
-_ENOUGH, _ENOUGH_AGAINST_THE_LEXICON, _ENOUGH_FOR_THE_OPPOSITE = 0.45, 0.8, 0.98
-_ENOUGH_FOR_THE_SLOWEST = 0.8
-_OWN_PHRASE_ASKED = 0.8
-_FAMILIAR = 0.25
-_OTHER_KINDS = ("question", "command", "clarify", "out_of_scope")
-_ALSO_NAMED, _PERHAPS = ("negated", "rivals"), 0.12
-"""What a sentence is taken for that names another aim beside its own, and how likely its own has to be."""
+_AGREED, _ENOUGH, _AGAINST = 0.4, 0.6, 0.8
+"""How likely an aim has to be for acting on it: one that the lexicon's rules find, too; none; or another."""
 
+_OWN_PHRASE_ASKED = 0.8
+_OTHER_KINDS = ("question", "command", "clarify", "out_of_scope")
 _NAMED, _CLEAR = 0.02, 0.6
 """How likely an aim is, at least, that a question speaks of, and its share among all that it may speak of."""
 
@@ -63,7 +58,6 @@ class _Shares:
     labels: Mapping[str, float]
     kinds: Mapping[str, float]
     topics: Mapping[str, str]
-    familiar: bool
 
 
 def judge(sentence: Sentence, registered: set[str]) -> Judgement:
@@ -83,7 +77,10 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
             kind="allocate", topic="", objective=goal.objective, likeliest=1.0, limits=0.0, certainty=goal.confidence,
             acts=goal.objective in registered, objective_clear=True,
         )  # fmt: skip
-    kind = _kind(sentence, shares, objective)
+    kind, spoken_of = _kind(sentence, shares, objective), _spoken_of(goal, shares.labels)
+    if kind == "clarify" and sentence.chances.is_told and spoken_of is not None and spoken_of in shares.labels:
+        kind, objective = "allocate", spoken_of  # "tomorrow, save power": the guard asks whether it is ordered now
+        share = shares.labels[objective]
     acts = kind == "allocate"
     topic = "" if acts else shares.topics[kind]
     if topic == "what_if" and sentence.reading.steps and shares.labels["question.step"] > shares.labels[_WHAT_IF] / 2:
@@ -94,7 +91,7 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     sure = max(agreed, share) if acts else shares.kinds[kind]
     return Judgement(
         kind=kind, topic=topic, objective=objective, likeliest=share, limits=limits,
-        certainty=round(min(1.0, sure), 4), acts=acts, spoken_of=_spoken_of(goal, shares.labels),
+        certainty=round(min(1.0, sure), 4), acts=acts, spoken_of=spoken_of,
     )  # fmt: skip
 
 
@@ -115,9 +112,7 @@ def _is_all_said(sentence: Sentence) -> bool:
 
 
 def _shares(sentence: Sentence) -> _Shares:
-    text, concepts, language = sentence.for_model()
-    model = shipped_model()
-    labels = model.probabilities(text, concepts, language)
+    labels = sentence.chances.kinds
     kinds: dict[str, float] = dict.fromkeys(_OTHER_KINDS, 0.0)
     best: dict[str, tuple[float, str]] = dict.fromkeys(_OTHER_KINDS, (-1.0, ""))
     for label, share in labels.items():
@@ -125,10 +120,7 @@ def _shares(sentence: Sentence) -> _Shares:
         if kind in kinds:
             kinds[kind] += share
             best[kind] = max(best[kind], (share, topic))
-    familiar = sentence.goal.verdict == "clear" or model.familiarity(text) >= _FAMILIAR
-    return _Shares(
-        labels=labels, kinds=kinds, topics={kind: topic for kind, (_, topic) in best.items()}, familiar=familiar
-    )
+    return _Shares(labels=labels, kinds=kinds, topics={kind: topic for kind, (_, topic) in best.items()})
 
 
 def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
@@ -137,24 +129,11 @@ def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
     if forms.is_a_program(sentence.text):
         return "out_of_scope"
     sign = len(sentence.units) == 1 and len(sentence.units[0].word) == 1  # a letter, a Chinese character
-    if sign or not sentence.worded or not shares.familiar:
+    if sign or not sentence.worded:
         return "clarify"
-    agreed = sentence.goal.verdict == "clear" and sentence.goal.objective == objective
-    if agreed and other == "clarify" and shares.topics[other] in _ALSO_NAMED and shares.labels[objective] >= _PERHAPS:
-        return "allocate"  # "don't worry about the battery, I want throughput"
     if shares.kinds[other] >= shares.labels[objective]:
         back = other == "command" and sentence.reading.back  # "bring user 3 back" changes a request, it undoes none
-        return "clarify" if back else cast("IntentKind", other)
-    return "allocate" if shares.labels[objective] >= _enough(sentence.goal, objective) else "clarify"
-
-
-def _enough(goal: Goal, objective: str) -> float:
-    """How likely the objective has to be for acting on it, given what the lexicon finds."""
-    refused = goal.verdict == "negated" and objective in goal.options  # "power saving isn't what I want"
-    turned = goal.verdict == "opposite" and objective != "max_min_rate"  # "drain the battery", not "lift the slow ones"
-    if refused or turned:
-        return _ENOUGH_FOR_THE_OPPOSITE
-    if goal.verdict == "opposite":
-        return _ENOUGH_FOR_THE_SLOWEST
-    against = goal.verdict == "contradiction" or (goal.verdict == "clear" and goal.objective != objective)
-    return _ENOUGH_AGAINST_THE_LEXICON if against else _ENOUGH
+        return "clarify" if back or shares.kinds[other] < _AGREED else cast("IntentKind", other)
+    goal = sentence.goal
+    enough = _ENOUGH if goal.verdict != "clear" else _AGREED if goal.objective == objective else _AGAINST
+    return "allocate" if shares.labels[objective] >= enough else "clarify"

@@ -1,8 +1,8 @@
 """The offline recogniser: no network, no language model. It acts only when it is sure, and asks otherwise.
 
 Figures and users come from the parsers alone (``quantities``, ``constraints``). What the sentence wants is judged
-twice: by a lexicon with rules (``goals``: precise, but blind to what it does not list) and by a small linear model
-(``linear_model``: seldom at a loss, never quite certain). Where both agree little certainty is needed, where only the
+twice: by a lexicon with rules (``goals``: precise, but blind to what it does not list) and by a small network
+(``sentence_model``: seldom at a loss, never quite certain). Where both agree little certainty is needed, where only the
 model speaks much; where they disagree the operator is asked. There is one default: a rate for each user under a power
 limit, with no wish, means the highest total rate with both. Any registered objective is understood by its name, its
 aliases and its own phrases.
@@ -196,12 +196,14 @@ class _Understanding:
         goal, judged, default = self._goal, self._judged, self._default()
         if default is not None and (judged.objective == "max_rate" or not judged.acts):
             return default
-        wished = judged.objective if judged.acts else goal.objective if goal.verdict == "clear" else ""
+        likely = judged.acts or judged.topic == "rivals"  # "the most for all in all, but nobody goes without"
+        wished = judged.objective if likely else goal.objective if goal.verdict == "clear" else ""
         if wished in self._voice.labels and self._lets_somebody_starve(wished):
             fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
             names = {"goal": self._voice.label(wished), "both": self._voice.both(fair, "or")}
             return self._answer.ask("starving", 0.8, self._reading.values, **names)
-        if judged.acts and judged.objective in self._voice.labels:
+        vague = goal.verdict != "clear" and "fairly" in self._sentence.concepts  # "make it fairly fast"
+        if judged.acts and judged.objective in self._voice.labels and not vague:
             spans = _merged(goal.spans) if goal.options[:1] == (judged.objective,) else ()
             words = " … ".join(self._text[start:end] for start, end in spans) or self._text
             return self._allocate(judged.objective, words, judged.certainty)
@@ -215,7 +217,8 @@ class _Understanding:
 
     def _question_back(self) -> Intent:
         """What to ask where no wish is sure."""
-        goal, pending, concepts = self._goal, self._reading.values, self._sentence.concepts
+        goal, concepts = self._goal, self._sentence.concepts
+        pending: Mapping[str, Constraint] = {} if self._sentence.chances.is_told else self._reading.values
         offered = [name for name in goal.options if name in self._voice.labels or goal.verdict == "opposite"]
         fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
         fairly = goal.objective == "proportional_fairness" and goal.verdict == "clear"  # "make it fair"
@@ -232,7 +235,7 @@ class _Understanding:
         unclear = next((concept for concept in ("unsupported", "strange") if concept in concepts), None)
         if unclear is not None:
             return self._answer.ask("strange", 0.8, pending, text=self._words_for(unclear))
-        return self._limits_alone() or self._unclear()
+        return self._limits_alone() or self._unclear(pending)
 
     def _allocate(self, objective: str, words: str, confidence: float) -> Intent:
         context, reading = self._context, self._reading
@@ -267,7 +270,7 @@ class _Understanding:
     def _limits_alone(self) -> Intent | None:
         """Limits without a wish, and changes of a request that there is not."""
         values = self._reading.values
-        if values and self._goal.verdict in ("none", "weak"):
+        if values and self._goal.verdict in ("none", "weak") and not self._sentence.chances.is_told:
             key = "rate_only" if "min_rate_bps" in values else "limits_only"
             return self._answer.ask(key, 0.5, values, constraints=self._quoted(values))
         if self._dropped or self._reading.back:
@@ -275,8 +278,7 @@ class _Understanding:
             return self._answer.ask("so_already" if holds else "nothing_yet", 0.5, text=f"“{self._text.strip()}”")
         return None
 
-    def _unclear(self) -> Intent:
-        values = self._reading.values
+    def _unclear(self, values: Mapping[str, Constraint]) -> Intent:
         found = self._goal.verdict in ("weak", "clear")
         guess = self._goal.objective if found else self._judged.objective
         if guess in self._voice.labels and (found or self._judged.likeliest > 0.4):

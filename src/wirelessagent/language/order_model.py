@@ -3,9 +3,7 @@
 Aims, figures and users are one mark each, words that training never saw are another, and signs count as words. What is
 left says who wants it, when, whether it is told, asked, denied or supposed. It is seen as the words that are said, as
 base words, which the languages share, and as classes of mood (:mod:`.moods`); of each view a logistic regression has
-the runs of words and the side of the wish that they stand on. Many words for an order outvote the few that take it
-back, so that a frame with words that hardly any order of the training has must be an order more surely. Trained by
-:mod:`wirelessagent.language.training.orders`.
+the runs of words and the side of the wish that they stand on. Trained by :mod:`wirelessagent.language.training.orders`.
 """
 
 from __future__ import annotations
@@ -15,6 +13,7 @@ import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -22,19 +21,19 @@ import numpy.typing as npt
 from wirelessagent.language.base_words import based
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.moods import Span, classes_in
-from wirelessagent.language.sentence import Sentence
 from wirelessagent.language.text import CJK, unaccented
+
+if TYPE_CHECKING:
+    from wirelessagent.language.sentence import Sentence
 
 ORDER_FILE = Path(__file__).with_name("orders.npz")
 BUCKETS = 1 << 18
 WISH, UNKNOWN = "@", "~"
-LIKELY, SURE = 0.6, 0.72
-"""From where on a sentence is taken for an order: as a rule, and where it has words that orders hardly have."""
+LIKELY = 0.4
+"""The score from where on a sentence is likely to be an order."""
 
 _MOST_TOKENS, _MOST_QUOTED = 80, 4
 _TOKEN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
-_TELLING = ("w2", "w3", "w<")
-"""Of the words that are said: runs of two or three, and words before the wish."""
 _COMMON = ("subject:ours", "subject:adverbial", "subject:speaker")
 """Classes that tell least of a word that has another, too."""
 _CUT = frozenset(",;:.!?…—–-\n，。；：！？、")
@@ -69,14 +68,14 @@ class Frame:
         )  # fmt: skip
 
 
-def frame_of(sentence: Sentence, explained: Sequence[Span] = ()) -> Frame:
-    """What is judged of a sentence; what is ``explained`` is part of its wish, too.
+def frame_of(sentence: Sentence) -> Frame:
+    """What is judged of a sentence.
 
     >>> from wirelessagent.language.sentence import own_words
     >>> frame_of(Sentence("If it rains, at most 5 W for user 3", own_words())).tokens
     ('if', 'it', 'rains', ',', '@', 'for', '@')
     """
-    found, wished = list[tuple[str, Span]](), [*sentence.wished, *explained]
+    found, wished = list[tuple[str, Span]](), sentence.wished
     for match in _TOKEN.finditer(sentence.plain):
         start, end = match.span()
         if any(first <= start < last for first, last in wished):
@@ -94,14 +93,9 @@ def frame_of(sentence: Sentence, explained: Sequence[Span] = ()) -> Frame:
     return Frame(tokens=tokens, spans=spans, moods=tuple(moods), language=sentence.language)
 
 
-def features(frame: Frame, known: frozenset[int]) -> tuple[npt.NDArray[np.int64], set[int]]:
-    """The distinct buckets that a frame falls into, ascending, and the hashes of its telling phrases.
-
-    Those are runs of words, and words before the wish; ``known`` are the hashes of known words.
-    """
-    said = {gram: _hash(gram) for gram in _grams(frame, known)}
-    telling = {place for gram, place in said.items() if gram.startswith(_TELLING)}
-    return np.unique([place % BUCKETS for place in said.values()]), telling
+def features(frame: Frame, known: frozenset[int]) -> npt.NDArray[np.int64]:
+    """The distinct buckets that a frame falls into, ascending; ``known`` are the hashes of known words."""
+    return np.unique([_hash(gram) % BUCKETS for gram in _grams(frame, known)])
 
 
 def word_hashes(frame: Frame) -> set[int]:
@@ -162,63 +156,50 @@ def _sides(said: Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True, kw_only=True)
 class OrderModel:
-    """A logistic regression, and what orders hardly ever have.
+    """A logistic regression.
 
     Attributes:
         weights: (bucket,) as int8, with their ``scale`` and an ``intercept``.
         known: the hashes of known words.
-        unordered: the hashes of phrases that hardly any order has, and many a sentence that is none.
     """
 
     weights: npt.NDArray[np.int8]
     scale: float
     intercept: float
     known: frozenset[int]
-    unordered: frozenset[int]
 
     @classmethod
     def load(cls, path: Path) -> OrderModel:
         with np.load(path) as arrays:
             return cls(
                 weights=arrays["weights"], scale=float(arrays["scale"]), intercept=float(arrays["intercept"]),
-                known=frozenset(arrays["known"].tolist()), unordered=frozenset(arrays["unordered"].tolist()),
+                known=frozenset(arrays["known"].tolist()),
             )  # fmt: skip
 
     def save(self, path: Path) -> None:
-        known, unordered = (np.array(sorted(each), dtype=np.uint32) for each in (self.known, self.unordered))
-        np.savez_compressed(
-            path, weights=self.weights, scale=self.scale, intercept=self.intercept, known=known, unordered=unordered
-        )
+        known = np.array(sorted(self.known), dtype=np.uint32)
+        np.savez_compressed(path, weights=self.weights, scale=self.scale, intercept=self.intercept, known=known)
 
-    def probability(self, frame: Frame) -> float:
-        """How likely a sentence of this frame orders something now, and does not only tell, ask or wonder."""
-        return self._judged(frame)[0]
-
-    def is_order(self, frame: Frame) -> bool:
-        """Whether a sentence of this frame is likely enough to order something now."""
-        probability, needed = self._judged(frame)
-        return probability >= needed
-
-    def _judged(self, frame: Frame) -> tuple[float, float]:
-        """How likely a frame is one of an order, and how likely it has to be."""
-        found, telling = features(frame, self.known)
-        score = self.intercept + self.scale * float(self.weights[found].sum(dtype=np.int32)) / float(len(found)) ** 0.5
-        return float(1 / (1 + np.exp(-score))), LIKELY if telling.isdisjoint(self.unordered) else SURE
+    def score(self, frame: Frame) -> float:
+        """The logarithm of how much likelier a sentence of this frame orders something now than not."""
+        found = features(frame, self.known)
+        return self.intercept + self.scale * float(self.weights[found].sum(dtype=np.int32)) / float(len(found)) ** 0.5
 
     def against(self, frame: Frame) -> Span | None:
         """The words, four at most, without which a sentence is likeliest to order something; None where that is none.
 
         They stand side by side, as few of them as make it likely enough, and none is cut in two.
         """
+        if self.score(frame) >= LIKELY:
+            return None
         for size in range(1, _MOST_QUOTED + 1):
-            judged = {
-                place: self._judged(frame.without(place, size))
+            scores = {
+                place: self.score(frame.without(place, size))
                 for place in range(len(frame.tokens) - size + 1)
                 if WISH not in frame.tokens[place : place + size]
             }
-            enough = [place for place, (probability, needed) in judged.items() if probability >= needed]
-            if enough:
-                best = max(enough, key=lambda place: judged[place][0])
+            best = max(scores, key=lambda place: scores[place], default=0)
+            if scores and scores[best] >= LIKELY:
                 words = [(first, last) for _, first, last in frame.moods if first < best + size and best <= last]
                 first, last = min([best, *(a for a, _ in words)]), max([best + size - 1, *(b for _, b in words)])
                 return frame.spans[first][0], frame.spans[last][1]

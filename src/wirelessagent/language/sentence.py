@@ -8,15 +8,18 @@ from typing import TYPE_CHECKING, cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
+from wirelessagent.language.base_words import aligned
 from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
-from wirelessagent.language.moods import Span
+from wirelessagent.language.moods import Span, classes_in
+from wirelessagent.language.order_model import Frame, frame_of, shipped_order_model
 from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
 from wirelessagent.language.spelling import respelt
 from wirelessagent.language.stated import Reading
-from wirelessagent.language.text import language_of, normalise, replaced
+from wirelessagent.language.text import CJK, language_of, normalise, unaccented
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
 from wirelessagent.model.objective import Objective
@@ -31,7 +34,8 @@ _OF_AIMS = (
     "waste", "share",
 )  # fmt: skip
 """Concepts whose words say what is wanted, and not whether."""
-_PLACEHOLDERS = {"power": " @power ", "rate": " @rate ", "ratio": " @ratio ", "bare": " @number ", "other": " @number "}
+_SAID = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
+"""A word, a Chinese character, or a sign."""
 
 
 class Sentence:
@@ -45,8 +49,7 @@ class Sentence:
         self.reading: Reading = read_constraints(
             text, self.plain, self.quantities, names=names, max_power_w=max_power_w
         )
-        self._spelt = respelt(self.plain)
-        self.units: list[Unit] = units_of(self._spelt, self.reading.masked)
+        self.units: list[Unit] = units_of(respelt(self.plain), self.reading.masked)
         self.found: list[Found] = _vocabulary(own).find(self.units)
         self.concepts = {item.term.concept for item in self.found}
         self.goal: Goal = goals.goal_of(self.found)
@@ -70,14 +73,50 @@ class Sentence:
         ]
         return sorted({*figures, *users, *aims, *self.reading.masked})
 
-    def for_model(self) -> tuple[str, list[str], str]:
-        """The words with placeholders for figures and users, the concepts in order, and the language."""
-        spans = [(q.phrase_start, q.phrase_end, _PLACEHOLDERS[q.kind]) for q in self.quantities]
-        taken = [(start, end) for start, end, _ in spans]
-        spans += [(m.start, m.end, " @user ") for m in mentions(self.plain, (), taken) if m.role == "named"]
-        terms = [item.term.objective or item.term.concept for item in self.found]
-        goal = f"goal:{self.goal.verdict}:{self.goal.objective}"
-        return replaced(self._spelt, sorted(spans)), [*terms, goal], self.language
+    @functools.cached_property
+    def words(self) -> list[Word]:
+        """The words behind the mark of the start, with one mark for each figure and each mention of users.
+
+        The moods of the start say what the lexicon makes of the sentence.
+        """
+        marked = [(q.phrase_start, q.phrase_end, f"@{q.kind}") for q in self.quantities]
+        taken = [(start, end) for start, end, _ in marked]
+        marked += [(m.start, m.end, "@user") for m in mentions(self.plain, (), taken) if m.role == "named"]
+        found, place, plain = list[tuple[str, Span]](), 0, self.plain
+        for start, end, mark in [*sorted(marked), (len(plain), len(plain), "")]:
+            if start >= place:
+                words = ((each.group(), each.span()) for each in _SAID.finditer(plain, place, start))
+                found += [(word, span) for said, span in words if (word := unaccented(said.lower()))]
+                found += [(mark, (start, end))] if mark else []
+                place = end
+        meant, wished = [""] * len(plain), [False] * len(plain)
+        moods: list[tuple[str, ...]] = [()] * len(plain)
+        for each in reversed(self.found):
+            meant[each.start : each.end] = [each.term.objective or each.term.concept] * (each.end - each.start)
+        for name, (start, end) in classes_in(plain):
+            moods[start:end] = [(*said, name) for said in moods[start:end]]
+        for start, end in self.wished:
+            wished[start:end] = [True] * (end - start)
+        goal, bases = self.goal, aligned([said for said, _ in found], self.language)
+        aims = dict.fromkeys((goal.objective, *goal.options))
+        start = START._replace(moods=(goal.verdict, *(f"{goal.verdict}:{aim}" for aim in aims)))
+        return [start] + [
+            Word(
+                said, base, next(filter(None, meant[slice(*span)]), ""),
+                tuple(dict.fromkeys(name for each in moods[slice(*span)] for name in each)), wished[span[0]], span,
+            )
+            for (said, span), base in zip(found, bases, strict=True)
+        ]  # fmt: skip
+
+    @functools.cached_property
+    def frame(self) -> Frame:
+        """What stands around its wishes."""
+        return frame_of(self)
+
+    @functools.cached_property
+    def chances(self) -> Chances:
+        """How likely it is of each kind, and that it orders something now, as network and frame say it together."""
+        return shipped_sentences().chances(self.words, shipped_order_model().score(self.frame))
 
 
 def read_once(text: str, own: tuple[OwnWords, ...], context: Context | None) -> Sentence:

@@ -11,9 +11,7 @@ from wirelessagent.language.conversation.possible import Effect, Possible
 from wirelessagent.language.figure_roles import answers
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import acts_of, stated
-from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.looks import first_look
-from wirelessagent.language.order_model import frame_of, shipped_order_model
 from wirelessagent.language.sentence import BUILT_IN
 
 
@@ -27,7 +25,7 @@ class Read:
         effect, guess: what that comes to; None for nothing.
         supposes: whether they would only suppose it.
         rests: whether it changes what shows only later, such as a promise to a user who is left out.
-        order: how likely its frame is one of an order.
+        order: how likely it orders something.
         kinds: how likely each kind of sentence is.
         roles: by where a figure, a number or users stand, how likely they are there for what.
     """
@@ -53,8 +51,7 @@ class Read:
             kind=intent.kind, topic=f"{intent.recogniser == NAME}:{topic}", acts=acts, guessed=guessed,
             effect=_effect(acts, possible), guess=_effect(guessed, possible), supposes=intent.kind == "question",
             rests=bool(acts) and possible.is_out_of_sight(acts),
-            order=shipped_order_model().probability(frame_of(sentence)),
-            kinds=shipped_model().probabilities(*sentence.for_model()), roles=_roles(line),
+            order=sentence.chances.order, kinds=sentence.chances.kinds, roles=_roles(line),
         )  # fmt: skip
 
 

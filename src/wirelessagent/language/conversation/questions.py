@@ -21,6 +21,7 @@ from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.text import languages_of, lowered, normalise
 
 _ASKED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
+    "why_not": ("why_infeasible", {}),
     "channel": ("uncertainty", {}),
     "how_sure": ("uncertainty", {}),
     "for_the_others": ("users", {"rank": "least", "of": "rate"}),

@@ -25,7 +25,6 @@ from wirelessagent.language.guard import CHANGING
 from wirelessagent.language.intent import EVERYBODY, LISTS_OF_USERS, Constraint, Detail, Intent, checked_constraints
 from wirelessagent.language.leftovers import unread
 from wirelessagent.language.lifted import dropped_in, may_lift
-from wirelessagent.language.linear_model import shipped_model
 from wirelessagent.language.llm.client import Objection
 from wirelessagent.language.llm.meaning import Meaning, Reference
 from wirelessagent.language.llm.prompt import KINDS, figures_of, matching, plain
@@ -73,7 +72,7 @@ class Case:
             {**offline.pending, **offline.constraints} if asks else self._reading.values
         )
         self.figures = figures_of(self._sentence, context, offline, self.rules)
-        self._chances = shipped_model().probabilities(*self._sentence.for_model())
+        self._chances = self._sentence.chances.kinds
         back = with_users_back(self._reading, context)[1] if self._reading.back else ()
         dropped, self._dropped_spans = dropped_in(self._plain, context)
         self._dropped = {*offline.dropped, *dropped, *back} & set(context.constraints)

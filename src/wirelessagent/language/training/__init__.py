@@ -1,4 +1,4 @@
-"""How the linear model of the offline recogniser is made: templates, sentences drawn from them, and the fit.
+"""How the models of the offline recogniser are made: sentences, those drawn from templates, and the fits.
 
 Nothing here is needed at run time; ``python -m wirelessagent.language.training`` writes ``language/model.npz`` anew.
 """

@@ -1,61 +1,79 @@
-"""Make the model anew: ``python -m wirelessagent.language.training [FILE]``; the same file for the same templates."""
+"""Teach the network anew: ``python -m wirelessagent.language.training [FILE]``; half an hour on two cores.
+
+The same file for the same sentences on one machine. It needs JAX and Optax, of the development group.
+"""
 
 from __future__ import annotations
 
 import logging
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
-from wirelessagent.language.linear_model import BUCKETS, MODEL_FILE, buckets, word_hashes
 from wirelessagent.language.sentence import Sentence, own_words
-from wirelessagent.language.training.compose import sentences
-from wirelessagent.language.training.fit import fit, known_words, matrix_of, read, save
-from wirelessagent.language.training.spoken import Spoken, spoken
+from wirelessagent.language.sentence_model import KNOWN, SENTENCES_FILE, SentenceModel, hashes_of, rows_of
+from wirelessagent.language.training.compose import OBJECTIVES
+from wirelessagent.language.training.examples import Example, examples
+from wirelessagent.language.training.fit import in_parallel
+from wirelessagent.language.training.network import LENGTHS, PASSES, Shown, fit
 
-SPOKEN_WEIGHT = 30.0
-"""What a spoken sentence counts beside one that was drawn."""
+Hashes: TypeAlias = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]
+OFTEN = 6
+"""How often something has to be seen to be known: else it falls into the bucket of anything else."""
+
+_ORDERS = (*OBJECTIVES, "clarify.limits", "command")
+_RARE, _LEAST, _MOST = -0.2, 0.5, 3.0
+"""How much more the examples of a rare kind count: its share to this power, within these bounds."""
+
+_LOG = logging.getLogger(__name__)
+
+
+def seen(text: str) -> tuple[Hashes, Hashes]:
+    """What is seen of a sentence, and of one whose wish is left with what it means alone."""
+    words = Sentence(text, own_words()).words[: LENGTHS[-1]]
+    return hashes_of(words), hashes_of(words, bare=True)
+
+
+def taught(every: Sequence[Example], passes: float = PASSES, processes: int = 2) -> SentenceModel:
+    """The network, taught by these sentences."""
+    shown = in_parallel(seen, [each.text for each in every], processes)
+    found, times = np.unique(np.concatenate([hashes for (hashes, _), _ in shown]), return_counts=True)
+    known = np.zeros(KNOWN, np.bool_)
+    known[found[times >= OFTEN] % KNOWN] = True
+    kinds = [each.kind for each in every]
+    labels = sorted({kind for kind in kinds if "." in kind or kind in (*OBJECTIVES, "out_of_scope")})
+    meant = {kind: [bool(kind) and f"{label}.".startswith(f"{kind}.") for label in labels] for kind in set(kinds)}
+    meant["order"] = [label.startswith(_ORDERS) for label in labels]
+    meant["none"] = [not each for each in meant["order"]]
+    right = np.array([meant[kind] for kind in kinds])
+    counts = np.array([each.kind_counts for each in every], np.float32)
+    even = right / np.maximum(1, right.sum(axis=1, keepdims=True))
+    share = even @ (counts @ even / counts.sum())
+    rare = np.where(counts > 0, (len(labels) * np.maximum(share, 1e-6)) ** _RARE, 0)
+    _LOG.info("%d sentences, %d labels", len(every), len(labels))
+    weights = fit(Shown(
+        rows=[rows_of(*said, known) for said, _ in shown], bare=[rows_of(*bare, known) for _, bare in shown],
+        right=right,
+        kind_counts=counts * np.clip(rare / rare[counts > 0].mean(), _LEAST, _MOST).astype(np.float32),
+        orders=np.array([each.orders for each in every], np.float32),
+        order_counts=np.array([each.order_counts for each in every], np.float32),
+        turns=np.array([each.turns for each in every]),
+    ), passes)  # fmt: skip
+    return SentenceModel(labels=tuple(labels), weights=weights, known=known)
 
 
 def main(path: Path) -> None:
-    """Draw, fit, write, and say how well the drawn sentences are told apart."""
+    """Read, teach, write."""
     logging.basicConfig(level=logging.INFO, format="%(message)s")
-    log = logging.getLogger(__name__)
     start = time.perf_counter()
-    folder = Path(__file__).parent
-    drawn = sorted(set(sentences(folder)))
-    said = [(each.text, label) for each in spoken() if (label := _kind(each)) and not _asked_about_anyway(each)]
-    names = sorted({label for _, label in drawn})
-    texts, labels = [text for text, _ in (*drawn, *said)], [label for _, label in (*drawn, *said)]
-    weight = np.array([1.0] * len(drawn) + [SPOKEN_WEIGHT] * len(said))
-    log.info("%d sentences, %d labels (%.0f s)", len(texts), len(names), time.perf_counter() - start)
-    seen = read(texts)
-    rows = matrix_of([buckets(*each) for each in seen], BUCKETS)
-    log.info("%d n-grams (%.0f s)", rows.nnz, time.perf_counter() - start)
-    weights, intercepts = fit(rows, labels, names, weight)
-    told: list[int] = np.argmax(np.asarray(rows @ weights) + intercepts, axis=1).tolist()
-    right = sum(
-        names[guess].partition(".")[0] == label.partition(".")[0] for guess, label in zip(told, labels, strict=True)
-    ) / len(labels)
-    save(path, names, weights, intercepts, known_words(word_hashes(text) for text, *_ in seen))
-    log.info("%.1f %% of them told apart; %s: %d kB (%.0f s)", 100 * right, path.name, path.stat().st_size // 1000,
-             time.perf_counter() - start)  # fmt: skip
-
-
-def _kind(each: Spoken) -> str:
-    """The label that a sentence teaches; "" where it was only written to be mistaken for an order, or for none."""
-    if each.label == "clarify" and each.constraints:
-        return "clarify.limits"
-    return "" if each.label in ("none", "order") else each.label
-
-
-def _asked_about_anyway(each: Spoken) -> bool:
-    """Whether an impossible figure or the like is asked about whatever the model says: it is to learn wishes alone."""
-    doubtful = each.label == "clarify" and not each.constraints
-    return doubtful and bool(Sentence(each.text, own_words()).reading.doubts)
+    taught(list(examples())).save(path)
+    _LOG.info("%s: %d kB (%.0f s)", path.name, path.stat().st_size // 1000, time.perf_counter() - start)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else MODEL_FILE)
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else SENTENCES_FILE)

@@ -5,23 +5,19 @@ from __future__ import annotations
 import logging
 import multiprocessing
 from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
-from typing import TypeAlias, TypeVar
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
 from wirelessagent.kernels.supply import foreground
-from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.training.fit_kernel import one_pass
 
 Item = TypeVar("Item")
 Made = TypeVar("Made")
-ForModel: TypeAlias = tuple[str, list[str], str]
-_PASSES, _AVERAGED, _STEP, _EPSILON, _FAINT = 10, 2, 0.3, 1e-3, 8
-"""Passes, those of them whose weights are averaged, the size of a step, what squares begin at, and weights of how many
-127ths of the largest count as none: those are half of the file and change hardly anything."""
+_AVERAGED, _EPSILON = 2, 1e-3
+"""Passes whose weights are averaged, and what squares begin at."""
 
 _LOG = logging.getLogger(__name__)
 
@@ -32,15 +28,6 @@ def matrix_of(columns: Sequence[npt.NDArray[np.int64]], width: int) -> sparse.cs
     values = np.repeat(1 / np.sqrt(sizes), sizes)
     starts = np.concatenate([[0], np.cumsum(sizes)])
     return sparse.csr_matrix((values.astype(np.float32), np.concatenate(columns), starts), shape=(len(columns), width))
-
-
-def read(texts: Sequence[str]) -> list[ForModel]:
-    """What the parsers and the lexicon make of each sentence, as the model gets it at run time."""
-    return in_parallel(_read, texts)
-
-
-def _read(text: str) -> ForModel:
-    return Sentence(text, own_words()).for_model()
 
 
 def in_parallel(
@@ -63,8 +50,8 @@ def fit(
     labels: Sequence[str],
     names: Sequence[str],
     weight: npt.NDArray[np.float64],
-    passes: int = _PASSES,
-    step: float = _STEP,
+    passes: int,
+    step: float,
 ) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
     """Weights (bucket, label) and intercepts (label,) that make the labels likely.
 
@@ -93,12 +80,3 @@ def rounded(weights: npt.NDArray[np.float32], faint: int) -> tuple[npt.NDArray[n
     scales = np.asarray(np.abs(weights).max(axis=0) / 127, dtype=np.float32)
     found = np.asarray(np.rint(weights / scales), dtype=np.int8)
     return np.where(np.abs(found) > faint, found, np.int8(0)), scales
-
-
-def save(
-    path: Path, names: Sequence[str], weights: npt.NDArray[np.float32], intercepts: npt.NDArray[np.float32],
-    known: npt.NDArray[np.uint32],
-) -> None:  # fmt: skip
-    """Write the model, the weights as int8 with a scale per label."""
-    found, scales = rounded(weights, _FAINT)
-    np.savez_compressed(path, labels=np.array(names), weights=found, scales=scales, intercepts=intercepts, known=known)

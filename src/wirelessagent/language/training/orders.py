@@ -10,16 +10,15 @@ from __future__ import annotations
 import itertools
 import logging
 import random
-import re
 import sys
 import time
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.order_model import (
     BUCKETS,
     ORDER_FILE,
@@ -43,14 +42,11 @@ FILLED, _LONGEST, _DRAWN = 4, 60, 3_000
 MILD, FRAME, TALK = 0.6, 3.0, 0.4
 """What a sentence counts that was not written to be mistaken, a frame, and a line of a talk, beside one that was."""
 
-_LINE = re.compile(r"(?:\w+\W+){4}\w|[\u3400-\u9fff]{6}")
+_LINE = deferred(r"(?:\w+\W+){4}\w|[\u3400-\u9fff]{6}")
 """A line of a talk that says by itself whether it orders something: five words, or six Chinese characters."""
 
 _PASSES, _STEP = 6, 0.15
 """More of them tell these sentences apart better, and frames in other words worse."""
-
-_OFTEN, _HARDLY = 3.9, 0.1
-"""How much is said, at least, with a phrase that orders hardly have, and how much of it orders, at most."""
 
 
 def framed(folder: Path = FRAMES, seed: int = 1) -> Iterator[tuple[str, bool, str]]:
@@ -96,7 +92,7 @@ def main(path: Path) -> None:
     labels, weight = ["yes" if orders else "no" for _, orders, _ in said], np.array([each[2] for each in said])
     model = made(frames, labels, weight)
     model.save(path)
-    right = [model.is_order(each) == (label == "yes") for each, label in zip(frames, labels, strict=True)]
+    right = [(model.score(each) > 0) == (label == "yes") for each, label in zip(frames, labels, strict=True)]
     log.info("%.1f %% of them told apart; %s: %d kB (%.0f s)", 100 * np.average(right, weights=weight), path.name,
              path.stat().st_size // 1000, time.perf_counter() - start)  # fmt: skip
 
@@ -109,26 +105,14 @@ def made(frames: Sequence[Frame], labels: Sequence[str], weight: npt.NDArray[np.
     """A model of what orders something ("yes") and what does not ("no")."""
     words = known_words(map(word_hashes, frames))
     known = frozenset(words.tolist())
-    seen = [features(frame, known) for frame in frames]
-    rows = matrix_of([found for found, _ in seen], BUCKETS)
+    rows = matrix_of([features(frame, known) for frame in frames], BUCKETS)
     found, intercepts = fit(rows, labels, ("no", "yes"), weight, _PASSES, _STEP)
     weights = found[:, 1] - found[:, 0]
     scale = float(np.abs(weights).max()) / 127
     return OrderModel(
         weights=np.asarray(np.rint(weights / scale), dtype=np.int8), scale=scale,
         intercept=float(intercepts[1] - intercepts[0]), known=known,
-        unordered=_unordered([telling for _, telling in seen], labels, weight),
     )  # fmt: skip
-
-
-def _unordered(told: Sequence[set[int]], labels: Sequence[str], weight: npt.NDArray[np.float64]) -> frozenset[int]:
-    """The phrases that much is said with that orders nothing, and hardly an order."""
-    orders, others = Counter[int](), Counter[int]()
-    for phrases, label, counts in zip(told, labels, weight.tolist(), strict=True):
-        said = orders if label == "yes" else others
-        for phrase in phrases:
-            said[phrase] += counts
-    return frozenset(p for p, counts in others.items() if counts >= _OFTEN and orders[p] <= _HARDLY * counts)
 
 
 if __name__ == "__main__":

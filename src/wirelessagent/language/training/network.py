@@ -1,21 +1,23 @@
 """The fit of the network: AdamW with a warm start and a cosine, words and features that are lost, averaged weights.
 
-It needs JAX and Optax, which are no dependency of the project.
+It needs JAX and Optax, which are in the development group alone.
 """
 
 from __future__ import annotations
 
-import importlib
 import logging
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
+import jax as untyped_jax
+import jax.numpy as untyped_jnp
 import numpy as np
 import numpy.typing as npt
+import optax as untyped_optax  # pyright: ignore[reportMissingTypeStubs]
 
-from network.layers import (
+from wirelessagent.language.sentence_layers import (
     BLOCKS,
     BUCKETS,
     EMBEDDED,
@@ -27,9 +29,7 @@ from network.layers import (
     scores,
 )
 
-jax: Any = importlib.import_module("jax")  # neither is typed
-jnp: Any = importlib.import_module("jax.numpy")
-optax: Any = importlib.import_module("optax")
+jax, jnp, optax = cast("Any", untyped_jax), cast("Any", untyped_jnp), cast("Any", untyped_optax)
 
 PASSES = 8.0
 BATCH, LENGTHS = 128, (8, 12, 16, 20, 26, 34, 48, 80)

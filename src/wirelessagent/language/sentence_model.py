@@ -8,7 +8,8 @@ the lexicon's rules make of the wish (:mod:`.goals`).
 
 from __future__ import annotations
 
-import itertools
+import functools
+import math
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,17 +19,15 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from network.layers import BUCKETS, MOST_FEATURES, embedded, scores
-from wirelessagent.language import base_words
-from wirelessagent.language.deferred import deferred
-from wirelessagent.language.mentions import mentions
-from wirelessagent.language.moods import Span, classes_in
-from wirelessagent.language.sentence import Sentence
-from wirelessagent.language.text import CJK, is_chinese, unaccented
+from wirelessagent.language.moods import Span
+from wirelessagent.language.sentence_layers import BUCKETS, MOST_FEATURES, embedded, scores
+from wirelessagent.language.text import is_chinese
 
-LIKELY = 0.8
-"""How likely a sentence is one that orders something, at least, to be taken for one: at 0.9 a tenth fewer frames are
-acted upon, and 1 % more of the orders are asked about."""
+LIKELY = 0.77
+"""How likely a sentence is one that orders something, at least, to be taken for one."""
+
+_SUREST = 9.2
+"""No reader's score for an order counts more than this: one of two that is sure does not decide alone."""
 
 TOLD = "clarify.told"
 """The kind of what orders nothing and does not ask, either."""
@@ -36,7 +35,8 @@ TOLD = "clarify.told"
 KNOWN = 1 << 20
 """Of so many hashes it is known whether the training saw them often enough."""
 
-_WORD = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
+SENTENCES_FILE = Path(__file__).with_name("sentences.npz")
+
 _LONG_ENOUGH, _MOST_WORDS = 12, 400
 
 
@@ -68,56 +68,14 @@ class Chances:
     order: float
 
     @property
+    def is_told(self) -> bool:
+        """Whether it is likeliest to tell of something that nobody orders, nor asks."""
+        return max(self.kinds, key=lambda kind: self.kinds[kind]) == TOLD
+
+    @property
     def is_order(self) -> bool:
-        """Whether it is likely enough to order something, and most likely nothing that is only told."""
-        return self.order >= LIKELY and max(self.kinds, key=lambda kind: self.kinds[kind]) != TOLD
-
-
-def aligned(tokens: Sequence[str], language: str) -> list[str]:
-    """For each of a sentence's tokens its base word, that of a Chinese expression for each of its characters."""
-    own, english, chinese = (base_words._base_words(each) for each in (language, "en", "zh"))
-    found = list[str]()
-    while len(found) < len(tokens):
-        token, ahead = tokens[len(found)], tokens[len(found) : len(found) + base_words._longest("zh")]
-        run = "".join(itertools.takewhile(is_chinese, ahead))
-        if run:
-            size = next((size for size in range(len(run), 0, -1) if run[:size] in chinese), 1)
-            found += [chinese.get(run[:size], token)] * size
-        else:
-            found.append(own.get(token) or (english.get(token, token) if language == "zh" else token))
-    return found
-
-
-def words_of(sentence: Sentence) -> list[Word]:
-    """The words of a sentence behind its start, with one mark for each figure and each mention of users."""
-    marked = [(q.phrase_start, q.phrase_end, f"@{q.kind}") for q in sentence.quantities]
-    taken = [(start, end) for start, end, _ in marked]
-    marked += [(m.start, m.end, "@user") for m in mentions(sentence.plain, (), taken) if m.role == "named"]
-    found, place, plain = list[tuple[str, Span]](), 0, sentence.plain
-    for start, end, mark in [*sorted(marked), (len(plain), len(plain), "")]:
-        if start >= place:
-            words = ((each.group(), each.span()) for each in _WORD.finditer(plain, place, start))
-            found += [(word, span) for said, span in words if (word := unaccented(said.lower()))]
-            found += [(mark, (start, end))] if mark else []
-            place = end
-    meant, wished = [""] * len(plain), [False] * len(plain)
-    moods: list[tuple[str, ...]] = [()] * len(plain)
-    for each in reversed(sentence.found):
-        meant[each.start : each.end] = [each.term.objective or each.term.concept] * (each.end - each.start)
-    for name, (start, end) in classes_in(plain):
-        moods[start:end] = [(*said, name) for said in moods[start:end]]
-    for start, end in sentence.wished:
-        wished[start:end] = [True] * (end - start)
-    goal = sentence.goal
-    aims = dict.fromkeys((goal.objective, *goal.options))
-    start = START._replace(moods=(goal.verdict, *(f"{goal.verdict}:{aim}" for aim in aims)))
-    return [start] + [
-        Word(
-            said, base, next(filter(None, meant[slice(*span)]), ""),
-            tuple(dict.fromkeys(name for each in moods[slice(*span)] for name in each)), wished[span[0]], span,
-        )
-        for (said, span), base in zip(found, aligned([said for said, _ in found], sentence.language), strict=True)
-    ]  # fmt: skip
+        """Whether it is likely enough to order something, and does not only tell of it."""
+        return self.order >= LIKELY and not self.is_told
 
 
 def hashes_of(words: Sequence[Word], *, bare: bool = False) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
@@ -195,26 +153,33 @@ class SentenceModel:
     def load(cls, path: Path) -> SentenceModel:
         with np.load(path) as arrays:
             held = dict[str, npt.NDArray[Any]](arrays)
-        labels, scale, known = held.pop("labels"), held.pop("scale"), held.pop("known")
-        weights = {name: each.astype(np.float32) for name, each in held.items()}
-        weights["embedding"] *= scale
-        return cls(labels=tuple(map(str, labels)), weights=weights, known=np.unpackbits(known).astype(np.bool_))
+        labels, known = held.pop("labels"), np.unpackbits(held.pop("known")).astype(np.bool_)
+        scales = {name: held.pop(f"{name}_scales") for name in list(held) if f"{name}_scales" in held}
+        weights = {name: each.astype(np.float32) * scales.get(name, 1) for name, each in held.items()}
+        return cls(labels=tuple(map(str, labels)), weights=weights, known=known)
 
     def save(self, path: Path) -> None:
-        """Write the model: embeddings as int8 with one scale, other weights with 16 bits."""
-        embedding = self.weights["embedding"]
-        scale = np.float32(np.abs(embedding).max() / 127)
-        weights: dict[str, Any] = {name: each.astype(np.float16) for name, each in self.weights.items()}
-        weights["embedding"] = np.rint(embedding / scale).astype(np.int8)
-        known = np.packbits(self.known)
-        np.savez_compressed(path, allow_pickle=False, labels=np.array(self.labels), scale=scale, known=known, **weights)
+        """Write the model: matrices as int8 with a scale for each column, other weights as they are."""
+        known, arrays = np.packbits(self.known), dict[str, npt.NDArray[Any]]()
+        for name, each in self.weights.items():
+            if each.ndim > 1:
+                scales = np.maximum(np.abs(each).max(axis=0), 1e-9).astype(np.float32) / 127
+                arrays[name], arrays[f"{name}_scales"] = np.rint(each / scales).astype(np.int8), scales
+            else:
+                arrays[name] = each.astype(np.float32)
+        np.savez_compressed(path, allow_pickle=False, labels=np.array(self.labels), known=known, **arrays)
 
-    def chances(self, words: Sequence[Word]) -> Chances:
-        """What a sentence of these words is; a very long one orders nothing, as its end is not read."""
+    def chances(self, words: Sequence[Word], other: float | None = None) -> Chances:
+        """What a sentence of these words is; a very long one orders nothing, as its end is not read.
+
+        ``other`` is a score for an order by another reader of it, which counts as much as the network's.
+        """
         kinds, orders = self._scores(self._seen(words[:_MOST_WORDS])[None])
         likely = np.exp(kinds[0] - kinds[0].max())
         likely /= likely.sum()
-        order = float(_logistic(orders)[0]) if len(words) <= _MOST_WORDS else 0.0
+        own = float(orders[0])
+        score = np.clip([own, own if other is None else other], -_SUREST, _SUREST).mean()
+        order = 0.5 + 0.5 * math.tanh(score / 2) if len(words) <= _MOST_WORDS else 0.0
         return Chances(kinds=dict(zip(self.labels, likely.tolist(), strict=True)), order=order)
 
     def _seen(self, words: Sequence[Word]) -> npt.NDArray[np.float32]:
@@ -227,5 +192,7 @@ class SentenceModel:
             return scores(np, self.weights, seen, np.ones(seen.shape[:2], np.float32))
 
 
-def _logistic(scores: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    return 0.5 + 0.5 * np.tanh(scores / 2)
+@functools.cache
+def shipped_sentences() -> SentenceModel:
+    """The model of this release."""
+    return SentenceModel.load(SENTENCES_FILE)

@@ -17,7 +17,7 @@ BUCKETS = 1 << 15
 """Of features; bucket 0 stands for none."""
 MOST_FEATURES = 28
 """Of a word."""
-EMBEDDED, WIDTH, BLOCKS, HEADS = 40, 96, 2, 4
+EMBEDDED, WIDTH, BLOCKS, HEADS = 28, 96, 2, 4
 """How many numbers a feature and a word are seen as; how many blocks, and how often each looks at other words."""
 REACH = 12
 """Up to how many words away one distance is told from another."""
