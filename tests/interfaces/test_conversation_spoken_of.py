@@ -60,7 +60,6 @@ def test_users_by_odd_and_even_numbers(said: str, users: str) -> None:
      ((HELD, "users 2 and 3 count double", "make it triple for 3"),
       {"min_rate_bps": 3e5, "weights": {"2": 2.0, "3": 3.0}}),
      (("highest total rate, at most 4 Mbit/s each, at most 12 W", "the power limit can go", "the cap too"), {}),
-     (("highest total rate, at most 12 W", "user 3 counts double", "forget the weights, and the power limit too"), {}),
      ((HELD, "user 2 is the fire brigade, 1.8 Mbit/s guaranteed."), {"min_rate_bps": {"all": 3e5, "2": 1.8e6}})],
 )  # fmt: skip
 def test_lines_that_talks_leave_short(lines: tuple[str, ...], held: dict[str, Any]) -> None:

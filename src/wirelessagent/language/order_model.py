@@ -71,7 +71,7 @@ class Frame:
 def frame_of(sentence: Sentence) -> Frame:
     """What is judged of a sentence.
 
-    >>> from wirelessagent.language.sentence import own_words
+    >>> from wirelessagent.language.sentence import Sentence, own_words
     >>> frame_of(Sentence("If it rains, at most 5 W for user 3", own_words())).tokens
     ('if', 'it', 'rains', ',', '@', 'for', '@')
     """

@@ -45,7 +45,7 @@ class Sentence:
         self, text: str, own: tuple[OwnWords, ...], *, names: Sequence[str] = (), max_power_w: float = 20.0
     ) -> None:
         self.text, self.plain, self.language = text, normalise(text), language_of(text)
-        self.quantities = parse_quantities(text)
+        self._names, self.quantities = names, parse_quantities(text)
         self.reading: Reading = read_constraints(
             text, self.plain, self.quantities, names=names, max_power_w=max_power_w
         )
@@ -65,7 +65,7 @@ class Sentence:
     def wished(self) -> list[Span]:
         """Where figures, users and words of an aim stand, from left to right; what complains is no aim."""
         figures = [(q.phrase_start, q.phrase_end) for q in self.quantities]
-        users = [(m.start, m.end) for m in mentions(self.plain, (), figures) if m.role == "named"]
+        users = [(m.start, m.end) for m in mentions(self.plain, self._names, figures) if m.role == "named"]
         complaints = [(item.start, item.end) for item in self.found if item.term.complaint]
         aims = [(item.start, item.end) for item in self.found if item.term.concept in _OF_AIMS]
         aims = [
@@ -81,7 +81,7 @@ class Sentence:
         """
         marked = [(q.phrase_start, q.phrase_end, f"@{q.kind}") for q in self.quantities]
         taken = [(start, end) for start, end, _ in marked]
-        marked += [(m.start, m.end, "@user") for m in mentions(self.plain, (), taken) if m.role == "named"]
+        marked += [(m.start, m.end, "@user") for m in mentions(self.plain, self._names, taken) if m.role == "named"]
         found, place, plain = list[tuple[str, Span]](), 0, self.plain
         for start, end, mark in [*sorted(marked), (len(plain), len(plain), "")]:
             if start >= place:

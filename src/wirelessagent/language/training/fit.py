@@ -33,7 +33,9 @@ def matrix_of(columns: Sequence[npt.NDArray[np.int64]], width: int) -> sparse.cs
 def in_parallel(
     do: Callable[[Item], Made], items: Sequence[Item], processes: int = 2, at_once: int = 500
 ) -> list[Made]:
-    """What some processes make of each item, in order."""
+    """What some processes make of each item, in order; one process is this one."""
+    if processes == 1:
+        return list(map(do, items))
     with multiprocessing.get_context("fork").Pool(processes) as pool:
         return pool.map(do, items, chunksize=at_once)
 
