@@ -31,12 +31,12 @@ from wirelessagent.language.sentence_model import (
     KNOWN,
     SENTENCES_FILE,
     SentenceModel,
-    hashed,
     hashes_of,
     rows_of,
     shipped_sentences,
 )
 from wirelessagent.language.spelling import nearest, respelt
+from wirelessagent.language.text import hashed
 from wirelessagent.language.training import meant, orders, talk_fit, talk_notation, talks
 from wirelessagent.language.training.__main__ import taught
 from wirelessagent.language.training.compose import LANGUAGES, SLOTS, SURROUNDINGS, sentences

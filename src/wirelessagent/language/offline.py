@@ -235,7 +235,7 @@ class _Understanding:
         unclear = next((concept for concept in ("unsupported", "strange") if concept in concepts), None)
         if unclear is not None:
             return self._answer.ask("strange", 0.8, pending, text=self._words_for(unclear))
-        return self._limits_alone() or self._unclear(pending)
+        return self._limits_alone(pending) or self._unclear(pending)
 
     def _allocate(self, objective: str, words: str, confidence: float) -> Intent:
         context, reading = self._context, self._reading
@@ -267,10 +267,9 @@ class _Understanding:
             return self._allocate("max_rate", "", _DEFAULT_CONFIDENCE)
         return None
 
-    def _limits_alone(self) -> Intent | None:
+    def _limits_alone(self, values: Mapping[str, Constraint]) -> Intent | None:
         """Limits without a wish, and changes of a request that there is not."""
-        values = self._reading.values
-        if values and self._goal.verdict in ("none", "weak") and not self._sentence.chances.is_told:
+        if values and self._goal.verdict in ("none", "weak"):
             key = "rate_only" if "min_rate_bps" in values else "limits_only"
             return self._answer.ask(key, 0.5, values, constraints=self._quoted(values))
         if self._dropped or self._reading.back:

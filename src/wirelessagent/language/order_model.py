@@ -9,7 +9,6 @@ the runs of words and the side of the wish that they stand on. Trained by :mod:`
 from __future__ import annotations
 
 import functools
-import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,9 +18,8 @@ import numpy as np
 import numpy.typing as npt
 
 from wirelessagent.language.base_words import based
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.moods import Span, classes_in
-from wirelessagent.language.text import CJK, unaccented
+from wirelessagent.language.text import WORD_OR_SIGN, hashed, unaccented
 
 if TYPE_CHECKING:
     from wirelessagent.language.sentence import Sentence
@@ -33,7 +31,6 @@ LIKELY = 0.4
 """The score from where on a sentence is likely to be an order."""
 
 _MOST_TOKENS, _MOST_QUOTED = 80, 4
-_TOKEN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
 _COMMON = ("subject:ours", "subject:adverbial", "subject:speaker")
 """Classes that tell least of a word that has another, too."""
 _CUT = frozenset(",;:.!?…—–-\n，。；：！？、")
@@ -76,7 +73,7 @@ def frame_of(sentence: Sentence) -> Frame:
     ('if', 'it', 'rains', ',', '@', 'for', '@')
     """
     found, wished = list[tuple[str, Span]](), sentence.wished
-    for match in _TOKEN.finditer(sentence.plain):
+    for match in WORD_OR_SIGN.finditer(sentence.plain):
         start, end = match.span()
         if any(first <= start < last for first, last in wished):
             if not found or found[-1][0] != WISH:
@@ -95,21 +92,17 @@ def frame_of(sentence: Sentence) -> Frame:
 
 def features(frame: Frame, known: frozenset[int]) -> npt.NDArray[np.int64]:
     """The distinct buckets that a frame falls into, ascending; ``known`` are the hashes of known words."""
-    return np.unique([_hash(gram) % BUCKETS for gram in _grams(frame, known)])
+    return np.unique([hashed(gram) % BUCKETS for gram in _grams(frame, known)])
 
 
 def word_hashes(frame: Frame) -> set[int]:
     """The hashes of a frame's words and signs."""
-    return {_hash(token) for token in frame.tokens}
-
-
-def _hash(text: str) -> int:
-    return zlib.crc32(text.encode("utf-8", "replace"))
+    return {hashed(token) for token in frame.tokens}
 
 
 def _grams(frame: Frame, known: frozenset[int]) -> Iterator[str]:
     """What is said of a frame: four views of its words."""
-    said = [token if token == WISH or _hash(token) in known else UNKNOWN for token in frame.tokens]
+    said = [token if token == WISH or hashed(token) in known else UNKNOWN for token in frame.tokens]
     classes = list(_classes(frame))
     yield from _view("w", said, 3)
     yield from _view("b", based(frame.tokens, frame.language), 3)

@@ -19,7 +19,7 @@ from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
 from wirelessagent.language.spelling import respelt
 from wirelessagent.language.stated import Reading
-from wirelessagent.language.text import CJK, language_of, normalise, unaccented
+from wirelessagent.language.text import WORD_OR_SIGN, language_of, normalise, unaccented
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
 from wirelessagent.model.objective import Objective
@@ -34,8 +34,6 @@ _OF_AIMS = (
     "waste", "share",
 )  # fmt: skip
 """Concepts whose words say what is wanted, and not whether."""
-_SAID = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
-"""A word, a Chinese character, or a sign."""
 
 
 class Sentence:
@@ -61,17 +59,23 @@ class Sentence:
         words = (word for word in _WORD.finditer(self.plain) if not any(a <= word.start() < b for a, b in spans))
         return any(not (unit := unit_at(self.plain, word.start())) or unit.end < word.end() for word in words)
 
-    @property
+    @functools.cached_property
+    def _marked(self) -> list[tuple[int, int, str]]:
+        """Where figures and users stand, with the mark that the network sees in their place."""
+        figures = [(q.phrase_start, q.phrase_end, f"@{q.kind}") for q in self.quantities]
+        found = mentions(self.plain, self._names, [(start, end) for start, end, _ in figures])
+        return [*figures, *((m.start, m.end, "@user") for m in found if m.role == "named")]
+
+    @functools.cached_property
     def wished(self) -> list[Span]:
         """Where figures, users and words of an aim stand, from left to right; what complains is no aim."""
-        figures = [(q.phrase_start, q.phrase_end) for q in self.quantities]
-        users = [(m.start, m.end) for m in mentions(self.plain, self._names, figures) if m.role == "named"]
         complaints = [(item.start, item.end) for item in self.found if item.term.complaint]
         aims = [(item.start, item.end) for item in self.found if item.term.concept in _OF_AIMS]
         aims = [
             span for span in (*aims, *self.goal.spans) if not any(a < span[1] and span[0] < b for a, b in complaints)
         ]
-        return sorted({*figures, *users, *aims, *self.reading.masked})
+        marked = {(start, end) for start, end, _ in self._marked}
+        return sorted({*marked, *aims, *self.reading.masked})
 
     @functools.cached_property
     def words(self) -> list[Word]:
@@ -79,13 +83,10 @@ class Sentence:
 
         The moods of the start say what the lexicon makes of the sentence.
         """
-        marked = [(q.phrase_start, q.phrase_end, f"@{q.kind}") for q in self.quantities]
-        taken = [(start, end) for start, end, _ in marked]
-        marked += [(m.start, m.end, "@user") for m in mentions(self.plain, self._names, taken) if m.role == "named"]
         found, place, plain = list[tuple[str, Span]](), 0, self.plain
-        for start, end, mark in [*sorted(marked), (len(plain), len(plain), "")]:
+        for start, end, mark in [*sorted(self._marked), (len(plain), len(plain), "")]:
             if start >= place:
-                words = ((each.group(), each.span()) for each in _SAID.finditer(plain, place, start))
+                words = ((each.group(), each.span()) for each in WORD_OR_SIGN.finditer(plain, place, start))
                 found += [(word, span) for said, span in words if (word := unaccented(said.lower()))]
                 found += [(mark, (start, end))] if mark else []
                 place = end
@@ -103,7 +104,7 @@ class Sentence:
         return [start] + [
             Word(
                 said, base, next(filter(None, meant[slice(*span)]), ""),
-                tuple(dict.fromkeys(name for each in moods[slice(*span)] for name in each)), wished[span[0]], span,
+                tuple(dict.fromkeys(name for each in moods[slice(*span)] for name in each)), wished[span[0]],
             )
             for (said, span), base in zip(found, bases, strict=True)
         ]  # fmt: skip

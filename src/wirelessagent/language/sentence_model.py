@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import functools
 import math
-import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,9 +18,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.moods import Span
 from wirelessagent.language.sentence_layers import BUCKETS, MOST_FEATURES, embedded, scores
-from wirelessagent.language.text import is_chinese
+from wirelessagent.language.text import hashed, is_chinese
 
 LIKELY = 0.77
 """How likely a sentence is one that orders something, at least, to be taken for one."""
@@ -41,7 +39,7 @@ _LONG_ENOUGH, _MOST_WORDS = 12, 400
 
 
 class Word(NamedTuple):
-    """A word, a Chinese character or a sign: as it is said, as a base word, what it means, its moods, and where.
+    """A word, a Chinese character or a sign: as it is said, as a base word, what it means, and its moods.
 
     Attributes:
         said: in lower case and without accents; "@power", "@user" and the like for a figure or users.
@@ -54,10 +52,9 @@ class Word(NamedTuple):
     meant: str
     moods: tuple[str, ...]
     wished: bool
-    span: Span
 
 
-START = Word("<s>", "<s>", "", (), True, (0, 0))
+START = Word("<s>", "<s>", "", (), True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,11 +127,6 @@ def rows_of(
     some, rows = place < MOST_FEATURES, np.zeros((len(counts), MOST_FEATURES), np.uint16)
     rows[word[some], place[some]] = 1 + hashes[some] % (BUCKETS - 1)
     return rows
-
-
-def hashed(text: str) -> int:
-    """A number for a text, the same everywhere."""
-    return zlib.crc32(text.encode("utf-8", "replace"))
 
 
 UNKNOWN = hashed("?")

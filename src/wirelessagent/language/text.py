@@ -10,6 +10,7 @@ import functools
 import re
 import sys
 import unicodedata
+import zlib
 from collections.abc import Iterable, Iterator
 from typing import TypeAlias
 
@@ -36,6 +37,8 @@ Span: TypeAlias = tuple[int, int]
 """Characters [start, end) of a text."""
 
 CJK = "\u3400-\u9fff\uf900-\ufaff"
+WORD_OR_SIGN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
+"""A word, a Chinese character, or a sign."""
 
 _TELLING = 2
 """Small words by which a language is told from the others."""
@@ -82,6 +85,11 @@ def unaccented(text: str) -> str:
     if text.isascii():
         return text
     return "".join(sign for sign in unicodedata.normalize("NFD", text) if unicodedata.category(sign) != "Mn")
+
+
+def hashed(text: str) -> int:
+    """A number for a text, the same everywhere."""
+    return zlib.crc32(text.encode("utf-8", "replace"))
 
 
 def is_chinese(word: str) -> bool:

@@ -15,7 +15,7 @@ from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.sentence_model import TOLD
 from wirelessagent.language.training.compose import OBJECTIVES, mistyped, sentences
 from wirelessagent.language.training.orders import FILLED, FRAME, MILD, TALK, framed, in_talks
-from wirelessagent.language.training.spoken import SPOKEN, spoken
+from wirelessagent.language.training.spoken import spoken
 
 _DRAWN, _NEAR, _FILLING = 0.5, 0.3, 0.5
 """What the kind of a drawn aim counts, of a sentence that only orders or does not, and of the wish in a frame that
@@ -57,7 +57,7 @@ def examples() -> Iterator[Example]:
             text, label, _DRAWN if aim else 1.0, label.startswith("command"), MILD if tells else 0.0,
             0.3 if aim else 0.6,
         )  # fmt: skip
-    yield from _spoken(SPOKEN)
+    yield from _spoken()
     for text, does, kind in framed():
         taught, counts = (kind, _FILLING) if does else (_nothing(text), _NEAR)
         yield Example(text, taught, counts, does, FRAME / FILLED, 0.5)
@@ -65,9 +65,9 @@ def examples() -> Iterator[Example]:
         yield Example(text, "", 0.0, does, TALK, 0.5)
 
 
-def _spoken(folder: Path) -> Iterator[Example]:
+def _spoken() -> Iterator[Example]:
     slips = random.Random(1)
-    for each in spoken(folder):
+    for each in spoken():
         kind = "clarify.limits" if each.label == "clarify" and each.constraints else each.label
         doubts = kind == "clarify" and Sentence(each.text, own_words()).reading.doubts  # asked about whatever it is
         counts = 0.0 if doubts else _NEAR if kind in ("order", "none") else 1.0

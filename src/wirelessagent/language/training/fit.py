@@ -57,13 +57,11 @@ def fit(
 ) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
     """Weights (bucket, label) and intercepts (label,) that make the labels likely.
 
-    A label such as "question" stands for all that begin with it. ``weight`` (sentence,) says how much each counts. The
-    order of the sentences is drawn with a fixed seed: equal sentences make equal weights.
+    ``weight`` (sentence,) says how much each counts. The order of the sentences is drawn with a fixed seed: equal
+    sentences make equal weights.
     """
-    meant = {label: [name == label or name.startswith(label + ".") for name in names] for label in set(labels)}
-    right = np.array([meant[label] for label in labels], dtype=np.bool_)
-    even = right / right.sum(axis=1, keepdims=True)
-    share = even @ (weight @ even) / weight.sum()
+    right = np.array(labels)[:, None] == np.array(names)
+    share = right @ (weight @ right) / weight.sum()
     importance = weight * (len(names) * share) ** -0.4  # rare labels count more, though not equally
     importance = np.asarray(importance / importance.mean(), dtype=np.float32)
     weights = np.zeros((rows.shape[1] + 1, len(names)), np.float32)

@@ -25,7 +25,6 @@ from wirelessagent.language.order_model import (
     Frame,
     OrderModel,
     features,
-    frame_of,
     word_hashes,
 )  # fmt: skip
 from wirelessagent.language.sentence import Sentence, own_words
@@ -98,7 +97,7 @@ def main(path: Path) -> None:
 
 
 def _frame(text: str) -> Frame:
-    return frame_of(Sentence(text, own_words()))
+    return Sentence(text, own_words()).frame
 
 
 def made(frames: Sequence[Frame], labels: Sequence[str], weight: npt.NDArray[np.float64]) -> OrderModel:
