@@ -64,6 +64,7 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
     ("Maximum throughput with 500 mW", RATE, {"max_power_w": 0.5}),
     ("Best spectral efficiency", RATE, {}),
     ("maximise throughput, no user below 500 kbps", RATE, {"min_rate_bps": 5e5}),
+    ("max rate, user 2 at 3 Mbit/s or more, user 5 at 1 or more", RATE, {"min_rate_bps": {"2": 3e6, "5": 1e6}}),
     ("Faster downloads, half a megabit per second for everyone, no more than twelve watts", RATE,
      {"min_rate_bps": 5e5, "max_power_w": 12.0}),
     ("More speed, 8 users, 5 W", RATE, {"max_power_w": 5.0}),

@@ -32,6 +32,7 @@ from wirelessagent.language.sentence_model import (
     SENTENCES_FILE,
     SentenceModel,
     hashes_of,
+    places_of,
     rows_of,
     shipped_sentences,
 )
@@ -218,7 +219,7 @@ def test_what_the_training_hardly_saw_has_one_mark() -> None:
     known = np.zeros(KNOWN, np.bool_)
     rows = rows_of(*hashes_of(words), known)
     assert rows[1].tolist() == rows[2].tolist()
-    known[hashed("wxqzt") % KNOWN] = True
+    known[places_of(np.array([hashed("wxqzt")]))] = True
     assert rows_of(*hashes_of(words), known)[1].tolist() != rows[2].tolist()
 
 

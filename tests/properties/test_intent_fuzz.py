@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from utterances import INJECTIONS, LONG, NOTHING_WISHED
 
 from wirelessagent.language.offline import recognise
@@ -20,13 +20,15 @@ def acts(text: str, context: Context | None = None) -> bool:
     return intent.kind == "allocate" or (intent.kind == "command" and intent.topic in CHANGING)
 
 
-@settings(deadline=None, max_examples=250)
+@settings(deadline=None, max_examples=250, derandomize=True)
 @given(NOTHING_WISHED)
+@example("WW瓦")
+@example("ټڅڕ")
 def test_noise_never_acts(text: str) -> None:
     assert not acts(text), text
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=60, derandomize=True)
 @given(NOTHING_WISHED)
 def test_no_text_breaks_a_conversation(text: str) -> None:
     acts(text, CONTEXT)

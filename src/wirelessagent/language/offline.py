@@ -262,8 +262,9 @@ class _Understanding:
         values, goal, judged = self._reading.values, self._goal, self._judged
         if judged.likeliest > judged.limits and judged.objective != "max_rate":
             return None
-        free = goal.verdict in ("none", "weak") and goal.objective in ("", "max_rate") and self._sentence.worded
-        if {"min_rate_bps", "max_power_w"} <= set(values) and free and "max_rate" in self._voice.labels:
+        free = goal.verdict in ("none", "weak") and goal.objective in ("", "max_rate")
+        bounded = self._sentence.worded or any(figure.comparator for figure in self._sentence.quantities)
+        if {"min_rate_bps", "max_power_w"} <= set(values) and free and bounded and "max_rate" in self._voice.labels:
             return self._allocate("max_rate", "", _DEFAULT_CONFIDENCE)
         return None
 

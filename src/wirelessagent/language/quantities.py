@@ -199,7 +199,7 @@ def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> Quanti
     )
     if glued or plain[reading.end : reading.end + 1] == "/":
         return "other" if bounded else None
-    if _is_name(plain, reading.start):
+    if _is_name(plain, reading.start, bounded=bounded):
         return None
     if _AFTER_BARE.match(plain, reading.end) or has_chinese(plain[reading.end :].lstrip()[:1]):
         return "bare"
@@ -209,7 +209,8 @@ def _kind_without_unit(plain: str, reading: Reading, *, bounded: bool) -> Quanti
     return "other" if bounded or apiece else None
 
 
-def _is_name(plain: str, start: int) -> bool:
-    """Whether a number names what stands before it: "user 3", "users 1 and 2", "slot 5"."""
-    named = any(pattern.search(plain, max(0, start - 40), start) is not None for pattern in (_NAMES, _USERS))
+def _is_name(plain: str, start: int, *, bounded: bool = False) -> bool:
+    """Whether a number names what stands before it: "user 3", "users 1 and 2", "slot 5"; not "at 2 or more"."""
+    patterns = (_USERS,) if bounded else (_NAMES, _USERS)
+    named = any(pattern.search(plain, max(0, start - 40), start) is not None for pattern in patterns)
     return named and not is_of_each(plain, start)

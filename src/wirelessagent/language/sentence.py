@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
-from wirelessagent.language.base_words import aligned
+from wirelessagent.language.base_words import aligned, is_listed
 from wirelessagent.language.constraints import read_constraints
-from wirelessagent.language.deferred import deferred
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.moods import Span, classes_in
@@ -19,7 +18,7 @@ from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
 from wirelessagent.language.spelling import respelt
 from wirelessagent.language.stated import Reading
-from wirelessagent.language.text import WORD_OR_SIGN, language_of, normalise, unaccented
+from wirelessagent.language.text import WORD_OR_SIGN, is_chinese, language_of, normalise, unaccented
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
 from wirelessagent.model.objective import Objective
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
     from wirelessagent.language.recogniser import Context
 
 BUILT_IN = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
-_WORD = deferred(r"(?i)[\u3400-\u9fff]|[^\W\d_\u3400-\u9fff]{2,}|p[1-3](?!\d)")
 _OF_AIMS = (
     "direct", "up", "down", "rate", "power", "efficiency", "worst", "fair", "fairly", "same", "balance", "performance",
     "waste", "share",
@@ -54,10 +52,12 @@ class Sentence:
 
     @property
     def worded(self) -> bool:
-        """Whether any word stands beside the figures, stray units and single letters being none."""
-        spans = [(figure.start, figure.end) for figure in self.quantities]
-        words = (word for word in _WORD.finditer(self.plain) if not any(a <= word.start() < b for a, b in spans))
-        return any(not (unit := unit_at(self.plain, word.start())) or unit.end < word.end() for word in words)
+        """Whether any known word stands beside the figures, units of measure and single letters being none."""
+        if self.found:
+            return True
+        words = (unit for unit in self.units if len(unit.word) > 1 or is_chinese(unit.word))
+        known = (unit for unit in words if is_listed(word := unaccented(unit.word)) or shipped_sentences().knows(word))
+        return any(not (unit := unit_at(self.plain, word.start)) or unit.end < word.end for word in known)
 
     @functools.cached_property
     def _marked(self) -> list[tuple[int, int, str]]:

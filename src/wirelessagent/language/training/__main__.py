@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from wirelessagent.language.sentence import Sentence, own_words
-from wirelessagent.language.sentence_model import KNOWN, SENTENCES_FILE, SentenceModel, hashes_of, rows_of
+from wirelessagent.language.sentence_model import KNOWN, SENTENCES_FILE, SentenceModel, hashes_of, places_of, rows_of
 from wirelessagent.language.training.compose import OBJECTIVES
 from wirelessagent.language.training.examples import Example, examples
 from wirelessagent.language.training.fit import in_parallel
@@ -44,7 +44,7 @@ def taught(every: Sequence[Example], passes: float = PASSES, processes: int = 2)
     shown = in_parallel(seen, [each.text for each in every], processes)
     found, times = np.unique(np.concatenate([hashes for (hashes, _), _ in shown]), return_counts=True)
     known = np.zeros(KNOWN, np.bool_)
-    known[found[times >= OFTEN] % KNOWN] = True
+    known[places_of(found[times >= OFTEN])] = True
     kinds = [each.kind for each in every]
     labels = sorted({kind for kind in kinds if "." in kind or kind in (*OBJECTIVES, "out_of_scope")})
     meant = {kind: [bool(kind) and f"{label}.".startswith(f"{kind}.") for label in labels] for kind in set(kinds)}
