@@ -182,7 +182,7 @@ def small() -> SentenceModel:
         Example(form.format(wish), kind if does else "clarify.told", 1.0, does, 1.0, 1.0)
         for form, does in FRAMED.items() for wish, kind in zip(WISHES, kinds, strict=False)
     ]  # fmt: skip
-    return taught(lines * 8, passes=40, processes=1)
+    return taught(lines * 8, passes=16, processes=1)
 
 
 def test_a_network_tells_apart_what_it_was_taught_also_once_it_is_written(small: SentenceModel, tmp_path: Path) -> None:
