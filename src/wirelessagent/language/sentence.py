@@ -53,11 +53,14 @@ class Sentence:
     @property
     def worded(self) -> bool:
         """Whether any known word stands beside the figures, units of measure and single letters being none."""
-        if self.found:
-            return True
-        words = (unit for unit in self.units if len(unit.word) > 1 or is_chinese(unit.word))
-        known = (unit for unit in words if is_listed(word := unaccented(unit.word)) or shipped_sentences().knows(word))
-        return any(not (unit := unit_at(self.plain, word.start)) or unit.end < word.end for word in known)
+        return bool(self.found) or any(map(self._is_known, self.units))
+
+    def _is_known(self, unit: Unit) -> bool:
+        if len(unit.word) == 1 and not is_chinese(unit.word):
+            return False
+        measure, word = unit_at(self.plain, unit.start), unaccented(unit.word)
+        measures = measure is not None and measure.end >= unit.end
+        return not measures and (is_listed(word) or shipped_sentences().knows(word))
 
     @functools.cached_property
     def _marked(self) -> list[tuple[int, int, str]]:

@@ -118,6 +118,10 @@ def places_of(hashes: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
     return (hashes * _PROBES[:, None] & 0xFFFFFFFF) // ((1 << 32) // KNOWN)
 
 
+def _are_known(hashes: npt.NDArray[np.int64], known: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    return np.asarray(known[places_of(hashes)].all(axis=0), np.bool_)
+
+
 def rows_of(
     hashes: npt.NDArray[np.int64], counts: npt.NDArray[np.int64], known: npt.NDArray[np.bool_]
 ) -> npt.NDArray[np.uint16]:
@@ -127,7 +131,7 @@ def rows_of(
     """
     word, first = np.repeat(np.arange(len(counts)), counts), np.zeros(len(hashes), np.bool_)
     first[np.cumsum(counts) - counts] = True
-    hashes = np.where(known[places_of(hashes)].all(axis=0) | (hashes == 0), hashes, first * UNKNOWN)
+    hashes = np.where(_are_known(hashes, known) | (hashes == 0), hashes, first * UNKNOWN)
     word, hashes = word[hashes > 0], hashes[hashes > 0]
     place = np.arange(len(word)) - np.searchsorted(word, word)
     some, rows = place < MOST_FEATURES, np.zeros((len(counts), MOST_FEATURES), np.uint16)
@@ -170,7 +174,7 @@ class SentenceModel:
     def knows(self, word: str) -> bool:
         """Whether the training saw a word of more than three letters often enough, and all that they are seen by."""
         hashes, _ = hashes_of([Word(word, word, "", (), False)])
-        return len(hashes) > 1 and bool(self.known[places_of(hashes)].all())
+        return len(hashes) > 1 and bool(_are_known(hashes, self.known).all())
 
     def chances(self, words: Sequence[Word], other: float | None = None) -> Chances:
         """What a sentence of these words is; a very long one orders nothing, as its end is not read.
