@@ -8,11 +8,13 @@ Plug-ins of other packages are exercised in the same way, so that their kernels 
 from __future__ import annotations
 
 import itertools
+import multiprocessing
 import os
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
+from multiprocessing.sharedctypes import Synchronized
 from typing import Any
 
 import numpy as np
@@ -25,7 +27,7 @@ from wirelessagent.model.decision import Decision
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.observation import ChannelObservation
 from wirelessagent.model.problem import Problem
-from wirelessagent.operations.operation import Event, Operation, Progress, Request
+from wirelessagent.operations.operation import Event, Operation, Progress, Request, silent
 from wirelessagent.operations.record import Block, Conclusion, Record
 from wirelessagent.sensing.loss import random
 
@@ -80,25 +82,42 @@ def run(request: WarmUpRequest, progress: Progress) -> WarmUpRecord:
         os.nice(19)
     with background.sole_compiler(wait=not request.background) as mine:
         if mine:
-            with supply.foreground():
-                _compile(progress)
+            _compile(progress, beside=not request.background)
     now = background.made()
     time_s = time.monotonic() - started
     return WarmUpRecord(kernels=now.done, of=now.total, folder=now.folder and str(now.folder), time_s=time_s)
 
 
-def _compile(progress: Progress) -> None:
+def _compile(progress: Progress, *, beside: bool) -> None:
+    """Do all exercises, with a second process ``beside`` this one that begins at the end; their code has one cache."""
+    spawn = multiprocessing.get_context("spawn")
+    begun, total = spawn.Value("i", 0), len(list(exercises()))
+    second = spawn.Process(target=_exercise, args=(begun, silent, True), daemon=True)
+    if beside:
+        second.start()
+    _exercise(begun, progress)
+    if beside:
+        second.join()
+    progress(Event(stage="compile", message="done", done=total, total=total))
+
+
+def _exercise(begun: Synchronized[int], progress: Progress, from_the_end: bool = False) -> None:
+    """Do exercises until as many have begun, here and elsewhere, as there are."""
     work = tuple(exercises())
-    for done, exercise in enumerate(work):
-        progress(Event(stage="compile", message=exercise.name, done=done, total=len(work)))
-        background.compile_requests()
-        try:
-            exercise.work()
-        except WirelessAgentError:  # a problem that a method does not solve
-            continue
-        except Exception as error:  # noqa: BLE001  # a stranger's plug-in must not stop the rest
-            background.log.info("%s cannot be compiled: %r", exercise.name, error)
-    progress(Event(stage="compile", message="done", done=len(work), total=len(work)))
+    with supply.foreground():
+        for exercise in reversed(work) if from_the_end else work:
+            with begun:
+                done, begun.value = begun.value, begun.value + 1
+            if done >= len(work):
+                break
+            progress(Event(stage="compile", message=exercise.name, done=done, total=len(work)))
+            background.compile_requests()
+            try:
+                exercise.work()
+            except WirelessAgentError:  # a problem that a method does not solve
+                continue
+            except Exception as error:  # noqa: BLE001  # a stranger's plug-in must not stop the rest
+                background.log.info("%s cannot be compiled: %r", exercise.name, error)
 
 
 def exercises() -> Iterator[Exercise]:
