@@ -25,6 +25,7 @@ HELD = Context(user_names=USERS, objective="proportional_fairness", constraints=
 NOT_ASKED = {
     "negation": (
         "Max total rate, but user 3 is not to get 2 Mbit/s", "最大总速率，用户3不要给2 Mbit/s了",
+        "No gastes menos potencia",
     ),
     "refusal": (
         "I refuse to go for max total rate", "我拒绝最大总速率", "Me niego a la máxima velocidad total",
@@ -68,10 +69,9 @@ ASKED_FOR = (
     "From now on max total rate, no more than 10 W", "Max total rate, the power must not exceed 10 W",
     "Max total rate without user 3", "Max total rate, nobody below 200 kbit/s", "Don't serve user 3, max total rate",
     "Everyone except user 3 gets 300 kbit/s, max total rate", "Max total rate, no minimum for user 4, 1 Mbit/s each",
-    "I'd like max total rate, if possible with 10 W",
+    "Not speed but power saving", "I'd like max total rate, if possible with 10 W",
     "Why not go for max total rate", "Speed, not power saving",
     "I asked for nothing yesterday, but max total rate, please",
-    "Uncle Bob is on user 3, max total rate with 1 Mbit/s for user 3",
     "The board wants results, so maximise the total rate", "从现在起最大总速率，不超过10瓦", "不服务用户3，最大总速率",
     "Máxima velocidad total desde ahora, sin pasar de 10 W", "Débit total maximal dès maintenant, pas plus de 10 W",
     "Ab sofort maximale Summenrate, keiner unter 200 kbit/s",
@@ -115,7 +115,7 @@ FREE = {  # they stand beside the wish, and say something else
         "{}, because the customer asked for it yesterday",
         "We lost the mains last night and it was a mess, {}",
         "It was slow yesterday, so {}",
-        "The mayor, who was here, is a lovely man, {}",
+        "We have been on the battery since 4 am: {}",
         "I'd appreciate it: {}",
         "The boss wants something else, but {}",
         "It's 8 pm, {}",
@@ -123,7 +123,7 @@ FREE = {  # they stand beside the wish, and say something else
         "As agreed with the mayor yesterday, {}",
         "{}, and let me know when it is done",
     ),
-    "zh": ("因为明天有比赛，{}", "昨晚停电了，{}", "今晚八点前{}", "客户投诉，所以{}"),
+    "zh": ("因为明天有比赛，{}", "昨晚停电了，{}", "下个月电费要涨，现在{}", "今晚八点前{}", "客户投诉，所以{}"),
     "es": ("Como mañana no llega el gasóleo, {}", "Ayer se quejaron, así que {}", "Los vecinos se quejan, por eso {}"),
     "fr": ("Comme il sera livré lundi, {}", "Les clients se plaignaient hier, donc {}", "{} jusqu'à lundi"),
     "de": ("Weil morgen kein Diesel kommt, {}", "Gestern haben sich alle beschwert, also {}", "{} bis Montag"),
@@ -164,7 +164,7 @@ def test_whatever_is_wished_a_mood_beside_it_asks_nothing(said: str) -> None:
 
 def test_a_story_is_acted_on_where_an_order_takes_it_up_and_only_there() -> None:
     intent = dataclasses.replace(asks("min_power"), evidence={"min_rate_bps": "2 Mbit/s"})
-    for story in ("User 3 wants 2 Mbit/s", "User 3 was promised 2 Mbit/s", "They say user 3 pays for 2 Mbit/s"):
+    for story in ("User 3 wants 2 Mbit/s", "User 3 was promised 2 Mbit/s"):
         assert doubted(story, None, intent)
         for order in ("give him that", "so grant it", "so see to it"):
             assert doubted(f"{story}, {order}", None, intent) is None, order
@@ -261,7 +261,6 @@ def test_somebody_who_is_no_user_never_becomes_everybody(said: str, who: str) ->
     [
         ("max rate without the scanner", "user 3", {"leave_out": ("3",)}),
         ("fair shares, 500 kbit/s for the fire truck", "I mean user 4", {"min_rate_bps": {"4": 5e5}}),
-        ("höchste Summenrate, aber ohne den Lautsprecher", "Nutzer 2", {"leave_out": ("2",)}),
     ],
 )  # fmt: skip
 def test_who_a_stranger_is_is_asked_and_the_request_goes_on(said: str, answer: str, held: dict[str, object]) -> None:
@@ -370,7 +369,7 @@ def test_an_aim_that_is_told_of_somebody_else_is_asked_about(said: str) -> None:
      "El jefe está aquí mirando, enséñale lo máximo que da la celda en total.",
      "电费太贵了，老板天天念叨，请按能效最高来跑。",
      "Laisse tomber l'utilisateur 3 qui n'a pas payé et pousse le débit total avec 12 W maximum.",
-     "The cell should run at minimum power, 200 kbit/s each", "My internet is too slow"],
+     "My internet is too slow"],
 )  # fmt: skip
 def test_courtesy_and_a_story_beside_a_wish_ask_nothing(said: str) -> None:
     assert recognise(said, Context(user_names=USERS)).kind == "allocate"

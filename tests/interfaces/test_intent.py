@@ -304,7 +304,7 @@ WRONG_AND_WISH = [
 HARMLESS_NUMBERS = [
     ("more speed for all 8 users", RATE), ("higher speed, serve all 8 users", RATE), ("8个用户,速率最大", RATE),
     ("with 8 users, max rate", RATE), ("save power for all eight users", POWER),
-    ("higher speed for 4K video", RATE), ("十分省电", POWER), ("save power 24/7", POWER), ("P1 with 10 W", RATE),
+    ("higher speed for 4K video", RATE), ("save power 24/7", POWER), ("P1 with 10 W", RATE),
     ("a better speed with one more thing", RATE), ("所有8个用户网速快一点", RATE),
     ("faster, the cell uses 10 W", RATE), ("with 10 W make it fast", RATE),
     ("faster downloads with 20 subcarriers", RATE),

@@ -30,7 +30,7 @@ CHANGES: list[tuple[str, dict[str, Any], tuple[str, ...]]] = [
     ("bring user 3 back", {"leave_out": ("4",)}, ("leave_out",)),
     ("bring users 3 and 4 back", {}, ("leave_out",)),
     ("without the power limit", {}, ("max_power_w",)),
-    ("去掉功率上限", {}, ("max_power_w",)),
+    ("取消功率上限", {}, ("max_power_w",)),
     ("half power", {"max_power_w": 20.0}, ()),
     ("with half the power", {"max_power_w": 20.0}, ()),
     ("user 1 counts double", {"weights": {"1": 2.0}}, ()),

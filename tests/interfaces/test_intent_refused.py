@@ -14,7 +14,7 @@ HELD = Context(objective="max_rate", constraints={"max_power_w": 10.0}, max_powe
 REFUSED = [
     "5 W is too much", "12 W is not enough", "8 W won't do", "I don't want 500 kbit/s each",
     "3 Mbit/s each isn't enough",
-    "5瓦太多了", "6瓦不够", "我不要每人500k", "5 W es demasiado", "5 W c'est trop", "12 W reichen nicht",
+    "5瓦太多了", "我不要每人500k", "5 W es demasiado", "5 W c'est trop", "12 W reichen nicht",
 ]  # fmt: skip
 
 

@@ -466,8 +466,9 @@ class TestDevelopmentSet:
             recogniser = LlmRecogniser(LlmSettings(base_url=stub.url, model="m"))
             for row in rows:
                 intent = recogniser.recognise(row["text"])
-                held += intent.recogniser == "llm"
-                if intent.recogniser == "llm":
+                acts = intent.recogniser == "llm" and intent.kind != "clarify"  # the guard may ask
+                held += acts
+                if acts:
                     assert (intent.kind, intent.objective) == ("allocate", row["objective"])
                     assert set(intent.constraints) == set(row["constraints"])
         assert held >= 0.8 * len(rows)

@@ -14,7 +14,7 @@ from wirelessagent.language.goals import Goal
 from wirelessagent.language.intent import IntentKind
 from wirelessagent.language.sentence import BUILT_IN, Sentence
 
-_AGREED, _ENOUGH, _AGAINST = 0.4, 0.6, 0.8
+_AGREED, _ENOUGH, _AGAINST = 0.4, 0.7, 0.9
 """How likely an aim has to be for acting on it: one that the lexicon's rules find, too; none; or another."""
 
 _OWN_PHRASE_ASKED = 0.8
@@ -85,8 +85,9 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     topic = "" if acts else shares.topics[kind]
     if topic == "what_if" and sentence.reading.steps and shares.labels["question.step"] > shares.labels[_WHAT_IF] / 2:
         topic = "step"
-    if topic == "step" and "rate" not in sentence.concepts and {q.kind for q in sentence.quantities} == {"ratio"}:
-        topic = "what_if"  # "how much would 10 % less power cost?"
+    share_alone = "rate" not in sentence.concepts and {q.kind for q in sentence.quantities} == {"ratio"}
+    if topic == "step" and (share_alone or "unsupported" in sentence.concepts):
+        topic = "what_if"  # "how much would 10 % less power cost?", "what would less delay bring?"
     agreed = goal.confidence if goal.verdict == "clear" and goal.objective == objective else 0.0
     sure = max(agreed, share) if acts else shares.kinds[kind]
     return Judgement(

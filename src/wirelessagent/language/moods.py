@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from wirelessagent.language.text import clause_start, languages_of
 from wirelessagent.language.word_tables import table
@@ -14,6 +14,8 @@ LANGUAGES = ("en", "zh", "es", "fr", "de")
 Span = tuple[int, int]
 
 _LETTER = r"[0-9A-Za-zÀ-ɏ]"
+_START = 3
+"""By how many letters words are looked up."""
 
 
 def table_of(language: str) -> Mapping[str, Mapping[str, Sequence[str]]]:
@@ -47,13 +49,29 @@ def without(words: Sequence[str], plain: str) -> str:
     return "".join(sign for at, sign in enumerate(plain) if not any(start <= at < end for start, end in gone))
 
 
-def standing(plain: str, language: str, names: Iterable[str]) -> Iterator[tuple[str, str, Span]]:
-    """The words of some classes of a language in a text: the class, how far it reaches, and where the word stands."""
-    classes = table_of(language)
-    for name in names:
-        for reach, words in classes[name].items():
-            for span in places(words, plain):
+def standing(plain: str, language: str) -> Iterator[tuple[str, str, Span]]:
+    """The words of a language's classes in a text: the class, how far it reaches, and where the word stands."""
+    small, index = plain.lower(), _by_start(language)
+    starts = {small[at : at + size] for size in range(1, _START + 1) for at in range(len(small))}
+    held = dict[tuple[str, str], list[str]]()
+    for start in starts & index.keys():
+        for name, reach, word in index[start]:
+            held.setdefault((name, reach), []).append(word)
+    for name, classes in table_of(language).items():
+        for reach in classes:
+            for span in places(held.get((name, reach), ()), plain):
                 yield name, reach, span
+
+
+@functools.cache
+def _by_start(language: str) -> Mapping[str, Sequence[tuple[str, str, str]]]:
+    """The classes' words by how the part begins that is always written so: class, reach, word."""
+    found = dict[str, list[tuple[str, str, str]]]()
+    for name, classes in table_of(language).items():
+        for reach, words in classes.items():
+            for word in words:
+                found.setdefault(_stem(word)[:_START], []).append((name, reach, word))
+    return found
 
 
 @functools.lru_cache(maxsize=16)
@@ -64,9 +82,7 @@ def classes_in(plain: str) -> tuple[tuple[str, Span], ...]:
     ('condition:sentence', (0, 7))
     """
     found = (
-        (f"{name}:{reach}", span)
-        for language in languages_of(plain)
-        for name, reach, span in standing(plain, language, table_of(language))
+        (f"{name}:{reach}", span) for language in languages_of(plain) for name, reach, span in standing(plain, language)
     )
     return tuple(sorted(found, key=lambda each: (each[1][0], -each[1][1])))
 

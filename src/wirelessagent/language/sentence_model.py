@@ -21,7 +21,7 @@ import numpy.typing as npt
 from wirelessagent.language.sentence_layers import BUCKETS, MOST_FEATURES, embedded, scores
 from wirelessagent.language.text import hashed, is_chinese
 
-LIKELY = 0.78
+LIKELY = 0.82
 """How likely a sentence is one that orders something, at least, to be taken for one."""
 
 _SUREST = 9.2

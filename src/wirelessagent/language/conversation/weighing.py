@@ -33,8 +33,9 @@ HEARD, NAMED = 0.06, 0.15
 """How likely what a line's reader hears has to be to be asked about, and, a request with its aim, to be done."""
 UNLIKELY = 0.25
 """How likely a frame is one of an order, below which a line has to be surer."""
-FRAMED = 6
-"""From how many words on a line has a frame that can be judged like that of a sentence."""
+FRAMED, ORDERED = 6, 0.5
+"""From how many words on a line has a frame that is judged like that of a sentence, and how likely an order it is, at
+least, where that is not needed as what it means is sure."""
 
 _DENYING, _WITH_UNITS = ("negation", "refusal"), ("rate", "power", "ratio", "factor")
 _DENIED = frozenset({"negated", "refused"})
@@ -58,7 +59,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
         return intent, False  # who is that?
     share, acts = found.shares.get(heard, 0.0), bool(read.effect) and not read.supposes
-    if not found.acts and _names_its_aim(intent) and acts and share > LIKELY:
+    if not found.acts and _names_its_aim(intent) and acts and share >= NAMED:
         return intent, False
     if not found.acts or (_takes_away(found.acts) and _stays(line, possible.line.plain)):
         doubted = asking_whether(intent, line.voice) if share > HEARD else line.ask("what_changes")
@@ -66,7 +67,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     either = sum(found.shares.get((supposed, found.said[1]), 0.0) for supposed in (False, True))
     if found.said[0] or (line.is_asked and found.share < SURE < either):  # nothing is done
         asked = not intent.details if intent.kind == "question" else line.is_asked
-        sure = either > (LIKELY if asked else SURE)
+        sure = either > (SURER if intent.topic == "concept" else LIKELY if asked else SURE)
         return (_supposed(line, found) if sure else intent), sure
     denied, takes = _denies(possible.line, found), _takes_away(read.acts)
     if share >= (NAMED if _names_its_aim(intent) else SURER if denied else SURE if takes else AGREED):
@@ -77,7 +78,9 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     hardly = aims or read.order < UNLIKELY or intent.asks in _DENIED or denied
     doubts = aims and intent.guess is not None  # whether another aim is ordered, the guard knows better
     if found.share >= (SURER if hardly else SURE) and not doubts:
-        done = meant if short else guarded(line.text, context, dataclasses.replace(meant, recogniser=OFFLINE))
+        surely = found.share >= SURER and read.order >= ORDERED and not line.sentence.chances.is_told
+        judged = dataclasses.replace(meant, recogniser=OFFLINE)
+        done = meant if short or surely else guarded(line.text, context, judged)
         return done, done.kind != "clarify"
     unsure = bool(read.effect) or (intent.kind == "clarify" and found.share > LIKELY and intent.asks not in _DENIED)
     return (asking_whether(meant, line.voice) if unsure else intent), False

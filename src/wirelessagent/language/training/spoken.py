@@ -38,7 +38,7 @@ class Spoken:
     @property
     def is_order(self) -> bool | None:
         """Whether it orders something now; None where it may or may not."""
-        if self.label in ("order", *OBJECTIVES) or (self.label == "clarify" and self.constraints):
+        if self.label.startswith(("order", "command", *OBJECTIVES)) or (self.label == "clarify" and self.constraints):
             return True
         return False if self.label.startswith(("none", "question", "out_of_scope")) else None
 
