@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from wirelessagent.language.acts import (
@@ -67,6 +67,11 @@ idle: st.SearchStrategy[Act] = st.sampled_from(
     (Suppose(acts=(Limit(kind="max_power_w", value=1.0),)), AskProof(), Apply())
 )
 lines = st.lists(st.lists(changing | idle, min_size=1, max_size=3), min_size=1, max_size=6)
+
+
+_INSTEAD: list[Act] = [
+    Serve(whom=Named(("1",)), alone=True), LeaveOut(whom=Named(("1",))), Serve(whom=Named(("2",)))
+]  # fmt: skip
 
 
 def requests_after(said: list[list[Act]]) -> list[tuple[Request | None, list[Act], Request | None]]:
@@ -164,6 +169,10 @@ def test_acts_do_what_they_say(before: dict[str, Any], act: Act, expected: dict[
     assert {name: dict(value) if hasattr(value, "items") else value for name, value in found.items()} == expected
 
 
+def test_who_is_served_instead_of_the_last_one_left_is_the_only_one() -> None:
+    assert changed({}, _INSTEAD) == {("users", "2"): 1.0}
+
+
 def test_a_rate_assumed_for_each_user_holds_for_the_others() -> None:
     request, _ = applied(Request(objective="min_power"), [Limit(kind=RATE, value=1e6, whom=Named(("3",)))])
     assert request is not None
@@ -178,6 +187,7 @@ def test_an_act_that_is_shown_can_be_read_again(act: Act) -> None:
 listless = st.lists(changing, max_size=5).map(lambda acts: [act for act in acts if not isinstance(act, Aim | Forget)])
 
 
+@example([], _INSTEAD)
 @given(listless, listless)
 def test_acts_between_two_requests_make_one_of_the_other(one: list[Act], other: list[Act]) -> None:
     before, after = (changed({}, acts, radiated_w=3.0) for acts in (one, other))

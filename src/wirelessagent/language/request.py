@@ -214,6 +214,9 @@ def _change(figures: dict[Key, float], act: Act, radiated_w: float) -> None:
                     del figures[kind, user]
             if users is not None and (act.alone or alone):
                 figures |= {("users", user): 1.0 for user in users}
+                for _, user in _of(figures, "leave_out"):  # the last who was served was left out
+                    if figures.pop(("users", user), None):
+                        del figures["leave_out", user]
         case acts.LeaveOut(whom=Named() as whom):
             users, served = _names(whom), {user for _, user in _of(figures, "users")}
             if served - set(users):  # the list of who is served is shortened
