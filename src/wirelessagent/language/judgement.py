@@ -85,15 +85,20 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     topic = "" if acts else shares.topics[kind]
     if topic == "what_if" and sentence.reading.steps and shares.labels["question.step"] > shares.labels[_WHAT_IF] / 2:
         topic = "step"
-    share_alone = "rate" not in sentence.concepts and {q.kind for q in sentence.quantities} == {"ratio"}
-    if topic == "step" and (share_alone or "unsupported" in sentence.concepts):
-        topic = "what_if"  # "how much would 10 % less power cost?", "what would less delay bring?"
+    if topic == "step" and _is_of_no_step(sentence):
+        topic = "what_if"
     agreed = goal.confidence if goal.verdict == "clear" and goal.objective == objective else 0.0
     sure = max(agreed, share) if acts else shares.kinds[kind]
     return Judgement(
         kind=kind, topic=topic, objective=objective, likeliest=share, limits=limits,
         certainty=round(min(1.0, sure), 4), acts=acts, spoken_of=spoken_of,
     )  # fmt: skip
+
+
+def _is_of_no_step(sentence: Sentence) -> bool:
+    """Whether no step of power or rate is named: "what would 10 % less power cost?", "what would less delay bring?"."""
+    share_alone = "rate" not in sentence.concepts and {q.kind for q in sentence.quantities} == {"ratio"}
+    return share_alone or "unsupported" in sentence.concepts
 
 
 def _spoken_of(goal: Goal, labels: Mapping[str, float]) -> str | None:

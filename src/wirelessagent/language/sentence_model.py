@@ -73,7 +73,11 @@ class Chances:
     @property
     def is_order(self) -> bool:
         """Whether it is likely enough to order something, and does not only tell of it."""
-        return self.order >= LIKELY and not self.is_told
+        return self.orders(LIKELY)
+
+    def orders(self, least: float) -> bool:
+        """The same where that has to be likely to so much."""
+        return self.order >= least and not self.is_told
 
 
 def hashes_of(words: Sequence[Word], *, bare: bool = False) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:

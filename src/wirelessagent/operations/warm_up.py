@@ -90,25 +90,31 @@ def run(request: WarmUpRequest, progress: Progress) -> WarmUpRecord:
 
 def _compile(progress: Progress, *, beside: bool) -> None:
     """Do all exercises, with a second process ``beside`` this one that begins at the end; their code has one cache."""
-    spawn = multiprocessing.get_context("spawn")
-    begun, total = spawn.Value("i", 0), len(list(exercises()))
-    second = spawn.Process(target=_exercise, args=(begun, silent, True), daemon=True)
     if beside:
+        spawn = multiprocessing.get_context("spawn")
+        begin = partial(_begin, spawn.Value("i", 0))
+        second = spawn.Process(target=_exercise, args=(begin, silent, True), daemon=True)
         second.start()
-    _exercise(begun, progress)
-    if beside:
+        total = _exercise(begin, progress)
         second.join()
+    else:
+        total = _exercise(itertools.count().__next__, progress)
     progress(Event(stage="compile", message="done", done=total, total=total))
 
 
-def _exercise(begun: Synchronized[int], progress: Progress, from_the_end: bool = False) -> None:
-    """Do exercises until as many have begun, here and elsewhere, as there are."""
+def _begin(begun: Synchronized[int]) -> int:
+    """How many exercises had begun before this one."""
+    with begun:
+        begun.value += 1
+        return begun.value - 1
+
+
+def _exercise(begin: Callable[[], int], progress: Progress, from_the_end: bool = False) -> int:
+    """Do exercises until as many have begun, here and elsewhere, as there are; how many that is."""
     work = tuple(exercises())
     with supply.foreground():
         for exercise in reversed(work) if from_the_end else work:
-            with begun:
-                done, begun.value = begun.value, begun.value + 1
-            if done >= len(work):
+            if (done := begin()) >= len(work):
                 break
             progress(Event(stage="compile", message=exercise.name, done=done, total=len(work)))
             background.compile_requests()
@@ -118,6 +124,7 @@ def _exercise(begun: Synchronized[int], progress: Progress, from_the_end: bool =
                 continue
             except Exception as error:  # noqa: BLE001  # a stranger's plug-in must not stop the rest
                 background.log.info("%s cannot be compiled: %r", exercise.name, error)
+    return len(work)
 
 
 def exercises() -> Iterator[Exercise]:

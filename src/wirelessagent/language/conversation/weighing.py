@@ -34,8 +34,8 @@ HEARD, NAMED = 0.06, 0.15
 UNLIKELY = 0.25
 """How likely a frame is one of an order, below which a line has to be surer."""
 FRAMED, ORDERED = 6, 0.5
-"""From how many words on a line has a frame that is judged like that of a sentence, and how likely an order it is, at
-least, where that is not needed as what it means is sure."""
+"""From how many words on a line has a frame that is judged like that of a sentence, and how likely an order that line
+has to be whose meaning is as sure as can be."""
 
 _DENYING, _WITH_UNITS = ("negation", "refusal"), ("rate", "power", "ratio", "factor")
 _DENIED = frozenset({"negated", "refused"})
@@ -78,7 +78,7 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     hardly = aims or read.order < UNLIKELY or intent.asks in _DENIED or denied
     doubts = aims and intent.guess is not None  # whether another aim is ordered, the guard knows better
     if found.share >= (SURER if hardly else SURE) and not doubts:
-        surely = found.share >= SURER and read.order >= ORDERED and not line.sentence.chances.is_told
+        surely = found.share >= SURER and line.sentence.chances.orders(ORDERED)
         judged = dataclasses.replace(meant, recogniser=OFFLINE)
         done = meant if short or surely else guarded(line.text, context, judged)
         return done, done.kind != "clarify"

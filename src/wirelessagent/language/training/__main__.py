@@ -1,4 +1,4 @@
-"""Teach the network anew: ``python -m wirelessagent.language.training [FILE]``; half an hour on two cores.
+"""Teach the network anew: ``python -m wirelessagent.language.training [FILE]``; 45 minutes on two cores.
 
 The same file for the same sentences on one machine. It needs JAX and Optax, of the development group.
 """
