@@ -4,6 +4,8 @@ UV_VERSION := 0.13.8
 PYTHON ?= python3
 # uv from the path if there is one, else a copy of our own.
 UV := $(shell command -v uv 2>/dev/null || echo .tools/uv/bin/uv)
+# One worker more than there are cores: a test that waits for a server leaves its core to another.
+WORKERS := $(shell echo $$(($$(getconf _NPROCESSORS_ONLN) + 1)))
 RUN := $(UV) run --frozen --extra plot --extra evaluate --extra llm --extra serve --extra postgres
 
 export UV_COMPILE_BYTECODE ?= 1
@@ -29,7 +31,7 @@ browser:
 test: $(UV) browser  ## all that CI needs: lint and types beside compiling, all tests, the third-party example
 	$(UV) sync --locked --quiet --extra plot --extra evaluate --extra llm --extra serve --extra postgres
 	$(MAKE) --no-print-directory -j2 lint code
-	$(RUN) pytest -n auto --dist worksteal
+	$(RUN) pytest -n $(WORKERS) --dist worksteal
 	$(UV) pip install --quiet --no-deps --target build/third_party ./examples/third_party_objective
 	WIRELESSAGENT_COMPILE=never PYTHONPATH=build/third_party $(RUN) pytest examples/third_party_objective/tests
 

@@ -72,30 +72,26 @@ def small(monkeypatch):
 
 
 @pytest.mark.parametrize("name", EXPERIMENTS)
-def test_each_writes_a_picture_a_table_and_a_record(tmp_path, name):
+def test_each_writes_a_picture_a_table_and_a_record_the_same_ones_for_a_seed(tmp_path, name):
     reported = []
     folder = tmp_path / "new" / "folder"
-    paths = reproduce([name], out=folder, draws=3, seed=5, progress=lambda *at: reported.append(at)).files
+    paths = reproduce([name], out=folder, draws=3, seed=1, progress=lambda *at: reported.append(at)).files
 
     assert [path.name for path in paths[name]] == [f"{name}.png", f"{name}.csv", f"{name}.json"]
     assert sorted(folder.iterdir()) == sorted(path for some in paths.values() for path in some)
-    picture, _, record_path = paths[name]
+    picture, table, record_path = paths[name]
     assert picture.read_bytes().startswith(b"\x89PNG")
     record = json.loads(record_path.read_text())
-    assert (record["experiment"], record["seed"]) == (name, 5)
+    assert (record["experiment"], record["seed"]) == (name, 1)
     assert {"version", "configuration", "measures", "draws", "summary"} <= record.keys()
     assert "date" not in record_path.read_text()
     assert reported[-1] == (name, reported[-1][1], reported[-1][1])
-
-
-@pytest.mark.parametrize("name", [name for name in EXPERIMENTS if name != "run_time"])
-def test_the_same_seed_writes_the_same_files(tmp_path, name):
-    first, second = (reproduce([name], out=tmp_path / folder, draws=3, seed=2).files for folder in ("one", "two"))
+    if name == "run_time":
+        return
+    again = reproduce([name], out=tmp_path / "again", draws=3, seed=1).files
     other = reproduce([name], out=tmp_path / "other", draws=3, seed=3).files
-
-    for written, again in zip(first.values(), second.values(), strict=True):
-        assert [path.read_bytes() for path in written] == [path.read_bytes() for path in again]
-    assert first[name][1].read_bytes() != other[name][1].read_bytes()
+    assert [path.read_bytes() for path in paths[name]] == [path.read_bytes() for path in again[name]]
+    assert table.read_bytes() != other[name][1].read_bytes()
 
 
 @pytest.mark.parametrize("name", EXPERIMENTS)
@@ -198,7 +194,7 @@ def test_the_recovered_channel_is_that_of_the_user_in_the_record():
     assert title.startswith(f"The channel of user {result.table.values('user')[0]},")
 
 
-@pytest.mark.parametrize("name", ["rate_versus_power", "error_versus_loss", "modes"])
+@pytest.mark.parametrize("name", ["error_versus_loss", "modes"])
 def test_neither_the_executor_nor_its_size_matters(name):
     experiment = catalogue.EXPERIMENTS[name]
     alone = experiment.run(draws=41, seed=1)
