@@ -87,6 +87,12 @@ def test_how_sure_it_is_is_of_the_channel_and_the_promises(said: str) -> None:
         ("export as TMF921", "Intent"),
         ("export as json", "SubNetwork"),
         ("compare with before", "no earlier decision"),
+        ("how fair is this", "Jain's fairness index: 0."),
+        ("what's the energy efficiency", "Energy efficiency: "),
+        ("how much power do we use", "Radiated power: 10 W."),
+        ("用了多少功率？", "发射功率：10 W"),
+        ("how many users are served", "2 of 4 users are served. User 3 and user 4 get nothing. User 1 gets the most"),
+        ("is anyone left out?", "2 of 4 users are served."),
     ],
 )
 def test_a_question_has_its_own_answer(said: str, told: str) -> None:

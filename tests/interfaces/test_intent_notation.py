@@ -45,6 +45,8 @@ def test_lists_without_spaces(text: str, constraints: dict[str, Any]) -> None:
         ("u1..u4 >= 1 Mbps, sum rate", {"min_rate_bps": each(1e6, "1", "2", "3", "4")}),
         ("sum rate, R1..R4 >= 1 Mbps", {"min_rate_bps": each(1e6, "1", "2", "3", "4")}),
         ("sum rate, user 1..3 at least 1 Mbps", {"min_rate_bps": each(1e6, "1", "2", "3")}),
+        ("sum rate, cap users 1 to 3 to 2 Mbps", {"max_rate_bps": each(2e6, "1", "2", "3")}),
+        ("débit total maximal, plafonne les usagers 1 à 3 à 2 Mbit/s", {"max_rate_bps": each(2e6, "1", "2", "3")}),
     ],
 )
 def test_brackets_colons_and_dots(text: str, constraints: dict[str, Any]) -> None:

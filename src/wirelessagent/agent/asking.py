@@ -20,6 +20,8 @@ from wirelessagent.agent.state import InsteadError, Replies, Reply, Talk, asked_
 from wirelessagent.agent.turn import Run, Turn
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act, Ask
+from wirelessagent.language.text import normalise
+from wirelessagent.language.topics import ranked
 from wirelessagent.model.outcome import Outcome
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said, called, lines_of
@@ -35,10 +37,6 @@ from wirelessagent.telling.told import Table
 
 Answer = str | tuple[str, tuple[Table, ...]]
 
-_RANKS = (
-    ("least", re.compile(r"(?i)\b(?:least|lowest|slowest|worst)\b|最少|最慢|最低|最差")),
-    ("most", re.compile(r"(?i)\b(?:the\s+most|highest|fastest|best)\b|最多|最快|最高|最好")),
-)
 _NOTHING = re.compile(
     r"(?i)\b(?:nothing|no\s+(?:rate|service|subcarriers?|power)|not\s+(?:be(?:ing)?\s+)?served|cut\s+off|zero)\b|"
     r"没有?(?:分到|得到|拿到)?(?:速率|服务|任何|东西)|什么[都也]没|没被?服务|一点[都也]没|为零|断"
@@ -103,10 +101,11 @@ def answered(asked: Asked, act: Ask) -> tuple[str, tuple[Table, ...]]:
 
 
 def meaning(talk: Talk, _: acts.AskMeaning) -> Reply:
-    """What the terms in a line mean; their figures, where it asks for those of now."""
+    """The figures that a line names, and what its terms mean where it does not ask for those of now."""
     run = talk.state.run
-    figures = figures_asked(talk.text, run.report, talk.language) if run is not None and is_of_now(talk.text) else ""
-    return Reply(decided=figures or explained(talk.text, talk.language) or talk.say("about.help"))
+    figures = figures_asked(talk.text, run.report, talk.language) if run is not None else ""
+    meant = "" if figures and is_of_now(talk.text) else explained(talk.text, talk.language)
+    return Reply(decided=lines_of((figures, meant)) or talk.say("about.help"))
 
 
 def methods(talk: Talk, _: acts.AskMethods) -> Reply:
@@ -177,7 +176,7 @@ def _corrected(asked: Asked, user: int) -> str:
         return ""
     if rates[user] > 0 and _NOTHING.search(asked.text):
         return asked.say("about.not_nothing", user=name)
-    rank = next((rank for rank, words in _RANKS if words.search(asked.text)), "")
+    rank = str(ranked(normalise(asked.text)).get("rank", ""))
     served = rates[decision.served]
     if not rank or not served.size:
         return ""
@@ -209,7 +208,7 @@ def _prices(asked: Asked, act: acts.AskPrices) -> Answer:
 
 def _users(asked: Asked, act: acts.AskUsers) -> Answer:
     if act.user is None:
-        return asked.explained()[0], asked.served()
+        return asked.by(Roster).overview(), asked.served()
     user, table = asked.user(act.user), asked.everybody()
     return asked.by(Accounts).share(user), (dataclasses.replace(table, rows=(table.rows[user],)),)
 

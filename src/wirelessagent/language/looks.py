@@ -73,7 +73,7 @@ def first_look(
     loose = loose_numbers(plain, covered)
     able = any(figure.kind in ("rate", "power") for figure in stated)
     alone = list(ones(plain, [*covered, *((n.start, n.end) for n in loose)])) if able else []
-    unread = [q for q in clear if q.kind == "other" and not overlaps((q.start, q.end), spans)]
+    unread = [q for q in clear if q.kind == "other" and not overlaps((q.start, q.end), covered)]
     return Look(
         plain=plain, quantities=quantities, figures=stated, unread=unread, mentions=found, loose=loose, ones=alone
     )

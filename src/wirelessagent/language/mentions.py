@@ -34,7 +34,7 @@ _TO = (
 )
 _OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …", "1 to 4 for now" are
     r"(?!\s+(?:for(?!\s+(?:now|today|tonight|good|once|the\s+moment|this|next)\b)|"
-    r"to(?!\s+(?:have|get|receive|be|reach|see|go|run|enjoy|count|share|stay))|para(?!\s+(?:ahora|hoy|siempre))|"
+    r"to(?!\s+(?:have|get|receive|be|reach|see|go|run|enjoy|count|share|stay|[0-9]))|para(?!\s+(?:ahora|hoy|siempre))|"
     r"pour(?!\s+(?:l'instant|le\s+moment|aujourd))|für(?!\s+(?:heute|jetzt|immer|den\s+Moment)))\s)"
 )
 _NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"

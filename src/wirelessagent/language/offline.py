@@ -27,7 +27,7 @@ from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Answer, Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import language_in_a_talk, normalise
-from wirelessagent.language.topics import details_of
+from wirelessagent.language.topics import asks_who_is_first, details_of
 from wirelessagent.language.vocabulary import OwnWords
 from wirelessagent.language.word_tables import either, words_of
 
@@ -158,6 +158,8 @@ class _Understanding:
             aim = judged.spoken_of if nothing_holds else None
             if aim is not None and topic in _OF_A_RESULT:
                 topic = "what_if"  # "how fast can the slowest user be?"
+            if topic in ("other", "prices") and asks_who_is_first(self._sentence.plain):
+                topic = "users"
             details = details_of(topic, self._sentence)
             if aim is not None and topic == "what_if":
                 details.setdefault("objective", aim)

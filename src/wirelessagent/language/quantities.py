@@ -117,6 +117,8 @@ def _joined(plain: str, lower: Reading, upper: Reading) -> bool:
     gap = plain[lower.end : upper.start]
     if lower.number.value is None or upper.number.value is None or _RANGE.match(gap) is None:
         return False
+    if lower.unit is None and lower.factor == 1 and lower.number.value >= upper.number.value:
+        return False  # "users 1 to 4 to 3 Mbit/s"
     if lower.unit is not None and (upper.unit is None or upper.unit.kind != lower.unit.kind):
         return False
     if re.fullmatch(r"\s*(?:and|y|et|und)\s*", gap.lower()) is None:

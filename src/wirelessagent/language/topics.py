@@ -7,11 +7,12 @@ from collections.abc import Mapping
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint, Detail
+from wirelessagent.language.moods import places
 from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence import Sentence
-from wirelessagent.language.word_tables import either
+from wirelessagent.language.word_tables import either, words_of
 
 _NUMBER = deferred(
     r"(?i)(?:numbers?|turn|no\.?|#|request|entry|step|run|record|第|轮)\s*(?P<n>[0-9]+|[一二三四五六七八九十]+)|"
@@ -37,7 +38,8 @@ def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
     """The figures and names of a question or command of this topic."""
     reading = sentence.reading
     if topic in ("why_user", "users", "prices"):
-        return {"user": reading.named[0]} if reading.named else {}
+        user = {"user": reading.named[0]} if reading.named else {}
+        return user if user or topic != "users" else ranked(sentence.plain)
     if topic == "what_if":
         return _what_if(sentence)
     if topic == "step":
@@ -56,6 +58,26 @@ def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
         known = next((name for name, pattern in _FORMATS if pattern.search(sentence.plain)), "")
         return {"format": known or _named_in(_AS, _NO_FORMAT, sentence.plain) or "ts28312"}
     return {}
+
+
+def ranked(plain: str) -> dict[str, Detail]:
+    """Whether it is about who has the "least" or the "most" of rate, power or subcarriers; empty where it is not.
+
+    >>> ranked("who is slowest right now?"), ranked("谁的功率最大?"), ranked("what does everyone get?")
+    ({'rank': 'least', 'of': 'rate'}, {'rank': 'most', 'of': 'power'}, {})
+    """
+    rank = next((rank for rank in ("least", "most") if _speaks_of(rank, plain)), "")
+    of = next((of for of in ("subcarriers", "power") if _speaks_of(of, plain)), "rate")
+    return {"rank": rank, "of": of} if rank and not _speaks_of("should", plain) else {}
+
+
+def asks_who_is_first(plain: str) -> bool:
+    """Whether a question is for who has the least or the most."""
+    return _speaks_of("who", plain) and bool(ranked(plain))
+
+
+def _speaks_of(name: str, plain: str) -> bool:
+    return any(places(words_of("figures", "ranks", name), plain))
 
 
 def _named_in(pattern: re.Pattern[str], common: re.Pattern[str], plain: str) -> str:

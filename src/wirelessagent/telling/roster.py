@@ -22,20 +22,30 @@ _FACTOR = 1.0005
 class Roster(Teller):
     """Users, their subcarriers and their gains; what there is nothing to say of is empty."""
 
+    def overview(self) -> str:
+        """How many users are served, and who gets the least and the most."""
+        count = int(np.count_nonzero(self.case.decision.rate_bps > 0))
+        ranks = dict.fromkeys(self._edge(rank, "rate")[0] for rank in ("least", "most"))
+        return self.joined(self.say("roster.served", served=count, users=self.case.num_users), *ranks)
+
     def rank(self, rank: str, of: str) -> str:
-        """Who of those served gets the "least" or the "most" of "rate", "power" or "subcarriers"."""
+        """Who of those served gets the "least" or the "most" of "rate", "power" or "subcarriers", and who is next."""
+        said, others = self._edge(rank, of)
+        return self.joined(said, self._next(others, of))
+
+    def _edge(self, rank: str, of: str) -> tuple[str, IntArray]:
+        """Who gets the least or the most, and the others in their order, where they get any and not all the same."""
         users, size = np.flatnonzero(self.case.served), self._sizes(of)
         order = users[np.argsort(size[users] if rank == "least" else -size[users], kind="stable")]
         nobody, some = users[size[users] <= 0], order[size[order] > 0]
         if rank == "least" and nobody.size:
             nothing = self.say("roster.nothing", names=self.names(nobody.tolist()), gets=self._gets(nobody))
-            return self.joined(nothing, self._next(some, of))
+            return nothing, some
         first, what, figure = _alike(order, size), self.say(f"roster.of_{of}"), _size(float(size[order[0]]), of)
         if first.size == users.size > 1:
-            return self.say("roster.all_same", count=users.size, what=what, size=figure)
+            return self.say("roster.all_same", count=users.size, what=what, size=figure), some[:0]
         told = {"names": self.names(first.tolist()), "gets": self._gets(first), "size": figure, "what": what}
-        said = self.say(f"roster.{rank}", **told, further=self._further(first, of))
-        return self.joined(said, self._next(some[~np.isin(some, first)], of))
+        return self.say(f"roster.{rank}", **told, further=self._further(first, of)), some[~np.isin(some, first)]
 
     def _next(self, order: IntArray, of: str) -> str:
         """Who comes next, at the head of ``order``."""

@@ -80,7 +80,7 @@ def _of_what_was_measured(line: Line) -> Intent | None:
 
 
 def _of_shares(line: Line) -> Intent | None:
-    """Questions who has what: "who gets the least?", "which subcarriers does user 3 have?"."""
+    """Questions who has what: "who has subcarrier 5?", "which subcarriers does user 3 have?"."""
     owner = is_all("owner", lowered(normalise(line.text)).strip().rstrip("?.。! "))
     if owner is not None:
         return line.question("users", subcarrier=_number(owner["place"]))
@@ -88,11 +88,7 @@ def _of_shares(line: Line) -> Intent | None:
         return line.question("users", listed="subcarriers", **_user(line))
     if len(line.users) == 1 and is_all("share_of_one", line.said):
         return line.question("users", **_user(line))
-    match = is_all("ranked", line.said)
-    if match is None:
-        return None
-    of = next((of for of in ("subcarriers", "power") if has(f"of_{of}", line.said)), "rate")
-    return line.question("users", rank="least" if match["least"] else "most", of=of)
+    return None
 
 
 def _user(line: Line) -> dict[str, Detail]:
