@@ -1,7 +1,8 @@
 """Words of five languages on one small set of English base words, so that the models learn from all at once.
 
-``base_words/<language>.tsv`` has a word form and its base word on each line: "langsamsten", "plus lent" and 最慢 meet
-in "slow". Latin words that are not listed stand for themselves; Chinese is cut into the longest listed expressions.
+``base_words/<language>.tsv`` has a base word and the word forms that it stands for on each line: "langsamsten", "lente"
+and 最慢 meet in "slow". Latin words that are not listed stand for themselves; Chinese is cut into the longest listed
+expressions.
 """
 
 from __future__ import annotations
@@ -79,8 +80,8 @@ def _base_words(language: str) -> Mapping[str, str]:
     path = FOLDER / f"{language}.tsv"
     if not path.is_file():
         return {}
-    pairs = (line.partition("\t") for line in path.read_text(encoding="utf-8").splitlines())
-    return {word: base for word, _, base in pairs}
+    lines = (line.split("\t") for line in path.read_text(encoding="utf-8").splitlines())
+    return {word: base for base, words in lines for word in words.split(" ")}
 
 
 @functools.cache

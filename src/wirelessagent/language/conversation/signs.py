@@ -6,6 +6,7 @@ its users, what was said last, and what the readers of sentences make of the lin
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 import zlib
@@ -38,6 +39,7 @@ _SPREAD = np.uint32(2654435761)
 TOGETHER = 60
 
 
+@functools.lru_cache(maxsize=1 << 16)
 def place_of(sign: str) -> int:
     return zlib.crc32(sign.encode("utf-8", "replace")) % BUCKETS
 

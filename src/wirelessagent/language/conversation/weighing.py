@@ -25,11 +25,11 @@ from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import constraints_of
 
-SURE, SURER, AGREED, LIKELY = 0.5, 0.9, 0.5, 0.3
+SURE, SURER, AGREED, LIKELY = 0.6, 0.9, 0.5, 0.3
 """From where on a line does what it likeliest means, from where on if that is another aim or hardly an order, from
 where on if its reader hears it too and nothing is taken from anybody, and from where on it is asked whether it does."""
 
-HEARD, NAMED = 0.06, 0.15
+HEARD, NAMED = 0.06, 0.1
 """How likely what a line's reader hears has to be to be asked about, and, a request with its aim, to be done."""
 UNLIKELY = 0.25
 """How likely a frame is one of an order, below which a line has to be surer."""
