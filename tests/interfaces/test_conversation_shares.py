@@ -74,6 +74,23 @@ def test_a_corrected_share_of_nothing_is_left_to_the_recogniser_where_a_reliabil
     assert understood("no, 95 %", stated, Scripted([means("out_of_scope")])).kind == "out_of_scope"
 
 
+@pytest.mark.parametrize(
+    ("said", "power_w"),
+    [("double the power", 40.0), ("raise the power by half", 30.0), ("halve the power", 10.0), ("功率加倍", 40.0)],
+)
+def test_where_no_limit_holds_a_multiple_is_one_of_the_cells_power(said: str, power_w: float) -> None:
+    held, turns = talk("highest total rate", said)
+    assert held == {"max_power_w": pytest.approx(power_w)}
+    noted = any(words in turns[-1].reply for words in ("above the cell's limit of 20 W", "超过小区上限 20 W"))
+    assert noted == (power_w > 20)
+
+
+def test_a_doubled_power_is_supposed_as_it_is_said() -> None:
+    held, turns = talk("highest total rate, at most 5 W", "what happens if I double the power?")
+    assert held == {"max_power_w": 5.0}
+    assert "at most 10 W" in turns[-1].reply
+
+
 @pytest.mark.parametrize("said", ["能不能只用一半功率?", "can we run on half the power?", "能只用一半功率吗？"])
 def test_whether_a_share_is_possible_is_a_what_if(said: str) -> None:
     held, turns = talk(HELD, said)
