@@ -194,7 +194,7 @@ def test_the_recovered_channel_is_that_of_the_user_in_the_record():
     assert title.startswith(f"The channel of user {result.table.values('user')[0]},")
 
 
-@pytest.mark.parametrize("name", ["error_versus_loss", "modes"])
+@pytest.mark.parametrize("name", ["rate_versus_power", "error_versus_loss", "modes"])
 def test_neither_the_executor_nor_its_size_matters(name):
     experiment = catalogue.EXPERIMENTS[name]
     alone = experiment.run(draws=41, seed=1)
