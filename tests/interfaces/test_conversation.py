@@ -247,7 +247,10 @@ def test_yes_behind_a_what_if_is_for_the_plan_which_is_named() -> None:
     assert asked_for(session) == {"max_power_w": 10.0}
 
 
-@pytest.mark.parametrize("said", ["do that", "Let's do that!", "apply that", "就这么办", "那就这么办吧"])
+@pytest.mark.parametrize("said", [
+    "do that", "Let's do that!", "apply that", "就这么办", "那就这么办吧", "ja, mach das", "d'accord, fais-le",
+    "vale, hazlo",
+])  # fmt: skip
 def test_do_that_behind_a_what_if_asks_for_it(said: str) -> None:
     session, turns = talk(request(max_power_w=10.0), WONDERED, said, "yes", confirm=True)
     assert [turn.stage for turn in turns] == ["planned", "answered", "planned", "applied"]
@@ -397,8 +400,16 @@ def test_the_channel_and_the_result_are_told_of(said: str, topic: str) -> None:
 
 
 @pytest.mark.parametrize(
+    "said", ["why is user 3 so slow", "why is 3 so slow", "warum kriegt die 3 so wenig", "pourquoi le 3 est-il si lent"]
+)
+def test_a_question_why_needs_no_mark_and_no_word_for_a_user(said: str) -> None:
+    _, (_, turn) = talk("highest total rate", said)
+    assert (turn.intent.topic, turn.intent.details, turn.stage) == ("why_user", {"user": "3"}, "answered")
+
+
+@pytest.mark.parametrize(
     ("said", "topic"),
-    [("用户的速率怎么样", "users"), ("Is the link of user 2 any good?", "uncertainty"), ("方案怎么样呢", "other")],
+    [("用户的速率怎么样", "users"), ("Is the link of user 2 any good?", "users"), ("方案怎么样呢", "other")],
 )
 def test_a_question_does_not_ask_for_the_aim_again(said: str, topic: str) -> None:
     aim = means("clarify", reply="What should the cell aim for?")

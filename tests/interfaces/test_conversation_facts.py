@@ -59,7 +59,16 @@ def test_what_was_asked_for_is_restated(said: str) -> None:
     assert "10 W" in turn.reply.split("\n")[0]
 
 
-@pytest.mark.parametrize("said", ["how sure is this?", "how reliable are the rates?", "结果有多可靠？"])
+@pytest.mark.parametrize(
+    "said",
+    [
+        "how sure is this?",
+        "how reliable are the rates?",
+        "how sure are you about these rates",
+        "are you sure?",
+        "结果有多可靠？",
+    ],
+)
 def test_how_sure_it_is_is_of_the_channel_and_the_promises(said: str) -> None:
     turn = talk(HELD, said)[1][-1]
     assert turn.intent.topic == "uncertainty"
@@ -83,11 +92,14 @@ def test_how_sure_it_is_is_of_the_channel_and_the_promises(said: str) -> None:
         ("compare with foo", "No method or repairer called foo"),
         ("和foo比较", "foo 既不是"),
         ("export as foo", "got foo"),
+        ("save this as csv", "got csv"),
         ("导出为pdf", "收到 pdf"),
         ("export as TMF921", "Intent"),
         ("export as json", "SubNetwork"),
         ("compare with before", "no earlier decision"),
         ("how fair is this", "Jain's fairness index: 0."),
+        ("is that fair?", "Jain's fairness index: 0."),
+        ("what is max-min fair?", "smallest rate"),
         ("what's the energy efficiency", "Energy efficiency: "),
         ("how much power do we use", "Radiated power: 10 W."),
         ("用了多少功率？", "发射功率：10 W"),

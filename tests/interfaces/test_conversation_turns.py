@@ -57,6 +57,19 @@ def test_a_bare_number_has_the_unit_of_what_it_corrects(said: str, rate: float) 
     assert talk(HELD, "user 3 at least 5 Mbit/s", "make it 600")[1][-1].stage == "asked"
 
 
+@pytest.mark.parametrize(
+    ("said", "reply"),
+    [
+        ("thanks, that's it", "You're welcome."), ("thank you, that will be all for today", "You're welcome."),
+        ("danke, das wär's", "Gern geschehen."), ("vielen Dank", "Gern geschehen."), ("gracias, nada más", "De nada."),
+        ("ok, gracias", "De nada."), ("merci, ce sera tout", "De rien."), ("谢谢，就这样", "不客气。"),
+    ],
+)  # fmt: skip
+def test_thanks_end_a_talk_and_order_nothing(said: str, reply: str) -> None:
+    held, turns = talk(HELD, said)
+    assert (held, turns[-1].reply) == ({"max_power_w": 10.0}, reply)
+
+
 def test_the_first_one_thanks_and_nothing_to_stop() -> None:
     _, turns = talk(HELD, "now with 5 W", "compare with the first one", "和第一次比一比", "this or turn 1?")
     assert all(turn.tables[0].columns[2] in ("turn 1", "第 1 轮") for turn in turns[2:])

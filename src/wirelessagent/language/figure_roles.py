@@ -18,13 +18,13 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.base_words import based, is_listed
+from wirelessagent.language.base_words import based, is_listed, language_of
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.role_features import Span, Token, around, around_base, hashed, in_base_words, tokens_of
-from wirelessagent.language.text import CJK, clause_end, clause_start, is_chinese, language_of
+from wirelessagent.language.text import CJK, clause_end, clause_start, is_chinese
 
 ROLES_FILE = Path(__file__).with_name("roles.npz")
 LABELS: Mapping[str, tuple[str, ...]] = {

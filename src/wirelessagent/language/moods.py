@@ -6,7 +6,8 @@ import functools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from wirelessagent.language.text import clause_start, languages_of
+from wirelessagent.language.base_words import languages_of
+from wirelessagent.language.text import clause_start
 from wirelessagent.language.word_tables import table
 
 LANGUAGES = ("en", "zh", "es", "fr", "de")

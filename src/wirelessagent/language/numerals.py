@@ -12,9 +12,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 
+from wirelessagent.language.base_words import language_of
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import Spoken, cardinals, languages_of, listed, spoken
-from wirelessagent.language.text import NUMBERED_USERS, Phrases, language_of
+from wirelessagent.language.text import NUMBERED_USERS, Phrases
 from wirelessagent.language.units import unit_at
 
 _HALF = Decimal("0.5")

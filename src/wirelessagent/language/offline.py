@@ -14,6 +14,7 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 
 from wirelessagent.language import forms
+from wirelessagent.language.base_words import language_in_a_talk
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.followups import keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
@@ -26,8 +27,8 @@ from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Answer, Voice
 from wirelessagent.language.sentence import labels_of, own_words, read_once
-from wirelessagent.language.text import language_in_a_talk, normalise
-from wirelessagent.language.topics import asks_who_is_first, details_of
+from wirelessagent.language.text import normalise
+from wirelessagent.language.topics import about, details_of
 from wirelessagent.language.vocabulary import OwnWords
 from wirelessagent.language.word_tables import either, words_of
 
@@ -158,9 +159,7 @@ class _Understanding:
             aim = judged.spoken_of if nothing_holds else None
             if aim is not None and topic in _OF_A_RESULT:
                 topic = "what_if"  # "how fast can the slowest user be?"
-            if topic in ("other", "prices") and asks_who_is_first(self._sentence.plain):
-                topic = "users"
-            details = details_of(topic, self._sentence)
+            topic, details = about(topic, self._sentence)
             if aim is not None and topic == "what_if":
                 details.setdefault("objective", aim)
             user = self._voice.user(str(details.get("user", "")))
@@ -204,7 +203,8 @@ class _Understanding:
             fair = [name for name in _FAIR_OBJECTIVES if name in self._voice.labels]
             names = {"goal": self._voice.label(wished), "both": self._voice.both(fair, "or")}
             return self._answer.ask("starving", 0.8, self._reading.values, **names)
-        vague = goal.verdict != "clear" and "fairly" in self._sentence.concepts  # "make it fairly fast"
+        agreed = goal.verdict == "clear" and goal.objective == judged.objective
+        vague = not agreed and "fairly" in self._sentence.concepts  # "make it fairly fast", "a fairly good speed"
         if judged.acts and judged.objective in self._voice.labels and not vague:
             spans = _merged(goal.spans) if goal.options[:1] == (judged.objective,) else ()
             words = " … ".join(self._text[start:end] for start, end in spans) or self._text

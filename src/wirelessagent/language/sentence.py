@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 from wirelessagent import plugins
 from wirelessagent.language import goals
-from wirelessagent.language.base_words import aligned, is_listed
+from wirelessagent.language.base_words import aligned, is_listed, language_of
 from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
@@ -18,7 +18,7 @@ from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
 from wirelessagent.language.spelling import respelt
 from wirelessagent.language.stated import Reading
-from wirelessagent.language.text import WORD_OR_SIGN, is_chinese, language_of, normalise, unaccented
+from wirelessagent.language.text import WORD_OR_SIGN, is_chinese, normalise, unaccented
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
 from wirelessagent.model.objective import Objective

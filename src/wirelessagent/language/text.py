@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator
 from typing import TypeAlias
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.word_tables import table, words_of
+from wirelessagent.language.word_tables import words_of
 
 _SAME_LENGTH = {
     # Full-width ASCII, but for the comma and the semicolon: they never stand inside a number.
@@ -39,12 +39,6 @@ Span: TypeAlias = tuple[int, int]
 CJK = "\u3400-\u9fff\uf900-\ufaff"
 WORD_OR_SIGN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:['’](?:(?![{CJK}])[^\W_])+)?|[^\w\s\ud800-\udfff]")
 """A word, a Chinese character, or a sign."""
-
-_TELLING = 2
-"""Small words by which a language is told from the others."""
-_WORD = deferred(r"[^\W\d_]+")
-_SMALL_WORDS = {language: frozenset(table("figures", language)["small_words"]) for language in ("en", "es", "fr", "de")}
-_LETTERS = {"es": "ñ¿¡", "fr": "çêœàùèîû", "de": "ßäöü"}
 
 USER_NOUN = (
     rf"(?:{'|'.join(words_of('figures', 'users', 'nouns'))})"
@@ -132,62 +126,6 @@ def has_chinese(text: str) -> bool:
     (True, False)
     """
     return not text.isascii() and any(map(is_chinese, text))
-
-
-@functools.lru_cache(maxsize=64)
-def language_of(text: str) -> str:
-    """The language of a sentence: "zh" where a Chinese character stands, else "es", "fr" or "de" where its small words
-    or letters outweigh those of English, else "en".
-
-    >>> language_of("boost 速度"), language_of("boost the speed"), language_of("la potencia más baja")
-    ('zh', 'en', 'es')
-    """
-    if has_chinese(text):
-        return "zh"
-    counts = _counts(text)
-    best = max(counts, key=lambda language: counts[language])
-    return best if counts[best] > counts["en"] else "en"
-
-
-def language_in_a_talk(text: str, before: str) -> str:
-    """The language of a line: that of the talk before it, "" at its start, unless its own words tell another clearly.
-
-    >>> language_in_a_talk("plus 6", "en"), language_in_a_talk("mejor 2 Mbit/s", "es"), language_in_a_talk("10 W", "zh")
-    ('en', 'es', 'zh')
-    >>> language_in_a_talk("and what is the rate of user 3?", "es"), language_in_a_talk("no", "")
-    ('en', 'en')
-    """
-    own = language_of(text)
-    if not before or own == "zh":
-        return own
-    counts, words = _counts(text), sum(len(word) > 1 for word in _WORD.findall(text))
-    if before == "zh":
-        return own if words > 1 else before
-    ahead = counts[own] - counts[before]
-    return own if ahead >= _TELLING or (ahead > 0 and words > 1) else before
-
-
-def languages_of(text: str) -> tuple[str, ...]:
-    """The languages that a sentence may be in: all of them where its small words hardly tell.
-
-    >>> languages_of("save the power"), languages_of("10 W")
-    (('en',), ('en', 'es', 'fr', 'de'))
-    """
-    if has_chinese(text):
-        return ("zh",)
-    counts = _counts(text)
-    best = max(counts.values())
-    return tuple(language for language, count in counts.items() if count == best or best < _TELLING)
-
-
-def _counts(text: str) -> dict[str, int]:
-    """How much the small words and letters of a sentence speak for each language."""
-    small = text.lower()
-    words = _WORD.findall(small)
-    counts = {language: sum(word in known for word in words) for language, known in _SMALL_WORDS.items()}
-    for language, letters in _LETTERS.items():
-        counts[language] += 2 * sum(small.count(letter) for letter in letters)
-    return counts
 
 
 class Phrases:

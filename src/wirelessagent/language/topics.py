@@ -24,14 +24,22 @@ _WITH = deferred(
     r"[和与跟同]\s*([A-Za-z][\w.-]*)\s*(?:作|做|进行)?(?:个|一)?(?:比较|对比|相比|比)"
 )
 _AS = deferred(
-    r"(?i)\bexport\s+(?:(?:it|this|that|everything|the\s+\w+)\s+)?(?:as|to|in|into)\s+([a-z][\w.-]*)[\s.!?]*$|"
-    r"导出(?:为|成|到)\s*([A-Za-z][\w.-]*)\s*$"
+    r"(?i)\b(?:export|save|write|download)\s+(?:(?:it|this|that|everything|the\s+\w+)\s+)?(?:as|to|into)\s+"
+    r"(?:an?\s+)?([a-z][\w.-]*)[\s.!?]*$|"
+    r"(?:导出|保存)(?:为|成|到)\s*([A-Za-z][\w.-]*)\s*$"
 )
 _MORE = deferred(r"(?i)\b(?:more|extra|additional|further|another)\s+")
 _FEWER, _EACH, _MORE_USERS, _HALF_MISSING, _GONE, _NO_TOOL, _NO_FORMAT = (
     deferred(f"(?i){either('figures', 'asked', name)}")
     for name in ("fewer", "each", "more_users", "half_missing", "gone", "no_tool", "no_format")
 )
+
+
+def about(topic: str, sentence: Sentence) -> tuple[str, dict[str, Detail]]:
+    """What a question is about that was taken for one of this topic, and its details: who is first is about users."""
+    first = topic in ("other", "prices") and _speaks_of("who", sentence.plain) and bool(ranked(sentence.plain))
+    topic = "users" if first else topic
+    return topic, details_of(topic, sentence)
 
 
 def details_of(topic: str, sentence: Sentence) -> dict[str, Detail]:
@@ -69,11 +77,6 @@ def ranked(plain: str) -> dict[str, Detail]:
     rank = next((rank for rank in ("least", "most") if _speaks_of(rank, plain)), "")
     of = next((of for of in ("subcarriers", "power") if _speaks_of(of, plain)), "rate")
     return {"rank": rank, "of": of} if rank and not _speaks_of("should", plain) else {}
-
-
-def asks_who_is_first(plain: str) -> bool:
-    """Whether a question is for who has the least or the most."""
-    return _speaks_of("who", plain) and bool(ranked(plain))
 
 
 def _speaks_of(name: str, plain: str) -> bool:

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Named
+from wirelessagent.language.base_words import language_in_a_talk
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.guard import READ_IN_A_TALK
 from wirelessagent.language.intent import Constraint, Detail, Intent, IntentKind
@@ -23,7 +24,7 @@ from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Voice
 from wirelessagent.language.sentence import Sentence, labels_of, own_words, read_once
-from wirelessagent.language.text import has_chinese, language_in_a_talk, normalise, replaced
+from wirelessagent.language.text import has_chinese, normalise, replaced
 from wirelessagent.language.word_tables import table, written
 
 NAME = READ_IN_A_TALK
@@ -172,7 +173,8 @@ class Line:
         return self._intent("command", self.voice.say(f"command.{topic}"), topic=topic, details=details)
 
     def question(self, topic: str, **details: Detail) -> Intent:
-        return self._intent("question", self.voice.say(f"question.{topic}"), topic=topic, details=details)
+        said = self.voice.say(f"question.{topic}", user=self.voice.user(str(details.get("user", ""))))
+        return self._intent("question", said, topic=topic, details=details)
 
     def courtesy(self, key: str, /, **names: str) -> Intent:
         """Words that ask for nothing, answered in kind."""

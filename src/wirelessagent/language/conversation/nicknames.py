@@ -11,9 +11,10 @@ import functools
 import re
 from collections.abc import Mapping, Sequence
 
+from wirelessagent.language.base_words import language_of, languages_of
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.sentence import Sentence, own_words
-from wirelessagent.language.text import language_of, languages_of, normalise, replaced
+from wirelessagent.language.text import normalise, replaced
 from wirelessagent.language.word_tables import table, written
 
 Span = tuple[int, int]

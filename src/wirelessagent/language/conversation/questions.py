@@ -11,14 +11,18 @@ import dataclasses
 from collections.abc import Mapping
 
 from wirelessagent.language import forms
-from wirelessagent.language.conversation.line import Line, begins, group, has, is_all
+from wirelessagent.language.base_words import languages_of
+from wirelessagent.language.conversation.anchors import Anchored
+from wirelessagent.language.conversation.line import NAME, Line, begins, group, has, is_all
 from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.moods import places, table_of
 from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.numerals import chinese_value
+from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.sentence import Sentence, own_words
-from wirelessagent.language.text import languages_of, lowered, normalise
+from wirelessagent.language.text import lowered, normalise
+from wirelessagent.language.topics import about
 
 _ASKED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
     "why_not": ("why_infeasible", {}),
@@ -40,6 +44,8 @@ _ORDERED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
 _RATES = ("min_rate_bps", "outage_probability", "users", "leave_out")
 _LIMITS = ("max_power_w", "outage_probability", "users", "leave_out")
 _MOST_COMPARED = 4
+_OF_THE_AIM = ("", "weak", "unclear", "named_user")
+"""Questions back about the aim; a language model says nothing of which it asks."""
 
 
 def read_question(line: Line) -> Intent | None:
@@ -204,23 +210,30 @@ def asked_instead(line: Line, understood: Intent) -> Intent | None:
     """What to answer instead of a question back about the aim, which is known; None where that is not asked."""
     if line.context.objective is None or understood.kind != "clarify":
         return None
-    plain = line.shape
-    asks = forms.is_asked(plain) or forms.begins_like_a_question(plain) or has("asking", plain)
-    if understood.pending or not asks:
+    asks = forms.is_asked(line.shape) or forms.asks_without_a_mark(line.shape) or has("asking", line.shape)
+    if understood.pending or understood.asks not in _OF_THE_AIM or not asks:
         return _without_the_aim(line, understood)
-    if has("of_channel", plain):
-        return line.question("uncertainty")
-    if has("of_users", plain):
-        return line.question("users", **_user(line))
-    return line.question("other") if has("of_result", plain) else _without_the_aim(line, understood)
+    kinds = line.sentence.chances.kinds
+    questions = {label: share for label, share in kinds.items() if label.startswith("question")}
+    others = (share for label, share in kinds.items() if not label.startswith(("question", "command")))
+    if sum(questions.values()) <= max(others):
+        return _without_the_aim(line, understood)
+    likeliest = max(questions, key=lambda label: questions[label]).partition(".")[2]
+    topic, details = about(likeliest, line.sentence)
+    return line.question(topic, **details)
 
 
 def given_instead(line: Line, intent: Intent) -> Intent:
-    """A what-if of the channel, which is as it was sensed; any other intent as it is."""
-    wonders = intent.kind == "question" and intent.topic == "what_if"
-    if not wonders or intent.details or not has("given", line.shape):
+    """A what-if of the channel as it was sensed, and a why of "3", who is user 3; any other intent as it is."""
+    if intent.kind != "question" or intent.details:
         return intent
-    return line.question("what_if", of="channel")
+    if intent.topic == "what_if" and has("given", line.shape):
+        return line.question("what_if", of="channel")
+    if intent.topic != "why_user" or intent.recogniser not in (OFFLINE, NAME):  # a language model names users itself
+        return intent
+    names = line.context.user_names
+    named = Anchored.of(line.text, line.voice.language, names).named(len(names))
+    return line.question("why_user", user=named[0]) if len(named) == 1 else intent
 
 
 def _without_the_aim(line: Line, understood: Intent) -> Intent | None:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.base_words import based
+from wirelessagent.language.base_words import aligned, based
 from wirelessagent.language.conversation.anchors import Anchor
 from wirelessagent.language.conversation.change import Change
 from wirelessagent.language.conversation.changes import changes_of
@@ -84,6 +84,7 @@ class Signs:
         self._single = _hashes([*words, *bases])
         self._whole = _hashes(self._of_line())
         self._padded = ["<"] * _NEAR + [*words] + [">"] * _NEAR
+        self._bases = ["<"] * _NEAR + aligned(words, language) + [">"] * _NEAR
         self._last = "+".join(sorted({_name(act) for act in possible.context.acts}))[:60]
         self._last_kinds = {getattr(act, "kind", "") for act in possible.context.acts}
 
@@ -132,6 +133,7 @@ class Signs:
         form, kind = change.form, f"{change.form}:{change.kind}"
         whole = f"{kind}:{change.source}"
         blocks = [(form, self._all), (kind, self._single), (whole, self._whole)]
+        blocks += [(f"{form}@{change.source}", self._single)] if change.source else []
         return blocks + [(f"{way}:{form}", self._single) for way in self._way(change)]
 
     def _way(self, change: Change) -> Iterator[str]:
@@ -259,10 +261,12 @@ class Signs:
             yield f"{side}:{form}|{word}"
 
     def _beside(self, first: int, last: int) -> Iterator[tuple[int, str]]:
-        """The words next to what stands at some places, with how far they are."""
-        for step in range(1, _NEAR + 1):
-            yield -step, self._padded[first + _NEAR - step]
-            yield step, self._padded[last + _NEAR + step]
+        """The words next to what stands at some places and what they mean, with how far they are."""
+        for step, place in ((side * away, end + _NEAR + side * away)
+                            for away in range(1, _NEAR + 1) for side, end in ((-1, first), (1, last))):  # fmt: skip
+            yield step, self._padded[place]
+            if self._bases[place] != self._padded[place]:
+                yield step, f"B{self._bases[place]}"
 
     @property
     def together(self) -> Together:

@@ -121,7 +121,7 @@ def _stands(line: Line, intent: Intent, context: Context) -> bool:
     """Whether what is read of a line is not weighed.
 
     That is a line of closed words, a command, what names a method, a question of a certain thing, what a language model
-    read, an answer to a question, and words about applying a plan that waits ("apply it at 6 pm").
+    read, an answer to a question, a figure that cannot be, and words about applying a plan that waits ("apply it at 6").
     """
     another = intent.recogniser not in (OFFLINE, NAME)
     about_the_plan = context.awaits == "confirmation" and speaks_of_applying(line.text)
@@ -132,7 +132,7 @@ def _stands(line: Line, intent: Intent, context: Context) -> bool:
         certain = missing or intent.topic not in ("other", "what_if", "concept")
         return intent.recogniser == NAME or certain
     if intent.kind == "clarify":
-        return context.awaits == "clarification"
+        return context.awaits == "clarification" or intent.asks == "impossible"
     answers_nothing = intent.topic in ("confirm", "reject") and context.awaits == "nothing"
     commands = intent.kind == "command" and intent.topic != "undo" and not answers_nothing
     return intent.recogniser == NAME or commands

@@ -13,9 +13,10 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from wirelessagent.language.base_words import language_of
 from wirelessagent.language.looks import first_look
 from wirelessagent.language.quantities import parse_quantities
-from wirelessagent.language.text import language_of, normalise
+from wirelessagent.language.text import normalise
 from wirelessagent.language.training.compose import OBJECTIVES
 from wirelessagent.language.training.marked import unmarked
 from wirelessagent.language.training.meant import sentences

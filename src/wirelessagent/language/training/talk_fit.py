@@ -23,9 +23,11 @@ from wirelessagent.language.training.fit import rounded
 from wirelessagent.language.training.fit_kernel import Places
 from wirelessagent.language.training.talk_fit_kernel import one_pass, scores_of
 
-_PASSES, _STEP, _FAINT = (2, 4), 0.2, 1
-"""Passes of each round, in which those changes may go together that scored best before it; the size of a step."""
-_EPSILON = 1e-3
+_PASSES, _STEP, _FAINT = (2, 4), 0.5, 1
+"""Passes of each round, in which those changes may go together that scored best before it; the size of a step; weights
+of so many 127ths of the largest are none."""
+_EPSILON = 1.0
+"""What is seen seldom moves its weights less; so much tells lines of other authors best."""
 _LOG = logging.getLogger(__name__)
 
 
