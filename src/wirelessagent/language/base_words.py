@@ -152,7 +152,7 @@ def languages_of(text: str) -> tuple[str, ...]:
 def _counts(text: str) -> dict[str, int]:
     """How much the words and letters of a sentence speak for each language."""
     small = text.lower()
-    counts = dict.fromkeys(("en", "es", "fr", "de"), 0)
+    counts: dict[str, int] = dict.fromkeys(("en", "es", "fr", "de"), 0)
     for word in (word for word in _WORD.findall(small) if len(word) > 1):
         listing = [language for language in counts if _lists(language, unaccented(word))]
         for language in listing:
