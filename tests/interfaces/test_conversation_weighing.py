@@ -117,7 +117,7 @@ def test_what_would_leave_nothing_of_a_limit_is_not_done(said: str) -> None:
 @pytest.mark.parametrize(
     "said",
     ["at most 1e400 W", "9999 dB more", "-5000 dB", "user 3 at least 1e308 Gbit/s", "weight 1e400 for user 3",
-     "don't halve it", "nie 5 W", "jamais 5 W", "nicht halbieren", "at most -5 W", "power minus 20 W",
+     "don't halve it", "never 5 W", "nie 5 W", "jamais 5 W", "nicht halbieren", "at most -5 W", "power minus 20 W",
      "user 2's minimum stays", "die Mindestrate von Nutzer 2 bleibt", "el mínimo del usuario 2 se queda",
      "don't drop user 2's minimum", "we must not forget user 2"],
 )  # fmt: skip

@@ -20,7 +20,7 @@ from wirelessagent.language.conversation.talk_model import Said, Weighed, weigh
 from wirelessagent.language.guard import asking_whether, guarded, stranger
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.lifted import is_denied
-from wirelessagent.language.moods import classes_in
+from wirelessagent.language.moods import Span, classes_in
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import constraints_of
@@ -61,7 +61,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     share, acts = found.shares.get(heard, 0.0), bool(read.effect) and not read.supposes
     if not found.acts and _names_its_aim(intent) and acts and share >= NAMED:
         return intent, False
-    if not found.acts or (_takes_away(found.acts) and _stays(line, possible.line.plain)):
+    stays = _takes_away(found.acts) and _stays(line, possible.line.plain)
+    if not found.acts or stays or _uses_what_is_denied(possible.line, found):
         doubted = asking_whether(intent, line.voice) if share > HEARD else line.ask("what_changes")
         return (doubted if acts else intent), False
     either = sum(found.shares.get((supposed, found.said[1]), 0.0) for supposed in (False, True))
@@ -101,14 +102,26 @@ def _denies(anchored: Anchored, found: Weighed) -> bool:
 
     "Don't halve it", "lift it by 2 W" as no limit at all.
     """
-    denials = [span for name, span in classes_in(anchored.plain) if name.partition(":")[0] in _DENYING]
-    alone = [span for span in denials if span[0] > 0 or anchored.plain[span[1] : span[1] + 1].isspace()]  # "no, 8"
+    alone = [
+        span for span in _denials(anchored) if span[0] > 0 or anchored.plain[span[1] : span[1] + 1].isspace()
+    ]  # "no, 8"
     bounds = any(anchor.is_bounded for anchor in anchored.anchors)  # "never more than 5 W"
     named = {anchor for anchor in anchored.anchors if anchor.kind != "pronoun"}
     corrects = bounds or not named <= found.used  # "not 7, 8"
     figures = {anchor for anchor in named if anchor.kind in _WITH_UNITS}
     idle = bool(figures) and not figures & found.used
     return idle or (bool(alone) and not corrects)
+
+
+def _uses_what_is_denied(anchored: Anchored, found: Weighed) -> bool:
+    """Whether a figure is used right behind a word that denies it: "never 5 W"."""
+    figures = [anchor for anchor in found.used if anchor.kind in _WITH_UNITS]
+    return any(anchored.plain[end : figure.start].isspace() for _, end in _denials(anchored) for figure in figures)
+
+
+def _denials(anchored: Anchored) -> list[Span]:
+    """Where a line denies something."""
+    return [span for name, span in classes_in(anchored.plain) if name.partition(":")[0] in _DENYING]
 
 
 def _names_its_aim(intent: Intent) -> bool:
