@@ -23,7 +23,7 @@ _TELLING = 3
 """How much speaks for a language, or for it rather than another, where it surely is that one: more than a word."""
 _ALONE = 2
 """What a word counts that no other language lists; one of English counts 1, as such are said in any."""
-_WORD = deferred(r"[^\W\d_]+")
+_WORD = deferred(r"[^\W\d_]{2,}")
 _LETTERS = {"es": "ñ¿¡", "fr": "çêœàùèîû", "de": "ßäöü"}
 
 
@@ -103,7 +103,6 @@ def _longest(language: str) -> int:
     return max(map(len, _base_words(language)), default=0)
 
 
-@functools.lru_cache(maxsize=64)
 def language_of(text: str) -> str:
     """The language of a sentence: "zh" where a Chinese character stands, else "es", "fr" or "de" where its words and
     letters outweigh those of English, the first of these where two do alike, else "en".
@@ -129,7 +128,7 @@ def language_in_a_talk(text: str, before: str) -> str:
     own = language_of(text)
     if not before or own == "zh":
         return own
-    counts, words = _counts(text), sum(len(word) > 1 for word in _WORD.findall(text))
+    counts, words = _counts(text), len(_WORD.findall(text))
     if before == "zh":
         return own if words > 1 else before
     ahead = counts[own] - counts[before]
@@ -149,12 +148,13 @@ def languages_of(text: str) -> tuple[str, ...]:
     return tuple(language for language, count in counts.items() if count == best or best < _TELLING)
 
 
-def _counts(text: str) -> dict[str, int]:
+@functools.lru_cache(maxsize=64)
+def _counts(text: str) -> Mapping[str, int]:
     """How much the words and letters of a sentence speak for each language."""
     small = text.lower()
     counts: dict[str, int] = dict.fromkeys(("en", "es", "fr", "de"), 0)
-    for word in (word for word in _WORD.findall(small) if len(word) > 1):
-        listing = [language for language in counts if _lists(language, unaccented(word))]
+    for word in map(unaccented, _WORD.findall(small)):
+        listing = [language for language in counts if _lists(language, word)]
         for language in listing:
             counts[language] += 1 if language == "en" or len(listing) > 1 else _ALONE
     for language, letters in _LETTERS.items():

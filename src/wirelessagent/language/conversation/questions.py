@@ -44,8 +44,8 @@ _ORDERED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
 _RATES = ("min_rate_bps", "outage_probability", "users", "leave_out")
 _LIMITS = ("max_power_w", "outage_probability", "users", "leave_out")
 _MOST_COMPARED = 4
-_OF_THE_AIM = ("", "weak", "unclear", "named_user")
-"""Questions back about the aim; a language model says nothing of which it asks."""
+_OPEN = ("", "weak", "unclear", "named_user")
+"""Questions back that leave open what is meant; a language model does not say which it asks."""
 
 
 def read_question(line: Line) -> Intent | None:
@@ -211,7 +211,7 @@ def asked_instead(line: Line, understood: Intent) -> Intent | None:
     if line.context.objective is None or understood.kind != "clarify":
         return None
     asks = forms.is_asked(line.shape) or forms.asks_without_a_mark(line.shape) or has("asking", line.shape)
-    if understood.pending or understood.asks not in _OF_THE_AIM or not asks:
+    if understood.pending or understood.asks not in _OPEN or not asks:
         return _without_the_aim(line, understood)
     kinds = line.sentence.chances.kinds
     questions = {label: share for label, share in kinds.items() if label.startswith("question")}
