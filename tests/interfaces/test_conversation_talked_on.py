@@ -52,6 +52,26 @@ def test_a_line_goes_on_with_any_limit(lines: tuple[str, ...], held: dict[str, A
                                       for name, value in held.items()}  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("lines", "held"),
+    [
+        (("Nutzer 4 braucht 300 kbit/s", "und die 2 auch", "max rate"), {"min_rate_bps": {"4": 3e5, "2": 3e5}}),
+        (("user 4 needs 300 kbit/s", "user 2 as well", "no, 200 for 2", "highest total rate"),
+         {"min_rate_bps": {"4": 3e5, "2": 2e5}}),
+        (("at least 200 kbit/s for everyone", "except user 3", "and at most 12 W", "go for the highest total rate"),
+         {"min_rate_bps": {"all": 2e5, "3": 0.0}, "max_power_w": 12.0}),
+        (("leave user 4 out", "10 W at most", "what can you do?", "hello", "make it 8", "max-min"),
+         {"leave_out": ("4",), "max_power_w": 8.0}),
+        (("3号用户至少200k", "4号也一样", "总速率最高"), {"min_rate_bps": {"3": 2e5, "4": 2e5}}),
+        (("10 W at most", "no, forget that", "max-min"), {}),
+    ],
+)  # fmt: skip
+def test_limits_that_are_said_before_their_aim_wait_for_it(lines: tuple[str, ...], held: dict[str, Any]) -> None:
+    found, turns = talked_into(*lines)
+    assert found == held
+    assert {turn.intent.kind for turn in turns[:-1]} <= {"clarify", "question", "out_of_scope", "command"}
+
+
 @pytest.mark.parametrize("said", ["if the surgeon calls, make it 9", "500 was too much"])
 def test_what_only_may_be_meant_changes_nothing(said: str) -> None:
     assert agreed_into(POWER_W, said)[0] == {"max_power_w": 12.0}

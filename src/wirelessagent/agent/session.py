@@ -245,7 +245,7 @@ class Session:
         self._site.telling = None
         before, new = self._state, reply.state
         if new is None:
-            new = dataclasses.replace(before, question=Question() if reply.stage == "asked" else None)
+            new = dataclasses.replace(before, question=Question() if reply.stage == "asked" else before.waiting)
         elif reply.undone:
             del self._past[-reply.undone :]
         elif new.request != before.request:

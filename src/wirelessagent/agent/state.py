@@ -66,6 +66,13 @@ class State(Plain):
         return "nothing" if self.planned is None else "confirmation"
 
     @property
+    def waiting(self) -> Question | None:
+        """Limits that were said, and wait for their aim: they outlast what is asked in between; None where none do."""
+        if self.request is not None or self.question is None or not self.question.pending:
+            return None
+        return Question(pending=self.question.pending)
+
+    @property
     def radiated_w(self) -> float:
         """Power of the last decision; 0 where there is none."""
         return 0.0 if self.run is None or not self.run.decision.is_usable else self.run.decision.total_power_w

@@ -274,7 +274,7 @@ class _Understanding:
         """Limits without a wish, and changes of a request that there is not."""
         if values and self._goal.verdict in ("none", "weak"):
             key = "rate_only" if "min_rate_bps" in values else "limits_only"
-            return self._answer.ask(key, 0.5, values, constraints=self._quoted(values))
+            return self._answer.ask(key, 0.5, values, constraints=self._voice.constraints(values))
         if self._dropped or self._reading.back:
             holds = self._context is not None and self._context.objective is not None
             return self._answer.ask("so_already" if holds else "nothing_yet", 0.5, text=f"“{self._text.strip()}”")
@@ -286,10 +286,6 @@ class _Understanding:
         if guess in self._voice.labels and (found or self._judged.likeliest > 0.4):
             return self._whether(guess)
         return self._answer.ask("greeting" if "greeting" in self._sentence.concepts else "unclear", 0.5, values)
-
-    def _quoted(self, values: Mapping[str, Constraint]) -> str:
-        """The limits as the operator wrote them."""
-        return self._voice.both([self._reading.evidence[name] for name in values])
 
     def _words_for(self, concept: str) -> str:
         item = next(item for item in self._sentence.found if item.term.concept == concept)

@@ -21,7 +21,7 @@ from wirelessagent.language.conversation.commands import (
 )
 from wirelessagent.language.conversation.line import NAME, Line, has
 from wirelessagent.language.conversation.nicknames import called, only_called, with_users
-from wirelessagent.language.conversation.open_question import leaves_the_question, read_answer, unanswered
+from wirelessagent.language.conversation.open_question import leaves_the_question, read_answer, unanswered, with_limits
 from wirelessagent.language.conversation.questions import (
     asked_instead,
     given_instead,
@@ -34,8 +34,11 @@ from wirelessagent.language.conversation.questions import (
 from wirelessagent.language.conversation.weighing import weighed
 from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
+from wirelessagent.language.intent_acts import acts_of, stated
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
+from wirelessagent.language.request import Request, applied
+from wirelessagent.language.sentence import BUILT_IN
 
 __all__ = ["NAME", "called", "unanswered", "understood", "with_users"]
 
@@ -59,9 +62,29 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
     line = Line.of(with_users(text, context.called), context)
     first = OfflineRecogniser() if recogniser.is_spared else recogniser
     intent, sure = weighed(line, read_by_rules(text, context, first))
+    if _waits_for_an_aim(context) and intent.kind == "clarify":
+        return _beside_what_waits(line, intent, recogniser)
     if first is recogniser:
         return intent
     return dataclasses.replace(intent, recogniser=NAME) if sure else read_by_rules(text, context, recogniser)
+
+
+def _waits_for_an_aim(context: Context) -> bool:
+    """Whether limits were said, and nothing is open but their aim."""
+    return bool(context.pending) and not (context.objective or context.pending_objective or context.pending_users)
+
+
+def _beside_what_waits(line: Line, intent: Intent, recogniser: Recogniser) -> Intent:
+    """What a line changes of limits that wait for their aim, and asks for it again; else what is read of it."""
+    pending, aim = line.context.pending, BUILT_IN[0]  # any
+    held = dataclasses.replace(
+        line.context, objective=aim, constraints=pending, acts=tuple(stated(pending)), awaits="nothing", pending={}
+    )
+    found = understood(line.text, held, recogniser)
+    if found.kind != "allocate" or not found.amends or found.objective != aim or "objective" in found.evidence:
+        return intent
+    after, _ = applied(Request(objective=aim, constraints=pending), acts_of(found))
+    return intent if after is None else with_limits(line, None, after.constraints)
 
 
 def read_by_rules(text: str, context: Context, recogniser: Recogniser) -> Intent:

@@ -89,11 +89,15 @@ def _answered(line: Line) -> Intent | None:
             return None
         users = asked_about if figure.kind == "rate" else ()
         values[name] = dict.fromkeys(users, figure.value) if users else figure.value
-    values = merged(context.pending, values)
+    return with_limits(line, objective, merged(context.pending, values))
+
+
+def with_limits(line: Line, objective: str | None, limits: Mapping[str, Constraint]) -> Intent:
+    """A request with these limits; without an aim, the question for it."""
     if objective is None:
-        key = "rate_only" if "min_rate_bps" in values else "limits_only"
-        return line.ask(key, values, constraints=line.voice.constraints(values))
-    return line.allocate(objective, values, amends=context.objective is not None)
+        key = "rate_only" if "min_rate_bps" in limits else "limits_only"
+        return line.ask(key, limits, constraints=line.voice.constraints(limits))
+    return line.allocate(objective, limits, amends=line.context.objective is not None)
 
 
 def _only_figures(line: Line) -> bool:
@@ -120,8 +124,10 @@ def unanswered(text: str, intent: Intent, context: Context) -> Question:
     offered, caps = intent.offered, has("cap", line.shape) is not None
     if context.awaits != "clarification" or leaves_the_question(line):
         return Question(pending=intent.pending, objective=objective, users=users, caps=caps, offered=offered)
+    whole = intent.recogniser == NAME and bool(intent.pending)  # what waited before is in it
+    pending = intent.pending if whole else merged(context.pending, intent.pending)
     return Question(
-        pending=merged(context.pending, intent.pending), objective=objective or context.pending_objective,
+        pending=pending, objective=objective or context.pending_objective,
         users=users or context.pending_users, caps=caps or context.pending_caps, offered=offered,
     )  # fmt: skip
 

@@ -224,16 +224,16 @@ def asked_instead(line: Line, understood: Intent) -> Intent | None:
 
 
 def given_instead(line: Line, intent: Intent) -> Intent:
-    """A what-if of the channel as it was sensed, and a why of "3", who is user 3; any other intent as it is."""
+    """A what-if of the channel as it was sensed, and a question about "3", who is user 3; any other intent as it is."""
     if intent.kind != "question" or intent.details:
         return intent
     if intent.topic == "what_if" and has("given", line.shape):
         return line.question("what_if", of="channel")
-    if intent.topic != "why_user" or intent.recogniser not in (OFFLINE, NAME):  # a language model names users itself
-        return intent
+    if intent.topic not in ("why_user", "users") or intent.recogniser not in (OFFLINE, NAME):
+        return intent  # a language model names users itself
     names = line.context.user_names
     named = Anchored.of(line.text, line.voice.language, names).named(len(names))
-    return line.question("why_user", user=named[0]) if len(named) == 1 else intent
+    return line.question(intent.topic, user=named[0]) if len(named) == 1 else intent
 
 
 def _without_the_aim(line: Line, understood: Intent) -> Intent | None:
