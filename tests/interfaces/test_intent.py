@@ -484,7 +484,7 @@ def test_neither_acts_nor_asks(kind: str, text: str) -> None:
         ("10 W", ["10 W", "rate"]),
         ("everyone gets 1 Mbit/s", ["1 Mbit/s", "least power", "highest"]),
         ("save power and go faster", ["energy efficiency"]),
-        ("功率10瓦", ["10瓦", "能效"]),
+        ("功率10瓦", ["10 W", "能效"]),
         ("最大速率,功率-5瓦", ["-5瓦"]),
         ("max rate, 2 MB/S each", ["bits", "bytes"]),
     ],

@@ -135,6 +135,57 @@ DOUBTED = [
     ("groups of 0 subcarriers", "impossible"),
     ("120 % of the power", "impossible"),
     ("a 100 W bulb next door", "whose_power"),
+    ("every second user gets 1 Mbit/s", "some_users"),
+    ("at least 300 kbit/s for all but the last two", "some_users"),
+    ("tous sauf les deux derniers au moins 300 kbit/s", "some_users"),
+    ("alle außer den letzten beiden mindestens 300 kbit/s", "some_users"),
+    ("todos menos los dos últimos al menos 300 kbit/s", "some_users"),
+    ("除了最后两个都至少300k", "some_users"),
+    ("serve the five best users", "some_users"),
+    ("a third of the users get 1 Mbit/s", "some_users"),
+    ("users 2, 4 and so on get 300 kbit/s", "some_users"),
+    ("no one after user 5 is served", "some_users"),
+    ("user 2 or 3 gets 1 Mbit/s", "one_of"),
+    ("nothing for users 2, 3 or 4", "one_of"),
+    ("Nutzer 2 oder 3 mindestens 1 Mbit/s", "one_of"),
+    ("utilisateur 2 ou 3 au moins 1 Mbit/s", "one_of"),
+    ("usuario 2 o 3 al menos 1 Mbit/s", "one_of"),
+    ("2号或者3号至少1兆", "one_of"),
+    ("on average 1 Mbit/s each", "another_figure"),
+    ("each user averages 1 Mbit/s", "another_figure"),
+    ("1 Mbit/s upload for user 3", "another_figure"),
+    ("at most 10 W EIRP", "another_figure"),
+    ("im Schnitt 1 Mbit/s je Nutzer", "another_figure"),
+    ("1 Mbit/s de media por usuario", "another_figure"),
+    ("1 Mbit/s en moyenne par utilisateur", "another_figure"),
+    ("上行每人至少1兆", "another_figure"),
+    ("users 1 and 2 together at least 3 Mbit/s", "total_rate"),
+    ("Nutzer 1 und 2 zusammen mindestens 3 Mbit/s", "total_rate"),
+    ("2 W for user 3", "power_per_user"),
+    ("user 3 uses 2 W", "power_per_user"),
+    ("max rate, user 3 needs HD video", "named_user"),
+]
+
+BY_PLACE = [
+    ("users past 5 get 1 Mbit/s", "678"),
+    ("everybody past user 5 gets 1 Mbit/s", "678"),
+    ("at least 1 Mbit/s from user 6 on", "678"),
+    ("1 Mbit/s for 6 and up", "678"),
+    ("users 6+ at least 1 Mbit/s", "678"),
+    ("as of user 6 at least 1 Mbit/s each", "678"),
+    ("users up to 3 at least 1 Mbit/s", "123"),
+    ("everyone before user 4 at least 1 Mbit/s", "123"),
+    ("every third user gets 1 Mbit/s", "36"),
+    ("Nutzer ab 6 mindestens 1 Mbit/s", "678"),
+    ("alle nach Nutzer 5 mindestens 1 Mbit/s", "678"),
+    ("jeder zweite Nutzer bekommt 1 Mbit/s", "2468"),
+    ("usuarios del 6 en adelante al menos 1 Mbit/s", "678"),
+    ("hasta el usuario 3 al menos 1 Mbit/s", "123"),
+    ("à partir de l'utilisateur 6 au moins 1 Mbit/s", "678"),
+    ("un utilisateur sur deux au moins 1 Mbit/s", "2468"),
+    ("6号及以上至少1兆", "678"),
+    ("4号之前的用户至少1兆", "123"),
+    ("每隔一个用户至少1兆", "2468"),
 ]
 
 
@@ -152,6 +203,26 @@ def test_what_is_stated(text: str, stated: dict[str, Any]) -> None:
 @pytest.mark.parametrize(("text", "key"), DOUBTED)
 def test_what_is_asked_about(text: str, key: str) -> None:
     assert key in [doubt.key for doubt in reading(text).doubts]
+
+
+@pytest.mark.parametrize(("text", "users"), BY_PLACE)
+def test_users_by_where_they_stand_among_all(text: str, users: str) -> None:
+    names = [f"user {number}" for number in range(1, 9)]
+    found = read_constraints(text, normalise(text), parse_quantities(text), names=names)
+    assert not found.doubts
+    assert dict(found.values) == {"min_rate_bps": dict.fromkeys(users, 1e6)}
+
+
+@pytest.mark.parametrize("text", ["keep users above 2 Mbit/s", "every user over 2 Mbps", "alle Nutzer über 2 Mbit/s"])
+def test_a_rate_is_no_place(text: str) -> None:
+    assert dict(reading(text).values) == {"min_rate_bps": 2e6}
+
+
+@pytest.mark.parametrize(
+    "text", ["serve only users 1 and 2 with 10 W", "no more than 10 W altogether", "10 W zusammen"]
+)
+def test_a_power_of_all_is_a_limit(text: str) -> None:
+    assert reading(text).values["max_power_w"] == 10.0
 
 
 def test_a_share_is_of_the_cells_limit() -> None:

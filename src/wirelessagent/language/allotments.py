@@ -12,7 +12,7 @@ from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.text import clause_end, clause_start
 
-_SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.8, 0.5, 0.45
+_SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.5, 0.45
 _SAID = 0.4
 _RATES = ("min_rate_bps", "max_rate_bps")
 _SILENT = ("kept", "stale")

@@ -8,6 +8,7 @@ no unit, zero watts), a doubt is raised instead of dropping or bending the figur
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 
 from wirelessagent.language.allotments import Allotments
@@ -16,7 +17,7 @@ from wirelessagent.language.intent import Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.stated import Notes, Reading
-from wirelessagent.language.text import Phrases, overlaps
+from wirelessagent.language.text import Phrases, clause_start, overlaps
 from wirelessagent.language.whole_cell import doubt_parts, take_blocks, take_counts, take_share
 from wirelessagent.language.word_tables import either
 
@@ -24,6 +25,10 @@ _STEP = Phrases(either("figures", "one", "watt_more"), marks="watt vatio 一瓦"
 _SET_TO = deferred(  # what sets a limit is no wish for the highest rate or the least power
     rf"(?i)(?:{either('figures', 'bounds', 'set_to')})\s*$"
 )
+_NOUNS = "|".join(either("figures", "bounds", name) for name in ("between", "rate", "power"))
+_FOR = deferred(r"(?i)\s*(?:\b(?:for|to|für|para|pour|à)\b|给)\s*(?:the\s+|l'\s?|el\s+|los\s+|les\s+)?")
+_GETS = deferred(rf"(?i)\s*(?:{either('figures', 'users', 'takes')})\s*(?:(?:only|nur|solo|seulement)\s+)?")
+_GIVEN = 0.5
 _LIMITS = (
     "min_rate_bps", "max_rate_bps", "both", "max_power_w", "circuit_power_w", "subcarrier_max_power_w", "outage",
     "reliability",
@@ -38,6 +43,18 @@ _HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt mill
 _TINY_POWER_W = 1e-8  # nor so little: that is noise
 _SURE, _SURE_OF_A_LIMIT = 0.6, {"power": 0.75, "rate": 0.6, "ratio": 0.6}
 """Most figures are limits, so that the model takes a strange one for one too easily."""
+
+
+def _said_of(name: str) -> tuple[re.Pattern[str], re.Pattern[str]]:
+    """Words of a list right ahead of a figure, and right behind."""
+    words = either("figures", "bounds", name)
+    return (
+        deferred(rf"(?i)(?:{words})(?:[\s:=]*(?:{_NOUNS}))*[\s:=]*$"),
+        deferred(rf"(?i)\s*(?:(?:each|apiece|per \w+)\s+)?(?:{words})"),
+    )
+
+
+_OF_ANOTHER_KIND, _OF_SEVERAL = _said_of("of_another_kind"), _said_of("of_several")
 
 
 def read_constraints(
@@ -158,10 +175,17 @@ class _Reader:
         setting = _SET_TO.search(self._notes.plain, max(0, figure.start - _NEAR), figure.start)
         if setting is not None:
             self._notes.masked.append((setting.start(), figure.end))
-        if figure.kind == "ratio":
+        another = self._with(_OF_ANOTHER_KIND, figure)
+        if another:
+            self._notes.doubt("another_figure", text=another)
+        elif figure.kind == "rate" and self._with(_OF_SEVERAL, figure):
+            return "total_rate"
+        elif figure.kind == "ratio":
             outage = figure.value if role == "outage" else round(1 - figure.value, 15)
             self._notes.take("outage_probability", outage, figure)
         elif figure.kind == "power":
+            if self._is_of_a_user(figure):
+                return "power_per_user"
             if figure.value > _HUGE_POWER_W:
                 return "huge"
             if figure.value < _TINY_POWER_W:
@@ -176,6 +200,22 @@ class _Reader:
                 if earlier is not None:
                     self._notes.doubt("conflict", one=earlier, other=figure.text)
         return ""
+
+    def _with(self, said: tuple[re.Pattern[str], re.Pattern[str]], figure: Quantity) -> str:
+        """A figure with such words right ahead or behind, "1 Mbit/s on average"; "" where none stand there."""
+        plain, start, end = self._notes.plain, figure.phrase_start, figure.phrase_end
+        ahead, behind = said[0].search(plain, clause_start(plain, start), start), said[1].match(plain, end)
+        first, last = (ahead.start() if ahead else start), (behind.end() if behind else end)
+        return self._notes.text[first:last].strip() if ahead or behind else ""
+
+    def _is_of_a_user(self, figure: Quantity) -> bool:
+        """Whether a power is said to be somebody's who has no rate: "2 W for user 3"."""
+        plain, alone = self._notes.plain, [
+            user for user in self._judged.mentions
+            if user.role == "named" and self._judged.user(user).get("given", 0.0) < _GIVEN
+        ]  # fmt: skip
+        return any(_FOR.fullmatch(plain, figure.phrase_end, user.start) is not None
+                   or _GETS.fullmatch(plain, user.end, figure.phrase_start) is not None for user in alone)  # fmt: skip
 
     def take_users(self) -> None:
         """Users who are counted, some of them, and those named who get nothing, of whom each raises a doubt."""

@@ -86,10 +86,19 @@ _PRONOUN = Phrases(either("figures", "users", "pronouns"))
 _FEW = rf"(?:[0-9]{{1,2}}|{_WORD_NUMBER}|beiden)"
 _ENDS = {name: f"(?:{either('figures', 'users', name)})" for name in ("first", "last")}
 _ON = either("figures", "users", "from_on")
+_UNIT = r"%|(?:[kmg]|mega|kilo|giga)?(?:bit|bps|b/s)|[km]\b|m?w\b|(?:milli)?watt|db|megs?\b|兆|瓦"
+PLACED = {
+    "noun": NOUN, "ordinal": f"(?:{'|'.join(sorted(ORDINALS, key=len, reverse=True))})",
+    "digits": rf"[0-9]{{1,3}}(?![0-9.,]*[0-9]|\s?(?:{_UNIT}))",
+}  # fmt: skip
+"""What stands in the places of lists of users: nouns, ordinals, and numbers with no unit behind."""
 BY_PLACE = Phrases(
     "|".join(
         [
-            *(f"(?P<{name}>{either('figures', 'users', name, noun=NOUN)})" for name in ("odd", "even")),
+            *(
+                f"(?P<{name}>{either('figures', 'users', name, **PLACED)})"
+                for name in ("odd", "even", "nth", "from_here", "past", "up_to", "before")
+            ),
             *(
                 rf"(?:{end}\s+(?P<{name}>{_FEW})|\b(?P<{name}_>{_FEW})\s+{end})\s+{NOUN}(?![A-Za-z])"
                 for name, end in _ENDS.items()
@@ -98,11 +107,13 @@ BY_PLACE = Phrases(
                 rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{_ZH_NOUN}"
                 for name, end in _ENDS.items()
             ),
-            rf"(?:(?<![A-Za-z0-9]){NOUN}|{_ZH_NOUN})\s*(?P<from>[0-9]{{1,3}})\s*(?:{_ON})",
+            rf"(?:(?<![A-Za-z0-9]){NOUN}|{_ZH_NOUN})\s*(?P<from>[0-9]{{1,3}})\s*(?:{_ON}|\+(?!\s*[0-9]))",
         ]
     ),
     marks="odd even par pair gerad 单 奇 双 偶 first last prim premi erst letzt dern ltim 前 后 above "
-    "on up höher suiv adelante sup 以",
+    "on up as_of höher suiv adelante sup 以 every jede cada sur from starting ab partir desde past after beyond over "
+    "higher greater nach über hinter jenseits oberhalb encima después allá delà après dessus + 起 从 每 后 before "
+    "below under lower less bis vor unter hasta antes debajo jusqu avant dessous 前",
 )
 """Users by where they stand among all; which ones they are, the cell's size says."""
 JOINT = deferred(
@@ -155,15 +166,21 @@ def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
 
 
 def _by_place(plain: str, count: int) -> Iterator[Mention]:
-    """Users by an odd or an even number, the first or the last few, or from one on; most need to be counted."""
+    """Users by an odd or an even number, every so manieth, the first or the last few, and from one on or up to one.
+
+    Most need to be counted.
+    """
     for match in BY_PLACE.finditer(plain):
         group, words = next((name, words) for name, words in match.groupdict().items() if words)
-        number = 2 if group in ("odd", "even") or words.lower() == "beiden" else int(_number(words.lower()) or 0)
+        said = [int(number) for part in _ITEM.finditer(words.lower()) if (number := _number(part.group()))]
+        number = max(said[-1:], default=2)
         first, last, step = {
-            "odd": (1, count, 2), "even": (2, count, 2), "first": (1, number, 1), "from": (number, count, 1),
-            "last": (count - number + 1, count, 1),
+            "odd": (1, count, 2), "even": (2, count, 2), "nth": (max(number, 2), count, max(number, 2)),
+            "first": (1, number, 1), "last": (count - number + 1, count, 1), "up_to": (1, number, 1),
+            "before": (1, number - 1, 1), "past": (number + 1, count, 1), "from": (number, count, 1),
+            "from_here": (number, count, 1),
         }[group.rstrip("_")]  # fmt: skip
-        if 0 < first <= last and (group.startswith("first") or count > 1):
+        if 0 < first <= last <= max(count, number):
             users = tuple(str(user) for user in range(first, last + 1, step))
             yield Mention(role="named", users=users, start=match.start(), end=match.end())
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.mentions import BY_PLACE, NOUN
+from wirelessagent.language.mentions import BY_PLACE, PLACED
 from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.stated import Notes
@@ -31,7 +31,7 @@ COUNTED_USERS = deferred(
     r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
     r"设备|传感器|子载波)"
 )
-_SOME_USERS = Phrases(either("figures", "users", "some", noun=NOUN))
+_SOME_USERS, _ONE_OF = (Phrases(either("figures", "users", name, **PLACED)) for name in ("some", "one_of"))
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
 _HALVED = Phrases(either("figures", "one", "halved", ours=_OF_OURS), marks="half halve third quarter 减半 一半 翻倍")
 _OTHERS_HALVED = Phrases(
@@ -161,13 +161,14 @@ def take_counts(notes: Notes, recounted: Sequence[Span], allotted: Sequence[Span
 def doubt_parts(notes: Notes, allotted: Sequence[Span]) -> None:
     """Some of the users, half of something, nobody at all: each a question."""
     settled = [*notes.spoken_for, *allotted, *notes.counted]
-    asked = [("some_users", _SOME_USERS), ("some_users", BY_PLACE), ("change", _HALVED), ("change", _OTHERS_HALVED)]
-    for key, pattern in asked:
+    asked = {_SOME_USERS: "some_users", BY_PLACE: "some_users", _ONE_OF: "one_of", _HALVED: "change",
+             _OTHERS_HALVED: "change"}  # fmt: skip
+    for pattern, key in asked.items():
         match = pattern.search(notes.plain)
         if match is None or (pattern is _HALVED and overlaps(match.span(), settled)):
             continue
-        if any(is_within(match.span(), span) for span in allotted):  # "odd-numbered users"
-            continue
+        if pattern is not _ONE_OF and any(is_within(match.span(), span) for span in allotted):
+            continue  # "odd-numbered users"
         notes.doubt(key, text=notes.text[slice(*match.span())])
 
 

@@ -139,12 +139,14 @@ class Possible:
             yield Group(whom=whom, source=kind, anchors=tuple(a for a in self.line.anchors if a.kind == kind))
 
     def figures_of(self, kind: str, whom: Whom) -> list[tuple[Whom, float]]:
-        """The figures that hold for somebody, each with whose it is; none where somebody has none."""
+        """The figures that hold for somebody, each with whose it is; none where somebody named has none."""
         common = self.figures.get((kind, EVERYBODY))
         if isinstance(whom, Named):
             found = [(Named((user,)), self.figures.get((kind, user), common)) for user in whom.users]
             return [(whose, figure) for whose, figure in found if figure] if all(f for _, f in found) else []
-        return [] if common is None else [(whom, common)]
+        users = {user: figure for (name, user), figure in self.figures.items() if name == kind and user != EVERYBODY}
+        own = [(Named((user,)), figure) for user, figure in users.items() if figure and isinstance(whom, Everybody)]
+        return [*([(Others() if users else whom, common)] if common else []), *own]
 
     def values(self, figure: Anchor, kind: str) -> set[float]:
         """What a figure may be worth as one of a kind; without a unit it may have that of what holds or was said."""
