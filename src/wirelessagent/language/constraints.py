@@ -50,7 +50,7 @@ def _said_of(name: str) -> tuple[re.Pattern[str], re.Pattern[str]]:
     words = either("figures", "bounds", name)
     return (
         deferred(rf"(?i)(?:{words})(?:[\s:=]*(?:{_NOUNS}))*[\s:=]*$"),
-        deferred(rf"(?i)\s*(?:(?:each|apiece|per \w+)\s+)?(?:{words})"),
+        deferred(rf"(?i)\s*(?:(?:each|apiece|(?:per|for) \w+(?: [0-9]+)?)\s+)?(?:{words})"),
     )
 
 

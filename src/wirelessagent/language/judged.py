@@ -42,6 +42,7 @@ _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
 _SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.7, 0.6, 0.6, 0.6, 0.5
 _LIKELY, _PERHAPS = 0.4, 0.2
 _CARRIERS = Phrases(either("figures", "bounds", "carriers"))
+_CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 _BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
 _Roles = Mapping[Number, Mapping[str, float]]
 """How likely each number has each role."""
@@ -183,17 +184,18 @@ def _as_bounded(figure: Quantity, chances: Mapping[str, float], *, carriers: boo
 
     No power is one of a subcarrier where nothing speaks of ``carriers``.
     """
+    if figure.kind == "power" and figure.comparator == "at_least":
+        return _moved(chances, _CEILINGS, "floor")
     if figure.kind == "power" and not carriers:
-        return {
-            **chances,
-            "subcarrier_max_power_w": 0.0,
-            "max_power_w": chances["subcarrier_max_power_w"] + chances["max_power_w"],
-        }
+        return _moved(chances, ("subcarrier_max_power_w",), "max_power_w")
     bound = _BOUNDED.get(figure.comparator or "") if figure.kind == "rate" else None
-    if bound is None:
-        return chances
-    others = [role for role in ("min_rate_bps", "max_rate_bps", "both") if role != bound]
-    return {**chances, **dict.fromkeys(others, 0.0), bound: sum(chances[role] for role in (bound, *others))}
+    return chances if bound is None else _moved(chances, ("min_rate_bps", "max_rate_bps", "both"), bound)
+
+
+def _moved(chances: Mapping[str, float], roles: Sequence[str], to: str) -> Mapping[str, float]:
+    """Chances in which those of some roles are all of one."""
+    total = sum(chances[role] for role in {*roles, to})
+    return {**chances, **dict.fromkeys(roles, 0.0), to: total}
 
 
 def _each_once(chances: Sequence[Mapping[str, float]]) -> list[Mapping[str, float]]:
