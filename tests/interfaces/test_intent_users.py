@@ -167,6 +167,19 @@ DOUBTED = [
     ("上行每人至少1兆", "another_figure"),
     ("users 1 and 2 together at least 3 Mbit/s", "total_rate"),
     ("Nutzer 1 und 2 zusammen mindestens 3 Mbit/s", "total_rate"),
+    ("3 Mbit/s for users 4 and 5 combined", "total_rate"),
+    ("sum of users 1 and 2 at least 3 Mbit/s", "total_rate"),
+    ("least power, 5 Mbit/s shared by users 1 to 4", "total_rate"),
+    ("30 W from the mains", "another_figure"),
+    ("at most 43 dBm per antenna", "another_figure"),
+    ("max rate, within 2 % of the optimum", "share"),
+    ("max rate, 95 % coverage", "share"),
+    ("highest rate, packet error rate 1 %", "share"),
+    ("总速率最高，误码率1%", "share"),
+    ("no user above 3 W", "power_per_user"),
+    ("no more than 5 W per user", "power_per_user"),
+    ("每个用户功率不超过2瓦", "power_per_user"),
+    ("user 1 + user 2 >= 3 Mbit/s", "named_user"),
     ("2 W for user 3", "power_per_user"),
     ("user 3 uses 2 W", "power_per_user"),
     ("max rate, user 3 needs HD video", "named_user"),
@@ -217,6 +230,20 @@ def test_users_by_where_they_stand_among_all(text: str, users: str) -> None:
     found = read_constraints(text, normalise(text), parse_quantities(text), names=names)
     assert not found.doubts
     assert dict(found.values) == {"min_rate_bps": dict.fromkeys(users, 1e6)}
+
+
+@pytest.mark.parametrize(
+    ("text", "bound"),
+    [
+        ("keep user 2 from falling below 1 Mbit/s", "min_rate_bps"),
+        ("protect user 2 from dropping under 1 Mbit/s", "min_rate_bps"),
+        ("keep user 2 from exceeding 1 Mbit/s", "max_rate_bps"),
+        ("prevent user 2 from going over 1 Mbit/s", "max_rate_bps"),
+        ("empêche l'utilisateur 2 de dépasser 1 Mbit/s", "max_rate_bps"),
+    ],
+)
+def test_what_is_prevented_turns_a_bound_round(text: str, bound: str) -> None:
+    assert dict(reading(text).values) == {bound: {"2": 1e6}}
 
 
 @pytest.mark.parametrize("text", ["keep users above 2 Mbit/s", "every user over 2 Mbps", "alle Nutzer über 2 Mbit/s"])

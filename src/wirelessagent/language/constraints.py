@@ -27,7 +27,13 @@ _SET_TO = deferred(  # what sets a limit is no wish for the highest rate or the 
 )
 _NOUNS = "|".join(either("figures", "bounds", name) for name in ("between", "rate", "power"))
 _FOR = deferred(r"(?i)\s*(?:\b(?:for|to|für|para|pour|à)\b|给)\s*(?:the\s+|l'\s?|el\s+|los\s+|les\s+)?")
-_GETS = deferred(rf"(?i)\s*(?:{either('figures', 'users', 'takes')})\s*(?:(?:only|nur|solo|seulement)\s+)?")
+_TAKES = either("figures", "users", "takes")
+_GETS = deferred(rf"(?i)\s*(?:{_TAKES})\s*(?:(?:only|nur|solo|seulement)\s+)?")
+_SINGLY = either("figures", "users", "singly")
+_SINGLY_AHEAD, _SINGLY_BEHIND = (
+    deferred(rf"(?i)(?:{_SINGLY})\s*(?:(?:{_TAKES})\s*)?$"),
+    deferred(rf"(?i)\s*(?:(?:for|für|para|pour)\s+)?(?:{_SINGLY})"),
+)
 _GIVEN = 0.5
 _LIMITS = (
     "min_rate_bps", "max_rate_bps", "both", "max_power_w", "circuit_power_w", "subcarrier_max_power_w", "outage",
@@ -50,11 +56,11 @@ def _said_of(name: str) -> tuple[re.Pattern[str], re.Pattern[str]]:
     words = either("figures", "bounds", name)
     return (
         deferred(rf"(?i)(?:{words})(?:[\s:=]*(?:{_NOUNS}))*[\s:=]*$"),
-        deferred(rf"(?i)\s*(?:(?:each|apiece|(?:per|for) \w+(?: [0-9]+)?)\s+)?(?:{words})"),
+        deferred(rf"(?i)\s*(?:(?:each|apiece|per \w+)\s+)?(?:{words})"),
     )
 
 
-_OF_ANOTHER_KIND, _OF_SEVERAL = _said_of("of_another_kind"), _said_of("of_several")
+_OF_ANOTHER_KIND, _OF_SEVERAL, _OF_ANOTHER_SHARE = map(_said_of, ("of_another_kind", "of_several", "of_another_share"))
 
 
 def read_constraints(
@@ -181,6 +187,8 @@ class _Reader:
         elif figure.kind == "rate" and self._with(_OF_SEVERAL, figure):
             return "total_rate"
         elif figure.kind == "ratio":
+            if self._with(_OF_ANOTHER_SHARE, figure):
+                return "share"
             outage = figure.value if role == "outage" else round(1 - figure.value, 15)
             self._notes.take("outage_probability", outage, figure)
         elif figure.kind == "power":
@@ -202,20 +210,27 @@ class _Reader:
         return ""
 
     def _with(self, said: tuple[re.Pattern[str], re.Pattern[str]], figure: Quantity) -> str:
-        """A figure with such words right ahead or behind, "1 Mbit/s on average"; "" where none stand there."""
+        """A figure with such words ahead or behind, at most its users between: "1 Mbit/s on average"; "" for none."""
         plain, start, end = self._notes.plain, figure.phrase_start, figure.phrase_end
-        ahead, behind = said[0].search(plain, clause_start(plain, start), start), said[1].match(plain, end)
-        first, last = (ahead.start() if ahead else start), (behind.end() if behind else end)
-        return self._notes.text[first:last].strip() if ahead or behind else ""
+        users = [each for each in self._judged.mentions if each.role == "named"]
+        starts = [start, *(each.start for each in users if not plain[each.end : start].strip() and each.end <= start)]
+        ends = [end, *(each.end for each in users if _FOR.fullmatch(plain, end, each.start))]
+        ahead = [match.start() for at in starts if (match := said[0].search(plain, clause_start(plain, at), at))]
+        behind = [match.end() for at in ends if (match := said[1].match(plain, at))]
+        spans = [*((first, end) for first in ahead), *((start, last) for last in behind)]
+        return self._notes.text[slice(*spans[0])].strip() if spans else ""
 
     def _is_of_a_user(self, figure: Quantity) -> bool:
-        """Whether a power is said to be somebody's who has no rate: "2 W for user 3"."""
-        plain, alone = self._notes.plain, [
+        """Whether a power is said to be somebody's who has no rate: "2 W for user 3", "no user above 2 W"."""
+        plain, start, end = self._notes.plain, figure.phrase_start, figure.phrase_end
+        if _SINGLY_BEHIND.match(plain, end) or _SINGLY_AHEAD.search(plain, clause_start(plain, start), start):
+            return True
+        alone = [
             user for user in self._judged.mentions
             if user.role == "named" and self._judged.user(user).get("given", 0.0) < _GIVEN
         ]  # fmt: skip
-        return any(_FOR.fullmatch(plain, figure.phrase_end, user.start) is not None
-                   or _GETS.fullmatch(plain, user.end, figure.phrase_start) is not None for user in alone)  # fmt: skip
+        return any(_FOR.fullmatch(plain, end, user.start) is not None
+                   or _GETS.fullmatch(plain, user.end, start) is not None for user in alone)  # fmt: skip
 
     def take_users(self) -> None:
         """Users who are counted, some of them, and those named who get nothing, of whom each raises a doubt."""

@@ -107,7 +107,7 @@ BY_PLACE = Phrases(
                 rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{_ZH_NOUN}"
                 for name, end in _ENDS.items()
             ),
-            rf"(?:(?<![A-Za-z0-9]){NOUN}|{_ZH_NOUN})\s*(?P<from>[0-9]{{1,3}})\s*(?:{_ON}|\+(?!\s*[0-9]))",
+            rf"(?:(?<![A-Za-z0-9]){NOUN}|{_ZH_NOUN})\s*(?P<from>[0-9]{{1,3}})\s*(?:{_ON}|\+(?!\s*(?:[0-9]|{NOUN})))",
         ]
     ),
     marks="odd even par pair gerad 单 奇 双 偶 first last prim premi erst letzt dern ltim 前 后 above "

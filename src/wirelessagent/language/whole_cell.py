@@ -31,6 +31,7 @@ COUNTED_USERS = deferred(
     r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
     r"设备|传感器|子载波)"
 )
+_CARRIERS = deferred(rf"(?i){_CARRIER}|channels|子载波")
 _SOME_USERS, _ONE_OF = (Phrases(either("figures", "users", name, **PLACED)) for name in ("some", "one_of"))
 _OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
 _HALVED = Phrases(either("figures", "one", "halved", ours=_OF_OURS), marks="half halve third quarter 减半 一半 翻倍")
@@ -155,7 +156,7 @@ def take_counts(notes: Notes, recounted: Sequence[Span], allotted: Sequence[Span
         if _describes_all(*_clause_around(notes, *match.span())):
             notes.not_used.append(words)
         else:
-            notes.doubt("some_users", text=words)
+            notes.doubt("not_understood" if _CARRIERS.search(words) else "some_users", text=words)
 
 
 def doubt_parts(notes: Notes, allotted: Sequence[Span]) -> None:

@@ -38,6 +38,8 @@ FRAMED, ORDERED = 6, 0.5
 has to be whose meaning is as sure as can be."""
 
 _DENYING, _WITH_UNITS = ("negation", "refusal"), ("rate", "power", "ratio", "factor")
+_CERTAIN = frozenset({"impossible", "not_understood", "another_figure", "one_of", "power_per_user"})
+"""What a reader asks about figures and users by their words, whatever the talk is about."""
 _DENIED = frozenset({"negated", "refused"})
 """What a reader asks about who hears that something is not to be."""
 
@@ -134,7 +136,8 @@ def _stands(line: Line, intent: Intent, context: Context) -> bool:
     """Whether what is read of a line is not weighed.
 
     That is a line of closed words, a command, what names a method, a question of a certain thing, what a language model
-    read, an answer to a question, a figure that can't be, and words on applying a plan that waits ("apply it at 6 pm").
+    read, an answer to a question, a figure that can't be or that no limit holds, and words on applying a plan that waits
+    ("apply it at 6 pm").
     """
     another = intent.recogniser not in (OFFLINE, NAME)
     about_the_plan = context.awaits == "confirmation" and speaks_of_applying(line.text)
@@ -145,7 +148,7 @@ def _stands(line: Line, intent: Intent, context: Context) -> bool:
         certain = missing or intent.topic not in ("other", "what_if", "concept")
         return intent.recogniser == NAME or certain
     if intent.kind == "clarify":
-        return context.awaits == "clarification" or intent.asks == "impossible"
+        return context.awaits == "clarification" or intent.asks in _CERTAIN
     answers_nothing = intent.topic in ("confirm", "reject") and context.awaits == "nothing"
     commands = intent.kind == "command" and intent.topic != "undo" and not answers_nothing
     return intent.recogniser == NAME or commands
