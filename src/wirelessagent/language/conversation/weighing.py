@@ -136,8 +136,8 @@ def _stands(line: Line, intent: Intent, context: Context) -> bool:
     """Whether what is read of a line is not weighed.
 
     That is a line of closed words, a command, what names a method, a question of a certain thing, what a language model
-    read, an answer to a question, a figure that can't be or that no limit holds, and words on applying a plan that waits
-    ("apply it at 6 pm").
+    read, an answer to a question, a figure that can't be or that no limit holds, and words on applying a plan that
+    waits ("apply it at 6 pm").
     """
     another = intent.recogniser not in (OFFLINE, NAME)
     about_the_plan = context.awaits == "confirmation" and speaks_of_applying(line.text)
