@@ -391,3 +391,23 @@ def test_a_word_of_condition_asks_nothing_in_what_is_an_order() -> None:
     said = "Would you, if that fits, please keep it below 7 W"
     now = Context(user_names=("user 1", "user 2"), objective="max_rate", language="en")
     assert recognise(said, now).constraints == {"max_power_w": 7.0}
+
+
+@pytest.mark.parametrize(
+    ("said", "against"),
+    [
+        ("Maximize the total rate, no way user 3 gets 5 Mbit/s", "no way user 3 gets 5 Mbit/s"),
+        ("Save power; 2 Mbit/s for user 3 is a dream", "2 Mbit/s for user 3 is a dream"),
+        ("Be fair, user 3 allegedly needs 2 Mbit/s", "user 3 allegedly needs 2 Mbit/s"),
+        ("max rate, the limit is not 10 W", "the limit is not 10 W"),
+    ],
+)
+def test_what_a_sentence_goes_on_with_has_to_be_an_order_too(said: str, against: str) -> None:
+    intent = understood(said, Context(user_names=USERS), OfflineRecogniser())
+    assert (intent.kind, intent.guess is not None) == ("clarify", True)
+    assert f"“{against}”" in intent.reply
+
+
+def test_a_clause_that_orders_stands_beside_others() -> None:
+    said = "max rate, at most 10 W, user 3 at least 1 Mbit/s and user 4 at most 2 Mbit/s"
+    assert understood(said, Context(user_names=USERS), OfflineRecogniser()).kind == "allocate"

@@ -33,6 +33,8 @@ READ_IN_A_TALK = "conversation"
 _NAMES_SHOWN = 12
 _FEWEST_WORDS = 3
 """And signs, of a sentence that can be judged."""
+_CLAUSE = 0.4
+"""How likely an order what begins with a clause has to be by itself."""
 
 
 def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
@@ -67,14 +69,17 @@ def asking_whether(intent: Intent, voice: Voice, doubt: str | None = None) -> In
 def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
     """The words that speak against an order, empty where no few of them do; None where it is likely one.
 
+    From each clause with a figure or a user on it must not be too unlikely, too: "…, no way user 3 gets 2 Mbit/s".
     Of what only the talk gives a meaning ("yes") the words alone say nothing, nor do hardly any words.
     """
     if intent.recogniser == READ_IN_A_TALK:
         return None
     sentence = read_once(text, own_words(), context)
-    if len(sentence.frame.tokens) < _FEWEST_WORDS or sentence.chances.is_order:
+    if len(sentence.frame.tokens) < _FEWEST_WORDS:
         return None
-    return shipped_order_model().against(sentence.frame) or (0, 0)
+    if not sentence.chances.is_order:
+        return shipped_order_model().against(sentence.frame) or (0, 0)
+    return next((span for span, said in sentence.clauses() if said.chances.order < _CLAUSE), None)
 
 
 def _asking(intent: Intent, reply: str) -> Intent:

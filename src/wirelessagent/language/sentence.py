@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
 from wirelessagent import plugins
@@ -18,7 +18,7 @@ from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
 from wirelessagent.language.spelling import respelt
 from wirelessagent.language.stated import Reading
-from wirelessagent.language.text import WORD_OR_SIGN, is_chinese, normalise, unaccented
+from wirelessagent.language.text import WORD_OR_SIGN, clauses, is_chinese, normalise, unaccented
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
 from wirelessagent.model.objective import Objective
@@ -41,7 +41,7 @@ class Sentence:
         self, text: str, own: tuple[OwnWords, ...], *, names: Sequence[str] = (), max_power_w: float = 20.0
     ) -> None:
         self.text, self.plain, self.language = text, normalise(text), language_of(text)
-        self._names, self.quantities = names, parse_quantities(text)
+        self._own, self._names, self._max_power_w, self.quantities = own, names, max_power_w, parse_quantities(text)
         self.reading: Reading = read_constraints(
             text, self.plain, self.quantities, names=names, max_power_w=max_power_w
         )
@@ -111,6 +111,13 @@ class Sentence:
             )
             for (said, span), base in zip(found, bases, strict=True)
         ]  # fmt: skip
+
+    def clauses(self) -> Iterator[tuple[Span, Sentence]]:
+        """Where each clause with a figure or a user stands, but the first, and what the sentence says from there on."""
+        for start, end in clauses(self.plain, [(first, last) for first, last, _ in self._marked])[1:]:
+            if any(start <= place < end for place, *_ in self._marked):
+                rest = self.text[start:].strip(" ,;:.，；：。、")
+                yield (start, end), Sentence(rest, self._own, names=self._names, max_power_w=self._max_power_w)
 
     @functools.cached_property
     def frame(self) -> Frame:

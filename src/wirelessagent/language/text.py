@@ -11,7 +11,7 @@ import re
 import sys
 import unicodedata
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeAlias
 
 from wirelessagent.language.deferred import deferred
@@ -181,6 +181,17 @@ def clause_end(plain: str, place: int, to: int | None = None) -> int:
     if after < len(cuts) and cuts[after] < to:
         return cuts[after]
     return to - 1 if to > place and plain[to - 1] == "." else to
+
+
+def clauses(plain: str, whole: Sequence[Span] = ()) -> list[Span]:
+    """The spans of the clauses of a text, from left to right; spans that are ``whole`` are cut nowhere.
+
+    >>> clauses("leave 3,4 out, max rate", [(6, 9)])
+    [(0, 13), (14, 23)]
+    """
+    cuts = [cut for cut in _cuts(plain) if not any(start < cut < end for start, end in whole)]
+    spans = zip((0, *(cut + 1 for cut in cuts)), (*cuts, len(plain)), strict=True)
+    return [(start, end) for start, end in spans if plain[start:end].strip()]
 
 
 @functools.lru_cache(maxsize=64)
