@@ -113,9 +113,16 @@ class Sentence:
         ]  # fmt: skip
 
     def clauses(self) -> Iterator[tuple[Span, Sentence]]:
-        """Where each clause with a figure or a user stands, but the first, and what the sentence says from there on."""
-        for start, end in clauses(self.plain, [(first, last) for first, last, _ in self._marked])[1:]:
-            if any(start <= place < end for place, *_ in self._marked):
+        """Where each clause with a figure or a user stands, but the first, and what the sentence says from there on.
+
+        A clause of one word beside them is a bare limit: "…, user 4 out".
+        """
+        marked = [(start, end) for start, end, _ in self._marked]
+        words = [each.start() for each in WORD_OR_SIGN.finditer(self.plain)]
+        words = [place for place in words if not any(start <= place < end for start, end in marked)]
+        for start, end in clauses(self.plain, marked)[1:]:
+            beside = sum(start <= place < end for place in words)
+            if beside > 1 and any(start <= place < end for place, _ in marked):
                 rest = self.text[start:].strip(" ,;:.，；：。、")
                 yield (start, end), Sentence(rest, self._own, names=self._names, max_power_w=self._max_power_w)
 
