@@ -183,6 +183,11 @@ DOUBTED = [
     ("2 W for user 3", "power_per_user"),
     ("user 3 uses 2 W", "power_per_user"),
     ("max rate, user 3 needs HD video", "named_user"),
+    ("Maximize the total rate, user 3 above all", "named_user"),
+    ("Gesamtrate maximieren, Nutzer 3 hat Vorrang", "named_user"),
+    ("Maximise le débit total, l'utilisateur 3 d'abord", "named_user"),
+    ("Maximiza la tasa total, prioridad al usuario 3", "named_user"),
+    ("总速率最大,用户3回来了", "named_user"),
 ]
 
 BY_PLACE = [

@@ -10,11 +10,13 @@ from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import Mention, Role
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.text import clause_end, clause_start
+from wirelessagent.language.text import Phrases, clause_end, clause_start
+from wirelessagent.language.word_tables import either
 
 _SURE_OF_A_ROLE, _SURE_OF_SILENCE, _SURE_OF_NO_ROLE, _SURE_OF_AN_OWNER = 0.55, 0.9, 0.5, 0.45
 _SAID = 0.4
 _RATES = ("min_rate_bps", "max_rate_bps")
+_LEAVING = Phrases(either("figures", "users", "leaving"))
 _SILENT = ("kept", "stale")
 """Roles of somebody who is only spoken of."""
 
@@ -121,7 +123,8 @@ class Allotments:
             return "exempt"
         role = max(chances, key=lambda each: chances[each])
         sure = _SURE_OF_SILENCE if role in _SILENT else _SURE_OF_A_ROLE  # nobody is to be dropped unheard
-        if role == "given" or (chances[role] > sure and said[role] > _SAID):
+        unsaid = role == "leave_out" and _LEAVING.search(self._plain) is None  # "user 3 has priority"
+        if role == "given" or (chances[role] > sure and said[role] > _SAID and not unsaid):
             return role
         return "unclear" if mention.role == "named" and chances["given"] < _SURE_OF_NO_ROLE else "given"
 
