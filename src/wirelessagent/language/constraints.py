@@ -225,12 +225,12 @@ class _Reader:
         plain, start, end = self._notes.plain, figure.phrase_start, figure.phrase_end
         if _SINGLY_BEHIND.match(plain, end) or _SINGLY_AHEAD.search(plain, clause_start(plain, start), start):
             return True
-        alone = [
-            user for user in self._judged.mentions
-            if user.role == "named" and self._judged.user(user).get("given", 0.0) < _GIVEN
-        ]  # fmt: skip
-        return any(_FOR.fullmatch(plain, end, user.start) is not None
-                   or _GETS.fullmatch(plain, user.end, start) is not None for user in alone)  # fmt: skip
+        users = (user for user in self._judged.mentions if user.role == "named")
+        beside = (
+            user for user in users
+            if _FOR.fullmatch(plain, end, user.start) or _GETS.fullmatch(plain, user.end, start)
+        )  # fmt: skip
+        return any(self._judged.user(user).get("given", 0.0) < _GIVEN for user in beside)
 
     def take_users(self) -> None:
         """Users who are counted, some of them, and those named who get nothing, of whom each raises a doubt."""

@@ -113,7 +113,7 @@ BY_PLACE = Phrases(
     marks="odd even par pair gerad 单 奇 双 偶 first last prim premi erst letzt dern ltim 前 后 above "
     "on up as_of höher suiv adelante sup 以 every jede cada sur from starting ab partir desde past after beyond over "
     "higher greater nach über hinter jenseits oberhalb encima después allá delà après dessus + 起 从 每 后 before "
-    "below under lower less bis vor unter hasta antes debajo jusqu avant dessous 前",
+    "below under lower less bis vor unter hasta antes debajo jusqu avant dessous",
 )
 """Users by where they stand among all; which ones they are, the cell's size says."""
 JOINT = deferred(
@@ -166,7 +166,7 @@ def _own_names(plain: str, names: Sequence[str]) -> Iterator[Mention]:
 
 
 def _by_place(plain: str, count: int) -> Iterator[Mention]:
-    """Users by an odd or an even number, every so manieth, the first or the last few, and from one on or up to one.
+    """Users by an odd or an even number, every second, the first or the last few, and from one on or up to one.
 
     Most need to be counted.
     """
