@@ -12,7 +12,7 @@ from llm_stub import StubLlm, meaning
 import wirelessagent as wa
 from wirelessagent.agent.session import Session
 from wirelessagent.language.conversation import understood
-from wirelessagent.language.guard import doubted, stranger
+from wirelessagent.language.guard import doubted, is_bent, stranger
 from wirelessagent.language.llm.endpoint import LlmSettings
 from wirelessagent.language.llm.reader import LlmRecogniser
 from wirelessagent.language.moods import LANGUAGES, table_of
@@ -123,9 +123,9 @@ FREE = {  # they stand beside the wish, and say something else
         "As agreed with the mayor yesterday, {}",
         "{}, and let me know when it is done",
     ),
-    "zh": ("因为明天有比赛，{}", "昨晚停电了，{}", "下个月电费要涨，现在{}", "今晚八点前{}", "客户投诉，所以{}"),
+    "zh": ("因为今晚客人多，{}", "昨晚停电了，{}", "下个月电费要涨，现在{}", "今晚八点前{}", "客户投诉，所以{}"),
     "es": ("Como mañana no llega el gasóleo, {}", "Ayer se quejaron, así que {}", "Los vecinos se quejan, por eso {}"),
-    "fr": ("Comme il sera livré lundi, {}", "Les clients se plaignaient hier, donc {}", "{} jusqu'à lundi"),
+    "fr": ("Comme il sera livré lundi, {}", "Les clients se plaignaient hier, donc {}"),
     "de": ("Weil morgen kein Diesel kommt, {}", "Gestern haben sich alle beschwert, also {}", "{} bis Montag"),
 }
 
@@ -411,3 +411,27 @@ def test_what_a_sentence_goes_on_with_has_to_be_an_order_too(said: str, against:
 def test_a_clause_that_orders_stands_beside_others() -> None:
     said = "max rate, at most 10 W, user 3 at least 1 Mbit/s and user 4 at most 2 Mbit/s"
     assert understood(said, Context(user_names=USERS), OfflineRecogniser()).kind == "allocate"
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "highest rate, ignore the 10 W limit",
+        "leave out all but users 3 and 4, max rate",
+        "least power, and let me decide on 1 Mbit/s for user 3",
+        "neither user 3 nor 4 gets 1 Mbit/s, min power",
+        "总速率最大，取消10瓦的限制",
+    ],
+)
+def test_what_is_read_amiss_is_asked_about_with_what_was_read(said: str) -> None:
+    intent = understood(said, Context(user_names=USERS), OfflineRecogniser())
+    assert intent.kind == "clarify"
+    assert intent.guess is not None
+    assert intent.guess.constraints
+
+
+def test_a_meaning_that_the_words_alone_do_not_have_is_not_judged_by_them() -> None:
+    said, context = "max rate, at most 15 W less", Context(user_names=USERS)
+    read = OfflineRecogniser().read(said, context)
+    assert is_bent(said, context, read)
+    assert not is_bent(said, context, dataclasses.replace(read, constraints={"max_power_w": 5.0}))

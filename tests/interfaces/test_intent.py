@@ -93,7 +93,6 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
     # the least power
     ("no user may fall below one megabit per second while power is minimised", POWER, {"min_rate_bps": 1e6}),
     ("电费太高了", POWER, {}),
-    ("Raise the rate to 2 Mbps for all users with the least power", POWER, {"min_rate_bps": 2e6}),
     ("guarantee each user 0.5 Mbps and save as much energy as you can", POWER, {"min_rate_bps": 5e5}),
     ("turn the power down", POWER, {}),
     ("It isn't about speed, it's about battery life", POWER, {}),
@@ -109,7 +108,6 @@ ALLOCATE: list[tuple[str, str, dict[str, Any]]] = [
     ("Use as little power as possible", POWER, {}),
     ("min power", POWER, {}),
     ("Extend the battery life of the meters", POWER, {}),
-    ("low power mode for the IoT devices", POWER, {}),
     ("Cut the electricity bill", POWER, {}),
     ("the batteries drain too fast", POWER, {}),
     ("stop wasting power", POWER, {}),

@@ -165,3 +165,31 @@ def test_nobody_is_left_out_and_nothing_limited_by_what_says_something_else(text
 def test_a_ceiling_of_the_others_is_not_one_of_the_named(text: str) -> None:
     found = OfflineRecogniser().recognise(text, CELL).constraints
     assert found == {"min_rate_bps": each(2e6, "1", "2", "3"), "max_rate_bps": each(1e6, "4", "5", "6", "7", "8")}
+
+
+@pytest.mark.parametrize(
+    ("text", "power_w"),
+    [
+        ("sum rate, at most 43 dBm, that is 20 W", 19.95),
+        ("sum rate, at most 33 dBm (1.995 W)", 1.995),
+        ("10 W (40 dBm) at most, highest sum rate", 10.0),
+        ("Gesamtrate maximieren, höchstens 40 dBm, also 10 W", 10.0),
+        ("débit total maximal, 5 W au plus, soit 37 dBm", 5.0),
+        ("tasa total máxima, como máximo 30 dBm, es decir 1 W", 1.0),
+        ("总速率最大，功率不超过40dBm，也就是10瓦", 10.0),
+    ],
+)
+def test_a_figure_in_two_units_is_one(text: str, power_w: float) -> None:
+    found = OfflineRecogniser().recognise(text, CELL)
+    assert (found.kind, dict(found.constraints)) == ("allocate", {"max_power_w": pytest.approx(power_w, rel=1e-3)})
+
+
+def test_a_share_with_a_decimal_comma_is_read() -> None:
+    found = OfflineRecogniser().read("höchste Gesamtrate mit 12,5 % der Leistung", CELL)
+    assert dict(found.constraints) == {"max_power_w": 2.5}
+
+
+@pytest.mark.parametrize("text", ["max rate, power 10 % lower", "Gesamtrate maximieren, Sendeleistung 0,1 % niedriger"])
+def test_a_share_to_change_by_is_no_limit(text: str) -> None:
+    assert (found := OfflineRecogniser().recognise(text, CELL)).kind == "clarify"
+    assert found.asks in ("change", "share")

@@ -47,6 +47,12 @@ STATED: list[tuple[str, dict[str, Any]]] = [
     ("l'utilisateur 3 compte double", {"weights": {"3": 2.0}}),
     ("Nutzer 4 zählt doppelt", {"weights": {"4": 2.0}}),
     ("weight 3 for user 1, all others 1", {"weights": {"1": 3.0}}),
+    ("7号权重设2,4号的权重是5", {"weights": {"7": 2.0, "4": 5.0}}),
+    # a place that everybody is at, and numbers beside words that begin like "un"
+    ("2 Mbit/s everywhere, 3 Mbit/s for user 4", {"min_rate_bps": {"all": 2e6, "4": 3e6}}),
+    ("2 Mbit/s partout et 4 Mbit/s pour l'utilisateur 1", {"min_rate_bps": {"all": 2e6, "1": 4e6}}),
+    ("überall 2 Mbit/s", {"min_rate_bps": 2e6}),
+    ("max rate, 4 under 600k, 6 over 200k", {"max_rate_bps": {"4": 6e5}, "min_rate_bps": {"6": 2e5}}),
     ("用户1权重3,其他用户2", {"weights": {"1": 3.0, "all": 2.0}}),
     # who is served
     ("1号2号不用管", {"leave_out": ("1", "2")}),

@@ -54,34 +54,37 @@ class Allotments:
         self.exact: set[str] = set()
         self._of_others = set[str]()
         self.spans: list[tuple[int, int]] = []
+        self.marks: list[tuple[int, int, str]] = []
         self._roles: dict[Mention, str] = {}
         for mention in self._found:
-            if mention.role in ("named", "pronoun"):
-                self._assign(mention)
+            role = self._assign(mention) if mention.role in ("named", "pronoun") else mention.role
+            self.marks.append((mention.start, mention.end, role + "+" * (len(mention.users) > 1)))
         self._one_each = dict(self._one_for_each())
         for number in judged.weights:
             self._weigh(number)
+            self.marks.append((number.start, number.end, "weight"))
 
-    def _assign(self, mention: Mention) -> None:
+    def _assign(self, mention: Mention) -> str:
+        """Note what somebody is there for, which is given back."""
         role = self._likeliest(mention)
         users = self._meant_by(mention).users if mention.role == "pronoun" else mention.users
         if role == "given" or not users:
-            return
+            return role
         if role in ("exempt", "unclear"):
             self._unsure.append(mention)
             if role == "exempt":
                 self._excepted.add(mention)
                 self._mask_a_clause(mention)
-            return
+            return role
         self._used.add(mention)
         self._used.update([self._meant_by(mention).mention or mention] if mention.role == "pronoun" else [])
         start, end = self._judged.telling(mention, role)
         self.spans.append((start, end))
-        if role in _SILENT:
-            return
-        self._roles[mention] = role
-        for user in users:
-            self._lists[role][user] = self._text[start:end]
+        if role not in _SILENT:
+            self._roles[mention] = role
+            for user in users:
+                self._lists[role][user] = self._text[start:end]
+        return role
 
     def _mask_a_clause(self, mention: Mention) -> None:
         """A clause that only says to whom nothing is promised wishes nothing: "user 7 has no least rate"."""

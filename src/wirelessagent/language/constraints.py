@@ -100,6 +100,7 @@ class _Reader:
             masked=[*notes.masked, *allotted.spans], counted=notes.counted,
             exact=frozenset(notes.exact | allotted.exact), missing=notes.missing, steps=notes.steps,
             back=allotted.back, named=allotted.named, strangers=self._judged.strangers,
+            marks=[*notes.marks, *allotted.marks],
         )  # fmt: skip
 
     def take_numbers(self) -> None:
@@ -122,8 +123,16 @@ class _Reader:
         for index, figure in enumerate(self._judged.figures):
             self._notes.masked.append((figure.phrase_start, figure.phrase_end))
             doubt = self._taken(index, figure)
+            self._notes.marks.append((figure.start, figure.end, self._mark(index, figure)))
             if doubt:
                 self._notes.doubt(doubt, text=figure.text)
+
+    def _mark(self, index: int, figure: Quantity) -> str:
+        """What a figure was read as, and whose a rate is."""
+        if figure.kind not in _SURE_OF_A_LIMIT:
+            return figure.kind
+        whose = self._allotments.target_of(figure.start).role if figure.kind == "rate" else ""
+        return f"{self._judged.role(index)} {whose}".strip()
 
     def _taken(self, index: int, figure: Quantity) -> str:
         """Take a figure for what it is there for; the key of the question that it raises, "" for none."""

@@ -4,7 +4,8 @@ A sentence may name an act without asking for it: it refuses, reports, quotes, r
 a wish of somebody else's, speaks of another system, or of a user whom the cell does not have. Whether it orders
 something is judged by two readers, whose scores count alike: the network reads all its words (:mod:`.sentence_model`),
 a logistic regression its frame, all that stands around the wish (:mod:`.order_model`). Where an order is unlikely, the
-agent asks, with the words that speak against it and with the act for a plain yes.
+agent asks, with the words that speak against it and with the act for a plain yes. It asks as well where an order hardly
+says what was read of it (:mod:`.fidelity`).
 """
 
 from __future__ import annotations
@@ -33,8 +34,8 @@ READ_IN_A_TALK = "conversation"
 _NAMES_SHOWN = 12
 _FEWEST_WORDS = 3
 """And signs, of a sentence that can be judged."""
-_CLAUSE = 0.4
-"""How likely an order what begins with a clause has to be by itself."""
+_CLAUSE, _FAITHFUL = 0.4, 0.1
+"""How likely an order what begins with a clause has to be by itself, and how likely it is read as it is meant."""
 
 
 def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
@@ -53,7 +54,7 @@ def guarded(text: str, context: Context | None, intent: Intent) -> Intent:
         return intent
     doubt = doubted(text, context, intent)
     if doubt is None:
-        return intent
+        return asking_whether(intent, voice) if not waits and is_bent(text, context, intent) else intent
     words = text[slice(*doubt)].strip()
     return asking_whether(intent, voice, words if any(map(str.isalnum, words)) else "")
 
@@ -80,6 +81,20 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
     if not sentence.chances.is_order:
         return shipped_order_model().against(sentence.frame) or (0, 0)
     return next((span for span, said in sentence.clauses() if said.chances.order < _CLAUSE), None)
+
+
+def is_bent(text: str, context: Context | None, intent: Intent) -> bool:
+    """Whether a sentence is likely to mean something else than its figures and users were read as.
+
+    What a talk or a language model makes of it may be something else than that, as may a change of what holds; and few of
+    the sentences that it was learned from tell how much of the channel is missing.
+    """
+    if intent.recogniser == READ_IN_A_TALK or intent.kind != "allocate" or intent.amends:
+        return False
+    sentence = read_once(text, own_words(), context)
+    reading, short = sentence.reading, len(sentence.frame.tokens) < _FEWEST_WORDS
+    judged = not short and reading.missing is None and intent.constraints == reading.values
+    return judged and sentence.fidelity < _FAITHFUL
 
 
 def _asking(intent: Intent, reply: str) -> Intent:

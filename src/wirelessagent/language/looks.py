@@ -32,7 +32,7 @@ _PARTS = {"half": "0.5", "medi": "0.5", "demi": "0.5", "halb": "0.5", "quar": "0
 _ONE = deferred(  # "the others only one", against "one user"
     r"(?i)(?<![\w'-])(?:(?:one|uno|una|une?|ein(?:s|e[nmr]?)?)|"
     r"(?P<part>(?:an?\s+|une?\s+|ein(?:e[nr]?)?\s+)?(?:half|quarter|medio|cuarto|demie?|quart|halbe[sn]?|viertel)))"
-    r"(?=\s*(?:$|[,.;:!?)]|(?:each|apiece|for|at|max|maximum|out|and|only|on|per|to|para|al?|el|y|como|con|seul|pour|au|"
+    r"(?!\w)(?=\s*(?:$|[,.;:!?)]|(?:each|apiece|for|at|max|maximum|out|and|only|on|per|to|para|al?|el|y|como|con|seul|pour|au|"
     r"à|l'|seulement|et|chacun|für|bei|und|der|die|dem|pro|je|als|höchstens|mindestens)\b))"
 )
 

@@ -72,7 +72,7 @@ def _zh_list(number: str) -> str:
 _ZH_LIST = rf"(?:{_zh_list('[0-9]{1,4}')}|{_zh_list('[一二三四五六七八九十]{1,3}')})"
 _ZH = deferred(
     rf"(?<!其他)(?<!其它)(?<!其余)(?:{_ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致下])号?)"
-    rf"|(?<![权重乘取为=.0-9月])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{_ZH_NOUN}?"
+    rf"|(?<![权重乘取为=.0-9月])(?<!重[设是给算])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{_ZH_NOUN}?"
     rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{_ZH_NOUN}"
 )
 _OTHERS = Phrases(
@@ -109,11 +109,7 @@ BY_PLACE = Phrases(
             ),
             rf"(?:(?<![A-Za-z0-9]){NOUN}|{_ZH_NOUN})\s*(?P<from>[0-9]{{1,3}})\s*(?:{_ON}|\+(?!\s*(?:[0-9]|{NOUN})))",
         ]
-    ),
-    marks="odd even par pair gerad 单 奇 双 偶 first last prim premi erst letzt dern ltim 前 后 above "
-    "on up as_of höher suiv adelante sup 以 every jede cada sur from starting ab partir desde past after beyond over "
-    "higher greater nach über hinter jenseits oberhalb encima después allá delà après dessus + 起 从 每 后 before "
-    "below under lower less bis vor unter hasta antes debajo jusqu avant dessous",
+    )
 )
 """Users by where they stand among all; which ones they are, the cell's size says."""
 JOINT = deferred(

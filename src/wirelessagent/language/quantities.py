@@ -7,7 +7,10 @@ reported with the kind "other", as is a share for each user ("1 MB each"), so th
 
 from __future__ import annotations
 
+import dataclasses
+import math
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -44,6 +47,9 @@ _OWN_NOUN = deferred(  # "each user's rate no lower than" bounds the rate, and w
     r"(?:用户|每人|人均|每个|每户|各|UE|终端|大家|的)的?(?P<noun>(?:下行|数据)?(?:速率|速度|网速|吞吐量?))(?:都|"
     r"也)?(?:要|得|必须|应|须)?$"
 )
+_AGAIN = deferred(rf"(?i)\s*(?:[(\uff08=≈]|[,\uff0c]?\s*(?:{either('figures', 'one', 'again')})(?![a-z]))[\s,\uff0c:]*")
+_ROUNDED = 0.01
+"""By how much a figure and the same in another unit may differ: 33 dBm are 1.995 W."""
 _PRICE_BEFORE, _STEP_BEFORE = (
     deferred(rf"(?i)(?:{either('figures', 'one', name)})\s*$") for name in ("price_before", "step_before")
 )
@@ -109,7 +115,22 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
                 continue
             found.append(quantity)
         after = found[-1].phrase_end
-    return tuple(found)
+    return tuple(_said_once(text, plain, found))
+
+
+def _said_once(text: str, plain: str, found: Iterable[Quantity]) -> Iterator[Quantity]:
+    """A figure and right behind it the same in another unit as one: "40 dBm, that is 10 W", "33 dBm (1.995 W)"."""
+    once: list[Quantity] = []
+    for each in found:
+        again = once and once[-1].kind == each.kind and _AGAIN.fullmatch(plain, once[-1].phrase_end, each.start)
+        if again and math.isclose(once[-1].value, each.value, rel_tol=_ROUNDED):
+            first, end = once.pop(), each.end + (plain[each.end : each.end + 1] in (")", "\uff09"))
+            each = dataclasses.replace(
+                first, text=text[first.start : end], end=end, comparator=first.comparator or each.comparator,
+                phrase_end=max(end, each.phrase_end),
+            )  # fmt: skip
+        once.append(each)
+    yield from once
 
 
 def _joined(plain: str, lower: Reading, upper: Reading) -> bool:

@@ -10,6 +10,7 @@ from wirelessagent import plugins
 from wirelessagent.language import goals
 from wirelessagent.language.base_words import aligned, is_listed, language_of
 from wirelessagent.language.constraints import read_constraints
+from wirelessagent.language.fidelity import shipped_fidelity
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.moods import Span, classes_in
@@ -101,6 +102,9 @@ class Sentence:
             moods[start:end] = [(*said, name) for said in moods[start:end]]
         for start, end in self.wished:
             wished[start:end] = [True] * (end - start)
+        roles = [""] * len(plain)
+        for start, end, role in self.reading.marks:
+            roles[start:end] = [role] * (end - start)
         goal, bases = self.goal, aligned([said for said, _ in found], self.language)
         aims = dict.fromkeys((goal.objective, *goal.options))
         start = START._replace(moods=(goal.verdict, *(f"{goal.verdict}:{aim}" for aim in aims)))
@@ -108,6 +112,7 @@ class Sentence:
             Word(
                 said, base, next(filter(None, meant[slice(*span)]), ""),
                 tuple(dict.fromkeys(name for each in moods[slice(*span)] for name in each)), wished[span[0]],
+                next(filter(None, roles[slice(*span)]), ""),
             )
             for (said, span), base in zip(found, bases, strict=True)
         ]  # fmt: skip
@@ -135,6 +140,18 @@ class Sentence:
     def chances(self) -> Chances:
         """How likely it is of each kind, and that it orders something now, as network and frame say it together."""
         return shipped_sentences().chances(self.words, shipped_order_model().score(self.frame))
+
+    @functools.cached_property
+    def fidelity(self) -> float:
+        """How likely it says what was read of it, and nothing beside.
+
+        In place of a word that training never saw, a mistyped one, its base word is seen, or nothing.
+        """
+        saw = shipped_sentences().saw
+        said = (
+            word if not word.said.isalpha() or saw(word.said) else word._replace(said=word.base) for word in self.words
+        )
+        return shipped_fidelity().chance([word for word in said if not word.said.isalpha() or saw(word.said)])
 
 
 def read_once(text: str, own: tuple[OwnWords, ...], context: Context | None) -> Sentence:

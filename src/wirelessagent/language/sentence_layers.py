@@ -1,13 +1,13 @@
 """The network that judges sentences, in NumPy and, for its training, in ``jax.numpy``.
 
 A word is the sum of what its features are embedded as. Each block lets a word see its neighbours (a gated convolution),
-every other word (attention, with a bias for how far away it is), and itself; two pools read the kind of the sentence
-and whether it orders something.
+every other word (attention, with a bias for how far away it is), and itself. Of what is seen then a pool for each
+question reads the answer: the kind of the sentence, whether it orders something, whether it says what was read of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from types import ModuleType
 from typing import Any
 
@@ -34,9 +34,10 @@ def embedded(xp: ModuleType, weights: Weights, features: Any) -> Any:
 
 
 def scores(
-    xp: ModuleType, weights: Weights, words: Any, there: Any, lose: Callable[[Any], Any] = lambda seen: seen
-) -> tuple[Any, Any]:
-    """Scores (sentence, kind) and (sentence,) that it orders something, of ``words`` (sentence, word, EMBEDDED).
+    xp: ModuleType, weights: Weights, words: Any, there: Any, heads: Sequence[str],
+    lose: Callable[[Any], Any] = lambda seen: seen,
+) -> list[Any]:  # fmt: skip
+    """Scores (sentence, label) of each of the ``heads``, of ``words`` (sentence, word, what is seen of one).
 
     ``there`` (sentence, word) is 1 for a word and 0 behind the last; ``lose`` is what training loses of what is seen.
     """
@@ -67,7 +68,7 @@ def scores(
         pooled = (_shares(xp, looks.swapaxes(1, 2)) @ seen).reshape(len(seen), -1)
         return lose(xp.concatenate([pooled, most], -1)) @ weights[name] + weights[name + "bias"]
 
-    return head("kind"), head("order")[..., 0]
+    return list(map(head, heads))
 
 
 def _normed(xp: ModuleType, seen: Any, gain: Any) -> Any:

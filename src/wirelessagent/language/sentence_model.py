@@ -46,6 +46,7 @@ class Word(NamedTuple):
         said: in lower case and without accents; "@power", "@user" and the like for a figure or users.
         meant: the objective or the concept that the lexicon knows it by, "" for none.
         wished: whether it is part of a wish: a figure, a user, an aim.
+        role: what a figure or a user was read as, "" for none.
     """
 
     said: str
@@ -53,6 +54,7 @@ class Word(NamedTuple):
     meant: str
     moods: tuple[str, ...]
     wished: bool
+    role: str = ""
 
 
 START = Word("<s>", "<s>", "", (), True)
@@ -160,47 +162,63 @@ class SentenceModel:
         with np.load(path) as arrays:
             held = dict[str, npt.NDArray[Any]](arrays)
         labels, known = held.pop("labels"), np.unpackbits(held.pop("known")).astype(np.bool_)
-        scales = {name: held.pop(f"{name}_scales") for name in list(held) if f"{name}_scales" in held}
-        weights = {name: each.astype(np.float32) * scales.get(name, 1) for name, each in held.items()}
-        return cls(labels=tuple(map(str, labels)), weights=weights, known=known)
+        return cls(labels=tuple(map(str, labels)), weights=weights_in(held), known=known)
 
     def save(self, path: Path) -> None:
-        """Write the model: matrices as int8 with a scale for each column, other weights as they are."""
-        known, arrays = np.packbits(self.known), dict[str, npt.NDArray[Any]]()
-        for name, each in self.weights.items():
-            if each.ndim > 1:
-                scales = np.maximum(np.abs(each).max(axis=0), 1e-9).astype(np.float32) / 127
-                arrays[name], arrays[f"{name}_scales"] = np.rint(each / scales).astype(np.int8), scales
-            else:
-                arrays[name] = each.astype(np.float32)
-        np.savez_compressed(path, allow_pickle=False, labels=np.array(self.labels), known=known, **arrays)
+        known = np.packbits(self.known)
+        np.savez_compressed(path, allow_pickle=False, labels=np.array(self.labels), known=known, **stored(self.weights))
 
     def knows(self, word: str) -> bool:
         """Whether the training saw a word of more than three letters often enough, and all that they are seen by."""
         hashes, _ = hashes_of([Word(word, word, "", (), False)])
         return len(hashes) > 1 and bool(_are_known(hashes, self.known).all())
 
+    def saw(self, word: str) -> bool:
+        """Whether the training saw a word often enough."""
+        return bool(_are_known(np.array([hashed("w" + word)]), self.known)[0])
+
     def chances(self, words: Sequence[Word], other: float | None = None) -> Chances:
         """What a sentence of these words is; a very long one orders nothing, as its end is not read.
 
         ``other`` is a score for an order by another reader of it, which counts as much as the network's.
         """
-        kinds, orders = self._scores(self._seen(words[:_MOST_WORDS])[None])
-        likely = np.exp(kinds[0] - kinds[0].max())
+        (kinds,), ((own,),) = scored(self.weights, self.seen(words[:_MOST_WORDS]), ("kind", "order"))
+        likely = np.exp(kinds - kinds.max())
         likely /= likely.sum()
-        own = float(orders[0])
-        score = np.clip([own, own if other is None else other], -_SUREST, _SUREST).mean()
+        score = float(np.clip([own, own if other is None else other], -_SUREST, _SUREST).mean())
         order = 0.5 + 0.5 * math.tanh(score / 2) if len(words) <= _MOST_WORDS else 0.0
         return Chances(kinds=dict(zip(self.labels, likely.tolist(), strict=True)), order=order)
 
-    def _seen(self, words: Sequence[Word]) -> npt.NDArray[np.float32]:
+    def seen(self, words: Sequence[Word]) -> npt.NDArray[np.float32]:
         """(word, EMBEDDED) of a sentence."""
         return np.asarray(embedded(np, self.weights, rows_of(*hashes_of(words), self.known)), np.float32)
 
-    def _scores(self, seen: npt.NDArray[np.float32]) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
-        """Scores of the kinds and of orders, of sentences as long as each other (sentence, word, EMBEDDED)."""
-        with np.errstate(over="ignore"):  # exp(88) is infinite here, and 1 divided by it nothing
-            return scores(np, self.weights, seen, np.ones(seen.shape[:2], np.float32))
+
+def scored(
+    weights: Mapping[str, npt.NDArray[Any]], seen: npt.NDArray[np.float32], heads: Sequence[str]
+) -> list[npt.NDArray[Any]]:
+    """Scores (1, label) of each of the heads, of one sentence (word, what is seen of one)."""
+    with np.errstate(over="ignore"):  # exp(88) is infinite here, and 1 divided by it nothing
+        return scores(np, weights, seen[None], np.ones((1, len(seen)), np.float32), heads)
+
+
+def weights_in(arrays: Mapping[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]:
+    """Weights as they are used, of a file that :func:`stored` was written into."""
+    scales = {name: arrays[f"{name}_scales"] for name in arrays if f"{name}_scales" in arrays}
+    names = (name for name in arrays if not name.endswith("_scales"))
+    return {name: arrays[name].astype(np.float32) * scales.get(name, 1) for name in names}
+
+
+def stored(weights: Mapping[str, npt.NDArray[Any]], levels: int = 127) -> dict[str, npt.NDArray[Any]]:
+    """Matrices as int8, of so many levels at most, with a scale for each column, other weights as they are."""
+    arrays = dict[str, npt.NDArray[Any]]()
+    for name, each in weights.items():
+        if each.ndim > 1:
+            scales = np.maximum(np.abs(each).max(axis=0), 1e-9).astype(np.float32) / levels
+            arrays[name], arrays[f"{name}_scales"] = np.rint(each / scales).astype(np.int8), scales
+        else:
+            arrays[name] = each.astype(np.float32)
+    return arrays
 
 
 @functools.cache

@@ -26,6 +26,7 @@ class Reading:
     figures that describe the channel rather than ask for something, ``counted`` the spans of those that count.
     ``missing`` is a share of the channel that is said to be missing, ``steps`` amounts to add, by detail name, ``back``
     users to be taken in again, ``named`` everybody who is named; ``strangers`` are spans of names that no user has.
+    ``marks`` are the spans of figures and users, each with what it was read as.
     """
 
     values: Mapping[str, Constraint]
@@ -40,6 +41,7 @@ class Reading:
     back: tuple[str, ...] = ()
     named: tuple[str, ...] = ()
     strangers: Sequence[Span] = ()
+    marks: Sequence[tuple[int, int, str]] = ()
 
 
 class Notes:
@@ -61,6 +63,7 @@ class Notes:
         self.steps: dict[str, float] = {}
         self.missing: float | None = None
         self.spoken_for: list[Span] = []
+        self.marks: list[tuple[int, int, str]] = []
 
     def doubt(self, key: str, **names: str) -> None:
         """Note a question."""

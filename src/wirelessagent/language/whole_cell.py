@@ -63,11 +63,12 @@ _SHARE_WORDS = "|".join(sorted(_SHARES, key=len, reverse=True))
 _SHARE = Phrases(
     r"(?<!save )(?<!by )(?<!saving )(?<!cut )"
     rf"(?:\b(?:(?:a|one|un|ein|einem) (?![hm])|la (?=m))?(?P<word>{_SHARE_WORDS})\b|"
-    r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:\.[0-9]+)?)\s*(?:%|percent|per cent|prozent|por ciento|pour cent))"
+    r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:[.,][0-9]+)?)\s*(?:%|percent|per cent|prozent|por ciento|pour cent))"
     rf"{_FULL}\s*{_POWER}|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_word>{_SHARE_WORDS})|"
     r"(?<![0-9.])(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|百分之(?P<hundredths>[0-9]{1,3}))的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
     rf"|功率(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?P<of_word>{_SHARE_WORDS})(?!五)"
     rf"|\b(?:p_?max|(?:max\w*\.?\s+)?(?:{_POWER_NOUNS}))\s*{_MOST}(?P<of_percent>[0-9]{{1,3}}(?:[.,][0-9]+)?)\s*%"
+    r"(?!\s*(?:less|lower|more|higher|weniger|niedriger|mehr|höher|menos|más|(?:de )?(?:moins|plus))\b)"
     r"|功率(?:只用|最多用|用|不超过|最多|压到|降到|限制在|限制到|上限为?)(?P<zh_of_percent>[0-9]{1,3}(?:\.[0-9]+)?)%",
     marks="half mitad moitié halbe hälfte third tercio tiers drittel quart cuarto viertel % percent per_cent prozent "
     "por_ciento pour_cent 一半 百分之 分之 成",
@@ -132,7 +133,7 @@ def take_share(notes: Notes, max_power_w: float) -> None:
     if any(each.start < match.start() < each.end for each in notes.quantities):  # "two and a half watts"
         return
     group = match.lastgroup or ""
-    share = _SHARES[match[group]] if group.endswith("word") else float(match[group]) / 100
+    share = _SHARES[match[group]] if group.endswith("word") else float(match[group].replace(",", ".")) / 100
     notes.spoken_for.append(match.span())
     notes.masked.append(match.span())
     if 0 < share <= 1:

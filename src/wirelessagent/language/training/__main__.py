@@ -20,7 +20,7 @@ from wirelessagent.language.sentence_model import KNOWN, SENTENCES_FILE, Sentenc
 from wirelessagent.language.training.compose import OBJECTIVES
 from wirelessagent.language.training.examples import Example, examples
 from wirelessagent.language.training.fit import in_parallel
-from wirelessagent.language.training.network import LENGTHS, PASSES, Shown, fit
+from wirelessagent.language.training.network import LENGTHS, PASSES, Shown, first_weights, fit, loss
 
 Hashes: TypeAlias = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]
 OFTEN = 6
@@ -58,12 +58,14 @@ def taught(every: Sequence[Example], passes: float = PASSES, processes: int = 2)
     _LOG.info("%d sentences, %d labels", len(every), len(labels))
     weights = fit(Shown(
         rows=[rows_of(*said, known) for said, _ in shown], bare=[rows_of(*bare, known) for _, bare in shown],
-        right=right,
-        kind_counts=counts * np.clip(rare / rare[counts > 0].mean(), _LEAST, _MOST).astype(np.float32),
-        orders=np.array([each.orders for each in every], np.float32),
-        order_counts=np.array([each.order_counts for each in every], np.float32),
+        known={
+            "right": right,
+            "kind_counts": counts * np.clip(rare / rare[counts > 0].mean(), _LEAST, _MOST).astype(np.float32),
+            "orders": np.array([each.orders for each in every], np.float32),
+            "order_counts": np.array([each.order_counts for each in every], np.float32),
+        },
         turns=np.array([each.turns for each in every]),
-    ), passes)  # fmt: skip
+    ), lambda chance: first_weights(chance, len(labels)), loss, passes)  # fmt: skip
     return SentenceModel(labels=tuple(labels), weights=weights, known=known)
 
 

@@ -1,4 +1,4 @@
-"""The fit of the network: AdamW with a warm start and a cosine, words and features that are lost, averaged weights.
+"""The fit of a network: AdamW with a warm start and a cosine, words and features that are lost, averaged weights.
 
 It needs JAX and Optax, which are in the development group alone.
 """
@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any, TypeAlias, cast
 
 import jax as untyped_jax
 import jax.numpy as untyped_jnp
@@ -36,9 +36,9 @@ BATCH, LENGTHS = 128, (8, 12, 16, 20, 26, 34, 48, 80)
 """Sentences read at once, all of at most so many words and the mark of their start."""
 
 _PEAK, _LAST, _WARM, _DECAY, _CLIP, _FORGETS = 3e-3, 5e-5, 200, 0.02, 1.0, 0.998
-_LOST, _LOST_WORDS, _LOST_FEATURES, _BARE = 0.1, 0.05, 0.08, 0.2
-"""What is lost of what is seen; of words, of their features; and how often a wish is left with what it means alone,
-which then says nothing about its kind."""
+_LOST, _LOST_FEATURES, _BARE = 0.1, 0.08, 0.2
+"""What is lost of what is seen; of the features of words; and how often a wish is left with what it means alone, which
+then says nothing about its kind."""
 
 _SMOOTH = 0.01
 _LOG = logging.getLogger(__name__)
@@ -46,35 +46,46 @@ _LOG = logging.getLogger(__name__)
 
 @dataclass(frozen=True, kw_only=True)
 class Shown:
-    """What sentences show, each with the features of its words (word, MOST_FEATURES) and those of bare ones.
+    """What sentences show.
 
     Attributes:
-        right: (sentence, kind) the kinds that are right, of which one is enough; ``kind_counts`` says how much.
-        orders, order_counts: (sentence,) whether it orders something, and how much that counts.
+        rows: of each, what is seen of its words (word, any).
+        bare: the same with what is left of a wish; without any, no sentence is ever seen so.
+        known: (sentence, any) what is right, and how much that counts, by name.
         turns: (sentence,) in what share of the passes it is read.
+        lost_words: the share of words that are lost.
     """
 
-    rows: Sequence[npt.NDArray[np.uint16]]
-    bare: Sequence[npt.NDArray[np.uint16]]
-    right: npt.NDArray[np.bool_]
-    kind_counts: npt.NDArray[np.float32]
-    orders: npt.NDArray[np.float32]
-    order_counts: npt.NDArray[np.float32]
+    rows: Sequence[npt.NDArray[Any]]
+    bare: Sequence[npt.NDArray[Any]] = ()
+    known: Mapping[str, npt.NDArray[Any]]
     turns: npt.NDArray[np.float64]
+    lost_words: float = 0.05
 
 
-def fit(shown: Shown, passes: float = PASSES, seed: int = 1) -> dict[str, npt.NDArray[np.float32]]:
-    """The weights that make what is shown likely: the same for the same on one machine."""
+Loss: TypeAlias = Callable[[Any, Mapping[str, Any], Callable[[Any], Any]], Any]
+"""What is lost by weights on a batch; what it applies the function to is lost in parts."""
+
+
+def fit(
+    shown: Shown, first: Callable[[np.random.Generator], Any], loss: Loss, passes: float = PASSES, seed: int = 1
+) -> dict[str, npt.NDArray[np.float32]]:
+    """The weights that make what is shown likely, from the first ones on: the same for the same on one machine."""
     chance = np.random.default_rng(seed)
     steps = int(passes * (shown.turns.sum() / BATCH + len(LENGTHS) / 2)) + 1
     rate = optax.warmup_cosine_decay_schedule(0.0, _PEAK, min(_WARM, steps // 10 + 1), steps + 1, _LAST)
     optimiser = optax.chain(optax.clip_by_global_norm(_CLIP), optax.adamw(rate, b2=0.98, weight_decay=_DECAY))
-    weights = jax.tree.map(jnp.asarray, _first_weights(shown.right.shape[1], chance))
+    weights = jax.tree.map(jnp.asarray, first(chance))
     state, mean, key = optimiser.init(weights), weights, jax.random.PRNGKey(seed)
 
     @jax.jit
     def step(weights: Any, state: Any, mean: Any, batch: Any, key: Any, done: Any) -> tuple[Any, Any, Any, Any]:
-        lost, slope = jax.value_and_grad(_loss)(weights, batch, key)
+        keys = iter(jax.random.split(key, 32))
+
+        def lose(seen: Any) -> Any:
+            return jnp.where(jax.random.bernoulli(next(keys), 1 - _LOST, seen.shape), seen / (1 - _LOST), 0)
+
+        lost, slope = jax.value_and_grad(loss)(weights, batch, lose)
         change, state = optimiser.update(slope, state, weights)
         weights = optax.apply_updates(weights, change)
         kept = jnp.minimum(_FORGETS, done / (done + 20.0))
@@ -97,45 +108,46 @@ def fit(shown: Shown, passes: float = PASSES, seed: int = 1) -> dict[str, npt.ND
     return {name: np.asarray(each) for name, each in mean.items()}
 
 
-def _first_weights(kinds: int, chance: np.random.Generator) -> dict[str, Any]:
+def drawn(chance: np.random.Generator, *shape: int, gain: float = 1.0) -> npt.NDArray[np.float32]:
+    """A matrix to begin with."""
+    return (chance.standard_normal(shape) * gain / np.sqrt(np.prod(shape[:-1]))).astype(np.float32)
+
+
+def first_head(chance: np.random.Generator, name: str, size: int) -> dict[str, npt.NDArray[np.float32]]:
+    """Where the training of a head begins, for so many labels."""
+    return {
+        name + "pool": drawn(chance, WIDTH, HEADS), name: drawn(chance, WIDTH * (HEADS + 1), size, gain=0.5),
+        name + "bias": np.zeros(size, np.float32),
+    }  # fmt: skip
+
+
+def first_weights(chance: np.random.Generator, kinds: int) -> dict[str, npt.NDArray[np.float32]]:
     """Where a training begins, for so many kinds."""
-
-    def drawn(*shape: int, gain: float = 1.0) -> Any:
-        return (chance.standard_normal(shape) * gain / np.sqrt(np.prod(shape[:-1]))).astype(np.float32)
-
-    weights: dict[str, Any] = {
+    weights: dict[str, npt.NDArray[np.float32]] = {
         "embedding": (chance.standard_normal((BUCKETS, EMBEDDED)) * 0.1).astype(np.float32),
-        "in": drawn(EMBEDDED, WIDTH),
+        "in": drawn(chance, EMBEDDED, WIDTH),
     }
     for block in map(str, range(BLOCKS)):
         weights |= {
-            block + "near": drawn(3 * WIDTH, 2 * WIDTH), block + "sought": drawn(WIDTH, 3 * WIDTH),
-            block + "found": drawn(WIDTH, WIDTH, gain=0.5), block + "far": np.zeros((HEADS, 2 * REACH + 1), np.float32),
-            block + "up": drawn(WIDTH, 2 * WIDTH), block + "down": drawn(2 * WIDTH, WIDTH, gain=0.5),
+            block + "near": drawn(chance, 3 * WIDTH, 2 * WIDTH), block + "sought": drawn(chance, WIDTH, 3 * WIDTH),
+            block + "found": drawn(chance, WIDTH, WIDTH, gain=0.5),
+            block + "far": np.zeros((HEADS, 2 * REACH + 1), np.float32),
+            block + "up": drawn(chance, WIDTH, 2 * WIDTH), block + "down": drawn(chance, 2 * WIDTH, WIDTH, gain=0.5),
         }  # fmt: skip
         weights |= {f"{block}norm{place}": np.ones(WIDTH, np.float32) for place in range(3)}
     weights["norm"] = np.ones(WIDTH, np.float32)
-    for head, size in (("kind", kinds), ("order", 1)):
-        weights |= {
-            head + "pool": drawn(WIDTH, HEADS), head: drawn(WIDTH * (HEADS + 1), size, gain=0.5),
-            head + "bias": np.zeros(size, np.float32),
-        }  # fmt: skip
-    return weights
+    return weights | first_head(chance, "kind", kinds) | first_head(chance, "order", 1)
 
 
-def _loss(weights: Any, batch: Any, key: Any) -> Any:
-    keys = iter(jax.random.split(key, 32))
-
-    def lose(seen: Any) -> Any:
-        return jnp.where(jax.random.bernoulli(next(keys), 1 - _LOST, seen.shape), seen / (1 - _LOST), 0)
-
+def loss(weights: Any, batch: Mapping[str, Any], lose: Callable[[Any], Any]) -> Any:
+    """Of the network that says the kind of a sentence ("right", "kind_counts") and whether it orders something."""
     sentences, length = batch["there"].shape
     words = embedded(jnp, weights, batch["rows"].reshape(-1, MOST_FEATURES)).reshape(sentences, length, -1)
-    kinds, order = scores(jnp, weights, words, batch["there"], lose)
+    kinds, order = scores(jnp, weights, words, batch["there"], ("kind", "order"), lose)
     likely = jax.nn.log_softmax(kinds)
     right = jax.nn.logsumexp(jnp.where(batch["right"], likely, -1e9), -1)
     of_kind = ((1 - _SMOOTH) * right + _SMOOTH * likely.mean(-1)) @ batch["kind_counts"]
-    of_order = optax.sigmoid_binary_cross_entropy(order, batch["orders"] * 0.98 + 0.01) @ batch["order_counts"]
+    of_order = optax.sigmoid_binary_cross_entropy(order[..., 0], batch["orders"] * 0.98 + 0.01) @ batch["order_counts"]
     return (of_order - of_kind) / sentences
 
 
@@ -153,16 +165,16 @@ def _batches(shown: Shown, chance: np.random.Generator) -> Iterator[Mapping[str,
     order: list[int] = chance.permutation(len(batches)).tolist()
     for place in order:
         length, chosen = batches[place]
-        rows = np.zeros((BATCH, length, MOST_FEATURES), np.uint16)
+        rows = np.zeros((BATCH, length, shown.rows[0].shape[1]), shown.rows[0].dtype)
         there = np.zeros((BATCH, length), np.float32)
-        bare, sentences = chance.random(BATCH) < _BARE, list[int](chosen.tolist())
+        bare, sentences = chance.random(BATCH) < (_BARE if shown.bare else 0), list[int](chosen.tolist())
         for at, sentence in enumerate(sentences):
             seen = (shown.bare if bare[at] else shown.rows)[sentence]
-            seen = seen[np.append(True, chance.random(len(seen) - 1) >= _LOST_WORDS)]
+            seen = seen[np.append(True, chance.random(len(seen) - 1) >= shown.lost_words)]
             rows[at, : len(seen)], there[at, : len(seen)] = seen, 1
-        rows *= chance.random(rows.shape, np.float32) >= _LOST_FEATURES
-        yield {
-            "rows": rows.astype(np.int32), "there": there, "right": shown.right[chosen],
-            "kind_counts": np.where(bare, np.float32(0), shown.kind_counts[chosen]), "orders": shown.orders[chosen],
-            "order_counts": shown.order_counts[chosen],
-        }  # fmt: skip
+        if rows.dtype == np.uint16:  # features
+            rows = rows.astype(np.int32) * (chance.random(rows.shape, np.float32) >= _LOST_FEATURES)
+        known = {name: each[chosen] for name, each in shown.known.items()}
+        if "kind_counts" in known:
+            known["kind_counts"] = np.where(bare, np.float32(0), known["kind_counts"])
+        yield {"rows": rows, "there": there, **known}
