@@ -86,8 +86,8 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
 def is_bent(text: str, context: Context | None, intent: Intent) -> bool:
     """Whether a sentence is likely to mean something else than its figures and users were read as.
 
-    What a talk or a language model makes of it may be something else than that, as may a change of what holds; and few of
-    the sentences that it was learned from tell how much of the channel is missing.
+    What a talk or a language model makes of it may be something else than that, as may a change of what holds; and few
+    of the sentences that it was learned from tell how much of the channel is missing.
     """
     if intent.recogniser == READ_IN_A_TALK or intent.kind != "allocate" or intent.amends:
         return False

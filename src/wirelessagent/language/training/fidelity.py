@@ -76,7 +76,8 @@ def _spread(constraints: Mapping[str, Any], name: str) -> Any:
 
 def _is_same(one: Any, other: Any) -> bool:
     if isinstance(one, dict) and isinstance(other, dict):
-        return one.keys() == other.keys() and all(_is_same(one[user], other[user]) for user in one)
+        mine, theirs = cast("dict[str, float]", one), cast("dict[str, float]", other)
+        return mine.keys() == theirs.keys() and all(_is_same(mine[user], theirs[user]) for user in mine)
     if isinstance(one, int | float) and isinstance(other, int | float):
         return math.isclose(one, other, rel_tol=_CLOSE)
     return bool(one == other)
