@@ -18,6 +18,7 @@ from wirelessagent.language.llm.reader import LlmRecogniser
 from wirelessagent.language.moods import LANGUAGES, table_of
 from wirelessagent.language.offline import OfflineRecogniser, recognise
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.sentence import Sentence, own_words
 
 USERS = tuple(f"user {number}" for number in range(1, 5))
 SCENE = wa.simulate("rayleigh", num_users=4, num_subcarriers=16, seed=3)
@@ -126,7 +127,7 @@ FREE = {  # they stand beside the wish, and say something else
     "zh": ("因为今晚客人多，{}", "昨晚停电了，{}", "下个月电费要涨，现在{}", "今晚八点前{}", "客户投诉，所以{}"),
     "es": ("Como mañana no llega el gasóleo, {}", "Ayer se quejaron, así que {}", "Los vecinos se quejan, por eso {}"),
     "fr": ("Comme il sera livré lundi, {}", "Les clients se plaignaient hier, donc {}"),
-    "de": ("Weil morgen kein Diesel kommt, {}", "Gestern haben sich alle beschwert, also {}", "{} bis Montag"),
+    "de": ("Weil morgen kein Diesel kommt, {}", "Gestern haben sich alle beschwert, also {}"),
 }
 
 
@@ -428,6 +429,11 @@ def test_what_is_read_amiss_is_asked_about_with_what_was_read(said: str) -> None
     assert intent.kind == "clarify"
     assert intent.guess is not None
     assert intent.guess.constraints
+
+
+def test_a_mistyped_sentence_is_not_judged_by_what_is_left_of_it() -> None:
+    assert Sentence("max rate, ignore the 10 W limit", own_words()).fidelity < 0.2
+    assert Sentence("max rate, ignnoer teh 10 W limmit", own_words()).fidelity == 1
 
 
 def test_a_meaning_that_the_words_alone_do_not_have_is_not_judged_by_them() -> None:

@@ -34,7 +34,7 @@ READ_IN_A_TALK = "conversation"
 _NAMES_SHOWN = 12
 _FEWEST_WORDS = 3
 """And signs, of a sentence that can be judged."""
-_CLAUSE, _FAITHFUL = 0.4, 0.1
+_CLAUSE, _FAITHFUL = 0.4, 0.2
 """How likely an order what begins with a clause has to be by itself, and how likely it is read as it is meant."""
 
 

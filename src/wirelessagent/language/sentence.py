@@ -143,15 +143,9 @@ class Sentence:
 
     @functools.cached_property
     def fidelity(self) -> float:
-        """How likely it says what was read of it, and nothing beside.
-
-        In place of a word that training never saw, a mistyped one, its base word is seen, or nothing.
-        """
-        saw = shipped_sentences().saw
-        said = (
-            word if not word.said.isalpha() or saw(word.said) else word._replace(said=word.base) for word in self.words
-        )
-        return shipped_fidelity().chance([word for word in said if not word.said.isalpha() or saw(word.said)])
+        """How likely it says what was read of it, and nothing beside; 1 where a word that nobody knows may say it."""
+        known = all(shipped_sentences().saw(word.said) for word in self.words if word.said.isalpha())
+        return shipped_fidelity().chance(self.words) if known else 1.0
 
 
 def read_once(text: str, own: tuple[OwnWords, ...], context: Context | None) -> Sentence:

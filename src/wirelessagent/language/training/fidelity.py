@@ -15,25 +15,21 @@ import math
 import random
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, cast
 
-import jax.numpy as untyped_jnp
 import numpy as np
-import optax as untyped_optax  # pyright: ignore[reportMissingTypeStubs]
 
 from wirelessagent.language.fidelity import FIDELITY_FILE, Fidelity, seen_of
 from wirelessagent.language.intent import EVERYBODY
 from wirelessagent.language.sentence import Sentence, own_words
-from wirelessagent.language.sentence_layers import EMBEDDED, WIDTH, scores
+from wirelessagent.language.sentence_layers import EMBEDDED, WIDTH
 from wirelessagent.language.sentence_model import Word, shipped_sentences
 from wirelessagent.language.training.compose import mistyped
 from wirelessagent.language.training.fit import in_parallel
-from wirelessagent.language.training.network import LENGTHS, Shown, drawn, first_head, fit
+from wirelessagent.language.training.network import LENGTHS, Shown, drawn, first_head, fit, loss_of_fidelity
 from wirelessagent.language.training.spoken import Spoken, spoken
-
-jnp, optax = cast("Any", untyped_jnp), cast("Any", untyped_optax)
 
 PASSES, _SLIPS = 8.0, 0.15
 """How often the sentences are read, and how much of what has a meaning is read with a slip as well."""
@@ -96,7 +92,7 @@ def taught(passes: float = PASSES, processes: int = 2) -> Fidelity:
         known={"faithful": np.array([each.faithful for each in every], np.float32)},
         turns=np.ones(len(every)),
         lost_words=0.0,  # one word turns a sentence round
-    ), functools.partial(_first_weights, roles=len(roles)), _loss, passes)  # fmt: skip
+    ), functools.partial(_first_weights, roles=len(roles)), loss_of_fidelity, passes)  # fmt: skip
     return Fidelity(roles=roles, weights=weights)
 
 
@@ -106,11 +102,6 @@ def _first_weights(chance: np.random.Generator, roles: int) -> dict[str, Any]:
     own = {name: each for name, each in weights.items() if name[0].isdigit() or name in ("in", "norm")}
     own["in"] = np.concatenate([own["in"], drawn(chance, roles, WIDTH) * EMBEDDED**-0.5])
     return own | first_head(chance, "faithful", 1)
-
-
-def _loss(weights: Any, batch: Mapping[str, Any], lose: Callable[[Any], Any]) -> Any:
-    (score,) = scores(jnp, weights, batch["rows"], batch["there"], ("faithful",), lose)
-    return optax.sigmoid_binary_cross_entropy(score[..., 0], batch["faithful"] * 0.98 + 0.01).mean()
 
 
 def main(path: Path) -> None:

@@ -151,6 +151,12 @@ def loss(weights: Any, batch: Mapping[str, Any], lose: Callable[[Any], Any]) -> 
     return (of_order - of_kind) / sentences
 
 
+def loss_of_fidelity(weights: Any, batch: Mapping[str, Any], lose: Callable[[Any], Any]) -> Any:
+    """Of the network that says whether a sentence was read as it is meant ("faithful")."""
+    (score,) = scores(jnp, weights, batch["rows"], batch["there"], ("faithful",), lose)
+    return optax.sigmoid_binary_cross_entropy(score[..., 0], batch["faithful"] * 0.98 + 0.01).mean()
+
+
 def _batches(shown: Shown, chance: np.random.Generator) -> Iterator[Mapping[str, Any]]:
     """One pass over the sentences whose turn it is, in batches of about equal length."""
     turn = np.flatnonzero(chance.random(len(shown.turns)) < shown.turns)
