@@ -173,7 +173,8 @@ def test_a_ceiling_of_the_others_is_not_one_of_the_named(text: str) -> None:
         ("sum rate, at most 43 dBm, that is 20 W", 19.95),
         ("sum rate, at most 33 dBm (1.995 W)", 1.995),
         ("10 W (40 dBm) at most, highest sum rate", 10.0),
-        ("Gesamtrate maximieren, höchstens 40 dBm, also 10 W", 10.0),
+        ("sum rate, at most 40 dBm (i.e. 10 W)", 10.0),
+        ("Gesamtrate maximieren, höchstens 40 dBm, das sind 10 W", 10.0),
         ("débit total maximal, 5 W au plus, soit 37 dBm", 5.0),
         ("tasa total máxima, como máximo 30 dBm, es decir 1 W", 1.0),
         ("总速率最大，功率不超过40dBm，也就是10瓦", 10.0),
@@ -189,7 +190,36 @@ def test_a_share_with_a_decimal_comma_is_read() -> None:
     assert dict(found.constraints) == {"max_power_w": 2.5}
 
 
-@pytest.mark.parametrize("text", ["max rate, power 10 % lower", "Gesamtrate maximieren, Sendeleistung 0,1 % niedriger"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "max rate, power 10 % lower",
+        "Gesamtrate maximieren, Sendeleistung 0,1 % niedriger",
+        "tasa máxima, potencia 10 % menos",
+        "débit total maximal, puissance 10 % en plus",
+        "max rate, power 10 % below the limit",
+    ],
+)
 def test_a_share_to_change_by_is_no_limit(text: str) -> None:
     assert (found := OfflineRecogniser().recognise(text, CELL)).kind == "clarify"
-    assert found.asks in ("change", "share")
+    assert found.asks == "change"
+
+
+@pytest.mark.parametrize(
+    ("text", "constraints"),
+    [
+        ("max energy efficiency, circuit power is 10 W (10 W transmit power)",
+         {"circuit_power_w": 10.0, "max_power_w": 10.0}),
+        ("min power, user 3 has 1 Mbit/s, so 1 Mbit/s for everyone else", {"min_rate_bps": each(1e6, "3", "all")}),
+        ("总速率最大，双倍权重给3号和4号", {"weights": each(2.0, "3", "4")}),
+        ("总速率最大,功率不超过12,5%", {"max_power_w": 2.5}),
+        ("max rate, power 50 % plus 1 Mbit/s for everyone", {"max_power_w": 10.0, "min_rate_bps": 1e6}),
+    ],
+)  # fmt: skip
+def test_two_figures_of_one_size_stay_two_and_shares_are_read(text: str, constraints: dict[str, Any]) -> None:
+    found = OfflineRecogniser().recognise(text, CELL)
+    assert (found.kind, dict(found.constraints)) == ("allocate", constraints)
+
+
+def test_two_figures_are_not_one() -> None:
+    assert OfflineRecogniser().recognise("max rate, 10 W or 10.05 W", CELL).kind == "clarify"

@@ -10,7 +10,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -47,7 +47,14 @@ _OWN_NOUN = deferred(  # "each user's rate no lower than" bounds the rate, and w
     r"(?:用户|每人|人均|每个|每户|各|UE|终端|大家|的)的?(?P<noun>(?:下行|数据)?(?:速率|速度|网速|吞吐量?))(?:都|"
     r"也)?(?:要|得|必须|应|须)?$"
 )
-_AGAIN = deferred(rf"(?i)\s*(?:[(\uff08=≈]|[,\uff0c]?\s*(?:{either('figures', 'one', 'again')})(?![a-z]))[\s,\uff0c:]*")
+_AGAIN = deferred(
+    rf"(?i)(?:\s*(?P<open>[(\uff08])\s*(?:(?:[=≈]|{either('figures', 'one', 'again')})[\s.]*)?|\s*[=≈]\s*|"
+    rf"\s*[,\uff0c]?\s*(?:{either('figures', 'one', 'again')})(?![a-z])[\s.,\uff0c:]*)"
+)
+_CLOSED, _DIGITS = (
+    deferred(r"(?i)\s*(?:$|[,.;:!?)\uff0c。；、)]|(?:at most|max|tops|and|or less|au plus)\b)"),
+    deferred(r"[\d\s.,]+"),
+)
 _ROUNDED = 0.01
 """By how much a figure and the same in another unit may differ: 33 dBm are 1.995 W."""
 _PRICE_BEFORE, _STEP_BEFORE = (
@@ -118,19 +125,26 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
     return tuple(_said_once(text, plain, found))
 
 
-def _said_once(text: str, plain: str, found: Iterable[Quantity]) -> Iterator[Quantity]:
-    """A figure and right behind it the same in another unit as one: "40 dBm, that is 10 W", "33 dBm (1.995 W)"."""
+def _said_once(text: str, plain: str, found: Iterable[Quantity]) -> list[Quantity]:
+    """A power and right behind it the same in another unit as one: "40 dBm, that is 10 W", "33 dBm (1.995 W)"."""
     once: list[Quantity] = []
     for each in found:
-        again = once and once[-1].kind == each.kind and _AGAIN.fullmatch(plain, once[-1].phrase_end, each.start)
-        if again and math.isclose(once[-1].value, each.value, rel_tol=_ROUNDED):
-            first, end = once.pop(), each.end + (plain[each.end : each.end + 1] in (")", "\uff09"))
+        first = once[-1] if once else each
+        again = _AGAIN.fullmatch(plain, first.phrase_end, each.start)
+        end = each.end + 1 if again and again["open"] else each.end
+        closed = (
+            _CLOSED.match(plain, max(end, each.phrase_end)) if plain[each.end : end] in ("", ")", "\uff09") else None
+        )
+        bounds = {first.comparator, each.comparator} - {None}
+        units = {_DIGITS.sub("", figure.text) for figure in (first, each)}
+        same = math.isclose(first.value, each.value, rel_tol=_ROUNDED) and {first.kind, each.kind} == {"power"}
+        if again and closed and same and len(units) > 1 and len(bounds) < 2:
             each = dataclasses.replace(
-                first, text=text[first.start : end], end=end, comparator=first.comparator or each.comparator,
+                once.pop(), text=text[first.start : end], end=end, comparator=first.comparator or each.comparator,
                 phrase_end=max(end, each.phrase_end),
             )  # fmt: skip
         once.append(each)
-    yield from once
+    return once
 
 
 def _joined(plain: str, lower: Reading, upper: Reading) -> bool:

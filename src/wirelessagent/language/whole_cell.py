@@ -21,6 +21,7 @@ _CARRIER = (
     r"(?:unter|sub)träger[ns]?)"
 )
 _CHANGE_BEFORE = deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$")
+_CHANGE_BEHIND = deferred(rf"(?i)\s*(?:{either('figures', 'one', 'changed_behind')})(?!\w)")
 _ALL = deferred(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
 _DESCRIBED_BEFORE = deferred(rf"(?i)(?:^|{either('figures', 'users', 'ahead_of_all')})\s*$")
 _DESCRIBED_AFTER = deferred(rf"(?i)\s*(?:$|(?:{either('figures', 'users', 'behind_all')}))")
@@ -65,11 +66,10 @@ _SHARE = Phrases(
     rf"(?:\b(?:(?:a|one|un|ein|einem) (?![hm])|la (?=m))?(?P<word>{_SHARE_WORDS})\b|"
     r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:[.,][0-9]+)?)\s*(?:%|percent|per cent|prozent|por ciento|pour cent))"
     rf"{_FULL}\s*{_POWER}|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_word>{_SHARE_WORDS})|"
-    r"(?<![0-9.])(?P<zh_percent>[0-9]{1,3}(?:\.[0-9]+)?)%|百分之(?P<hundredths>[0-9]{1,3}))的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
+    r"(?<![0-9.,])(?P<zh_percent>[0-9]{1,3}(?:[.,][0-9]+)?)%|百分之(?P<hundredths>[0-9]{1,3}))的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
     rf"|功率(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?P<of_word>{_SHARE_WORDS})(?!五)"
     rf"|\b(?:p_?max|(?:max\w*\.?\s+)?(?:{_POWER_NOUNS}))\s*{_MOST}(?P<of_percent>[0-9]{{1,3}}(?:[.,][0-9]+)?)\s*%"
-    r"(?!\s*(?:less|lower|more|higher|weniger|niedriger|mehr|höher|menos|más|(?:de )?(?:moins|plus))\b)"
-    r"|功率(?:只用|最多用|用|不超过|最多|压到|降到|限制在|限制到|上限为?)(?P<zh_of_percent>[0-9]{1,3}(?:\.[0-9]+)?)%",
+    r"|功率(?:只用|最多用|用|不超过|最多|压到|降到|限制在|限制到|上限为?)(?P<zh_of_percent>[0-9]{1,3}(?:[.,][0-9]+)?)%",
     marks="half mitad moitié halbe hälfte third tercio tiers drittel quart cuarto viertel % percent per_cent prozent "
     "por_ciento pour_cent 一半 百分之 分之 成",
 )
@@ -136,7 +136,9 @@ def take_share(notes: Notes, max_power_w: float) -> None:
     share = _SHARES[match[group]] if group.endswith("word") else float(match[group].replace(",", ".")) / 100
     notes.spoken_for.append(match.span())
     notes.masked.append(match.span())
-    if 0 < share <= 1:
+    if _CHANGE_BEHIND.match(notes.plain, match.end()):  # "power 10 % lower"
+        notes.doubt("change", text=notes.text[slice(*match.span())])
+    elif 0 < share <= 1:
         notes.put("max_power_w", share * max_power_w, match.span())
     else:
         notes.doubt("impossible", text=notes.text[slice(*match.span())])
