@@ -26,7 +26,7 @@ class Reading:
     figures that describe the channel rather than ask for something, ``counted`` the spans of those that count.
     ``missing`` is a share of the channel that is said to be missing, ``steps`` amounts to add, by detail name, ``back``
     users to be taken in again, ``named`` everybody who is named; ``strangers`` are spans of names that no user has.
-    ``marks`` are the spans of figures and users, each with what it was read as.
+    ``marks`` are the spans of figures and users, each with what it was read as, "+" behind it for several users.
     """
 
     values: Mapping[str, Constraint]
