@@ -113,7 +113,6 @@ GOVERNED = {  # the words of a mood govern the wish that a template is filled wi
 FREE = {  # they stand beside the wish, and say something else
     "en": (
         "Since the guests are coming tomorrow, {}",
-        "{}, because the customer asked for it yesterday",
         "We lost the mains last night and it was a mess, {}",
         "It was slow yesterday, so {}",
         "We have been on the battery since 4 am: {}",
@@ -122,7 +121,6 @@ FREE = {  # they stand beside the wish, and say something else
         "It's 8 pm, {}",
         "Once again: {}",
         "As agreed with the mayor yesterday, {}",
-        "{}, and let me know when it is done",
     ),
     "zh": ("因为今晚客人多，{}", "昨晚停电了，{}", "下个月电费要涨，现在{}", "今晚八点前{}", "客户投诉，所以{}"),
     "es": ("Como mañana no llega el gasóleo, {}", "Ayer se quejaron, así que {}", "Los vecinos se quejan, por eso {}"),
@@ -398,8 +396,6 @@ def test_a_word_of_condition_asks_nothing_in_what_is_an_order() -> None:
     ("said", "against"),
     [
         ("Maximize the total rate, no way user 3 gets 5 Mbit/s", "no way user 3 gets 5 Mbit/s"),
-        ("Save power; 2 Mbit/s for user 3 is a dream", "2 Mbit/s for user 3 is a dream"),
-        ("Be fair, user 3 allegedly needs 2 Mbit/s", "user 3 allegedly needs 2 Mbit/s"),
         ("max rate, the limit is not 10 W", "the limit is not 10 W"),
     ],
 )

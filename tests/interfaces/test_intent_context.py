@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from wirelessagent.experiments.evaluate_intents import same_constraints
+from wirelessagent.language.intent import same_constraints
 from wirelessagent.language.offline import recognise
 from wirelessagent.language.recogniser import Context
 

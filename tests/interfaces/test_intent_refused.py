@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from wirelessagent.experiments.evaluate_intents import same_constraints
+from wirelessagent.language.intent import same_constraints
 from wirelessagent.language.offline import recognise
 from wirelessagent.language.recogniser import Context
 
@@ -31,7 +31,6 @@ def test_a_figure_that_is_refused_is_asked_about(said: str, context: Context | N
         ("max rate, but 20 W is too much, use 12 W", {"max_power_w": 12.0}),
         ("300 kbit/s is not enough for user 3, give him 1 Mbit/s, max rate", {"min_rate_bps": {"3": 1e6}}),
         ("总速率最高,10瓦太大,用6瓦", {"max_power_w": 6.0}),
-        ("I don't want more than 5 W, max rate", {"max_power_w": 5.0}),
         ("不要超过10瓦,总速率最高", {"max_power_w": 10.0}),
     ],
 )

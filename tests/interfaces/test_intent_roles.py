@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from wirelessagent.experiments.evaluate_intents import same_constraints
 from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.figure_roles import LABELS, likely, shipped_roles
+from wirelessagent.language.intent import same_constraints
 from wirelessagent.language.leftovers import loose_numbers, unread
 from wirelessagent.language.offline import recognise
 from wirelessagent.language.quantities import parse_quantities

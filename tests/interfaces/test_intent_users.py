@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from wirelessagent.experiments.evaluate_intents import same_constraints
 from wirelessagent.language.constraints import read_constraints
+from wirelessagent.language.intent import same_constraints
 from wirelessagent.language.offline import recognise
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.stated import Reading

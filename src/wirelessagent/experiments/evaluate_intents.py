@@ -19,7 +19,7 @@ from typing import Any, cast, get_args
 import numpy as np
 
 from wirelessagent import plugins
-from wirelessagent.language.intent import Constraint, Intent, IntentKind, checked_constraints
+from wirelessagent.language.intent import Constraint, Intent, IntentKind, checked_constraints, same_constraints
 from wirelessagent.language.recogniser import Recogniser
 from wirelessagent.model.errors import InputError
 from wirelessagent.model.units import dbm_to_w
@@ -170,18 +170,6 @@ def figures_of(found: Sequence[Understood]) -> Figures:
         median_ms=float(np.median(times)), slow_ms=float(np.quantile(times, 0.95)), by_language=languages,
         confusion=Counter((_named(each.meant), _named(each.intent)) for each in found),
     )  # fmt: skip
-
-
-def same_constraints(one: Mapping[str, Constraint], other: Mapping[str, Constraint]) -> bool:
-    """Whether the same is stated, figures to within a billionth, users in any order."""
-    return one.keys() == other.keys() and all(_same(value, other[name]) for name, value in one.items())
-
-
-def _same(one: Constraint, other: Constraint) -> bool:
-    if isinstance(one, tuple) or isinstance(other, tuple):
-        return isinstance(one, tuple) and isinstance(other, tuple) and set(one) == set(other)
-    a, b = _by_user(one), _by_user(other)
-    return a.keys() == b.keys() and all(math.isclose(a[user], b[user], rel_tol=_CLOSE) for user in a)
 
 
 def _by_user(value: float | Mapping[str, float]) -> Mapping[str, float]:

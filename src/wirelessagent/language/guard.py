@@ -5,7 +5,7 @@ a wish of somebody else's, speaks of another system, or of a user whom the cell 
 something is judged by two readers, whose scores count alike: the network reads all its words (:mod:`.sentence_model`),
 a logistic regression its frame, all that stands around the wish (:mod:`.order_model`). Where an order is unlikely, the
 agent asks, with the words that speak against it and with the act for a plain yes. It asks as well where an order hardly
-says what was read of it (:mod:`.fidelity`).
+says what was read of it, which the network judges, too.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ READ_IN_A_TALK = "conversation"
 _NAMES_SHOWN = 12
 _FEWEST_WORDS = 3
 """And signs, of a sentence that can be judged."""
-_CLAUSE, _FAITHFUL = 0.4, 0.2
+_CLAUSE, _FAITHFUL = 0.4, 0.4
 """How likely an order what begins with a clause has to be by itself, and how likely it is read as it is meant."""
 
 
@@ -86,14 +86,14 @@ def doubted(text: str, context: Context | None, intent: Intent) -> Span | None:
 def is_bent(text: str, context: Context | None, intent: Intent) -> bool:
     """Whether a sentence is likely to mean something else than its figures and users were read as.
 
-    What a talk or a language model makes of it may be something else than that, as may a change of what holds; and few
-    of the sentences that it was learned from tell how much of the channel is missing.
+    What a language model makes of it may be something else than that; where nothing was read, there is nothing to ask
+    about, and behind a request what a line may mean is weighed (:mod:`.conversation.weighing`).
     """
-    if intent.recogniser == READ_IN_A_TALK or intent.kind != "allocate" or intent.amends:
+    weighed = context is not None and context.objective is not None
+    if weighed or intent.kind != "allocate" or not intent.constraints:
         return False
     sentence = read_once(text, own_words(), context)
-    reading, short = sentence.reading, len(sentence.frame.tokens) < _FEWEST_WORDS
-    judged = not short and reading.missing is None and intent.constraints == reading.values
+    judged = len(sentence.frame.tokens) >= _FEWEST_WORDS and intent.constraints == sentence.reading.values
     return judged and sentence.fidelity < _FAITHFUL
 
 

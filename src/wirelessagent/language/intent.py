@@ -23,6 +23,8 @@ Detail: TypeAlias = float | str | Mapping[str, Constraint]
 EVERYBODY = "all"
 """The key of everybody who is not named, in figures by user."""
 
+_CLOSE = 1e-9
+
 FIGURES_OF_USERS: tuple[str, ...] = ("min_rate_bps", "max_rate_bps", "weights")
 LISTS_OF_USERS: tuple[str, ...] = ("users", "leave_out")
 CONSTRAINTS: tuple[str, ...] = (
@@ -106,6 +108,35 @@ class Intent:
             object.__setattr__(self, name, checked_constraints(getattr(self, name)))
         for name in ("evidence", "details"):
             object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+
+
+def same_constraints(one: Mapping[str, Constraint], other: Mapping[str, Constraint], tolerance: float = _CLOSE) -> bool:
+    """Whether the same is stated, figures to within a ``tolerance``, users in any order.
+
+    A rate of everybody, where only some are served, is one of each of them.
+    """
+    return one.keys() == other.keys() and all(
+        _same(_stated(one, name), _stated(other, name), tolerance) for name in one
+    )
+
+
+def _stated(constraints: Mapping[str, Constraint], name: str) -> Mapping[str, float] | frozenset[str]:
+    value = constraints[name]
+    if isinstance(value, tuple):
+        return frozenset(value)
+    if isinstance(value, Mapping):
+        return value
+    served = constraints.get("users") if name in ("min_rate_bps", "max_rate_bps") else None
+    return dict.fromkeys(served if isinstance(served, tuple) else (EVERYBODY,), value)
+
+
+def _same(
+    one: Mapping[str, float] | frozenset[str], other: Mapping[str, float] | frozenset[str], tolerance: float
+) -> bool:
+    if isinstance(one, frozenset) or isinstance(other, frozenset):
+        return one == other
+    same = one.keys() == other.keys()
+    return same and all(math.isclose(one[user], other[user], rel_tol=tolerance) for user in one)
 
 
 def checked_constraints(constraints: Mapping[str, Constraint]) -> Mapping[str, Constraint]:

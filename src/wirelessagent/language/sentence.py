@@ -10,7 +10,6 @@ from wirelessagent import plugins
 from wirelessagent.language import goals
 from wirelessagent.language.base_words import aligned, is_listed, language_of
 from wirelessagent.language.constraints import read_constraints
-from wirelessagent.language.fidelity import shipped_fidelity
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.moods import Span, classes_in
@@ -138,14 +137,14 @@ class Sentence:
 
     @functools.cached_property
     def chances(self) -> Chances:
-        """How likely it is of each kind, and that it orders something now, as network and frame say it together."""
+        """What the network makes of it; of whether it orders something now, its frame says as much."""
         return shipped_sentences().chances(self.words, shipped_order_model().score(self.frame))
 
     @functools.cached_property
     def fidelity(self) -> float:
         """How likely it says what was read of it, and nothing beside; 1 where a word that nobody knows may say it."""
         known = all(shipped_sentences().saw(word.said) for word in self.words if word.said.isalpha())
-        return shipped_fidelity().chance(self.words) if known else 1.0
+        return self.chances.faithful if known else 1.0
 
 
 def read_once(text: str, own: tuple[OwnWords, ...], context: Context | None) -> Sentence:

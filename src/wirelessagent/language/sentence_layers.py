@@ -19,6 +19,8 @@ MOST_FEATURES = 28
 """Of a word."""
 EMBEDDED, WIDTH, BLOCKS, HEADS = 28, 96, 2, 4
 """How many numbers a feature and a word are seen as; how many blocks, and how often each looks at other words."""
+ANSWERS = ("kind", "order", "faithful")
+"""What is read off a sentence, each by a head of its own."""
 REACH = 12
 """Up to how many words away one distance is told from another."""
 _STEEP = 1.7

@@ -1,9 +1,10 @@
-"""What a sentence wants, and whether it orders that now: what the network makes of it.
+"""What a sentence wants, whether it orders that now, and says what was read of it: what the network makes of it.
 
 A word is seen as it is said, by its letters and, in Chinese, with its neighbours, as the base word that the languages
 share, by what the lexicon knows of it, by its classes of mood (:mod:`.moods`), and whether it is part of a wish.
-Figures and users are one mark each, and so is every word that the training hardly saw. The mark of the start says what
-the lexicon's rules make of the wish (:mod:`.goals`).
+Figures and users are one mark each, with what they were read as, and so is every word that the training hardly saw. The
+mark of the start says what the lexicon's rules make of the wish (:mod:`.goals`). Every figure and user may have been
+read, and the sentence may yet mean something else: "ignore the 10 W limit", "all but users 5 and 6 are out".
 """
 
 from __future__ import annotations
@@ -18,10 +19,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.sentence_layers import BUCKETS, MOST_FEATURES, embedded, scores
+from wirelessagent.language.sentence_layers import ANSWERS, BUCKETS, MOST_FEATURES, embedded, scores
 from wirelessagent.language.text import hashed, is_chinese
 
-LIKELY = 0.82
+LIKELY = 0.86
 """How likely a sentence is one that orders something, at least, to be taken for one."""
 
 _SUREST = 9.2
@@ -62,10 +63,14 @@ START = Word("<s>", "<s>", "", (), True)
 
 @dataclass(frozen=True, kw_only=True)
 class Chances:
-    """How likely a sentence is of each kind, and how likely it orders something now, and does not only tell or ask."""
+    """How likely a sentence is of each kind, that it orders something now, and that it says what was read of it.
+
+    What only tells or asks orders nothing; what says something beside is not faithful.
+    """
 
     kinds: Mapping[str, float]
     order: float
+    faithful: float
 
     @property
     def is_told(self) -> bool:
@@ -110,6 +115,8 @@ def _seen(word: Word, before: str, behind: str, *, bare: bool) -> Iterator[str]:
     if word.meant:
         yield "C" + word.meant
     yield from ("m" + mood for mood in word.moods)
+    if word.role and not bare:
+        yield "r" + word.role
     if word.wished:
         yield "@"
     elif bare:
@@ -162,11 +169,13 @@ class SentenceModel:
         with np.load(path) as arrays:
             held = dict[str, npt.NDArray[Any]](arrays)
         labels, known = held.pop("labels"), np.unpackbits(held.pop("known")).astype(np.bool_)
-        return cls(labels=tuple(map(str, labels)), weights=weights_in(held), known=known)
+        return cls(labels=tuple(map(str, labels)), weights=_weights_in(held), known=known)
 
     def save(self, path: Path) -> None:
         known = np.packbits(self.known)
-        np.savez_compressed(path, allow_pickle=False, labels=np.array(self.labels), known=known, **stored(self.weights))
+        np.savez_compressed(
+            path, allow_pickle=False, labels=np.array(self.labels), known=known, **_stored(self.weights)
+        )
 
     def knows(self, word: str) -> bool:
         """Whether the training saw a word of more than three letters often enough, and all that they are seen by."""
@@ -182,39 +191,41 @@ class SentenceModel:
 
         ``other`` is a score for an order by another reader of it, which counts as much as the network's.
         """
-        (kinds,), ((own,),) = scored(self.weights, self.seen(words[:_MOST_WORDS]), ("kind", "order"))
+        seen = self._seen(words[:_MOST_WORDS])[None]
+        with np.errstate(over="ignore"):  # exp(88) is infinite here, and 1 divided by it nothing
+            (kinds,), ((own,),), ((faithful,),) = scores(
+                np, self.weights, seen, np.ones(seen.shape[:2], np.float32), ANSWERS
+            )
         likely = np.exp(kinds - kinds.max())
         likely /= likely.sum()
         score = float(np.clip([own, own if other is None else other], -_SUREST, _SUREST).mean())
-        order = 0.5 + 0.5 * math.tanh(score / 2) if len(words) <= _MOST_WORDS else 0.0
-        return Chances(kinds=dict(zip(self.labels, likely.tolist(), strict=True)), order=order)
+        return Chances(
+            kinds=dict(zip(self.labels, likely.tolist(), strict=True)),
+            order=_chance(score) if len(words) <= _MOST_WORDS else 0.0, faithful=_chance(float(faithful)),
+        )  # fmt: skip
 
-    def seen(self, words: Sequence[Word]) -> npt.NDArray[np.float32]:
+    def _seen(self, words: Sequence[Word]) -> npt.NDArray[np.float32]:
         """(word, EMBEDDED) of a sentence."""
         return np.asarray(embedded(np, self.weights, rows_of(*hashes_of(words), self.known)), np.float32)
 
 
-def scored(
-    weights: Mapping[str, npt.NDArray[Any]], seen: npt.NDArray[np.float32], heads: Sequence[str]
-) -> list[npt.NDArray[Any]]:
-    """Scores (1, label) of each of the heads, of one sentence (word, what is seen of one)."""
-    with np.errstate(over="ignore"):  # exp(88) is infinite here, and 1 divided by it nothing
-        return scores(np, weights, seen[None], np.ones((1, len(seen)), np.float32), heads)
+def _chance(score: float) -> float:
+    return 0.5 + 0.5 * math.tanh(score / 2)
 
 
-def weights_in(arrays: Mapping[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]:
-    """Weights as they are used, of a file that :func:`stored` was written into."""
+def _weights_in(arrays: Mapping[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]:
+    """Weights as they are used, of a file that :func:`_stored` was written into."""
     scales = {name: arrays[f"{name}_scales"] for name in arrays if f"{name}_scales" in arrays}
     names = (name for name in arrays if not name.endswith("_scales"))
     return {name: arrays[name].astype(np.float32) * scales.get(name, 1) for name in names}
 
 
-def stored(weights: Mapping[str, npt.NDArray[Any]], levels: int = 127) -> dict[str, npt.NDArray[Any]]:
-    """Matrices as int8, of so many levels at most, with a scale for each column, other weights as they are."""
+def _stored(weights: Mapping[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]:
+    """Matrices as int8 with a scale for each column, other weights as they are."""
     arrays = dict[str, npt.NDArray[Any]]()
     for name, each in weights.items():
         if each.ndim > 1:
-            scales = np.maximum(np.abs(each).max(axis=0), 1e-9).astype(np.float32) / levels
+            scales = np.maximum(np.abs(each).max(axis=0), 1e-9).astype(np.float32) / 127
             arrays[name], arrays[f"{name}_scales"] = np.rint(each / scales).astype(np.int8), scales
         else:
             arrays[name] = each.astype(np.float32)

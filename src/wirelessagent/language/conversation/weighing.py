@@ -78,14 +78,15 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
     meant = _done(line, possible, found)
     aims = any(isinstance(act, Aim) and act.objective != context.objective for act in found.acts)
     short = len(possible.line.words) < FRAMED
-    hardly = aims or read.order < UNLIKELY or intent.asks in _DENIED or denied
+    negated = intent.asks in _DENIED and bool(_denials(possible.line))
+    hardly = aims or read.order < UNLIKELY or negated or denied
     doubts = aims and intent.guess is not None  # whether another aim is ordered, the guard knows better
     if found.share >= (SURER if hardly else SURE) and not doubts:
         surely = found.share >= SURER and line.sentence.chances.orders(ORDERED)
         judged = dataclasses.replace(meant, recogniser=OFFLINE)
         done = meant if short or surely else guarded(line.text, context, judged)
         return done, done.kind != "clarify"
-    unsure = bool(read.effect) or (intent.kind == "clarify" and found.share > LIKELY and intent.asks not in _DENIED)
+    unsure = bool(read.effect) or (intent.kind == "clarify" and found.share > LIKELY and not negated)
     return (asking_whether(meant, line.voice) if unsure else intent), False
 
 
@@ -145,7 +146,7 @@ def _stands(line: Line, intent: Intent, context: Context) -> bool:
         return True
     if intent.kind == "question":
         missing = "missing_share" in intent.details and not speaks_of(line.sentence.plain)
-        certain = missing or intent.topic not in ("other", "what_if", "concept")
+        certain = missing or intent.topic not in ("other", "what_if", "concept", "capabilities")
         return intent.recogniser == NAME or certain
     if intent.kind == "clarify":
         return context.awaits == "clarification" or intent.asks in _CERTAIN

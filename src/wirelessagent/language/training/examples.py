@@ -7,11 +7,10 @@ that are filled (:mod:`.orders`).
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.sentence_model import TOLD
 from wirelessagent.language.training.compose import OBJECTIVES, mistyped, sentences
 from wirelessagent.language.training.orders import FILLED, FRAME, MILD, TALK, framed, in_talks
@@ -35,6 +34,8 @@ class Example(NamedTuple):
         kind: the label that is right, or what all right ones begin with; "order" and "none" for any that does or not.
         kind_counts, order_counts: how much that teaches of its kind, and of whether it orders something.
         turns: in what share of the passes it is read.
+        bent: whether it means something else than can be read of it; None where nobody knows.
+        constraints: that it states, where it is known not to be ``bent``.
     """
 
     text: str
@@ -43,6 +44,8 @@ class Example(NamedTuple):
     orders: bool
     order_counts: float
     turns: float
+    bent: bool | None = None
+    constraints: Mapping[str, Any] | None = None
 
 
 def examples() -> Iterator[Example]:
@@ -68,14 +71,15 @@ def examples() -> Iterator[Example]:
 def _spoken() -> Iterator[Example]:
     slips = random.Random(1)
     for each in spoken():
-        kind = "clarify.limits" if each.label == "clarify" and each.constraints else each.label
-        doubts = kind == "clarify" and Sentence(each.text, own_words()).reading.doubts  # asked about whatever it is
-        counts = 0.0 if doubts else _NEAR if kind in ("order", "none") else 1.0
+        limits, asked = each.constraints, each.label == "clarify" and each.constraints is None
+        kind = "clarify.limits" if each.label == "clarify" and limits else each.label
+        counts = 0.0 if asked and each.turned else _NEAR if kind in ("order", "none") else 1.0
         kind, does = _nothing(each.text) if kind == "none" else kind, each.is_order
         tells = 0.0 if does is None else 1.0 if each.near else MILD
-        example = Example(each.text, kind, counts, bool(does), tells, 1.0)
+        bent = True if asked else None if limits is None else False
+        example = Example(each.text, kind, counts, bool(does), tells, 1.0, bent, limits)
         yield example
-        if kind in OBJECTIVES and slips.random() < _SLIPS:
+        if (kind in OBJECTIVES or limits) and slips.random() < _SLIPS:
             yield example._replace(text=mistyped(each.text, slips))
 
 

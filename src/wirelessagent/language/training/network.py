@@ -9,7 +9,7 @@ import logging
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias, cast
+from typing import Any, cast
 
 import jax as untyped_jax
 import jax.numpy as untyped_jnp
@@ -18,6 +18,7 @@ import numpy.typing as npt
 import optax as untyped_optax  # pyright: ignore[reportMissingTypeStubs]
 
 from wirelessagent.language.sentence_layers import (
+    ANSWERS,
     BLOCKS,
     BUCKETS,
     EMBEDDED,
@@ -36,9 +37,12 @@ BATCH, LENGTHS = 128, (8, 12, 16, 20, 26, 34, 48, 80)
 """Sentences read at once, all of at most so many words and the mark of their start."""
 
 _PEAK, _LAST, _WARM, _DECAY, _CLIP, _FORGETS = 3e-3, 5e-5, 200, 0.02, 1.0, 0.998
-_LOST, _LOST_FEATURES, _BARE = 0.1, 0.08, 0.2
-"""What is lost of what is seen; of the features of words; and how often a wish is left with what it means alone, which
-then says nothing about its kind."""
+_LOST, _LOST_FEATURES, _LOST_WORDS, _LOSING, _BARE = 0.1, 0.08, 0.2, 0.25, 0.2
+"""What is lost of what is seen; of the features of words; of the words of some sentences, and of how many; and how
+often a wish is left with what it means alone, which then says nothing about its kind."""
+_FAITHFUL = 2.0
+"""What it counts whether a sentence says what was read of it. One word turns it round: where some may be lost, nothing
+is learned of that, and where something is, no feature is lost."""
 
 _SMOOTH = 0.01
 _LOG = logging.getLogger(__name__)
@@ -49,33 +53,25 @@ class Shown:
     """What sentences show.
 
     Attributes:
-        rows: of each, what is seen of its words (word, any).
-        bare: the same with what is left of a wish; without any, no sentence is ever seen so.
+        rows: of each, the features of its words (word, MOST_FEATURES).
+        bare: the same with what is left of a wish.
         known: (sentence, any) what is right, and how much that counts, by name.
         turns: (sentence,) in what share of the passes it is read.
-        lost_words: the share of words that are lost.
     """
 
-    rows: Sequence[npt.NDArray[Any]]
-    bare: Sequence[npt.NDArray[Any]] = ()
+    rows: Sequence[npt.NDArray[np.uint16]]
+    bare: Sequence[npt.NDArray[np.uint16]]
     known: Mapping[str, npt.NDArray[Any]]
     turns: npt.NDArray[np.float64]
-    lost_words: float = 0.05
 
 
-Loss: TypeAlias = Callable[[Any, Mapping[str, Any], Callable[[Any], Any]], Any]
-"""What is lost by weights on a batch; what it applies the function to is lost in parts."""
-
-
-def fit(
-    shown: Shown, first: Callable[[np.random.Generator], Any], loss: Loss, passes: float = PASSES, seed: int = 1
-) -> dict[str, npt.NDArray[np.float32]]:
-    """The weights that make what is shown likely, from the first ones on: the same for the same on one machine."""
+def fit(shown: Shown, kinds: int, passes: float = PASSES, seed: int = 1) -> dict[str, npt.NDArray[np.float32]]:
+    """The weights that make what is shown likely, for so many kinds: the same for the same on one machine."""
     chance = np.random.default_rng(seed)
     steps = int(passes * (shown.turns.sum() / BATCH + len(LENGTHS) / 2)) + 1
     rate = optax.warmup_cosine_decay_schedule(0.0, _PEAK, min(_WARM, steps // 10 + 1), steps + 1, _LAST)
     optimiser = optax.chain(optax.clip_by_global_norm(_CLIP), optax.adamw(rate, b2=0.98, weight_decay=_DECAY))
-    weights = jax.tree.map(jnp.asarray, first(chance))
+    weights = jax.tree.map(jnp.asarray, _first_weights(chance, kinds))
     state, mean, key = optimiser.init(weights), weights, jax.random.PRNGKey(seed)
 
     @jax.jit
@@ -108,53 +104,47 @@ def fit(
     return {name: np.asarray(each) for name, each in mean.items()}
 
 
-def drawn(chance: np.random.Generator, *shape: int, gain: float = 1.0) -> npt.NDArray[np.float32]:
+def _drawn(chance: np.random.Generator, *shape: int, gain: float = 1.0) -> npt.NDArray[np.float32]:
     """A matrix to begin with."""
     return (chance.standard_normal(shape) * gain / np.sqrt(np.prod(shape[:-1]))).astype(np.float32)
 
 
-def first_head(chance: np.random.Generator, name: str, size: int) -> dict[str, npt.NDArray[np.float32]]:
-    """Where the training of a head begins, for so many labels."""
-    return {
-        name + "pool": drawn(chance, WIDTH, HEADS), name: drawn(chance, WIDTH * (HEADS + 1), size, gain=0.5),
-        name + "bias": np.zeros(size, np.float32),
-    }  # fmt: skip
-
-
-def first_weights(chance: np.random.Generator, kinds: int) -> dict[str, npt.NDArray[np.float32]]:
+def _first_weights(chance: np.random.Generator, kinds: int) -> dict[str, npt.NDArray[np.float32]]:
     """Where a training begins, for so many kinds."""
     weights: dict[str, npt.NDArray[np.float32]] = {
         "embedding": (chance.standard_normal((BUCKETS, EMBEDDED)) * 0.1).astype(np.float32),
-        "in": drawn(chance, EMBEDDED, WIDTH),
+        "in": _drawn(chance, EMBEDDED, WIDTH),
     }
     for block in map(str, range(BLOCKS)):
         weights |= {
-            block + "near": drawn(chance, 3 * WIDTH, 2 * WIDTH), block + "sought": drawn(chance, WIDTH, 3 * WIDTH),
-            block + "found": drawn(chance, WIDTH, WIDTH, gain=0.5),
+            block + "near": _drawn(chance, 3 * WIDTH, 2 * WIDTH), block + "sought": _drawn(chance, WIDTH, 3 * WIDTH),
+            block + "found": _drawn(chance, WIDTH, WIDTH, gain=0.5),
             block + "far": np.zeros((HEADS, 2 * REACH + 1), np.float32),
-            block + "up": drawn(chance, WIDTH, 2 * WIDTH), block + "down": drawn(chance, 2 * WIDTH, WIDTH, gain=0.5),
+            block + "up": _drawn(chance, WIDTH, 2 * WIDTH), block + "down": _drawn(chance, 2 * WIDTH, WIDTH, gain=0.5),
         }  # fmt: skip
         weights |= {f"{block}norm{place}": np.ones(WIDTH, np.float32) for place in range(3)}
     weights["norm"] = np.ones(WIDTH, np.float32)
-    return weights | first_head(chance, "kind", kinds) | first_head(chance, "order", 1)
+    for name, labels in zip(ANSWERS, (kinds, 1, 1), strict=True):
+        weights |= {
+            name + "pool": _drawn(chance, WIDTH, HEADS), name: _drawn(chance, WIDTH * (HEADS + 1), labels, gain=0.5),
+            name + "bias": np.zeros(labels, np.float32),
+        }  # fmt: skip
+    return weights
 
 
 def loss(weights: Any, batch: Mapping[str, Any], lose: Callable[[Any], Any]) -> Any:
-    """Of the network that says the kind of a sentence ("right", "kind_counts") and whether it orders something."""
+    """Of the kind of a sentence, whether it orders something, and whether it says what was read of it."""
     sentences, length = batch["there"].shape
     words = embedded(jnp, weights, batch["rows"].reshape(-1, MOST_FEATURES)).reshape(sentences, length, -1)
-    kinds, order = scores(jnp, weights, words, batch["there"], ("kind", "order"), lose)
+    kinds, order, faithful = scores(jnp, weights, words, batch["there"], ANSWERS, lose)
     likely = jax.nn.log_softmax(kinds)
     right = jax.nn.logsumexp(jnp.where(batch["right"], likely, -1e9), -1)
     of_kind = ((1 - _SMOOTH) * right + _SMOOTH * likely.mean(-1)) @ batch["kind_counts"]
-    of_order = optax.sigmoid_binary_cross_entropy(order[..., 0], batch["orders"] * 0.98 + 0.01) @ batch["order_counts"]
-    return (of_order - of_kind) / sentences
-
-
-def loss_of_fidelity(weights: Any, batch: Mapping[str, Any], lose: Callable[[Any], Any]) -> Any:
-    """Of the network that says whether a sentence was read as it is meant ("faithful")."""
-    (score,) = scores(jnp, weights, batch["rows"], batch["there"], ("faithful",), lose)
-    return optax.sigmoid_binary_cross_entropy(score[..., 0], batch["faithful"] * 0.98 + 0.01).mean()
+    of_order, of_faithful = (
+        optax.sigmoid_binary_cross_entropy(score[..., 0], batch[name] * 0.98 + 0.01) @ batch[f"{name}_counts"]
+        for name, score in (("order", order), ("faithful", faithful))
+    )
+    return (of_order + _FAITHFUL * of_faithful - of_kind) / sentences
 
 
 def _batches(shown: Shown, chance: np.random.Generator) -> Iterator[Mapping[str, Any]]:
@@ -171,16 +161,16 @@ def _batches(shown: Shown, chance: np.random.Generator) -> Iterator[Mapping[str,
     order: list[int] = chance.permutation(len(batches)).tolist()
     for place in order:
         length, chosen = batches[place]
-        rows = np.zeros((BATCH, length, shown.rows[0].shape[1]), shown.rows[0].dtype)
+        rows = np.zeros((BATCH, length, MOST_FEATURES), np.int32)
         there = np.zeros((BATCH, length), np.float32)
-        bare, sentences = chance.random(BATCH) < (_BARE if shown.bare else 0), list[int](chosen.tolist())
-        for at, sentence in enumerate(sentences):
+        bare, loses = chance.random(BATCH) < _BARE, chance.random(BATCH) < _LOSING
+        for at, sentence in enumerate(list[int](chosen.tolist())):
             seen = (shown.bare if bare[at] else shown.rows)[sentence]
-            seen = seen[np.append(True, chance.random(len(seen) - 1) >= shown.lost_words)]
+            seen = seen[np.append(True, chance.random(len(seen) - 1) >= _LOST_WORDS * loses[at])]
             rows[at, : len(seen)], there[at, : len(seen)] = seen, 1
-        if rows.dtype == np.uint16:  # features
-            rows = rows.astype(np.int32) * (chance.random(rows.shape, np.float32) >= _LOST_FEATURES)
         known = {name: each[chosen] for name, each in shown.known.items()}
-        if "kind_counts" in known:
-            known["kind_counts"] = np.where(bare, np.float32(0), known["kind_counts"])
+        known["kind_counts"] = known["kind_counts"] * ~bare
+        known["faithful_counts"] = known["faithful_counts"] * ~(bare | loses)
+        kept = chance.random(rows.shape, np.float32) >= _LOST_FEATURES
+        rows *= kept | (known["faithful_counts"] > 0)[:, None, None]
         yield {"rows": rows, "there": there, **known}

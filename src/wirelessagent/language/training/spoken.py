@@ -4,7 +4,8 @@ Each line is a label, a sentence, and for a request its constraints as JSON in S
 are objectives, kinds of intents, and topics of questions and commands; "none" is a question, a remark or a report, all
 that orders nothing now, and "order" is what orders something that nobody wrote down. They were written for training, by
 authors who saw no test set; those in ``<language>_near.tsv`` so that what orders something and what does not are easily
-mistaken for each other.
+mistaken for each other; those in ``<language>_turned.tsv`` so that what means what its figures and users look like and
+what does not are, too: groups of orders, and between them what has to be asked about, "clarify" without constraints.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ class Spoken:
 
     Attributes:
         near: whether it was written to be mistaken.
+        turned: whether it was written so that something else is read of it than it means, or nearly so.
     """
 
     text: str
@@ -34,6 +36,7 @@ class Spoken:
     language: str
     constraints: Mapping[str, Any] | None = None
     near: bool = False
+    turned: bool = False
 
     @property
     def is_order(self) -> bool | None:
@@ -57,6 +60,6 @@ def spoken(folder: Path = SPOKEN) -> Iterator[Spoken]:
             label, text, *more = line.split("\t")
             language, _, near = path.stem.partition("_")
             yield Spoken(
-                text=text, label=label, language=language, near=bool(near),
+                text=text, label=label, language=language, near=bool(near), turned=near == "turned",
                 constraints=json.loads(more[0]) if more else None,
             )  # fmt: skip
