@@ -33,7 +33,7 @@ HEARD, NAMED = 0.06, 0.1
 """How likely what a line's reader hears has to be to be asked about, and, a request with its aim, to be done."""
 UNLIKELY = 0.25
 """How likely a frame is one of an order, below which a line has to be surer."""
-FRAMED, ORDERED = 6, 0.5
+FRAMED, ORDERED = 6, 0.7
 """From how many words on a line has a frame that is judged like that of a sentence, and how likely an order that line
 has to be whose meaning is as sure as can be."""
 
