@@ -23,6 +23,7 @@ def acts(text: str, context: Context | None = None) -> bool:
 @settings(deadline=None, max_examples=250, derandomize=True)
 @given(NOTHING_WISHED)
 @example("WW瓦")
+@example("M瓦")
 @example("ټڅڕ")
 def test_noise_never_acts(text: str) -> None:
     assert not acts(text), text

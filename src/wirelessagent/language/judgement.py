@@ -78,7 +78,8 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
             acts=goal.objective in registered, objective_clear=True,
         )  # fmt: skip
     kind, spoken_of = _kind(sentence, shares, objective), _spoken_of(goal, shares.labels)
-    if kind == "clarify" and sentence.chances.is_told and spoken_of is not None and spoken_of in shares.labels:
+    told = kind == "clarify" and sentence.worded and sentence.chances.is_told
+    if told and spoken_of is not None and spoken_of in shares.labels:
         kind, objective = "allocate", spoken_of  # "tomorrow, save power": the guard asks whether it is ordered now
         share = shares.labels[objective]
     acts = kind == "allocate"
