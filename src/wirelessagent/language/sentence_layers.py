@@ -7,7 +7,7 @@ question reads the answer: the kind of the sentence, whether it orders something
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import Any
 
@@ -36,10 +36,9 @@ def embedded(xp: ModuleType, weights: Weights, features: Any) -> Any:
 
 
 def scores(
-    xp: ModuleType, weights: Weights, words: Any, there: Any, heads: Sequence[str],
-    lose: Callable[[Any], Any] = lambda seen: seen,
-) -> list[Any]:  # fmt: skip
-    """Scores (sentence, label) of each of the ``heads``, of ``words`` (sentence, word, what is seen of one).
+    xp: ModuleType, weights: Weights, words: Any, there: Any, lose: Callable[[Any], Any] = lambda seen: seen
+) -> list[Any]:
+    """Scores (sentence, label) for each of :data:`ANSWERS`, of ``words`` (sentence, word, EMBEDDED).
 
     ``there`` (sentence, word) is 1 for a word and 0 behind the last; ``lose`` is what training loses of what is seen.
     """
@@ -70,7 +69,7 @@ def scores(
         pooled = (_shares(xp, looks.swapaxes(1, 2)) @ seen).reshape(len(seen), -1)
         return lose(xp.concatenate([pooled, most], -1)) @ weights[name] + weights[name + "bias"]
 
-    return list(map(head, heads))
+    return list(map(head, ANSWERS))
 
 
 def _normed(xp: ModuleType, seen: Any, gain: Any) -> Any:

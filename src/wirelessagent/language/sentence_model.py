@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from wirelessagent.language.sentence_layers import ANSWERS, BUCKETS, MOST_FEATURES, embedded, scores
+from wirelessagent.language.sentence_layers import BUCKETS, MOST_FEATURES, embedded, scores
 from wirelessagent.language.text import hashed, is_chinese
 
 LIKELY = 0.86
@@ -193,9 +193,7 @@ class SentenceModel:
         """
         seen = self._seen(words[:_MOST_WORDS])[None]
         with np.errstate(over="ignore"):  # exp(88) is infinite here, and 1 divided by it nothing
-            (kinds,), ((own,),), ((faithful,),) = scores(
-                np, self.weights, seen, np.ones(seen.shape[:2], np.float32), ANSWERS
-            )
+            (kinds,), ((own,),), ((faithful,),) = scores(np, self.weights, seen, np.ones(seen.shape[:2], np.float32))
         likely = np.exp(kinds - kinds.max())
         likely /= likely.sum()
         score = float(np.clip([own, own if other is None else other], -_SUREST, _SUREST).mean())

@@ -136,7 +136,7 @@ def loss(weights: Any, batch: Mapping[str, Any], lose: Callable[[Any], Any]) -> 
     """Of the kind of a sentence, whether it orders something, and whether it says what was read of it."""
     sentences, length = batch["there"].shape
     words = embedded(jnp, weights, batch["rows"].reshape(-1, MOST_FEATURES)).reshape(sentences, length, -1)
-    kinds, order, faithful = scores(jnp, weights, words, batch["there"], ANSWERS, lose)
+    kinds, order, faithful = scores(jnp, weights, words, batch["there"], lose)
     likely = jax.nn.log_softmax(kinds)
     right = jax.nn.logsumexp(jnp.where(batch["right"], likely, -1e9), -1)
     of_kind = ((1 - _SMOOTH) * right + _SMOOTH * likely.mean(-1)) @ batch["kind_counts"]
