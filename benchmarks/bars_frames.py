@@ -19,11 +19,11 @@ from typing import Any, cast
 from bars_talks import is_same, plain
 
 from wirelessagent.language.conversation import understood
-from wirelessagent.language.followups import numbers_of, users_in
 from wirelessagent.language.guard import CHANGING
 from wirelessagent.language.intent import EVERYBODY, Intent
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.request import numbered, users_in
 
 USERS = tuple(f"user {number}" for number in range(1, 9))
 FIRST = Context(user_names=USERS)
@@ -42,7 +42,7 @@ def read(path: Path) -> list[dict[str, Any]]:
 
 def acts(intent: Intent) -> bool:
     """Whether something would change; a session asks who is meant where a user is named whom the cell does not have."""
-    known = all(isinstance(user, int) for user in numbers_of(users_in(intent.constraints), USERS))
+    known = all(f"user {numbered(user)}" in USERS for user in users_in(intent.constraints))
     return (intent.kind == "allocate" and known) or (intent.kind == "command" and intent.topic in CHANGING)
 
 

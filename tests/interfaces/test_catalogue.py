@@ -13,9 +13,9 @@ import wirelessagent as wa
 from wirelessagent import plugins
 from wirelessagent.agent.session import Session
 from wirelessagent.language.conversation import understood
-from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.topics import tools_named
 from wirelessagent.telling.catalogue import called, has_message, joined, languages, listed, message, messages
 
 PACKAGE = Path(__file__).parents[2] / "src" / "wirelessagent"

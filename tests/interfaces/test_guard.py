@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from importlib import resources
 
 import pytest
 from conversations import asks
@@ -13,12 +12,13 @@ import wirelessagent as wa
 from wirelessagent.agent.session import Session
 from wirelessagent.language.conversation import understood
 from wirelessagent.language.guard import doubted, is_bent, stranger
-from wirelessagent.language.llm.endpoint import LlmSettings
+from wirelessagent.language.llm.client import LlmSettings
 from wirelessagent.language.llm.reader import LlmRecogniser
-from wirelessagent.language.moods import LANGUAGES, table_of
+from wirelessagent.language.moods import table_of
 from wirelessagent.language.offline import OfflineRecogniser, recognise
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.sentence import Sentence, own_words
+from wirelessagent.language.word_tables import languages_with
 
 USERS = tuple(f"user {number}" for number in range(1, 5))
 SCENE = wa.simulate("rayleigh", num_users=4, num_subcarriers=16, seed=3)
@@ -191,9 +191,7 @@ def test_the_words_that_speak_against_it_are_told(said: str, against: str) -> No
 
 
 def test_every_language_has_the_same_classes() -> None:
-    folder = resources.files("wirelessagent.language").joinpath("moods")
-    assert {file.name for file in folder.iterdir() if file.name.endswith(".toml")} == {f"{x}.toml" for x in LANGUAGES}
-    tables = {language: table_of(language) for language in LANGUAGES}
+    tables = {language: table_of(language) for language in languages_with("moods")}
     assert all(list(table) == list(tables["en"]) for table in tables.values())
     for table in tables.values():
         for words in (words for classes in table.values() for words in classes.values()):
@@ -396,7 +394,7 @@ def test_a_word_of_condition_asks_nothing_in_what_is_an_order() -> None:
     ("said", "against"),
     [
         ("Maximize the total rate, no way user 3 gets 5 Mbit/s", "no way user 3 gets 5 Mbit/s"),
-        ("max rate, the limit is not 10 W", "the limit is not 10 W"),
+        ("max rate, nobody wants user 3 to get 5 Mbit/s", "nobody wants user 3 to get 5 Mbit/s"),
     ],
 )
 def test_what_a_sentence_goes_on_with_has_to_be_an_order_too(said: str, against: str) -> None:

@@ -8,7 +8,7 @@ from wirelessagent.language.intent import checked_constraints
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.offline import recognise
 from wirelessagent.language.quantities import parse_quantities
-from wirelessagent.language.restating import limits_in_words
+from wirelessagent.language.replies import limits_in_words
 from wirelessagent.language.text import normalise
 from wirelessagent.model.errors import InputError
 

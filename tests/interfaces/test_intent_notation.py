@@ -132,6 +132,10 @@ def test_figures_with_their_bounds(text: str, constraints: dict[str, Any]) -> No
         "Tasa total máxima, bloques de recursos de 4 subportadoras",
         "总速率最大，资源块大小4",
         "总速率最大，每4个子载波组成一个资源块",
+        "highest sum rate, block size four",
+        "Höchste Summenrate in Viererblöcken",
+        "Summenrate maximieren, immer vier Unterträger zusammen",
+        "débit total maximal, par blocs de quatre sous-porteuses",
     ],
 )
 def test_blocks(text: str) -> None:

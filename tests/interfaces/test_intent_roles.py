@@ -14,7 +14,7 @@ from wirelessagent.language.intent import same_constraints
 from wirelessagent.language.leftovers import loose_numbers, unread
 from wirelessagent.language.offline import recognise
 from wirelessagent.language.quantities import parse_quantities
-from wirelessagent.language.role_features import BUCKETS, Span, around, hashed, tokens_of
+from wirelessagent.language.role_features import BUCKETS, Token, around, hashed, tokens_of
 from wirelessagent.language.stated import Reading
 from wirelessagent.language.text import normalise
 from wirelessagent.language.training import roles as training
@@ -122,7 +122,7 @@ def test_a_number_ends_where_a_name_begins() -> None:
 
 
 def test_what_lies_beyond_a_clause_counts_apart() -> None:
-    tokens = tokens_of("save power, 5 W each", [Span(start=12, end=15, placeholder="@power")])
+    tokens = tokens_of("save power, 5 W each", [Token("@power", 12, 15)])
     assert [token.word for token in tokens] == ["save", "power", ",", "@power", "each"]
     features = around(tokens, 3)
     assert {"R0each", "L1power"} <= features

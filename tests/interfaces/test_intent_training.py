@@ -37,17 +37,14 @@ from wirelessagent.language.sentence_model import (
     rows_of,
     shipped_sentences,
 )
-from wirelessagent.language.spelling import nearest, respelt
 from wirelessagent.language.text import hashed
-from wirelessagent.language.training import meant, orders, talk_fit, talk_notation, talks
+from wirelessagent.language.training import meant, orders, talk_notation, talks
 from wirelessagent.language.training.__main__ import taught
-from wirelessagent.language.training.compose import LANGUAGES, SLOTS, SURROUNDINGS, sentences
-from wirelessagent.language.training.examples import Example
-from wirelessagent.language.training.grammar import Grammar
+from wirelessagent.language.training.compose import LANGUAGES, SURROUNDINGS, Grammar, sentences, slots
+from wirelessagent.language.training.examples import FRAMES, Example, framed, spoken
 from wirelessagent.language.training.marked import marked, unmarked
-from wirelessagent.language.training.named import NAMED
-from wirelessagent.language.training.orders import FRAMES, framed
-from wirelessagent.language.training.spoken import spoken
+from wirelessagent.language.training.variants import NAMED
+from wirelessagent.language.vocabulary import nearest, respelt
 from wirelessagent.model.errors import InputError
 
 FOLDER = Path(training.__file__).parent
@@ -56,7 +53,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(scope="module")
 def drawn() -> list[tuple[str, str]]:
-    return list(sentences(FOLDER))
+    return list(sentences())
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -70,7 +67,7 @@ def test_every_template_can_be_drawn(language: str) -> None:
         assert kind != "command" or topic in COMMANDS
         assert kind != "question" or topic in (*QUESTIONS, "fact")
         for template in templates:
-            text = grammar.draw(template, chance, {**SLOTS[language], **free})
+            text = grammar.draw(template, chance, {**slots(language), **free})
             assert text or label == "opener"
             assert not set(text) & set("<>|"), (template, text)
 
@@ -85,8 +82,8 @@ def test_a_template_stands_for_its_alternatives() -> None:
 
 
 def test_the_same_sentences_for_a_seed(drawn: list[tuple[str, str]]) -> None:
-    assert drawn == list(sentences(FOLDER))
-    assert drawn[:100] != list(itertools.islice(sentences(FOLDER, seed=2), 100))
+    assert drawn == list(sentences())
+    assert drawn[:100] != list(itertools.islice(sentences(seed=2), 100))
     assert len(drawn) > 20_000
 
 
@@ -229,8 +226,8 @@ def test_the_judge_of_orders_sees_the_frame_and_not_the_wish(tmp_path: Path) -> 
         return Sentence(text, own_words()).frame
 
     said = [frame(form.format(wish)) for form in FRAMED for wish in WISHES[:2]]
-    labels = ["yes" if does else "no" for does in FRAMED.values() for _ in WISHES[:2]]
-    orders.made(said, labels, np.ones(len(labels))).save(tmp_path / "orders.npz")
+    does = np.array([does for does in FRAMED.values() for _ in WISHES[:2]])
+    orders.made(said, does, np.ones(len(does))).save(tmp_path / "orders.npz")
     model = OrderModel.load(tmp_path / "orders.npz")
     assert {form: model.score(frame(form.format(WISHES[2]))) > 0 for form in FRAMED} == FRAMED
     assert frame("Please max rate").tokens == frame("Please save power").tokens == ("please", "@")
@@ -335,7 +332,7 @@ def test_a_talk_is_an_example_a_line_with_what_it_comes_to(tmp_path: Path) -> No
 def test_a_model_of_talks_learns_what_it_is_shown_and_is_the_same_each_time(tmp_path: Path) -> None:
     (tmp_path / "one.txt").write_text(SAID, "utf-8")
     said = talks.parsed_all(list(talk_notation.examples(tmp_path)), processes=1)
-    model, again = (talk_fit.trained(said) for _ in range(2))
+    model, again = (talks.trained(said) for _ in range(2))
     assert (model.weights == again.weights).all()
     for example in talk_notation.examples(tmp_path):
         line = Line.of(example.text, example.context)

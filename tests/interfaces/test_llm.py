@@ -21,8 +21,7 @@ from pydantic import ValidationError
 
 from wirelessagent.language.intent import COMMANDS, QUESTIONS, Intent
 from wirelessagent.language.llm import reader
-from wirelessagent.language.llm.client import NoAnswer, counted
-from wirelessagent.language.llm.endpoint import LlmSettings
+from wirelessagent.language.llm.client import LlmSettings, NoAnswer, counted
 from wirelessagent.language.llm.reader import LlmRecogniser
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context

@@ -15,8 +15,7 @@ from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, LISTS_OF_USERS, Constraint, Intent, IntentKind
 from wirelessagent.language.llm.check import Case
 from wirelessagent.language.llm.client import NoAnswer, Objection
-from wirelessagent.language.llm.meaning import Details, FiguredConstraint, Meaning, meaning_with
-from wirelessagent.language.llm.prompt import KINDS, figures_of
+from wirelessagent.language.llm.prompt import KINDS, Details, FiguredConstraint, Meaning, figures_of, meaning_with
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.sentence import Sentence, own_words

@@ -9,7 +9,7 @@ from conversations import CHINESE, ENGLISH, LOSS, SCENE, SEED, Line
 from llm_stub import StubLlm, truthful
 
 from wirelessagent.agent.session import Session
-from wirelessagent.language.llm.endpoint import LlmSettings
+from wirelessagent.language.llm.client import LlmSettings
 from wirelessagent.language.llm.prompt import plain
 from wirelessagent.language.llm.reader import LlmRecogniser
 

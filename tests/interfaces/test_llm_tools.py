@@ -10,7 +10,7 @@ import pytest
 from llm_stub import Reply, StubLlm, call, error, say
 from pydantic import ValidationError
 
-from wirelessagent.language.llm.endpoint import LlmSettings
+from wirelessagent.language.llm.client import LlmSettings
 from wirelessagent.model.errors import InputError
 from wirelessagent.operations.catalogue import OPERATIONS, load
 from wirelessagent.operations.forms import form_of

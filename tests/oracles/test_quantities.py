@@ -110,6 +110,8 @@ def test_what_is_no_quantity(text: str) -> None:
         ("最低速率1兆", "at_least"), ("起码1兆", "at_least"), ("不超过10瓦", "at_most"), ("最多10瓦", "at_most"),
         ("10瓦以内", "at_most"), ("10瓦以下", "at_most"), ("最大功率10瓦", "at_most"), ("功率上限10瓦", "at_most"),
         ("功率别超过10瓦", "at_most"), ("低于10瓦", "at_most"), ("控制在10瓦以内", "at_most"),
+        ("10瓦以上免谈", "at_most"), ("12瓦以上的功率我不要", "at_most"), ("超过四瓦一概不批", "at_most"),
+        ("1兆以下绝对不行", "at_least"), ("1兆以下的用户不要管", "at_most"), ("anything over 10 W is out", "at_most"),
         ("with 10 W", None), ("10 W", None), ("max rate with 10 W", None), ("min power 1 Mbit/s each", None),
         ("maximum throughput, 10 W", None), ("用10瓦", None),
     ],

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from wirelessagent.language.replies import figure_in_words, limits_in_words
 from wirelessagent.language.request import Diff, Request, constraints_of
-from wirelessagent.language.restating import figure_in_words, limits_in_words
 from wirelessagent.telling.catalogue import called, joined, message
 from wirelessagent.telling.parts import goal_words
 

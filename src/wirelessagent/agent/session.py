@@ -31,12 +31,11 @@ from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import called, unanswered, understood, with_users
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.open_question import Missing, Question
-from wirelessagent.language.followups import users_in
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
-from wirelessagent.language.request import Request, difference
+from wirelessagent.language.request import Request, difference, users_in
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
 from wirelessagent.telling.catalogue import message

@@ -10,6 +10,7 @@ from wirelessagent.language.judged import Judged
 from wirelessagent.language.mentions import Mention, Role
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
+from wirelessagent.language.stated import Doubt
 from wirelessagent.language.text import Phrases, clause_end, clause_start
 from wirelessagent.language.word_tables import either
 
@@ -50,12 +51,12 @@ class Allotments:
         self._lists: dict[str, dict[str, str]] = {"users": {}, "leave_out": {}, "back": {}}
         self._used: set[Mention] = set()
         self._unsure: list[Mention] = []
-        self._excepted: set[Mention] = set()
-        self.exact: set[str] = set()
-        self._of_others = set[str]()
+        self._excepted: list[Mention] = []
+        self._of_others: set[str] = set()
         self.spans: list[tuple[int, int]] = []
         self.marks: list[tuple[int, int, str]] = []
         self._roles: dict[Mention, str] = {}
+        self._likely: dict[Mention, str] = {}
         for mention in self._found:
             role = self._assign(mention) if mention.role in ("named", "pronoun") else mention.role
             self.marks.append((mention.start, mention.end, role + "+" * (len(mention.users) > 1)))
@@ -73,7 +74,7 @@ class Allotments:
         if role in ("exempt", "unclear"):
             self._unsure.append(mention)
             if role == "exempt":
-                self._excepted.add(mention)
+                self._excepted.append(mention)
                 self._mask_a_clause(mention)
             return role
         self._used.add(mention)
@@ -124,7 +125,7 @@ class Allotments:
         chances, said = self._judged.user(mention), self._judged.said_of(mention)
         if said["exempt"] > _SURE_OF_A_ROLE:  # whatever rate stands beside it is that of all others
             return "exempt"
-        role = max(chances, key=lambda each: chances[each])
+        role = self._likely[mention] = max(chances, key=lambda each: chances[each])
         sure = _SURE_OF_SILENCE if role in _SILENT else _SURE_OF_A_ROLE  # nobody is to be dropped unheard
         unsaid = role == "leave_out" and _LEAVING.search(self._plain) is None  # "user 3 has priority"
         if role == "given" or (chances[role] > sure and said[role] > _SAID and not unsaid):
@@ -192,8 +193,6 @@ class Allotments:
 
     def give(self, name: str, target: Target, figure: Quantity) -> str | None:
         """Note a rate for its users; the words of an earlier one that contradicts it, or None."""
-        if figure.comparator == "exactly":
-            self.exact.add(name)
         if target.mention is not None:
             self._used.add(target.mention)
             if target.role == "named":
@@ -221,9 +220,14 @@ class Allotments:
                 yield mention.start, mention.end
 
     def _is_at_odds(self, mention: Mention) -> bool:
-        """Whether somebody has a rate elsewhere and is left out here: "user 3 needs 1 Mbit/s but drop user 3"."""
+        """Whether somebody has a rate elsewhere and is left out here: "user 3 needs 1 Mbit/s but drop user 3".
+
+        The same where they are served alone elsewhere, and here left out by all likelihood.
+        """
         rated = {user for name in _RATES for user, each in self._given[name].items() if each.value > 0}
-        return self._roles.get(mention) == "leave_out" and not rated.isdisjoint(mention.users)
+        if self._roles.get(mention) == "leave_out" and not rated.isdisjoint(mention.users):
+            return True
+        return self._likely.get(mention) == "leave_out" and not self._lists["users"].keys().isdisjoint(mention.users)
 
     def _said_elsewhere(self, mention: Mention) -> bool:
         """Whether everybody of a mention is settled by another, or by a weight."""
@@ -253,13 +257,14 @@ class Allotments:
         words["weights"] = [each.text for each in self._given["weights"].values()]
         return {name: " … ".join(dict.fromkeys(texts)) for name, texts in words.items() if texts}
 
-    def crossed(self) -> Iterator[tuple[str, str, str]]:
-        """Figures that cannot hold together, with the key of the question to ask."""
+    def crossed(self) -> Iterator[Doubt]:
+        """The questions that figures raise which cannot hold together."""
         low, high = (self._given[name] for name in _RATES)
-        for user in {*low, *high}:
+        for user in low | high:
             least, most = low.get(user, low.get(EVERYBODY)), high.get(user, high.get(EVERYBODY))
             if least is not None and most is not None and least.value > most.value:
-                yield least.text, most.text, "rates_crossed"
+                yield Doubt(key="rates_crossed", names={"low": least.text, "high": most.text})
         both = [user for user in self._lists["users"] if user in self._lists["leave_out"]]
         if both:
-            yield self._lists["users"][both[0]], self._lists["leave_out"][both[0]], "conflict"
+            one, other = (self._lists[name][both[0]] for name in ("users", "leave_out"))
+            yield Doubt(key="conflict", names={"one": one, "other": other})

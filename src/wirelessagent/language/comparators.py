@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.spelling import one_edit
 from wirelessagent.language.text import CLAUSE_END, USER_NOUN, Phrases
+from wirelessagent.language.vocabulary import one_edit
 from wirelessagent.language.word_tables import either, words_of
 
 Comparator: TypeAlias = Literal["at_least", "at_most", "exactly"]
@@ -31,6 +31,7 @@ _BEHIND: dict[str, Comparator] = {
     **dict.fromkeys(_words("at_most_behind"), "at_most"),
     "exactly": "exactly",
 }
+_TURNED = frozenset(_words("turned_behind"))  # which a word that denies turns round: "1兆以下不行"
 _POWER_NOUNS, _RATE_NOUNS = _words("power"), _words("rate")
 
 _LATIN = deferred(r"[A-Za-z]")
@@ -71,7 +72,7 @@ _BEFORE = Phrases(
 _NEGATION = deferred(rf"(?i){either('moods', 'negation', 'clause')}|{either('figures', 'bounds', 'forbids')}")
 _NOBODY = ("nobody", "without", "cannot", "nadie", "personne", "niemand")
 _DENIED_AFTER = deferred(  # "mehr als 24 Watt gibt's nicht", "below 1 Mbit/s nobody may fall"
-    rf"(?i)^(?:(?!\b(?:and|und|y|et|aber|but|sonst)\b)[\w\s'’-])*?{either('figures', 'bounds', 'denied_behind')}"
+    rf"(?i)^(?:(?!\b(?:and|und|y|et|aber|but|sonst)\b)[\w\s'’-])*?(?:{either('figures', 'bounds', 'denied_behind')})"
 )
 _AFTER_RE = deferred(
     rf"(?i)[\s-]*(?:(?:auch|das|ist|sind|je|pro|nutzer|kopf|die|jeden|für|each|everyone|person|de|en|per|user|the|at)\s+){{0,5}}"
@@ -123,7 +124,10 @@ def comparison(text: str, start: int, end: int, *, kind: str, after: int) -> Com
         word = "exactly" if last["exactly"] else "at_most" if last["at_most"] else "at_least"
         return Comparison(comparator=word, start=start, end=last.end())
     if behind is not None and _takes(kind, text[behind.end() : behind.end() + 12]):
-        return Comparison(comparator=_BEHIND[" ".join(behind["word"].lower().split())], start=start, end=behind.end())
+        word = " ".join(behind["word"].lower().split())
+        turned = word in _TURNED and _is_denied_behind(text, behind.end())
+        bound = _BEHIND[word] if not turned else "at_most" if _BEHIND[word] == "at_least" else "at_least"
+        return Comparison(comparator=bound, start=start, end=behind.end())
     return Comparison(comparator=None, start=start, end=end)
 
 
@@ -165,6 +169,10 @@ def _is_denied(text: str, from_: int, start: int, end: int) -> bool:
     """Whether a comparative is turned round, by what stands before it or, as verbs do in German, behind the figure."""
     if _NEGATION.search(text, from_, start) is not None or _is_misspelt_nobody(text[from_:start]):
         return True
+    return _is_denied_behind(text, end)
+
+
+def _is_denied_behind(text: str, end: int) -> bool:
     clause = _CLAUSE.search(text, end)
     return _DENIED_AFTER.match(text[end : clause.start() if clause else len(text)]) is not None
 

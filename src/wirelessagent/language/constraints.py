@@ -13,12 +13,10 @@ from collections.abc import Sequence
 
 from wirelessagent.language.allotments import Allotments
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.intent import Constraint
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.stated import Notes, Reading
+from wirelessagent.language.stated import Reading, doubt_parts, take_blocks, take_counts, take_share
 from wirelessagent.language.text import Phrases, clause_start, overlaps
-from wirelessagent.language.whole_cell import doubt_parts, take_blocks, take_counts, take_share
 from wirelessagent.language.word_tables import either
 
 _STEP = Phrases(either("figures", "one", "watt_more"), marks="watt vatio 一瓦")
@@ -37,7 +35,7 @@ _SINGLY_AHEAD, _SINGLY_BEHIND = (
 _GIVEN = 0.5
 _LIMITS = (
     "min_rate_bps", "max_rate_bps", "both", "max_power_w", "circuit_power_w", "subcarrier_max_power_w", "outage",
-    "reliability",
+    "reliability", "share",
 )  # fmt: skip
 _ASKED = {
     "change": "change", "part": "calculated", "total": "total_rate", "floor": "power_floor",
@@ -70,10 +68,10 @@ def read_constraints(
 
     ``names`` are the channel's users, ``max_power_w`` what shares of the power refer to.
     """
-    notes = Notes(text, plain, quantities)
-    take_blocks(notes)
-    take_share(notes, max_power_w)
-    reader = _Reader(notes, names)
+    reading = Reading(text=text, plain=plain, quantities=quantities)
+    take_blocks(reading)
+    take_share(reading, max_power_w)
+    reader = _Reader(reading, names, max_power_w)
     reader.take_numbers()
     reader.take_figures()
     reader.take_users()
@@ -83,49 +81,49 @@ def read_constraints(
 class _Reader:
     """One pass over the figures of a sentence."""
 
-    def __init__(self, notes: Notes, names: Sequence[str]) -> None:
-        self._notes = notes
-        self._judged = Judged(notes.plain, notes.quantities, names, notes.spoken_for)
-        self._allotments = Allotments(notes.text, notes.plain, self._judged)
+    def __init__(self, reading: Reading, names: Sequence[str], max_power_w: float) -> None:
+        self._reading, self._max_power_w = reading, max_power_w
+        self._judged = Judged(reading.plain, reading.quantities, names, reading.spoken_for)
+        for number in self._judged.groups:
+            reading.take_group(float(number.value or 0), (number.start, number.end))
+        if self._judged.groups:  # which are no figures to calculate with
+            self._judged = Judged(reading.plain, reading.quantities, names, reading.spoken_for)
+        self._allotments = Allotments(reading.text, reading.plain, self._judged)
 
     def result(self) -> Reading:
-        notes, allotted = self._notes, self._allotments
-        for one, other, key in allotted.crossed():
-            notes.doubt(
-                key, **({"low": one, "high": other} if key == "rates_crossed" else {"one": one, "other": other})
-            )
-        values: dict[str, Constraint] = {**notes.values, **allotted.values()}
-        return Reading(
-            values=values, evidence=notes.evidence | allotted.evidence(), doubts=notes.doubts, not_used=notes.not_used,
-            masked=[*notes.masked, *allotted.spans], counted=notes.counted,
-            exact=frozenset(notes.exact | allotted.exact), missing=notes.missing, steps=notes.steps,
-            back=allotted.back, named=allotted.named, strangers=self._judged.strangers,
-            marks=[*notes.marks, *allotted.marks],
-        )  # fmt: skip
+        """The reading, with what the users of the sentence are given."""
+        reading, allotted = self._reading, self._allotments
+        reading.doubts += allotted.crossed()
+        reading.values |= allotted.values()
+        reading.evidence |= allotted.evidence()
+        reading.masked += allotted.spans
+        reading.marks += allotted.marks
+        reading.back, reading.named, reading.strangers = allotted.back, allotted.named, self._judged.strangers
+        return reading
 
     def take_numbers(self) -> None:
         """Numbers without a unit: users, weights, descriptions and what borrows a unit are settled."""
-        notes, judged = self._notes, self._judged
-        notes.counted += judged.harmless
+        reading, judged = self._reading, self._judged
+        reading.counted += judged.harmless
         named = [(m.start, m.end) for m in judged.mentions if m.role == "named"]
         read = [(figure.start, figure.end) for figure in judged.figures]
-        settled = [*notes.counted, *named, *read, *self._allotments.spans, *notes.spoken_for]
-        for figure in notes.quantities:
+        settled = [*reading.counted, *named, *read, *self._allotments.spans, *reading.spoken_for]
+        for figure in reading.quantities:
             if figure.kind != "bare" or overlaps((figure.start, figure.end), settled):
                 continue
-            notes.masked.append((figure.phrase_start, figure.phrase_end))
-            notes.doubt("unit_missing", text=figure.text)
+            reading.masked.append((figure.phrase_start, figure.phrase_end))
+            reading.doubt("unit_missing", text=figure.text)
         for start, end in judged.doubtful:
-            notes.doubt("unit_missing", text=notes.text[start:end])
+            reading.doubt("unit_missing", text=reading.text[start:end])
 
     def take_figures(self) -> None:
         """Powers, rates and percentages, from left to right."""
         for index, figure in enumerate(self._judged.figures):
-            self._notes.masked.append((figure.phrase_start, figure.phrase_end))
+            self._reading.masked.append((figure.phrase_start, figure.phrase_end))
             doubt = self._taken(index, figure)
-            self._notes.marks.append((figure.start, figure.end, self._mark(index, figure)))
+            self._reading.marks.append((figure.start, figure.end, self._mark(index, figure)))
             if doubt:
-                self._notes.doubt(doubt, text=figure.text)
+                self._reading.doubt(doubt, text=figure.text)
 
     def _mark(self, index: int, figure: Quantity) -> str:
         """What a figure was read as, and whose a rate is."""
@@ -142,12 +140,12 @@ class _Reader:
             return "bits_or_bytes"
         if figure.kind != "ratio" and not 0 < figure.value < math.inf:
             return "impossible"
-        notes, chances = self._notes, self._judged.figure(index)
+        reading, chances = self._reading, self._judged.figure(index)
         role = self._judged.role(index)
         limits = sum(chances.get(name, 0.0) for name in _LIMITS)
         if role in _ASKED:
             if role == "change":
-                notes.steps["power_w" if figure.kind == "power" else "rate_bps"] = figure.value
+                reading.steps["power_w" if figure.kind == "power" else "rate_bps"] = figure.value
             return _ASKED[role]
         if role == "unclear":
             return self._asked_which(index, figure)
@@ -160,10 +158,10 @@ class _Reader:
             if role == "stale":
                 self._mask_a_correction(index, figure)
             if role == "missing":
-                notes.missing = figure.value
-                notes.not_used.append(figure.text)
+                reading.missing = figure.value
+                reading.not_used.append(figure.text)
             else:
-                notes.counted.append((figure.start, figure.end))
+                reading.counted.append((figure.start, figure.end))
             return ""
         if limits < _SURE_OF_A_LIMIT[figure.kind] or chances[role] < _SURE * limits:
             return _UNSURE[figure.kind]
@@ -175,31 +173,33 @@ class _Reader:
         """The words by which a figure takes the place of the one before it wish and deny nothing."""
         for other in self._judged.figures[index + 1 : index + 2]:
             if other.kind == figure.kind and other.start - figure.end < _NEAR:
-                self._notes.masked.append((figure.end, other.start))
+                self._reading.masked.append((figure.end, other.start))
 
     def _asked_which(self, index: int, figure: Quantity) -> str:
         """What to ask about a figure of which nobody could say what it is; of two, which holds: "10 W or 12 W"."""
         following = self._judged.figures[index + 1 : index + 2]
         if following and following[0].kind == figure.kind:
-            self._notes.doubt("conflict", one=figure.text, other=following[0].text)
+            self._reading.doubt("conflict", one=figure.text, other=following[0].text)
             return ""
         return _UNSURE[figure.kind]
 
     def _limited(self, role: str, figure: Quantity) -> str:
         """Take a figure as a limit, or say what is to be asked."""
-        setting = _SET_TO.search(self._notes.plain, max(0, figure.start - _NEAR), figure.start)
+        setting = _SET_TO.search(self._reading.plain, max(0, figure.start - _NEAR), figure.start)
         if setting is not None:
-            self._notes.masked.append((setting.start(), figure.end))
+            self._reading.masked.append((setting.start(), figure.end))
         another = self._with(_OF_ANOTHER_KIND, figure)
         if another:
-            self._notes.doubt("another_figure", text=another)
+            self._reading.doubt("another_figure", text=another)
         elif figure.kind == "rate" and self._with(_OF_SEVERAL, figure):
             return "total_rate"
+        elif role == "share":
+            self._reading.take("max_power_w", figure.value * self._max_power_w, figure)
         elif figure.kind == "ratio":
             if self._with(_OF_ANOTHER_SHARE, figure):
                 return "share"
             outage = figure.value if role == "outage" else round(1 - figure.value, 15)
-            self._notes.take("outage_probability", outage, figure)
+            self._reading.take("outage_probability", outage, figure)
         elif figure.kind == "power":
             if self._is_of_a_user(figure):
                 return "power_per_user"
@@ -207,7 +207,7 @@ class _Reader:
                 return "huge"
             if figure.value < _TINY_POWER_W:
                 return "whose_power"
-            self._notes.take(role, figure.value, figure)
+            self._reading.take(role, figure.value, figure)
         else:
             target = self._allotments.target_of(figure.start)
             if not target.sure:
@@ -215,23 +215,23 @@ class _Reader:
             for name in ("min_rate_bps", "max_rate_bps") if role == "both" else (role,):
                 earlier = self._allotments.give(name, target, figure)
                 if earlier is not None:
-                    self._notes.doubt("conflict", one=earlier, other=figure.text)
+                    self._reading.doubt("conflict", one=earlier, other=figure.text)
         return ""
 
     def _with(self, said: tuple[re.Pattern[str], re.Pattern[str]], figure: Quantity) -> str:
         """A figure with such words ahead or behind, at most its users between: "1 Mbit/s on average"; "" for none."""
-        plain, start, end = self._notes.plain, figure.phrase_start, figure.phrase_end
+        plain, start, end = self._reading.plain, figure.phrase_start, figure.phrase_end
         users = [each for each in self._judged.mentions if each.role == "named"]
         starts = [start, *(each.start for each in users if not plain[each.end : start].strip() and each.end <= start)]
         ends = [end, *(each.end for each in users if _FOR.fullmatch(plain, end, each.start))]
         ahead = [match.start() for at in starts if (match := said[0].search(plain, clause_start(plain, at), at))]
         behind = [match.end() for at in ends if (match := said[1].match(plain, at))]
         spans = [*((first, end) for first in ahead), *((start, last) for last in behind)]
-        return self._notes.text[slice(*spans[0])].strip() if spans else ""
+        return self._reading.text[slice(*spans[0])].strip() if spans else ""
 
     def _is_of_a_user(self, figure: Quantity) -> bool:
         """Whether a power is said to be somebody's who has no rate: "2 W for user 3", "no user above 2 W"."""
-        plain, start, end = self._notes.plain, figure.phrase_start, figure.phrase_end
+        plain, start, end = self._reading.plain, figure.phrase_start, figure.phrase_end
         if _SINGLY_BEHIND.match(plain, end) or _SINGLY_AHEAD.search(plain, clause_start(plain, start), start):
             return True
         users = (user for user in self._judged.mentions if user.role == "named")
@@ -243,10 +243,10 @@ class _Reader:
 
     def take_users(self) -> None:
         """Users who are counted, some of them, and those named who get nothing, of whom each raises a doubt."""
-        notes, allotted = self._notes, self._allotments
-        take_counts(notes, self._judged.recounted, allotted.spans)
-        doubt_parts(notes, allotted.spans)
+        reading, allotted = self._reading, self._allotments
+        take_counts(reading, self._judged.recounted, allotted.spans)
+        doubt_parts(reading, allotted.spans)
         for start, end in allotted.take_users():
-            notes.doubt("named_user", text=notes.text[start:end])
-        if _STEP.search(notes.plain) is not None:
-            notes.steps.setdefault("power_w", 1.0)
+            reading.doubt("named_user", text=reading.text[start:end])
+        if _STEP.search(reading.plain) is not None:
+            reading.steps.setdefault("power_w", 1.0)

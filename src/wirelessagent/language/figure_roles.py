@@ -23,7 +23,7 @@ from wirelessagent.language.deferred import deferred
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.role_features import Span, Token, around, around_base, hashed, in_base_words, tokens_of
+from wirelessagent.language.role_features import Token, around, around_base, hashed, in_base_words, tokens_of
 from wirelessagent.language.text import CJK, clause_end, clause_start, is_chinese
 
 ROLES_FILE = Path(__file__).with_name("roles.npz")
@@ -33,8 +33,10 @@ LABELS: Mapping[str, tuple[str, ...]] = {
         "floor", "per_user", "unclear",
     ),
     "rate": ("min_rate_bps", "max_rate_bps", "both", "none", "stale", "refused", "change", "part", "total", "unclear"),
-    "ratio": ("outage", "reliability", "missing", "none", "change"),
-    "number": ("user", "weight", "rate", "power", "multiple", "outage", "reliability", "harmless", "limit"),
+    "ratio": ("outage", "reliability", "missing", "none", "change", "share"),
+    "number": (
+        "user", "weight", "rate", "power", "multiple", "outage", "reliability", "harmless", "limit", "group", "share",
+    ),
     "user": ("leave_out", "users", "back", "exempt", "kept", "given", "stale", "unclear"),
     "link": ("link",),
     "word": ("somebody", "nobody"),
@@ -43,8 +45,9 @@ LABELS: Mapping[str, tuple[str, ...]] = {
 
 A figure that is "none" is told and limits nothing, one that is "stale" is corrected by the next, "refused" is called
 too much or too little; "change" is an amount to add or to save, "part" is calculated with, "unclear" is one of two, a
-reserve or another device's. Whoever is "exempt" is promised nothing of what all get, "kept" is only spoken of, "given"
-has a figure of their own, "back" is taken in again.
+reserve or another device's, a "share" is one of the cell's power, a "group" how many subcarriers go together. Whoever
+is "exempt" is promised nothing of what all get, "kept" is only spoken of, "given" has a figure of their own, "back" is
+taken in again.
 """
 
 _PLACEHOLDERS = {"named": "@user", "others": "@others", "everybody": "@all", "pronoun": "@them"}
@@ -52,7 +55,7 @@ _EACH = deferred(r"(?i)(?:each|apiece|je|jeweils|cada un[oa]|chacune?|各)(?!\w)
 _NOBODY = deferred(r"(?i)no|nadie|ning|personne|aucun|niemand|kein|[谁没无]")
 _PEOPLE = (*_PLACEHOLDERS.values(), "@each", "@nobody", "@weighed")
 Answer = TypeVar("Answer")
-_MOST_USERS = 20
+_SIZES = {"part": 0.999, "small": 20, "some": 99, "large": math.inf}  # of numbers, up to
 SCALED = deferred(r"\s?[kKMG](?![^\W\d_])")
 _FAR = 8
 _SURE_OF_A_NAME, _PART_OF_A_NAME, _SHORTEST_NAME = 0.6, 0.2, 2
@@ -100,12 +103,12 @@ class View:
         loose: Sequence[Number],
         ones: Sequence[Number] = (),
     ) -> None:
-        spans = [Span(start=q.start, end=q.end, placeholder=f"@{q.kind}") for q in figures]
-        spans += [Span(start=m.start, end=m.end, placeholder=_placeholder(plain, m)) for m in found]
-        spans += [Span(start=n.start, end=n.end, placeholder="@number") for n in loose]
+        placed = [Token(f"@{q.kind}", q.start, q.end) for q in figures]
+        placed += [Token(_placeholder(plain, m), m.start, m.end) for m in found]
+        placed += [Token("@number", n.start, n.end) for n in loose]
         self._plain, self._figures, self._mentions, self._loose, self._ones = plain, figures, found, loose, ones
-        self._spans = [span for span in spans if span.placeholder != _PLACEHOLDERS["pronoun"]]
-        self._tokens = tokens_of(plain, spans)
+        self._placed = [token for token in placed if token.word != _PLACEHOLDERS["pronoun"]]
+        self._tokens = tokens_of(plain, placed)
         starts = {number.start for number in ones}
         self._language = language_of(plain)
         self._base = in_base_words(self._tokens, self._language)
@@ -132,25 +135,24 @@ class View:
             f"is:{figure.comparator}", f"unit:{unit}", f"size:{size}", f"of:{len(alike)}", f"nth:{alike.index(place)}",
             *(f"{name}:{other.comparator}" for name, other in beside if other.kind == figure.kind),
         ]  # fmt: skip
-        found = around(self._tokens, place, known) | self._held
-        return found | self._based(figure.start)
+        return self._around(figure.start, known)
 
-    def _based(self, start: int) -> set[str]:
-        place = self._base_places.get(start)
-        return set() if place is None else around_base(self._base, place)
+    def _around(self, start: int, known: Sequence[str]) -> set[str]:
+        """The features of the token at ``start``, of which the rules say what is ``known``."""
+        found, place = around(self._tokens, self._places[start], known) | self._held, self._base_places.get(start)
+        return found if place is None else found | around_base(self._base, place)
 
     def user(self, mention: Mention) -> set[str]:
         """The features of somebody named."""
         words = self._plain[mention.start : mention.end].lower()
         known = [f"first:{words.split()[0][:8]}", f"last:{words[-1:]}", f"of:{min(len(mention.users), 3)}"]
-        found = around(self._tokens, self._places[mention.start], known) | self._held
-        return found | self._based(mention.start)
+        return self._around(mention.start, known)
 
     def telling(self, mention: Mention, role: str) -> tuple[int, int]:
         """The span of somebody named with the words right beside that speak for ``role``, on either side a few."""
         joints = list(_JOINT.finditer(self._plain))
-        ahead = [span.end for span in self._spans if span.end <= mention.start]
-        behind = [span.start for span in self._spans if span.start >= mention.end]
+        ahead = [token.end for token in self._placed if token.end <= mention.start]
+        behind = [token.start for token in self._placed if token.start >= mention.end]
         low = max([0, *ahead, *(joint.start() + 1 for joint in joints if joint.start() < mention.start)])
         high = min([len(self._plain), *behind, *(joint.start() for joint in joints if joint.start() >= mention.end)])
         low, high = clause_start(self._plain, mention.start, low), clause_end(self._plain, mention.end, high)
@@ -173,15 +175,15 @@ class View:
     def number(self, number: Number, bound: str = "") -> set[str]:
         """The features of a number without a unit; ``bound`` is how it is bounded, "" where it is not."""
         value = number.value
-        whole = value is not None and value == int(value)
-        size = "vague" if value is None else "part" if value < 1 else "small" if value <= _MOST_USERS else "large"
+        whole = str(int(value)) if value is not None and value == int(value) else ""
+        size = "vague" if value is None else next(name for name, most in _SIZES.items() if value <= most)
         words = self._plain[number.start : number.end].lower()
         scaled = SCALED.match(self._plain, number.end) is not None
-        user = whole and value is not None and str(int(value)) in self._users
-        known = [f"form:{number.form}", f"{size}:{whole}", f"exact:{words}", f"scaled:{scaled}", f"bound:{bound}"]
-        known.append(f"named:{user}:{bool(self._users)}")
-        found = around(self._tokens, self._places[number.start], known) | self._held
-        return found | self._based(number.start)
+        known = [
+            f"form:{number.form}", f"{size}:{whole != ''}", f"exact:{words}", f"scaled:{scaled}", f"bound:{bound}",
+            f"named:{whole in self._users}:{bool(self._users)}",
+        ]  # fmt: skip
+        return self._around(number.start, known)
 
     @property
     def words(self) -> list[int]:

@@ -21,6 +21,9 @@ _ASKS = deferred(
 )
 _ASKS_ELSEWHERE = deferred(rf"(?i)\s*[¿]?(?:(?:und|et|y) )?(?:{_any('asks')})")
 _IMPERATIVE = deferred(r"(?i)^\s*(?:\w+,? )?have\b|\bplease\b|\bbitte\b|\bs'il (?:te|vous)\b|\bpor favor\b")
+_KEEPING = deferred(
+    rf"(?i)^\s*(?:and|now|but|then|plus|ok,?\s+now|what\s+about|how\s+about)\b|{either('figures', 'kept', 'limits')}"
+)
 _ONLY_ASKING = deferred(f"(?i){_any('only_asks')}")
 _ANSWERS = {topic: deferred(rf"(?i)\s*(?:{_any(topic)})\s*[.!。\uff01~]*\s*") for topic in ("confirm", "reject")}
 _COMPARES = deferred(r"(?i)\s*(?:please\s+|请)?(?:compare|vergleiche?|compara|比较|对比)(?![A-Za-z])")
@@ -68,6 +71,11 @@ def asks_without_a_mark(plain: str) -> bool:
     """
     asks = begins_like_a_question(plain) or _ASKS_ELSEWHERE.match(plain) is not None
     return asks and _IMPERATIVE.search(plain) is None
+
+
+def keeps_the_limits(plain: str) -> bool:
+    """Whether a sentence with a wish changes the request at hand rather than replacing it."""
+    return _KEEPING.search(plain) is not None
 
 
 def is_a_program(text: str) -> bool:

@@ -28,7 +28,7 @@ _OPPOSITES = {
 }  # fmt: skip
 _UNSERVED = (*dict.fromkeys(_OPPOSITES.values()), "waste_power")
 _TURNED_FROM_BEHIND = ("max_energy_efficiency", "proportional_fairness", "max_min_rate")
-_SPOILERS = ("not", "isnt", "undo", "not_after", "keep", "bad", "down", "waste", "over", "join")
+_SPOILERS = ("not", "isnt", "undo", "not_after", "bad", "down", "waste", "over", "join")
 
 # What a direction and its object mean together, and how much that weighs.
 _PAIRS: dict[tuple[str, str], tuple[str, float]] = {
@@ -83,7 +83,6 @@ class Signal:
     clause: int
     corrected: bool
     negated: bool = False
-    immune: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,66 +105,56 @@ class Goal:
 
 def goal_of(found: Sequence[Found]) -> Goal:
     """The goal that the terms of a sentence make together."""
-    signals = _negate(_for_the_worst(_signals(found), found), found)
-    signals = _balanced(signals, found)
+    signals = _balanced(_negate(_for_the_worst(_signals(found), found), found), found)
+    wished, negated = [s for s in signals if not s.negated], {s.objective for s in signals if s.negated}
     positive: dict[str, float] = {}
-    for signal in signals:
-        if not signal.negated:
-            positive[signal.objective] = positive.get(signal.objective, 0.0) + signal.weight
-    negated = {signal.objective for signal in signals if signal.negated}
+    for signal in wished:
+        positive[signal.objective] = positive.get(signal.objective, 0.0) + signal.weight
     strong = [name for name in sorted(positive, key=lambda name: -positive[name]) if positive[name] >= ENOUGH]
-    spans = tuple((s.start, s.end) for s in signals if strong and s.objective == strong[0] and not s.negated)
+    own = [s for s in wished if s.objective in strong[:1]]
+    spans = tuple((s.start, s.end) for s in own)
     if any(name in _UNSERVED for name in strong):
         return Goal(verdict="opposite", options=tuple(strong), spans=spans)
     if len(strong) > 1 or (strong and strong[0] in negated):
         return Goal(verdict="contradiction", options=tuple(strong), spans=spans)
     if not strong:
         return _contrasted(signals) or _unclear(positive, negated)
-    if strong[0] != "max_min_rate" and ("max_min_rate" in positive or _speaks_of_the_worst(signals, strong[0], found)):
+    if strong[0] != "max_min_rate" and "max_min_rate" in positive:
         return Goal(verdict="contradiction", options=(strong[0], "max_min_rate"), spans=spans)
-    if _joined_with_another(signals, strong[0], found):
+    if _joined_with_another(wished, own, found):
         return Goal(verdict="contradiction", options=tuple(positive), spans=spans)
-    slips = any(s.corrected for s in signals if s.objective == strong[0])
+    slips, best = any(s.corrected for s in own), max(s.weight for s in own)
     others = sum(weight for name, weight in positive.items() if name != strong[0])
-    best = max(s.weight for s in signals if s.objective == strong[0] and not s.negated)
     confidence = 0.8 + 0.075 * min(best, 2.0) - 0.1 * slips - 0.1 * min(others, 1.0)
     return Goal(verdict="clear", objective=strong[0], options=tuple(strong), spans=spans, confidence=confidence)
 
 
-def _speaks_of_the_worst(signals: Sequence[Signal], objective: str, found: Sequence[Found]) -> bool:
-    """Whether a wish has the slowest user in its clause and still is not for that user: "stop making … faster"."""
-    clauses = {item.clause for item in found if item.term.concept == "worst"}
-    return any(s.objective == objective and not s.negated and s.clause in clauses for s in signals)
-
-
-def _joined_with_another(signals: Sequence[Signal], objective: str, found: Sequence[Found]) -> bool:
+def _joined_with_another(wished: Sequence[Signal], own: Sequence[Signal], found: Sequence[Found]) -> bool:
     """Whether an "and" ties the clear wish to a bare word for another one: "battery saving and speed"."""
     joins = {item.first for item in found if item.term.concept == "join"}
-    wished = [signal for signal in signals if signal.objective == objective and not signal.negated]
-    others = [signal for signal in signals if signal.objective != objective and not signal.negated]
     return any(
         (a.last in joins and b.first == a.last + 1) or (b.last in joins and a.first == b.last + 1)
-        for a in wished
-        for b in others
+        for a in own
+        for b in wished
+        if a.objective != b.objective
     )
 
 
 def _contrasted(signals: Sequence[Signal]) -> Goal | None:
     """The one aim that is named where another is denied in a clause of its own: "speed, not power saving"."""
-    named = {signal.objective for signal in signals if not signal.negated}
-    denied = {signal.objective for signal in signals if signal.negated}
-    clauses = {signal.clause for signal in signals if signal.negated}
-    apart = all(signal.negated or signal.clause not in clauses for signal in signals)
-    if len(named) != 1 or not denied or named & {*denied, *_UNSERVED} or not apart:
+    wished, denied = [s for s in signals if not s.negated], [s for s in signals if s.negated]
+    named, clauses = {signal.objective for signal in wished}, {signal.clause for signal in denied}
+    apart = all(signal.clause not in clauses for signal in wished)
+    if len(named) != 1 or not denied or named & {*(signal.objective for signal in denied), *_UNSERVED} or not apart:
         return None
-    spans = tuple((signal.start, signal.end) for signal in signals if not signal.negated)
+    spans = tuple((signal.start, signal.end) for signal in wished)
     return Goal(verdict="clear", objective=(one := named.pop()), options=(one,), spans=spans, confidence=_CONTRASTED)
 
 
 def _unclear(positive: dict[str, float], negated: set[str]) -> Goal:
-    served = [name for name in positive if name not in _UNSERVED and name not in negated]
-    if negated - set(_UNSERVED):
-        return Goal(verdict="negated", options=tuple(sorted(negated - set(_UNSERVED))))
+    served = [name for name in positive if name not in _UNSERVED]
+    if negated:
+        return Goal(verdict="negated", options=tuple(sorted(negated)))
     if served:
         best = max(served, key=lambda name: positive[name])
         return Goal(verdict="weak", objective=best, options=(best,))
@@ -184,8 +173,8 @@ def _signals(found: Sequence[Found]) -> list[Signal]:
         elif item.term.concept in _OBJECTS:
             direction = pairs.get(item.first)
             meaning = None if direction is None else _PAIRS.get((direction.term.concept, item.term.concept))
-            if meaning is not None and meaning[0] == "waste_power" and _lessened(found, item):
-                meaning = _PAIRS["down", "power"]
+            if meaning is not None and meaning[0] == "waste_power" and _beside(item, found, "down") is not None:
+                meaning = _PAIRS["down", "power"]  # "reduce the wasted power"
             if direction is not None and meaning is not None:
                 signals.append(_signal(direction, item, *meaning))
             elif item.term.concept in _ALONE:
@@ -229,11 +218,6 @@ def _for_the_worst(signals: list[Signal], found: Sequence[Found]) -> list[Signal
     return result
 
 
-def _lessened(found: Sequence[Found], item: Found) -> bool:
-    """Whether waste is to be reduced, as in "reduce the wasted power"."""
-    return any(other.term.concept == "down" and other.clause == item.clause for other in found)
-
-
 def _turned_round(item: Found, found: Sequence[Found], pairs: Mapping[int, Found]) -> Found | None:
     """The word that makes a term the opposite of its wish: "lowest energy efficiency", "more buffering"."""
     if item.term.objective not in _OPPOSITES:
@@ -245,7 +229,7 @@ def _turned_round(item: Found, found: Sequence[Found], pairs: Mapping[int, Found
         before = word.last <= item.first
         gap = item.first - word.last if before else word.first - item.last
         sided = before or (not item.term.complaint and item.term.objective in _TURNED_FROM_BEHIND)
-        if free and sided and gap <= _REACH_TO_TURN and not _blocked(found, word, item):
+        if free and sided and gap <= _REACH_TO_TURN:
             return word
     return None
 
@@ -254,7 +238,7 @@ def _signal(one: Found, other: Found, objective: str, weight: float) -> Signal:
     a, b = (one, other) if one.first <= other.first else (other, one)
     return Signal(
         objective=objective, weight=weight, start=a.start, end=b.end, first=a.first, last=b.last, clause=a.clause,
-        corrected=a.corrected or b.corrected, immune=one.term.concept == "keep",
+        corrected=a.corrected or b.corrected,
     )  # fmt: skip
 
 
@@ -264,15 +248,14 @@ def _pair(found: Sequence[Found]) -> dict[int, Found]:
     for place, item in enumerate(found):
         if item.term.concept not in _OBJECTS:
             continue
-        near = found[max(0, place - _REACH_BEFORE - 1) : place + _REACH_AFTER + 2]
-        for direction in near:
+        for direction in found[max(0, place - _REACH_BEFORE - 1) : place + _REACH_AFTER + 2]:
             if direction.term.concept not in _DIRECTIONS or direction.clause != item.clause:
                 continue
             before = direction.last <= item.first
             gap = item.first - direction.last if before else direction.first - item.last
             reach = 1 if item.term.concept == "stream" else _REACH_BEFORE if before else _REACH_AFTER
             means = (direction.term.concept, item.term.concept) in _PAIRS
-            if means and gap <= reach and not _blocked(near, direction, item):
+            if means and gap <= reach and not _blocked(found, direction, item):
                 cost = gap + (0.0 if before else 0.5) + _VAGUE.get((direction.term.concept, item.term.concept), 0.0)
                 candidates.append((cost, item, direction))
     chosen: dict[int, Found] = {}
@@ -315,7 +298,7 @@ def _negate(signals: list[Signal], found: Sequence[Found]) -> list[Signal]:
             turned_off.update(other.first for other in behind[-1:])
     result: list[Signal] = []
     for signal in signals:
-        hit = not signal.immune and any(signal.first <= place < signal.last for place in turned_off)
+        hit = any(signal.first <= place < signal.last for place in turned_off)
         if hit and signal.objective in _UNSERVED:
             if signal.objective in ("less_rate", "waste_power"):
                 wish = "max_rate" if signal.objective == "less_rate" else "min_power"

@@ -15,12 +15,12 @@ import re
 from typing import TYPE_CHECKING
 
 from wirelessagent.language.base_words import languages_of
-from wirelessagent.language.followups import users_in
 from wirelessagent.language.intent import Intent
-from wirelessagent.language.moods import Span
 from wirelessagent.language.order_model import shipped_order_model
 from wirelessagent.language.replies import Voice
+from wirelessagent.language.request import users_in
 from wirelessagent.language.sentence import labels_of, own_words, read_once
+from wirelessagent.language.text import Span
 from wirelessagent.language.word_tables import table
 
 if TYPE_CHECKING:

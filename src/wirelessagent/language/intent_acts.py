@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, cast
 
@@ -43,24 +44,16 @@ def _changes(intent: Intent) -> Iterator[Act]:
 def stated(constraints: Mapping[str, Constraint], words: Mapping[str, str] | None = None) -> Iterator[Act]:
     """The acts that state constraints, each with its words where they are known."""
     for name, value in constraints.items():
-        yield from _limits(name, value, (words or {}).get(name, ""))
-
-
-def _limits(name: str, value: Constraint, words: str = "") -> Iterator[Act]:
-    """The acts that state a constraint, as :class:`~wirelessagent.language.intent.Intent` writes it."""
-    if isinstance(value, tuple):
-        whom = acts.Named(value)
-        yield (
-            acts.Serve(whom=whom, alone=True, words=words) if name == "users" else acts.LeaveOut(whom=whom, words=words)
-        )
-    elif isinstance(value, Mapping):
-        if EVERYBODY in value:
-            yield acts.Limit(kind=name, value=value[EVERYBODY], words=words)
-        for user, figure in value.items():
-            if user != EVERYBODY:
-                yield acts.Limit(kind=name, value=figure, whom=acts.Named((user,)), words=words)
-    else:
-        yield acts.Limit(kind=name, value=float(value), words=words)
+        said = (words or {}).get(name, "")
+        if name == "users" and isinstance(value, tuple):
+            yield acts.Serve(whom=acts.Named(value), alone=True, words=said)
+        elif isinstance(value, tuple):
+            yield acts.LeaveOut(whom=acts.Named(value), words=said)
+        else:
+            by_user = value if isinstance(value, Mapping) else {EVERYBODY: float(value)}
+            for user in sorted(by_user, key=lambda user: user != EVERYBODY):  # whose figure takes those of others off
+                whom = acts.Everybody() if user == EVERYBODY else acts.Named((user,))
+                yield acts.Limit(kind=name, value=by_user[user], whom=whom, words=said)
 
 
 def _supposed(details: Details) -> Act:
@@ -133,12 +126,8 @@ def _compared(details: Details) -> Act:
     changes += [(acts.Aim(objective=aim),) for aim in str(details.get("aims", "")).split()]
     if changes:
         return acts.CompareRequests(changes=tuple(changes))
-    said = " ".join(str(details[name]) for name in ("with", "methods", "repairers") if name in details)
-    names = tuple(name for name in said.translate(_SEPARATORS).split() if name != "last")
+    names = tuple(name for name in re.split(r"[\s,，、;]+", str(details.get("with", ""))) if name not in ("", "last"))
     return acts.CompareTools(names=names) if names else acts.CompareLast()
-
-
-_SEPARATORS = str.maketrans(",，、;", "    ")
 
 
 def _yes(details: Details) -> Act:
@@ -153,10 +142,6 @@ def _undone(details: Details) -> Act:
     return acts.Undo(steps=int(steps) if isinstance(steps, float) else None)
 
 
-def _history(details: Details) -> Act:
-    return acts.AskHistory(turn=_turn(details, "turn" if "turn" in details else "number"))
-
-
 _TOPICS: Mapping[str, Callable[[Details], Act]] = {
     "apply": lambda details: acts.Apply(),
     "confirm": _yes,
@@ -165,7 +150,7 @@ _TOPICS: Mapping[str, Callable[[Details], Act]] = {
     "reset": lambda details: acts.Forget(),
     "compare": _compared,
     "explain": lambda details: acts.AskReasons(turn=_turn(details, "turn")),
-    "history": _history,
+    "history": lambda details: acts.AskHistory(turn=_turn(details, "turn" if "turn" in details else "number")),
     "status": lambda details: acts.AskStatus(),
     "help": lambda details: acts.AskHelp(),
     "export": lambda details: acts.Export(format=str(details.get("format", "ts28312"))),

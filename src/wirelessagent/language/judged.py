@@ -23,8 +23,8 @@ from wirelessagent.language.mentions import JOINT, LISTED, Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.request import numbered
+from wirelessagent.language.stated import COUNTED_USERS
 from wirelessagent.language.text import Phrases, is_within
-from wirelessagent.language.whole_cell import COUNTED_USERS
 from wirelessagent.language.word_tables import either
 
 _Answer = TypeVar("_Answer")
@@ -40,7 +40,7 @@ _WEIGHTS = deferred(  # what follows are weights, whatever else they may look li
 )
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
 _SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.7, 0.6, 0.6, 0.6, 0.5
-_LIKELY, _PERHAPS = 0.4, 0.2
+_SURE_OF_A_GROUP, _LIKELY, _PERHAPS = 0.6, 0.4, 0.2
 _CARRIERS = Phrases(either("figures", "bounds", "carriers"))
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 _BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
@@ -56,6 +56,7 @@ class Judged:
         figures: the quantities with a unit that lie outside ``taken``, those with a bound of unknown unit among them.
         mentions: everybody spoken of, from left to right.
         weights: numbers and words that say how much somebody counts.
+        groups: numbers that say how many subcarriers go together.
         recounted: the spans of numbers that only count the users of a mention again ("users 2 and 5, those two").
         lists: where the rates or the weights of each list begin.
         doubtful: the spans of words such as "one" that may be figures and may be nothing.
@@ -90,6 +91,7 @@ class Judged:
         self.figures = sorted([*look.figures, *look.unread], key=lambda figure: figure.start)
         self.doubtful = [(n.start, n.end) for n in _doubtful(first, look, chances)]
         self.weights = [n for n in look.loose if n in weighing or _weighs(plain, n, chances[n])]
+        self.groups = [n for n in look.loose if n.value is not None and chances[n]["group"] > _SURE_OF_A_GROUP]
         unread = [number for number in plausible if number in look.loose]
         together = {len(mention.users) for mention in look.mentions if len(mention.users) > 1}
         self.recounted = [(n.start, n.end) for n in unread if n.value in together]
@@ -260,10 +262,8 @@ def _borrowing(look: Look, roles: _Roles, users: Sequence[Number]) -> dict[Numbe
     found: dict[Number, str] = {}
     for number, chances in roles.items():
         role = max(BORROWING, key=lambda each: chances[each])
-        foreign = (
-            SCALED.match(look.plain, number.end) is None and FOREIGN_UNIT.match(look.plain, number.end) is not None
-        )
-        if number not in users and not foreign and _is_a_figure(look, number, chances, role):
+        scaled, foreign = (pattern.match(look.plain, number.end) is not None for pattern in (SCALED, FOREIGN_UNIT))
+        if number not in users and (scaled or not foreign) and _is_a_figure(look, number, chances, role):
             found[number] = role
     return found
 

@@ -51,20 +51,12 @@ class Judgement:
     spoken_of: str | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Shares:
-    """What the model says: by label, by kind, and the likeliest topic of each kind."""
-
-    labels: Mapping[str, float]
-    kinds: Mapping[str, float]
-    topics: Mapping[str, str]
-
-
 def judge(sentence: Sentence, registered: set[str]) -> Judgement:
     """What the sentence wants, among the registered objectives."""
-    goal, shares = sentence.goal, _shares(sentence)
-    objective = max(BUILT_IN, key=lambda name: shares.labels[name])
-    share, limits = shares.labels[objective], shares.labels[_LIMITS]
+    goal, labels = sentence.goal, sentence.chances.kinds
+    kinds = _by_kind(labels)
+    objective = max(BUILT_IN, key=lambda name: labels[name])
+    share, limits = labels[objective], labels[_LIMITS]
     command = forms.plain_command(sentence.plain)
     if command:
         return Judgement(
@@ -72,24 +64,24 @@ def judge(sentence: Sentence, registered: set[str]) -> Judgement:
             acts=False,
         )  # fmt: skip
     own_phrase = goal.verdict == "clear" and (goal.objective not in BUILT_IN or _is_all_said(sentence))
-    if own_phrase and shares.kinds["question"] + shares.kinds["command"] < _OWN_PHRASE_ASKED:
+    if own_phrase and kinds["question"][0] + kinds["command"][0] < _OWN_PHRASE_ASKED:
         return Judgement(
             kind="allocate", topic="", objective=goal.objective, likeliest=1.0, limits=0.0, certainty=goal.confidence,
             acts=goal.objective in registered, objective_clear=True,
         )  # fmt: skip
-    kind, spoken_of = _kind(sentence, shares, objective), _spoken_of(goal, shares.labels)
+    kind, spoken_of = _kind(sentence, kinds, objective, share), _spoken_of(goal, labels)
     told = kind == "clarify" and sentence.worded and sentence.chances.is_told
-    if told and spoken_of is not None and spoken_of in shares.labels:
+    if told and spoken_of is not None and spoken_of in labels:
         kind, objective = "allocate", spoken_of  # "tomorrow, save power": the guard asks whether it is ordered now
-        share = shares.labels[objective]
+        share = labels[objective]
     acts = kind == "allocate"
-    topic = "" if acts else shares.topics[kind]
-    if topic == "what_if" and sentence.reading.steps and shares.labels["question.step"] > shares.labels[_WHAT_IF] / 2:
+    topic = "" if acts else kinds[kind][1]
+    if topic == "what_if" and sentence.reading.steps and labels["question.step"] > labels[_WHAT_IF] / 2:
         topic = "step"
     if topic == "step" and _is_of_no_step(sentence):
         topic = "what_if"
     agreed = goal.confidence if goal.verdict == "clear" and goal.objective == objective else 0.0
-    sure = max(agreed, share) if acts else shares.kinds[kind]
+    sure = max(agreed, share) if acts else kinds[kind][0]
     return Judgement(
         kind=kind, topic=topic, objective=objective, likeliest=share, limits=limits,
         certainty=round(min(1.0, sure), 4), acts=acts, spoken_of=spoken_of,
@@ -118,29 +110,26 @@ def _is_all_said(sentence: Sentence) -> bool:
     return not others and sentence.plain[start:end] == sentence.plain.strip(" .!。\uff01")
 
 
-def _shares(sentence: Sentence) -> _Shares:
-    labels = sentence.chances.kinds
-    kinds: dict[str, float] = dict.fromkeys(_OTHER_KINDS, 0.0)
-    best: dict[str, tuple[float, str]] = dict.fromkeys(_OTHER_KINDS, (-1.0, ""))
-    for label, share in labels.items():
-        kind, _, topic = label.partition(".")
-        if kind in kinds:
-            kinds[kind] += share
-            best[kind] = max(best[kind], (share, topic))
-    return _Shares(labels=labels, kinds=kinds, topics={kind: topic for kind, (_, topic) in best.items()})
+def _by_kind(labels: Mapping[str, float]) -> dict[str, tuple[float, str]]:
+    """How likely each other kind is, and its likeliest topic."""
+    found = dict[str, tuple[float, str]]()
+    for kind in _OTHER_KINDS:
+        topics = {label.partition(".")[2]: share for label, share in labels.items() if label.partition(".")[0] == kind}
+        found[kind] = sum(topics.values()), max(topics, key=lambda topic: topics[topic])
+    return found
 
 
-def _kind(sentence: Sentence, shares: _Shares, objective: str) -> IntentKind:
-    """The likeliest kind; "allocate" only where that may be acted on."""
-    other = max(_OTHER_KINDS, key=lambda kind: shares.kinds[kind])
+def _kind(sentence: Sentence, kinds: Mapping[str, tuple[float, str]], objective: str, share: float) -> IntentKind:
+    """The likeliest kind; "allocate" only where the objective, which has this share, may be acted on."""
+    other = max(_OTHER_KINDS, key=lambda kind: kinds[kind][0])
     if forms.is_a_program(sentence.text):
         return "out_of_scope"
     sign = len(sentence.units) == 1 and len(sentence.units[0].word) == 1  # a letter, a Chinese character
     if sign or not sentence.worded:
         return "clarify"
-    if shares.kinds[other] >= shares.labels[objective]:
+    if kinds[other][0] >= share:
         back = other == "command" and sentence.reading.back  # "bring user 3 back" changes a request, it undoes none
-        return "clarify" if back or shares.kinds[other] < _AGREED else cast("IntentKind", other)
+        return "clarify" if back or kinds[other][0] < _AGREED else cast("IntentKind", other)
     goal = sentence.goal
     enough = _ENOUGH if goal.verdict != "clear" else _AGREED if goal.objective == objective else _AGAINST
-    return "allocate" if shares.labels[objective] >= enough else "clarify"
+    return "allocate" if share >= enough else "clarify"

@@ -24,6 +24,7 @@ from wirelessagent.language.units import unit_at
 
 BORROWING: Mapping[str, QuantityKind] = {
     "rate": "rate", "power": "power", "multiple": "rate", "outage": "ratio", "reliability": "ratio",
+    "share": "ratio",
 }  # fmt: skip
 _SCALES = {"k": 10**3, "K": 10**3, "M": 10**6, "G": 10**9}
 _DECLARED = deferred(r"(?i)\b(?:in|en)\s+")
@@ -81,7 +82,7 @@ def first_look(
 
 def with_strangers(look: Look, names: Sequence[Span]) -> Look:
     """The same with those among the users mentioned who are called by ``names`` that nobody is known by."""
-    found = _with_named(look, ((look.plain[start:end], (start, end)) for start, end in names))
+    found = _with_named(look, ((look.plain[slice(*name)], name) for name in names))
     return dataclasses.replace(look, mentions=found)
 
 
@@ -93,15 +94,10 @@ def second_look(look: Look, users: Sequence[Number], roles: Mapping[Number, str]
     figures = sorted([*look.figures, *borrowed.values()], key=lambda figure: figure.start)
     settled = [(number.start, number.end) for number in [*borrowed, *users]]
     return dataclasses.replace(
-        look,
-        figures=figures,
+        look, figures=figures, mentions=_with_named(look, ((str(int(n.value or 0)), (n.start, n.end)) for n in users)),
         unread=[q for q in look.unread if not overlaps((q.start, q.end), settled)],
-        mentions=_with_named(look, ((str(int(n.value or 0)), (n.start, n.end)) for n in users))
-        if users
-        else look.mentions,
-        loose=[number for number in look.loose if number not in borrowed and number not in users],
-        ones=[],
-    )
+        loose=[number for number in look.loose if number not in borrowed and number not in users], ones=[],
+    )  # fmt: skip
 
 
 def _with_named(look: Look, named: Iterable[tuple[str, Span]]) -> list[Mention]:

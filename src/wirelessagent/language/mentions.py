@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.number_words import cardinals, listed
+from wirelessagent.language.number_words import cardinals, listed, tens_and_ones, whole
 from wirelessagent.language.numerals import TIGHT_LIST, chinese_value
-from wirelessagent.language.text import Phrases, overlaps
+from wirelessagent.language.text import Phrases, is_chinese, overlaps
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.word_tables import either, words_of
 
@@ -26,7 +26,7 @@ _NUMBER_WORDS = {word: str(value) for word, value in cardinals(1, 20).items() if
 
 NOUN = f"(?:{'|'.join(words_of('figures', 'users', 'nouns', 'things'))})"
 _EACH = f"(?:{'|'.join(words_of('figures', 'users', 'each'))})"
-_WORD_NUMBER = "(?:" + "|".join(sorted(_NUMBER_WORDS, key=len, reverse=True)) + ")"
+_WORD_NUMBER = f"(?:{tens_and_ones()}|{'|'.join(sorted(_NUMBER_WORDS, key=len, reverse=True))})"
 _JOINS, _ARTICLES = (either("figures", "users", name) for name in ("joins", "articles"))
 _AND = rf"(?:\s*(?:,|&|\+|/)\s*(?:(?:and|y|et|und|or)\s+)?|\s+(?:{_JOINS})\s+(?:(?:{_ARTICLES})\s+)?)"
 _TO = (
@@ -208,8 +208,8 @@ def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
     if measured and len(parts) == 2 and is_of_each(plain, match.start(group)):
         return offset  # "each user 1 to 5 Mbit/s"
     if measured:
-        whole = len(parts) > 1 and plain[offset + parts[-2].end() : offset + parts[-1].start()] != ","  # "1,5 Mbit/s"
-        return offset + parts[-2].end() if whole else offset
+        several = len(parts) > 1 and plain[offset + parts[-2].end() : offset + parts[-1].start()] != ","  # "1,5 Mbit/s"
+        return offset + parts[-2].end() if several else offset
     if len(parts) > 1 and _UP_TO.fullmatch(plain, offset + parts[-2].end(), offset + parts[-1].start()):
         first, last = (int(_number(part.group().lower()) or 0) for part in parts[-2:])
         return match.end() if last - first < _LONGEST_RANGE else offset + parts[-2].end()
@@ -241,7 +241,7 @@ def _number(word: str) -> str:
     if word.isdigit():
         return str(int(word))
     known = ORDINALS.get(word) or _NUMBER_WORDS.get(word)
-    value = chinese_value(word) if known is None else None
+    value = None if known else chinese_value(word) if is_chinese(word[0]) else whole(word)
     return known or ("" if value is None else str(int(value)))
 
 

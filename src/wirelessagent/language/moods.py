@@ -7,16 +7,10 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from wirelessagent.language.base_words import languages_of
-from wirelessagent.language.text import clause_start
+from wirelessagent.language.text import Span, clause_start
 from wirelessagent.language.word_tables import table
 
-LANGUAGES = ("en", "zh", "es", "fr", "de")
-
-Span = tuple[int, int]
-
 _LETTER = r"[0-9A-Za-zÀ-ɏ]"
-_START = 3
-"""By how many letters words are looked up."""
 
 
 def table_of(language: str) -> Mapping[str, Mapping[str, Sequence[str]]]:
@@ -50,29 +44,14 @@ def without(words: Sequence[str], plain: str) -> str:
     return "".join(sign for at, sign in enumerate(plain) if not any(start <= at < end for start, end in gone))
 
 
-def standing(plain: str, language: str) -> Iterator[tuple[str, str, Span]]:
-    """The words of a language's classes in a text: the class, how far it reaches, and where the word stands."""
-    small, index = plain.lower(), _by_start(language)
-    starts = {small[at : at + size] for size in range(1, _START + 1) for at in range(len(small))}
-    held = dict[tuple[str, str], list[str]]()
-    for start in starts & index.keys():
-        for name, reach, word in index[start]:
-            held.setdefault((name, reach), []).append(word)
-    for name, classes in table_of(language).items():
-        for reach in classes:
-            for span in places(held.get((name, reach), ()), plain):
-                yield name, reach, span
-
-
 @functools.cache
-def _by_start(language: str) -> Mapping[str, Sequence[tuple[str, str, str]]]:
-    """The classes' words by how the part begins that is always written so: class, reach, word."""
-    found = dict[str, list[tuple[str, str, str]]]()
-    for name, classes in table_of(language).items():
-        for reach, words in classes.items():
-            for word in words:
-                found.setdefault(_stem(word)[:_START], []).append((name, reach, word))
-    return found
+def _stems(language: str) -> Sequence[tuple[str, Sequence[tuple[str, str]]]]:
+    """A language's classes with how far they reach, and each word with the part of it that is always written so."""
+    return [
+        (f"{name}:{reach}", [(_stem(word), word) for word in words])
+        for name, classes in table_of(language).items()
+        for reach, words in classes.items()
+    ]
 
 
 @functools.lru_cache(maxsize=16)
@@ -82,9 +61,11 @@ def classes_in(plain: str) -> tuple[tuple[str, Span], ...]:
     >>> classes_in("if only it were 5 W")[0]
     ('condition:sentence', (0, 7))
     """
-    found = (
-        (f"{name}:{reach}", span) for language in languages_of(plain) for name, reach, span in standing(plain, language)
-    )
+    small, found = plain.lower(), list[tuple[str, Span]]()
+    for language in languages_of(plain):
+        for name, words in _stems(language):
+            able = [word for stem, word in words if stem in small]
+            found += [(name, span) for span in places(able, plain)]
     return tuple(sorted(found, key=lambda each: (each[1][0], -each[1][1])))
 
 

@@ -102,6 +102,31 @@ def cardinals(least: int, most: int, languages: Sequence[str] = LANGUAGES) -> Ma
     }
 
 
+def tens_and_ones() -> str:
+    """A pattern of numbers from 21 to 99 that are said by two words or a compound: "twenty-one", "treinta y uno"."""
+
+    def either(language: str, least: int, most: int) -> str:
+        return "|".join(cardinals(least, most, (language,)))
+
+    between = {"en": "[ -]", "es": " y ", "fr": "(?:-| et |-et-| )"}
+    said = [f"(?:{either(each, 20, 90)}){joint}(?:{either(each, 1, 19)}|une?)" for each, joint in between.items()]
+    return "|".join([*said, f"(?:ein|{either('de', 1, 9)})und(?:{either('de', 20, 90)})"])
+
+
+def whole(word: str) -> int | None:
+    """The value of a whole number in words, whatever their language; None where they say none.
+
+    >>> whole("twenty-one"), whole("treinta y uno"), whole("siebenundzwanzig"), whole("a few")
+    (21, 31, 27, None)
+    """
+    words = word.replace("-", " ").split()
+    for language in languages_of(words[0]) if words else ():
+        said = spoken(words, language)
+        if said is not None and said.words == len(words) and said.value is not None and said.value % 1 == 0:
+            return int(said.value)
+    return None
+
+
 @functools.lru_cache(maxsize=4096)
 def languages_of(word: str) -> tuple[str, ...]:
     """The languages in which a number may begin with a word.

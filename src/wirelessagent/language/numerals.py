@@ -191,25 +191,32 @@ def _signed(match: re.Match[str], text: str, number: Number) -> Number:
 def _in_digits(text: str, match: re.Match[str], language: str) -> Number:
     start, end = match.start("digits" if match["digits"] else "fraction"), match.end()
     digits = match["digits"] or match["fraction"]
-    if " " in digits and _NAMED.search(text, max(0, start - 40), start):
+    if " " in digits and _is_name(text, start):
         digits = digits.split(" ")[0]  # "UE 2 750 kbit/s": a name, then a figure
         return Number(value=Decimal(digits), start=start, end=start + len(digits), form="digits")
     value = _PARTS.get(digits) or _digits_value(digits, language)
-    if value is not None and match["exponent"]:
+    if value is None:
+        return Number(value=None, start=start, end=end, form="digits")
+    if match["exponent"]:
         value = value.scaleb(int(match["exponent"]))
     scale = (match["scale"] or "").lower().removesuffix("d'").removesuffix("de").strip()
-    if value is not None and scale:
+    if scale:
         value *= _scale_value(scale, language)
-    over = _OVER.match(text, end) if value is not None and not scale else None
-    if value is not None and over is not None and unit_at(text, over.end()) is not None:
+    over = _OVER.match(text, end) if not scale else None
+    if over is not None and unit_at(text, over.end()) is not None:
         share = value / int(over["below"])
         value, end = share if share * int(over["below"]) == value else None, over.end()
-    part = and_part(text, end) if not _NAMED.search(text, max(0, start - 40), start) else None
+    part = and_part(text, end) if not _is_name(text, start) else None
     if value is not None and part is not None and unit_at(text, part[1]) is not None:
         value, end = value + part[0], part[1]
     if _VAGUELY.match(text, end) and unit_at(text, end + 1) is not None:
         value, end = None, end + 1
     return _signed(match, text, Number(value=value, start=start, end=end, form="digits"))
+
+
+def _is_name(text: str, start: int) -> bool:
+    """Whether a number that begins here names a user."""
+    return _NAMED.search(text, max(0, start - 40), start) is not None
 
 
 def _scale_value(scale: str, language: str) -> int:
@@ -266,9 +273,8 @@ def _placed(
         linked += 1
     if linked > end and unit_at(text, linked) is not None:
         end = linked
-    before = text[max(0, start - 40) : start]
-    is_name = _NAMED.search(before) is not None and _PLURAL.search(before) is None
-    if said.words > 1 and is_name and unit_at(text, end) is not None:
+    is_name = said.words > 1 and _is_name(text, start) and _PLURAL.search(text, max(0, start - 40), start) is None
+    if is_name and unit_at(text, end) is not None:
         first = spoken([places[0].group()], language)  # "user one hundred kilobits": a name, then a figure
         return first and Number(value=first.value, start=start, end=start + places[0].end(), form=form)
     return Number(value=said.value, start=start, end=end, form=form)

@@ -11,12 +11,11 @@ aliases and its own phrases.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from wirelessagent.language import forms
 from wirelessagent.language.base_words import language_in_a_talk
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.followups import keeps_the_limits, merged, with_users_back
 from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
 from wirelessagent.language.judgement import Judgement, judge
 from wirelessagent.language.leftovers import unread
@@ -26,6 +25,7 @@ from wirelessagent.language.numerals import MOST_FIGURES, too_many_figures
 from wirelessagent.language.quantities import amount_of_another_time
 from wirelessagent.language.recogniser import Context, Recogniser
 from wirelessagent.language.replies import Answer, Voice
+from wirelessagent.language.request import merged, serving
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import normalise
 from wirelessagent.language.topics import about, details_of
@@ -63,15 +63,14 @@ class OfflineRecogniser(Recogniser):
 
     def read(self, text: str, context: Context | None = None) -> Intent:
         """What the operator may mean, as it is read; never raises, whatever the text."""
-        own = own_words()
-        before = "" if context is None else context.language
-        language = language_in_a_talk(text[:_MAX_CHARACTERS], before)
+        own, context = own_words(), context or Context()
+        language = language_in_a_talk(text[:_MAX_CHARACTERS], context.language)
         voice = Voice(language, labels_of(own, language))
         if len(text) > _MAX_CHARACTERS:
-            return Answer(voice, language, NAME).ask("too_long")
+            return Answer(voice, NAME).ask("too_long")
         if too_many_figures(normalise(text)):
-            return Answer(voice, language, NAME).ask("too_many_figures", most=str(MOST_FIGURES))
-        return _Understanding(text, own, voice, context, language).intent()
+            return Answer(voice, NAME).ask("too_many_figures", most=str(MOST_FIGURES))
+        return _Understanding(text, own, voice, context).intent()
 
 
 def recognise(text: str, context: Context | None = None) -> Intent:
@@ -87,10 +86,8 @@ def recognise(text: str, context: Context | None = None) -> Intent:
 class _Understanding:
     """One sentence within a conversation, and what it amounts to."""
 
-    def __init__(
-        self, text: str, own: tuple[OwnWords, ...], voice: Voice, context: Context | None, language: str
-    ) -> None:
-        self._text, self._voice, self._answer, self._context = text, voice, Answer(voice, language, NAME), context
+    def __init__(self, text: str, own: tuple[OwnWords, ...], voice: Voice, context: Context) -> None:
+        self._text, self._voice, self._answer, self._context = text, voice, Answer(voice, NAME), context
         self._sentence = read_once(text, own, context)
         self._reading, self._goal = self._sentence.reading, self._sentence.goal
         self._dropped, dropped_spans = dropped_in(self._sentence.plain, context)
@@ -109,7 +106,7 @@ class _Understanding:
         """A change of the current request that names no wish of its own: "now with 10 W", "leave user 3 out"."""
         context, reading, judged = self._context, self._reading, self._judged
         changes = bool(reading.values or self._dropped or reading.back)
-        if context is None or context.objective is None or not changes or judged.objective_clear:
+        if context.objective is None or not changes or judged.objective_clear:
             return None
         asked = _ASKED.search(forms.without_a_tag(self._text)) is not None
         commands = judged.kind == "command" and judged.topic not in (*CHANGING, "reject")
@@ -131,15 +128,19 @@ class _Understanding:
         out = reading.values.get("leave_out")
         if self._dropped and isinstance(out, tuple):  # "sin tasa mínima para el usuario 3", who has none
             return self._answer.ask("no_limit_of_its_own", 0.8, users=self._voice.users(out))
-        values, dropped = with_users_back(reading, context) if reading.back else (dict(reading.values), ())
-        dropped = tuple(dict.fromkeys((*self._dropped, *dropped)))
-        if context.awaits == "clarification":
-            values = merged(context.pending, values)
+        values, dropped = self._changes(is_answer=context.awaits == "clarification")
         if not values and not dropped:
             return None
         reply = self._voice.amended(values, dropped)
         request = self._answer.allocate(context.objective, values, reading.evidence, reply, 0.85)
         return dataclasses.replace(request, amends=True, dropped=dropped)
+
+    def _changes(self, *, is_answer: bool) -> tuple[dict[str, Constraint], tuple[str, ...]]:
+        """The constraints to state and those to drop; an answer to a question has what was read before it, too."""
+        served, dropped = serving(self._reading.back, self._context.constraints, self._context.user_names)
+        values = {**self._reading.values, **served}
+        values = merged(self._context.pending, values) if is_answer else values
+        return values, tuple(dict.fromkeys((*self._dropped, *dropped)))
 
     def _whether(self, objective: str) -> Intent:
         """Whether an aim was meant beside what was read."""
@@ -155,8 +156,7 @@ class _Understanding:
         """Commands, questions, and what has nothing to do with a cell."""
         judged, topic = self._judged, self._judged.topic
         if judged.kind == "question":
-            nothing_holds = self._context is None or self._context.objective is None
-            aim = judged.spoken_of if nothing_holds else None
+            aim = judged.spoken_of if self._context.objective is None else None
             if aim is not None and topic in _OF_A_RESULT:
                 topic = "what_if"  # "how fast can the slowest user be?"
             topic, details = about(topic, self._sentence)
@@ -206,7 +206,7 @@ class _Understanding:
         agreed = goal.verdict == "clear" and goal.objective == judged.objective
         vague = not agreed and "fairly" in self._sentence.concepts  # "make it fairly fast", "a fairly good speed"
         if judged.acts and judged.objective in self._voice.labels and not vague:
-            spans = _merged(goal.spans) if goal.options[:1] == (judged.objective,) else ()
+            spans = sorted(goal.spans) if goal.options[:1] == (judged.objective,) else ()
             words = " … ".join(self._text[start:end] for start, end in spans) or self._text
             return self._allocate(judged.objective, words, judged.certainty)
         return self._question_back()
@@ -241,20 +241,15 @@ class _Understanding:
 
     def _allocate(self, objective: str, words: str, confidence: float) -> Intent:
         context, reading = self._context, self._reading
-        values, dropped = dict(reading.values), self._dropped
         evidence = {"objective": words} if words else {}
         evidence |= reading.evidence
         if reading.not_used:
             evidence["not_used"] = " … ".join(reading.not_used)
-        amends = False
-        whole = bool(words and values)  # a request of its own answers no earlier question
-        if context is not None and context.awaits == "clarification" and not (whole and context.objective is not None):
-            values = merged(context.pending, values)
-        if context is not None and context.objective is not None:
-            amends = bool(dropped or reading.back or not reading.values) or keeps_the_limits(self._sentence.plain)
-            if reading.back:
-                values, gone = with_users_back(reading, context)
-                dropped = tuple(dict.fromkeys((*dropped, *gone)))
+        holds = context.objective is not None
+        whole = bool(words and reading.values)  # a request of its own answers no earlier question
+        values, dropped = self._changes(is_answer=context.awaits == "clarification" and not (whole and holds))
+        changed = self._dropped or reading.back or not reading.values or forms.keeps_the_limits(self._sentence.plain)
+        amends = holds and bool(changed)
         reply = self._voice.restated(objective, values, reading.not_used)
         request = self._answer.allocate(objective, values, evidence, reply, confidence)
         return dataclasses.replace(request, amends=amends, dropped=dropped if amends else ())
@@ -276,8 +271,8 @@ class _Understanding:
             key = "rate_only" if "min_rate_bps" in values else "limits_only"
             return self._answer.ask(key, 0.5, values, constraints=self._voice.constraints(values))
         if self._dropped or self._reading.back:
-            holds = self._context is not None and self._context.objective is not None
-            return self._answer.ask("so_already" if holds else "nothing_yet", 0.5, text=f"“{self._text.strip()}”")
+            key = "nothing_yet" if self._context.objective is None else "so_already"
+            return self._answer.ask(key, 0.5, text=f"“{self._text.strip()}”")
         return None
 
     def _unclear(self, values: Mapping[str, Constraint]) -> Intent:
@@ -290,17 +285,6 @@ class _Understanding:
     def _words_for(self, concept: str) -> str:
         item = next(item for item in self._sentence.found if item.term.concept == concept)
         return self._text[item.start : item.end]
-
-
-def _merged(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Spans from left to right, those that overlap made one."""
-    merged_spans: list[tuple[int, int]] = []
-    for start, end in sorted(spans):
-        if merged_spans and start < merged_spans[-1][1]:
-            merged_spans[-1] = (merged_spans[-1][0], max(end, merged_spans[-1][1]))
-        else:
-            merged_spans.append((start, end))
-    return merged_spans
 
 
 def nobody_starves(plain: str) -> bool:

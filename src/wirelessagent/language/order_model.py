@@ -18,8 +18,8 @@ import numpy as np
 import numpy.typing as npt
 
 from wirelessagent.language.base_words import based
-from wirelessagent.language.moods import Span, classes_in
-from wirelessagent.language.text import WORD_OR_SIGN, hashed, unaccented
+from wirelessagent.language.moods import classes_in
+from wirelessagent.language.text import WORD_OR_SIGN, Span, hashed, unaccented
 
 if TYPE_CHECKING:
     from wirelessagent.language.sentence import Sentence

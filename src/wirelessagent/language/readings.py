@@ -195,17 +195,10 @@ def odds(plain: str) -> Iterator[tuple[Decimal, int, int]]:
     [Decimal('0.05')]
     """
     for match in _ODDS.finditer(plain):
-        part, whole = _of(match)
+        part = _counted(match["part"] or match["zhpart"] or "1", _PARTS)
+        whole = _counted(match["whole"] or match["zhwhole"] or match["ordinal"], _WHOLES | _ORDINALS)
         if 0 < part < whole:
             yield part / whole, *match.span()
-
-
-def _of(match: re.Match[str]) -> tuple[Decimal, Decimal]:
-    """How many of how many."""
-    if match["ordinal"]:
-        return Decimal(1), Decimal(_ORDINALS[match["ordinal"].lower()])
-    part, whole = match["part"] or match["zhpart"], match["whole"] or match["zhwhole"]
-    return _counted(part, _PARTS), _counted(whole, _WHOLES)
 
 
 def _counted(word: str, words: Mapping[str, int]) -> Decimal:

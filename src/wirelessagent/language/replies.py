@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from wirelessagent.language.intent import CONSTRAINTS, Constraint, Intent, IntentKind
-from wirelessagent.language.restating import limits_in_words, users_in_words
-from wirelessagent.telling.catalogue import has_message, message
+from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, Constraint, Intent, IntentKind
+from wirelessagent.model.units import prefixed, reliability
+from wirelessagent.telling.catalogue import has_message, listed, message
+
+_ROUNDING = 1e-9
 
 
 class Voice:
@@ -90,8 +93,8 @@ class Voice:
 class Answer:
     """Intents of one recogniser in one operator's language."""
 
-    def __init__(self, voice: Voice, language: str, recogniser: str) -> None:
-        self.voice, self.language, self.recogniser = voice, language, recogniser
+    def __init__(self, voice: Voice, recogniser: str) -> None:
+        self.voice, self.recogniser = voice, recogniser
 
     def ask(
         self, key: str, confidence: float = 0.5, pending: Mapping[str, Constraint] | None = None,
@@ -108,13 +111,9 @@ class Answer:
         return self._intent(kind=kind, confidence=confidence, reply=self.voice.say(key, **names))
 
     def allocate(
-        self,
-        objective: str,
-        values: Mapping[str, Constraint],
-        evidence: Mapping[str, str],
-        reply: str,
+        self, objective: str, values: Mapping[str, Constraint], evidence: Mapping[str, str], reply: str,
         confidence: float,
-    ) -> Intent:
+    ) -> Intent:  # fmt: skip
         """A request: an objective with constraints, and the words that each came from."""
         ordered = {name: values[name] for name in CONSTRAINTS if name in values}
         kept = {name: words for name, words in evidence.items() if name not in CONSTRAINTS or name in ordered}
@@ -124,4 +123,78 @@ class Answer:
 
     def _intent(self, **fields: Any) -> Intent:
         blank: dict[str, Any] = {"objective": None, "constraints": {}, "evidence": {}}
-        return Intent(language=self.language, recogniser=self.recogniser, **(blank | fields))
+        return Intent(language=self.voice.language, recogniser=self.recogniser, **(blank | fields))
+
+
+def limits_in_words(limits: Mapping[str, Constraint], language: str) -> str:
+    """Limits with their figures, the same figures for several users together.
+
+    >>> limits_in_words({"min_rate_bps": {"all": 1e6, "2": 3e6, "4": 3e6}, "leave_out": ("3",)}, "en")
+    'at least 3 Mbit/s for user 2 and user 4, at least 1 Mbit/s for everyone else, without user 3'
+    >>> limits_in_words({"min_rate_bps": {"all": 1e6, "3": 0.0}}, "en")
+    'at least 1 Mbit/s for each user but user 3'
+    """
+    return message(language, "text.between").join(
+        part for name, value in limits.items() for part in _limit(language, name, value)
+    )
+
+
+def users_in_words(references: Sequence[str], language: str) -> str:
+    """Users in a row, "3" as "user 3"; EVERYBODY is everyone who is not named.
+
+    >>> users_in_words(("3", "anna", "all"), "en"), users_in_words(("user 3",), "zh")
+    ('user 3, anna and everyone else', '用户3')
+    >>> users_in_words(("1", "user 3", "4"), "en")
+    'users 1, 3 and 4'
+    """
+    everybody_else = message(language, "whom.everybody_else")
+    names = (everybody_else if reference == EVERYBODY else reference for reference in references)
+    return listed(language, (f"user {name}" if name.isdecimal() else name for name in names))
+
+
+def _limit(language: str, name: str, value: Constraint) -> list[str]:
+    if isinstance(value, tuple):
+        return [message(language, f"holds.{name}", who=users_in_words(value, language))]
+    by_user = value if isinstance(value, Mapping) else {EVERYBODY: value}
+    exempt = [user for user, figure in by_user.items() if figure == 0 and name == "min_rate_bps"]
+    promised = {user: figure for user, figure in by_user.items() if figure > 0 or not exempt}
+    said: list[str] = [
+        message(language, f"holds.{name}", figure=figure_in_words(name, figure), who=who)
+        for figure, who in _by_figure(language, promised, exempt)
+    ]
+    if EVERYBODY in promised or not exempt:
+        return said
+    return [*said, message(language, "whom.no_promise", who=users_in_words(exempt, language))]
+
+
+def _by_figure(language: str, by_user: Mapping[str, float], exempt: list[str]) -> list[tuple[float, str]]:
+    """(figure, who gets it), the same figures together and those who are not named last, but for the exempt."""
+    named: dict[float, list[str]] = {}
+    for user, figure in by_user.items():
+        if figure != by_user.get(EVERYBODY):
+            named.setdefault(figure, []).append(user)
+    said = [(figure, users_in_words(users, language)) for figure, users in named.items()]
+    if EVERYBODY in by_user:
+        others = message(language, "whom.everybody_else" if named else "whom.everybody")
+        if exempt:
+            others = message(language, "whom.but", who=others, users=users_in_words(exempt, language))
+        said.append((by_user[EVERYBODY], others))
+    return said
+
+
+def figure_in_words(name: str, value: float) -> str:
+    """A figure as the operator may check it: four digits, an SI prefix, and dBm where those are rounder.
+
+    >>> figure_in_words("max_power_w", 10**0.3), figure_in_words("min_rate_bps", 1.5e6)
+    ('33 dBm (1.995 W)', '1.5 Mbit/s')
+    """
+    if name == "outage_probability":
+        return reliability(value)
+    if name in ("weights", "resource_block_group_size"):
+        return f"{value:g}"
+    scale, unit = prefixed(value, "bit/s" if name.endswith("bps") else "W")
+    said = f"{value / scale:.4g} {unit}"
+    if name.endswith("bps") or abs(float(f"{value:.4g}") - value) <= _ROUNDING * value:
+        return said
+    dbm = 10 * math.log10(value) + 30
+    return f"{round(dbm, 1):g} dBm ({said})" if abs(dbm - round(dbm, 1)) <= _ROUNDING else said

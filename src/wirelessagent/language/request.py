@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -12,6 +12,7 @@ from wirelessagent import plugins
 from wirelessagent.language import acts
 from wirelessagent.language.acts import Act, Everybody, Named, Whom
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, checked_constraints
+from wirelessagent.language.intent_acts import stated
 
 ASSUMED_MIN_RATE_BPS = 200e3
 """Rate promised to each user where the least power is asked for and no rate was named."""
@@ -130,13 +131,13 @@ def changed(figures: Mapping[Key, float], said: Iterable[Act], *, radiated_w: fl
     return after
 
 
-def acts_between(before: Mapping[Key, float], after: Mapping[Key, float]) -> list[Act]:
+def acts_between(before: Mapping[Key, float], after: Mapping[Key, float]) -> tuple[Act, ...]:
     """The acts that make figures of others.
 
     >>> acts_between({("min_rate_bps", "3"): 1e5}, {("min_rate_bps", "3"): 2e5})
-    [Limit(words='', kind='min_rate_bps', value=200000.0, whom=Named(users=('3',)))]
+    (Limit(words='', kind='min_rate_bps', value=200000.0, whom=Named(users=('3',))),)
     """
-    return [*_lists_between(before, after), *_figures_between(before, after)]
+    return (*_lists_between(before, after), *_figures_between(before, after))
 
 
 def _lists_between(before: Mapping[Key, float], after: Mapping[Key, float]) -> Iterator[Act]:
@@ -282,3 +283,48 @@ def constraints_of(figures: Mapping[Key, float]) -> dict[str, Constraint]:
         else:
             found[kind] = by_user[EVERYBODY]
     return found
+
+
+def merged(earlier: Mapping[str, Constraint], later: Mapping[str, Constraint]) -> dict[str, Constraint]:
+    """Constraints that were read before, with those of a later line, such as the answer to a question.
+
+    >>> merged({"min_rate_bps": 5e5, "max_power_w": 8.0}, {"min_rate_bps": {"3": 2e6}, "max_power_w": 5.0})
+    {'min_rate_bps': {'all': 500000.0, '3': 2000000.0}, 'max_power_w': 5.0}
+    """
+    return constraints_of(changed(figures_of(earlier), stated(later)))
+
+
+def serving(
+    users: tuple[str, ...], constraints: Mapping[str, Constraint], user_names: Sequence[str] = ()
+) -> tuple[dict[str, Constraint], tuple[str, ...]]:
+    """What serving these users too changes of constraints: those to state, and those to drop before.
+
+    Of the cell's ``user_names`` the second is also user 2.
+
+    >>> serving(("2",), {"leave_out": ("2", "5")}), serving(("2",), {"max_power_w": 5.0})
+    (({'leave_out': ('5',)}, ('leave_out',)), ({}, ()))
+    >>> serving(("2",), {"leave_out": ("Bob",)}, ("Ada", "Bob"))
+    ({}, ('leave_out',))
+    """
+    places = {numbered(name).casefold(): str(place) for place, name in enumerate(user_names, start=1)}
+
+    def place(user: str) -> str:
+        return places.get(numbered(user).casefold(), numbered(user))
+
+    listed = [constraints.get(name) for name in LISTS_OF_USERS]
+    spelt = {place(user): user for each in listed if isinstance(each, tuple) for user in each}
+    users = tuple(spelt.get(place(user), user) for user in users)
+    held = constraints_of(figures_of(constraints))
+    after = constraints_of(changed(figures_of(constraints), [acts.Serve(whom=Named(users))]))
+    values = {name: after[name] for name in LISTS_OF_USERS if name in after and after[name] != held.get(name)}
+    return values, ("leave_out",) if after.get("leave_out") != held.get("leave_out") else ()
+
+
+def users_in(constraints: Mapping[str, Constraint]) -> list[str]:
+    """Everybody whom constraints name, each once, in their order; "all" is nobody's name.
+
+    >>> users_in({"max_power_w": 5.0, "min_rate_bps": {"all": 1e5, "3": 1e6}, "users": ("3", "5")})
+    ['3', '5']
+    """
+    named = (value for value in constraints.values() if isinstance(value, Mapping | tuple))
+    return list(dict.fromkeys(user for users in named for user in users if user != EVERYBODY))

@@ -10,7 +10,6 @@ import functools
 import itertools
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -28,15 +27,6 @@ _TOKEN = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W\d_])+(?:'(?=[^\W\d_]))?|[0-9]+|\
 _CLAUSE_ENDS = frozenset(",;!?.。，；！？…—\n")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Span:
-    """A figure or somebody mentioned, at characters [start, end), and the placeholder that stands for it."""
-
-    start: int
-    end: int
-    placeholder: str
-
-
 class Token(NamedTuple):
     """A word, a Chinese character, a mark or a placeholder ("@rate") at characters [start, end) of a sentence."""
 
@@ -45,16 +35,16 @@ class Token(NamedTuple):
     end: int = -1
 
 
-def tokens_of(plain: str, spans: Iterable[Span]) -> list[Token]:
-    """The tokens of a normalised sentence from left to right, each span being one."""
+def tokens_of(plain: str, placed: Iterable[Token]) -> list[Token]:
+    """The tokens of a normalised sentence from left to right, those among them that are ``placed`` already."""
     found: list[Token] = []
     place = 0
-    for span in sorted(spans, key=lambda each: (each.start, -each.end)):
-        if span.start < place:
+    for token in sorted(placed, key=lambda each: (each.start, -each.end)):
+        if token.start < place:
             continue
-        found.extend(_words(plain, place, span.start))
-        found.append(Token(span.placeholder, span.start, span.end))
-        place = span.end
+        found.extend(_words(plain, place, token.start))
+        found.append(token)
+        place = token.end
     found.extend(_words(plain, place, len(plain)))
     return found
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
 from wirelessagent import plugins
@@ -12,15 +12,14 @@ from wirelessagent.language.base_words import aligned, is_listed, language_of
 from wirelessagent.language.constraints import read_constraints
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
-from wirelessagent.language.moods import Span, classes_in
+from wirelessagent.language.moods import classes_in
 from wirelessagent.language.order_model import Frame, frame_of, shipped_order_model
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence_model import START, Chances, Word, shipped_sentences
-from wirelessagent.language.spelling import respelt
 from wirelessagent.language.stated import Reading
-from wirelessagent.language.text import WORD_OR_SIGN, clauses, is_chinese, normalise, unaccented
+from wirelessagent.language.text import WORD_OR_SIGN, Span, clauses, is_chinese, normalise, overlaps, unaccented
 from wirelessagent.language.units import unit_at
-from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, units_of
+from wirelessagent.language.vocabulary import Found, OwnWords, Unit, Vocabulary, respelt, units_of
 from wirelessagent.model.objective import Objective
 
 if TYPE_CHECKING:
@@ -74,9 +73,7 @@ class Sentence:
         """Where figures, users and words of an aim stand, from left to right; what complains is no aim."""
         complaints = [(item.start, item.end) for item in self.found if item.term.complaint]
         aims = [(item.start, item.end) for item in self.found if item.term.concept in _OF_AIMS]
-        aims = [
-            span for span in (*aims, *self.goal.spans) if not any(a < span[1] and span[0] < b for a, b in complaints)
-        ]
+        aims = [span for span in (*aims, *self.goal.spans) if not overlaps(span, complaints)]
         marked = {(start, end) for start, end, _ in self._marked}
         return sorted({*marked, *aims, *self.reading.masked})
 
@@ -93,25 +90,18 @@ class Sentence:
                 found += [(word, span) for said, span in words if (word := unaccented(said.lower()))]
                 found += [(mark, (start, end))] if mark else []
                 place = end
-        meant, wished = [""] * len(plain), [False] * len(plain)
-        moods: list[tuple[str, ...]] = [()] * len(plain)
-        for each in reversed(self.found):
-            meant[each.start : each.end] = [each.term.objective or each.term.concept] * (each.end - each.start)
-        for name, (start, end) in classes_in(plain):
-            moods[start:end] = [(*said, name) for said in moods[start:end]]
-        for start, end in self.wished:
-            wished[start:end] = [True] * (end - start)
-        roles = [""] * len(plain)
-        for start, end, role in self.reading.marks:
-            roles[start:end] = [role] * (end - start)
+        terms = _by_place(
+            plain, ((item.term.objective or item.term.concept, (item.start, item.end)) for item in self.found)
+        )
+        roles = _by_place(plain, ((role, (start, end)) for start, end, role in sorted(self.reading.marks)))
+        moods, wished = _by_place(plain, classes_in(plain)), _by_place(plain, (("@", span) for span in self.wished))
         goal, bases = self.goal, aligned([said for said, _ in found], self.language)
         aims = dict.fromkeys((goal.objective, *goal.options))
         start = START._replace(moods=(goal.verdict, *(f"{goal.verdict}:{aim}" for aim in aims)))
         return [start] + [
             Word(
-                said, base, next(filter(None, meant[slice(*span)]), ""),
-                tuple(dict.fromkeys(name for each in moods[slice(*span)] for name in each)), wished[span[0]],
-                next(filter(None, roles[slice(*span)]), ""),
+                said, base, meant="".join(terms(span)[:1]), moods=moods(span),
+                wished=bool(wished((span[0], span[0] + 1))), role="".join(roles(span)[:1]),
             )
             for (said, span), base in zip(found, bases, strict=True)
         ]  # fmt: skip
@@ -145,6 +135,14 @@ class Sentence:
         """How likely it says what was read of it, and nothing beside; 1 where a word that nobody knows may say it."""
         known = all(shipped_sentences().saw(word.said) for word in self.words if word.said.isalpha())
         return self.chances.faithful if known else 1.0
+
+
+def _by_place(plain: str, said: Iterable[tuple[str, Span]]) -> Callable[[Span], tuple[str, ...]]:
+    """What is said of some characters of a text, in the order of their places, each once."""
+    names: list[tuple[str, ...]] = [()] * len(plain)
+    for name, (start, end) in said:
+        names[start:end] = [(*each, name) for each in names[start:end]]
+    return lambda span: tuple(dict.fromkeys(name for each in names[slice(*span)] for name in each))
 
 
 def read_once(text: str, own: tuple[OwnWords, ...], context: Context | None) -> Sentence:

@@ -1,13 +1,104 @@
-"""What a sentence states: its constraints, the words that each came from, and what is in doubt."""
+"""What a sentence states: its constraints, the words that each came from, and what is in doubt.
+
+What it says of the whole cell in words is read here: blocks ("in pairs"), shares of the power ("half"), how many users.
+Counts describe the channel where all users are meant ("for our 8 users"); a part of the users, and a half of something,
+raise a doubt.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint
+from wirelessagent.language.mentions import BY_PLACE, PLACED
+from wirelessagent.language.number_words import cardinals, german_value, plain_word
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.text import Span
+from wirelessagent.language.text import Phrases, Span, clause_end, clause_start, is_within, overlaps
+from wirelessagent.language.word_tables import either
+
+_CARRIER = (
+    r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|"
+    r"(?:unter|sub)träger[ns]?)"
+)
+_CHANGE_BEFORE = deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$")
+_CHANGE_BEHIND = deferred(rf"(?i)\s*(?:{either('figures', 'one', 'changed_behind')})(?!\w)")
+_ALL = deferred(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
+_DESCRIBED_BEFORE = deferred(rf"(?i)(?:^|{either('figures', 'users', 'ahead_of_all')})\s*$")
+_DESCRIBED_AFTER = deferred(rf"(?i)\s*(?:$|(?:{either('figures', 'users', 'behind_all')}))")
+_COUNT = rf"(?:[0-9]+|{'|'.join(cardinals(2, 10))})"
+COUNTED_USERS = deferred(
+    rf"(?i)(?<![\w.,/^*-]){_COUNT} (?:of them|of the users|"
+    r"(?:waiting |idle |busy |active )?users|ues|subscribers|devices|sensors|terminals|subcarriers|channels|usuarios|"
+    r"abonados|clientes|utilisateurs|abonnés|nutzern?|teilnehmern?|kunden)\b|[0-9两二三四五六七八九十]+\s*个(?:用户|"
+    r"设备|传感器|子载波)"
+)
+_CARRIERS = deferred(rf"(?i){_CARRIER}|channels|子载波")
+_SOME_USERS, _ONE_OF = (Phrases(either("figures", "users", name, **PLACED)) for name in ("some", "one_of"))
+_OF_OURS = r"(?:\w+\s+){0,3}?(?:power|watts?|wattage|rates?|speeds?|throughput|bandwidth|budget|limit)\b"
+_HALVED = Phrases(either("figures", "one", "halved", ours=_OF_OURS), marks="half halve third quarter 减半 一半 翻倍")
+_OTHERS_HALVED = Phrases(
+    r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)",
+    marks="一半 减半 翻倍 双倍 加倍",
+)
+_POWER_NOUNS = "power|potencia|puissance|leistung|sendeleistung"
+_POWER = rf"(?:maximalleistung|{_POWER_NOUNS}|budget|watts|wattage|presupuesto)\b(?:\s+(?:budget|limit))?"
+_MOST = (
+    r"(?:(?:max|máx)\w*\.?|limitée?|limitada|begrenzt|limited|at|to|of|auf|à|a|al|is|=|<=|≤|:|at most|up to)?\s*"
+    r"(?:(?:max|to|auf|à|a|al|au|at)\.?\s*)?"
+)
+_FULL = (
+    r"(?:\s+|of|de|d'|the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|el|del|notre|nuestra|der|die|"
+    r"unserer|vollen|maximalen)*"
+)
+_SHARES = {
+    **dict.fromkeys(("half", "mitad", "moitié", "halbe", "halber", "halben", "hälfte", "一半"), 1 / 2),
+    **dict.fromkeys(("third", "tercio", "tiers", "drittel", "三分之一"), 1 / 3),
+    **dict.fromkeys(("two thirds", "dos tercios", "deux tiers", "zwei drittel", "zwei dritteln", "三分之二"), 2 / 3),
+    **dict.fromkeys(("quarter", "cuarto", "quart", "viertel", "四分之一"), 1 / 4),
+    **dict.fromkeys(
+        ("three quarters", "tres cuartos", "trois quarts", "drei viertel", "drei vierteln", "dreiviertel"), 3 / 4
+    ),
+    **{f"{letter}成": place / 10 for place, letter in enumerate("一二三四五六七八九", start=1)},
+}
+_SHARE_WORDS = "|".join(sorted(_SHARES, key=len, reverse=True))
+_SHARE = Phrases(
+    r"(?<!save )(?<!by )(?<!saving )(?<!cut )"
+    rf"(?:\b(?:(?:a|one|un|ein|einem) (?![hm])|la (?=m))?(?P<word>{_SHARE_WORDS})\b|"
+    r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:[.,][0-9]+)?)\s*(?:%|percent|per cent|prozent|por ciento|pour cent))"
+    rf"{_FULL}\s*{_POWER}|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_word>{_SHARE_WORDS})|"
+    r"(?<![0-9.,])(?P<zh_percent>[0-9]{1,3}(?:[.,][0-9]+)?)%|百分之(?P<hundredths>[0-9]{1,3}))的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
+    rf"|功率(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?P<of_word>{_SHARE_WORDS})(?!五)"
+    rf"|\b(?:p_?max|(?:max\w*\.?\s+)?(?:{_POWER_NOUNS}))\s*{_MOST}(?P<of_percent>[0-9]{{1,3}}(?:[.,][0-9]+)?)\s*%"
+    r"|功率(?:只用|最多用|用|不超过|最多|压到|降到|限制在|限制到|上限为?)(?P<zh_of_percent>[0-9]{1,3}(?:[.,][0-9]+)?)%",
+    marks="half mitad moitié halbe hälfte third tercio tiers drittel quart cuarto viertel % percent per_cent prozent "
+    "por_ciento pour_cent 一半 百分之 分之 成",
+)
+_TOGETHER = {
+    "pairs": 2, "twos": 2, "threes": 3, "fours": 4, "sixes": 6, "eights": 8, "dozens": 12, "parejas": 2, "paires": 2,
+    "paaren": 2,
+}  # fmt: skip
+_BLOCKS = Phrases(
+    rf"{_CARRIER}(?:\s+\w+){{0,3}}?\s+(?:in|by|par|por|en)\s+(?P<together>{'|'.join(_TOGETHER)})\b"
+    rf"|\b(?:por|par|in|by)\s+(?P<of>{'|'.join(_TOGETHER)})\s+(?:of|de|von)\s+{_CARRIER}"
+    r"|\b(?P<fold>[a-zäöüß]{3,})er-?(?:gruppen?|blöcken?|blöcke|päckchen|packs?|bündeln?)\b",
+    marks="pair twos threes fours sixes eights dozens parej paire paar gruppe blöck päck pack bündel",
+)
+
+_GROUP = (  # nouns and verbs that say of a number beside them that it is the size of a group
+    rf"(?:{_CARRIER}|(?:resource[- ])?(?:group|block|bundle|chunk|cluster|pack|rb)(?:s|ed|ing)?|rbgs?|p?rbs?|size|"
+    r"bloques?|blocs?|grupos?|groupes?|paquet(?:e?s)?|recursos|ressources|tamaño|taille|"
+    r"(?:ressourcen)?(?:blöcken?|block)(?:größe)?|gruppen?(?:größe)?)"
+)
+_JOINT = r"(?:of|with|in|into|by|per|an?|each|the|adjacent|neighbouring|de|du|von|zu|à|aus|mit|je|pro|por|par|en)"
+_GROUPED_AHEAD = deferred(
+    rf"(?i)\b(?:in\s+)?{_GROUP}\b(?:[\s:=-]+(?:{_GROUP}|{_JOINT})\b)*[\s:=-]*$|(?:[每按以]|资源块|子载波|块|大小|[为是=])+$"
+)
+_GROUPED_BEHIND = deferred(
+    rf"(?i)(?:[\s-]+(?:{_JOINT}[\s-]+)*{_GROUP}\b)+|个?(?:子载波|资源块)?(?:[为成]?一[组块个]|捆绑|绑定|分组|[组构]成一个|"
+    r"资源块|块|组)*"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,66 +109,144 @@ class Doubt:
     names: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(kw_only=True)
 class Reading:
-    """The constraints of a sentence, the words that each came from, and what is in doubt.
+    """The constraints of a sentence, the words that each came from, and what is in doubt, as they are being read.
 
-    ``masked`` are the spans that are used up, so that their words do not count as wishes again; ``not_used`` are
-    figures that describe the channel rather than ask for something, ``counted`` the spans of those that count.
-    ``missing`` is a share of the channel that is said to be missing, ``steps`` amounts to add, by detail name, ``back``
-    users to be taken in again, ``named`` everybody who is named; ``strangers`` are spans of names that no user has.
-    ``marks`` are the spans of figures and users, each with what it was read as, "+" behind it for several users.
+    Attributes:
+        text: the sentence as it stands; ``plain`` is the same normalised.
+        masked: the spans that are used up, so that their words do not count as wishes again.
+        not_used: figures that describe the channel rather than ask for something.
+        counted: the spans of numbers that only count or describe.
+        exact: the constraints of the whole cell that are to be met exactly.
+        missing: a share of the channel that is said to be missing.
+        steps: amounts to add, by detail name.
+        back: users to be taken in again.
+        named: everybody who is named.
+        strangers: spans of names that no user has.
+        marks: the spans of figures and users, each with what it was read as, "+" behind it for several users.
+        spoken_for: spans whose figures are used up before any figure is looked at.
     """
 
-    values: Mapping[str, Constraint]
-    evidence: Mapping[str, str]
-    doubts: Sequence[Doubt]
-    not_used: Sequence[str]
-    masked: Sequence[tuple[int, int]]
-    counted: Sequence[tuple[int, int]]
-    exact: frozenset[str]
+    text: str
+    plain: str
+    quantities: Sequence[Quantity]
+    values: dict[str, Constraint] = field(default_factory=dict[str, Constraint])
+    evidence: dict[str, str] = field(default_factory=dict[str, str])
+    doubts: list[Doubt] = field(default_factory=list[Doubt])
+    not_used: list[str] = field(default_factory=list[str])
+    masked: list[Span] = field(default_factory=list[Span])
+    counted: list[Span] = field(default_factory=list[Span])
+    exact: set[str] = field(default_factory=set[str])
     missing: float | None = None
-    steps: Mapping[str, float] = field(default_factory=dict[str, float])
+    steps: dict[str, float] = field(default_factory=dict[str, float])
     back: tuple[str, ...] = ()
     named: tuple[str, ...] = ()
     strangers: Sequence[Span] = ()
-    marks: Sequence[tuple[int, int, str]] = ()
-
-
-class Notes:
-    """What has been read of a sentence so far; the parts of a reading, as :class:`Reading` names them.
-
-    ``text`` is the sentence as it stands, ``plain`` the same normalised. ``spoken_for`` are spans whose figures are
-    used up before any figure is looked at.
-    """
-
-    def __init__(self, text: str, plain: str, quantities: Sequence[Quantity]) -> None:
-        self.text, self.plain, self.quantities = text, plain, quantities
-        self.values: dict[str, float] = {}
-        self.evidence: dict[str, str] = {}
-        self.doubts: list[Doubt] = []
-        self.not_used: list[str] = []
-        self.masked: list[Span] = []
-        self.counted: list[Span] = []
-        self.exact: set[str] = set()
-        self.steps: dict[str, float] = {}
-        self.missing: float | None = None
-        self.spoken_for: list[Span] = []
-        self.marks: list[tuple[int, int, str]] = []
+    marks: list[tuple[int, int, str]] = field(default_factory=list[tuple[int, int, str]])
+    spoken_for: list[Span] = field(default_factory=list[Span])
 
     def doubt(self, key: str, **names: str) -> None:
         """Note a question."""
         self.doubts.append(Doubt(key=key, names=names))
 
     def put(self, name: str, value: float, span: Span) -> None:
-        """Take a value that nothing else may state."""
-        self.values[name], self.evidence[name] = value, self.text[slice(*span)]
+        """Take a value of a constraint; two different ones are a doubt."""
+        words = self.text[slice(*span)]
+        if self.values.get(name, value) != value:
+            self.doubt("conflict", one=self.evidence[name], other=words)
+        else:
+            self.values[name], self.evidence[name] = value, words
 
     def take(self, name: str, value: float, figure: Quantity) -> None:
-        """Take a value; two of them are a doubt."""
-        if name in self.values and self.values[name] != value:
-            self.doubt("conflict", one=self.evidence[name], other=figure.text)
-            return
+        """Take the value of a figure."""
+        self.put(name, value, (figure.start, figure.end))
         if figure.comparator == "exactly":
             self.exact.add(name)
-        self.values[name], self.evidence[name] = value, figure.text
+
+    def take_group(self, size: float, span: Span) -> None:
+        """Take how many subcarriers go together, with the words beside that say so."""
+        ahead, behind = _GROUPED_AHEAD.search(self.plain, 0, span[0]), _GROUPED_BEHIND.match(self.plain, span[1])
+        span = ahead.start() if ahead else span[0], behind.end() if behind else span[1]
+        self.spoken_for.append(span)
+        self.masked.append(span)
+        if size < 1 or not size.is_integer():
+            self.doubt("impossible", text=self.text[slice(*span)].strip())
+        else:
+            self.put("resource_block_group_size", size, span)
+
+
+def take_blocks(reading: Reading) -> None:
+    """How many subcarriers go together, where the number is a part of a word: "in pairs", "Viererblöcke"."""
+    match = _BLOCKS.search(reading.plain)
+    word = next(filter(None, match.groups())).lower() if match is not None else ""
+    size = _TOGETHER.get(word) or german_value(plain_word(word, "de"))
+    if match is not None and size:
+        reading.take_group(float(size), match.span())
+
+
+def take_share(reading: Reading, max_power_w: float) -> None:
+    """A share of the power, of the cell's limit: "with half the power"."""
+    match = _SHARE.search(reading.plain)
+    before = reading.plain[: match.start()] if match is not None else ""
+    if match is None or _CHANGE_BEFORE.search(before):
+        return
+    if any(each.start < match.start() < each.end for each in reading.quantities):  # "two and a half watts"
+        return
+    group = match.lastgroup or ""
+    share = _SHARES[match[group]] if group.endswith("word") else float(match[group].replace(",", ".")) / 100
+    reading.spoken_for.append(match.span())
+    reading.masked.append(match.span())
+    if _CHANGE_BEHIND.match(reading.plain, match.end()):  # "power 10 % lower"
+        reading.doubt("change", text=reading.text[slice(*match.span())])
+    elif 0 < share <= 1:
+        reading.put("max_power_w", share * max_power_w, match.span())
+    else:
+        reading.doubt("impossible", text=reading.text[slice(*match.span())])
+
+
+def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[Span]) -> None:
+    """How many users there are is the channel's affair; to pick some of them without naming them is a doubt.
+
+    ``recounted`` are counts of users who are named, ``allotted`` spans that speak of named users.
+    """
+    taken = [*((figure.start, figure.end) for figure in reading.quantities), *reading.spoken_for, *allotted]
+    for match in COUNTED_USERS.finditer(reading.plain):
+        described = any(match.start() <= start < match.end() for start, _ in recounted)
+        if described or any(start <= match.start() < end for start, end in taken):
+            continue
+        words = reading.text[slice(*match.span())]
+        reading.counted.append(match.span())
+        if _describes_all(*_clause_around(reading, *match.span())):
+            reading.not_used.append(words)
+        else:
+            reading.doubt("not_understood" if _CARRIERS.search(words) else "some_users", text=words)
+
+
+def doubt_parts(reading: Reading, allotted: Sequence[Span]) -> None:
+    """Some of the users, half of something, nobody at all: each a question."""
+    settled = [*reading.spoken_for, *allotted, *reading.counted]
+    asked = {_SOME_USERS: "some_users", BY_PLACE: "some_users", _ONE_OF: "one_of", _HALVED: "change",
+             _OTHERS_HALVED: "change"}  # fmt: skip
+    for pattern, key in asked.items():
+        match = pattern.search(reading.plain)
+        if match is None or (pattern is _HALVED and overlaps(match.span(), settled)):
+            continue
+        if pattern is not _ONE_OF and any(is_within(match.span(), span) for span in allotted):
+            continue  # "odd-numbered users"
+        reading.doubt(key, text=reading.text[slice(*match.span())])
+
+
+def _clause_around(reading: Reading, start: int, end: int) -> tuple[str, str]:
+    """What stands before and after a span within its clause, figures being borders too."""
+    plain = reading.plain
+    from_ = max([0, *(figure.phrase_end for figure in reading.quantities if figure.phrase_end <= start)])
+    to = min([len(plain), *(figure.phrase_start for figure in reading.quantities if figure.phrase_start >= end)])
+    return plain[clause_start(plain, start, from_) : start], plain[end : clause_end(plain, end, to)]
+
+
+def _describes_all(before: str, after: str) -> bool:
+    """Whether a count of users tells how many there are, rather than picking some: "for 3 users" picks."""
+    if _ALL.search(before):
+        return True
+    return _DESCRIBED_BEFORE.search(before) is not None and _DESCRIBED_AFTER.match(after) is not None

@@ -1,18 +1,23 @@
-"""What a question or a command is about: its user, its figures, what to compare with."""
+"""What a question or a command is about: its user, its figures, what to compare with.
+
+Methods and repairers go by the names that operators say: "equal power", "the paper's method", "等功率".
+"""
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Mapping
 
+from wirelessagent import plugins
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint, Detail
 from wirelessagent.language.moods import places
-from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.quantities import parse_quantities
 from wirelessagent.language.sentence import Sentence
 from wirelessagent.language.word_tables import either, words_of
+from wirelessagent.telling.catalogue import called, languages
 
 _NUMBER = deferred(
     r"(?i)(?:numbers?|turn|no\.?|#|request|entry|step|run|record|第|轮)\s*(?P<n>[0-9]+|[一二三四五六七八九十]+)|"
@@ -136,3 +141,49 @@ def _stated(values: Mapping[str, Constraint]) -> dict[str, Detail]:
     if isinstance(rate, Mapping):
         return {"rate_bps": next(iter(rate.values()))}
     return {}
+
+
+def tools_named(text: str, *kinds: plugins.Kind) -> tuple[str, ...]:
+    """The installed plug-ins of these kinds that are named, in their order.
+
+    >>> tools_named("compare with equal power and the paper's method", "method")
+    ('equal_power', 'paper')
+    """
+    spoken, pattern = _spoken(tuple(name for kind in kinds for name in plugins.names(kind)))
+    return tuple(dict.fromkeys(spoken[match[0]] for match in pattern.finditer(_as_said(text))))
+
+
+def with_tool(text: str, kind: plugins.Kind) -> tuple[str, str]:
+    """The words with "%" for the only plug-in that they name, and its name; "" where they name none or several.
+
+    >>> with_tool("use the paper's method", "method")
+    ("use the %'s method", 'paper')
+    """
+    spoken, pattern = _spoken(tuple(plugins.names(kind)))
+    plain = _as_said(text)
+    found = list(pattern.finditer(plain))
+    if len(found) != 1:
+        return text, ""
+    return f"{plain[: found[0].start()]}%{plain[found[0].end() :]}", spoken[found[0][0]]
+
+
+def _as_said(text: str) -> str:
+    return re.sub(r"[-_\s]+", " ", text.lower().replace("’", "'"))
+
+
+@functools.cache
+def _spoken(names: tuple[str, ...]) -> tuple[Mapping[str, str], re.Pattern[str]]:
+    """The plug-in that each name, as it is said or told in any language, means, and a pattern for all of them."""
+    spoken = {said: name for name in names for said in (_as_said(name), *words_of("talk_forms", "tools", name))}
+    plain = _any_of(spoken)
+    told = {_as_said(called(language, name)): name for language in sorted(languages()) for name in names}
+    for said, name in told.items():  # as the agent itself says them, where nothing in it says so already
+        if {spoken[match[0]] for match in plain.finditer(said)} != {name}:
+            spoken = {**spoken, said: name}
+    return spoken, _any_of(spoken)
+
+
+def _any_of(spoken: Mapping[str, str]) -> re.Pattern[str]:
+    longest_first = sorted(spoken, key=len, reverse=True)
+    pattern = "|".join(rf"\b{re.escape(said)}(?![a-z])" if said.isascii() else said for said in longest_first)
+    return deferred(pattern or r"(?!)")

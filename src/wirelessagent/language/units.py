@@ -15,7 +15,7 @@ from decimal import Decimal
 from typing import Literal, TypeAlias
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.spelling import one_edit
+from wirelessagent.language.vocabulary import one_edit
 from wirelessagent.model.units import dbm_to_w
 
 UnitKind: TypeAlias = Literal["power", "rate", "ratio"]

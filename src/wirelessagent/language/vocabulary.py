@@ -2,7 +2,8 @@
 
 A sentence becomes units: Latin words, and single Chinese characters. Words of five letters or more that are unknown and
 one edit (a letter missing, added, changed or two swapped) from exactly one known word of the same first letter are read
-as that word. Figures are masked beforehand, so that "minimum" in "minimum 1 Mbit/s" is not taken for a wish.
+as that word; so are Chinese ones whose characters an input method mixed up. Figures are masked beforehand, so that
+"minimum" in "minimum 1 Mbit/s" is not taken for a wish.
 """
 
 from __future__ import annotations
@@ -12,7 +13,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.spelling import nearest, one_edit
 from wirelessagent.language.text import CJK, CLAUSE_END, normalise
 from wirelessagent.language.word_tables import languages_with, table
 
@@ -21,6 +21,11 @@ MASK = "#"
 _UNIT = deferred(rf"[{CJK}]|(?:(?![{CJK}])[^\W_])+(?:'(?:(?![{CJK}])[^\W_])+)?|(?P<cut>{CLAUSE_END})")
 _SIGN = 0.6  # a single Chinese character may be part of another word: 快 of 快递
 _SHORTEST_CORRECTED, _LONG = 5, 8
+_SLIPS = table("figures", "zh")["slips"]
+_SOUND_OF = {letter: group[0] for group in _SLIPS["sounds"] for letter in group}
+_MEANT = {"".join(_SOUND_OF.get(letter, letter) for letter in word): word for word in _SLIPS["words"]}
+_RIGHT = frozenset((*_SLIPS["words"], *_SLIPS["right"]))
+_PAIR = deferred(f"(?=([{CJK}]{{2}}))")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,17 +138,12 @@ class Vocabulary:
             length, term = match
             if term.concept == "split":
                 clause_shift += 1
-            found.append(
-                Found(
-                    term=term,
-                    start=units[place].start,
-                    end=units[place + length - 1].end,
-                    first=place,
-                    last=place + length,
-                    clause=units[place].clause + clause_shift,
-                    corrected=any(corrections[place + i] != units[place + i].word for i in range(length)),
-                )
-            )
+            said = units[place : place + length]
+            found.append(Found(
+                term=term, start=said[0].start, end=said[-1].end, first=place, last=place + length,
+                clause=said[0].clause + clause_shift,
+                corrected=any(corrections[place + i] != unit.word for i, unit in enumerate(said)),
+            ))  # fmt: skip
             place += length
         return found
 
@@ -151,7 +151,7 @@ class Vocabulary:
         for phrase, term in self._by_first.get(words[place], ()):
             length = len(phrase)
             one_clause = place + length <= len(units) and units[place + length - 1].clause == units[place].clause
-            if one_clause and all(words[place + i] == phrase[i] for i in range(length)):
+            if one_clause and tuple(words[place : place + length]) == phrase:
                 return length, term
         return None
 
@@ -173,3 +173,52 @@ def _entry(item: str) -> tuple[str, ...]:
 def _deletions(word: str) -> list[str]:
     """The word itself and all that remain when one letter is taken out."""
     return [word, *(word[:i] + word[i + 1 :] for i in range(len(word)))]
+
+
+def respelt(plain: str) -> str:
+    """The text with words of the trade put right that sound as they should; same length.
+
+    >>> respelt("发射功律要最抵"), respelt("比列公平")
+    ('发射功率要最低', '比例公平')
+    """
+    letters = list(plain)
+    for match in _PAIR.finditer(plain):
+        pair, place = match[1], match.start()
+        if pair in _RIGHT:
+            continue
+        meant = _MEANT.get("".join(_SOUND_OF.get(letter, letter) for letter in pair))
+        changed = meant is not None and sum(a != b for a, b in zip(meant, pair, strict=True)) == 1
+        if meant is not None and changed:
+            letters[place : place + 2] = meant
+    return "".join(letters)
+
+
+def nearest(word: str, known: Iterable[str], most: int = 2) -> str:
+    """The one known word with the same first letter that is at most so many edits away; "" for none or several."""
+    close = [other for other in known if other[0] == word[0] and abs(len(other) - len(word)) <= most]
+    letters = set(word)
+    near = [other for other in close if len(letters.difference(other)) <= most and _edits(word, other, most) <= most]
+    return near[0] if len(near) == 1 else ""
+
+
+def _edits(a: str, b: str, most: int) -> int:
+    """Letters missing, added or changed between two words; anything beyond ``most`` is as good as another."""
+    row = list(range(len(b) + 1))
+    for i, x in enumerate(a, start=1):
+        previous, row[0] = row[0], i
+        for j, y in enumerate(b, start=1):
+            previous, row[j] = row[j], min(row[j] + 1, row[j - 1] + 1, previous + (x != y))
+        if min(row) > most:
+            return most + 1
+    return row[-1]
+
+
+def one_edit(a: str, b: str) -> bool:
+    """Whether one letter missing, added, changed, or a swap of neighbours makes a into b."""
+    if len(a) > len(b):
+        a, b = b, a
+    at = next((i for i, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), len(a))
+    if len(a) < len(b):
+        return len(b) == len(a) + 1 and a[at:] == b[at + 1 :]
+    swapped = a[at + 1 : at + 2] + a[at : at + 1] + a[at + 2 :]
+    return a[at + 1 :] == b[at + 1 :] or swapped == b[at:]

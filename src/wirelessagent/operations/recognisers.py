@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def llm_model() -> str | None:
     """The LLM that the settings name; None where they name none that can be used."""
-    from wirelessagent.language.llm.endpoint import LlmSettings
+    from wirelessagent.language.llm.client import LlmSettings
 
     try:
         return LlmSettings.read().model

@@ -15,7 +15,7 @@ from typing import Literal, TypeAlias
 from wirelessagent.language.conversation.line import Line
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Intent
-from wirelessagent.language.text import is_chinese, lowered, normalise
+from wirelessagent.language.text import lowered, normalise
 from wirelessagent.language.word_tables import languages_with, table, written
 
 Assent: TypeAlias = Literal["yes", "mild", "apply", "no", "later", "doubtful", "other"]
@@ -108,9 +108,7 @@ def _is_known(plain: str) -> bool:
     """Whether every word, or every Chinese sign, is one of those that speak of applying and nothing else."""
     known, signs = _known()
     words = re.findall(r"[^\W\d_]+(?:'[^\W\d_]+)?|\S", plain)
-    return all(
-        word in known or word in "?'\"" or all(is_chinese(sign) and sign in signs for sign in word) for word in words
-    )
+    return all(word in known or word in "?'\"" or signs.issuperset(word) for word in words)
 
 
 def _about_applying(plain: str) -> Assent:

@@ -8,67 +8,349 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 
-from wirelessagent.language.acts import Act, Aim, Everybody, Limit, Undo
-from wirelessagent.language.conversation.change import Change, changed_by
-from wirelessagent.language.conversation.figures_said import corrected, of_figures, of_shares
-from wirelessagent.language.conversation.possible import OF_THE_CELL, Possible, may_hold
-from wirelessagent.language.conversation.users_said import like_another, of_limits, of_users
+from wirelessagent.language.acts import Act, Aim, Drop, Everybody, LeaveOut, Limit, Named, Others, Scale, Serve, Undo
+from wirelessagent.language.comparators import speaks_of
+from wirelessagent.language.conversation.anchors import Anchor
+from wirelessagent.language.conversation.possible import (
+    OF_THE_CELL,
+    POWERS,
+    RATES,
+    Change,
+    Effect,
+    Group,
+    Possible,
+    in_its_unit,
+)
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, is_allowed
-from wirelessagent.language.request import acts_between
+from wirelessagent.language.lifted import named_in
+from wirelessagent.language.request import Key, acts_between, changed, with_the_assumed
 from wirelessagent.language.sentence import BUILT_IN
 
+_BLOCKS = "resource_block_group_size"
+_DIVISORS = (2, 3, 4, 5, 10)
+_LIKENED = ("named", "last", "spoken", "out")
 _MOST_STEPS = 3
 
 
 def changes_of(possible: Possible) -> list[Change]:
     """Each that a line may say; what can't hold, or holds already, comes to nothing."""
-    sayings = (of_figures, of_shares, corrected, like_another, of_users, of_limits, back_and_aims)
+    sayings = (_of_figures, _of_shares, _corrected, _like_another, _of_users, _of_limits, _back_and_aims)
     found = itertools.chain.from_iterable(said(possible) for said in sayings)
     effects = ((each, possible.effect(each.acts)) for each in found if each.acts)
     return [
-        dataclasses.replace(each, effect=effect if may_hold(effect) and _may_be_set(each.acts) else frozenset())
+        dataclasses.replace(each, effect=effect if _may_be(each.acts, effect) else frozenset())
         for each, effect in effects
     ]
 
 
-def _may_be_set(acts: Sequence[Act]) -> bool:
-    """Whether each figure that acts set is one that a limit may have."""
+def _may_be(acts: Sequence[Act], effect: Effect) -> bool:
+    """Whether each figure that acts set is one that a limit may have, and each that they come to may hold."""
     limits = ((act, EVERYBODY if isinstance(act.whom, Everybody) else "") for act in acts if isinstance(act, Limit))
-    return all(is_allowed(limit.kind, limit.value, user=user) for limit, user in limits)
+    return all(is_allowed(limit.kind, limit.value, user=user) for limit, user in limits) and all(
+        not isinstance(value, float) or 0 < value < (1 if kind == "outage_probability" else math.inf)
+        for (kind, _), value in effect
+    )
 
 
-def back_and_aims(possible: Possible) -> Iterator[Change]:
+def _of_figures(possible: Possible) -> Iterator[Change]:
+    """By figures of the line: set, or so much more or less than what holds."""
+    for figure in possible.line.figures:
+        for kind in FIGURES_OF_USERS:
+            for value in possible.values(figure, kind):
+                for group in possible.groups:
+                    if figure not in group.anchors:
+                        yield from _figure_for(possible, figure, kind, value, group)
+        for kind in OF_THE_CELL:
+            for value in possible.values(figure, kind):
+                yield from _figure_of_the_cell(possible, figure, kind, value)
+    yield from _respectively(possible)
+    for limit in possible.last:  # "one more"
+        one = in_its_unit(1.0, limit)
+        for form, value in (("one more", limit.value + one), ("one less", limit.value - one)):
+            if one and value > 0:
+                yield Change((dataclasses.replace(limit, value=value),), form, limit.kind, "last")
+        for form, factor in (("in thousands", 1e3), ("in thousandths", 1e-3)):  # "kilobits, sorry"
+            if limit.kind in (*RATES, *POWERS):
+                again = dataclasses.replace(limit, value=limit.value * factor)
+                yield Change((again,), form, limit.kind, "last")
+
+
+def _figure_for(possible: Possible, figure: Anchor, kind: str, value: float, group: Group) -> Iterator[Change]:
+    """A figure for a group: in the place of theirs, or so much more or less."""
+    limit = Limit(kind=kind, value=value, whom=group.whom)
+    if not figure.is_negative:
+        yield group.change([limit], "set", kind, figure)
+    if {*group.users} & {*possible.out}:
+        yield group.change([Serve(whom=group.whom), limit], "serve", kind, figure)
+    if kind not in possible.held or figure in possible.line.becoming:
+        return
+    for form, sign in (("plus", 1), ("minus", -1)):
+        sums = [(whose, held + sign * value) for whose, held in possible.figures_of(kind, group.whom)]
+        if sums:
+            yield group.change([Limit(kind=kind, value=sum_, whom=whose) for whose, sum_ in sums], form, kind, figure)
+
+
+def _figure_of_the_cell(possible: Possible, figure: Anchor, kind: str, value: float) -> Iterator[Change]:
+    """The same of a limit that no user has."""
+    held = possible.figures.get((kind, EVERYBODY))
+    sums = list[tuple[str, float]]()
+    if not figure.is_negative:
+        sums.append(("set", value))
+    if figure not in possible.line.becoming:
+        if held is None and kind == "max_power_w":  # the cell's, which can only become less
+            sums.append(("minus", possible.context.max_power_w - value))
+        elif held is not None and kind in POWERS:
+            sums += [("plus", held + value), ("minus", held - value)]
+    for form, sum_ in sums:
+        yield Change((Limit(kind=kind, value=sum_),), form, kind, figure=figure)
+
+
+def _respectively(possible: Possible) -> Iterator[Change]:
+    """Several figures, each for one of as many users: "weights 2, 3 and 4 for 6, 7 and 8"."""
+    for group in possible.groups:
+        users = group.users if group.source == "named" else ()
+        figures = [figure for figure in possible.line.figures if figure not in group.anchors]
+        for kind in FIGURES_OF_USERS if len(users) == len(figures) > 1 else ():
+            values = [max(possible.values(figure, kind), default=0.0) for figure in figures]
+            if all(values):
+                acts = [Limit(kind=kind, value=value, whom=Named((user,)))
+                        for user, value in zip(users, values, strict=True)]  # fmt: skip
+                yield group.change(acts, "each", kind, figures[0])
+
+
+def _of_shares(possible: Possible) -> Iterator[Change]:
+    """By shares and multiples of what holds, or of what was said last; "double the rates" is about no power."""
+    noun = speaks_of(possible.line.plain) if possible.line.figures else ()
+    others = () if len(noun) != 1 else RATES if "power" in noun else POWERS
+    if _BLOCKS not in possible.last_kinds.union(name for _, name in named_in(possible.line.plain)):
+        others = (*others, _BLOCKS)  # which nobody triples by the way
+    kinds = [kind for kind in dict.fromkeys((*possible.held, "min_rate_bps")) if kind not in others]
+    most_w = possible.figures.get(("max_power_w", EVERYBODY), math.inf)
+    of_the_cell = most_w > possible.context.max_power_w  # what it may radiate at all is less than the limit
+    for figure in possible.line.figures:
+        becomes = figure in possible.line.becoming
+        groups = [group for group in possible.groups if figure not in group.anchors]
+        for form, factor in _ways_of(figure):
+            if becomes and form in ("less", "more"):
+                continue
+            for kind in kinds:
+                if kind in FIGURES_OF_USERS:
+                    for group in groups:
+                        yield group.change([Scale(kind=kind, factor=factor, whom=group.whom)], form, kind, figure)
+                elif kind != "max_power_w" or not of_the_cell:
+                    yield Change((Scale(kind=kind, factor=factor),), form, kind, figure=figure)
+            if of_the_cell and "max_power_w" not in others:
+                limit = Limit(kind="max_power_w", value=possible.context.max_power_w * factor)
+                yield Change((limit,), form, "max_power_w", "cell", figure)
+            for last, group in itertools.product(possible.last, groups):  # "half of that for 7"
+                if last.kind in FIGURES_OF_USERS and group.whom != last.whom:
+                    limit = Limit(kind=last.kind, value=last.value * factor, whom=group.whom)
+                    yield group.change([limit], f"{form} of that", last.kind, figure)
+
+
+def _ways_of(figure: Anchor) -> Iterator[tuple[str, float]]:
+    """How something may be changed by a figure of a line: to a share of it, by it less, by it more, to a multiple."""
+    share = figure.value
+    if figure.kind not in ("ratio", "factor") and not (figure.kind == "number" and (share in _DIVISORS or share % 1)):
+        return
+    if figure.kind != "ratio" and share > 1:
+        yield from (("times", share), ("part", 1 / share))
+    else:
+        ways = (("to", share), ("less", 1 - share), ("more", 1 + share))
+        yield from ((form, factor) for form, factor in ways if factor > 0)
+
+
+def _corrected(possible: Possible) -> Iterator[Change]:
+    """What the line says in the place of the last change: "not half, a third", "by 300k, not 200k"."""
+    base = None if possible.supposed or not possible.context.past else possible.context.past[-1]
+    kinds = possible.last_kinds
+    if base is None or not kinds:
+        return
+    context = dataclasses.replace(possible.context, objective=base.objective, constraints=base.constraints, past=())
+    then = Possible(possible.line, context)
+    for change in itertools.chain(_of_figures(then), _of_shares(then)):
+        of_last = change.kind in kinds and change.source in ("", "cell", "last", "named", "everybody")
+        if of_last and (change.form != "set" or change.source == "named"):
+            acts = acts_between(possible.figures, changed(then.figures, change.acts))
+            yield dataclasses.replace(change, acts=acts, form=f"{change.form} instead")
+    for limit in possible.last:
+        if limit.kind in RATES:  # "minimum, not maximum"
+            other = dataclasses.replace(limit, kind=RATES[limit.kind == RATES[0]])
+            acts = acts_between(possible.figures, changed(then.figures, [other]))
+            yield Change(acts, "other bound", other.kind, "last")
+    yield from _same_step_of_another(possible, then)
+
+
+def _same_step_of_another(possible: Possible, then: Possible) -> Iterator[Change]:
+    """The step of the last change, of another limit instead: "the floor, not the cap" behind "double the cap"."""
+    before = {key: then.figures.get(key, then.figures.get((key[0], EVERYBODY))) for key in possible.figures}
+    steps = {key: (old, after) for key, after in possible.figures.items()
+             if after and (old := before[key]) and old != after}  # fmt: skip
+    for kind in (*RATES, "max_power_w"):
+        others = {user: step for (name, user), step in steps.items() if name != kind}
+        users = {EVERYBODY: next(iter(others.values()))} if kind == "max_power_w" and len(others) == 1 else others
+        held = {user: then.figures.get((kind, user)) or then.figures.get((kind, EVERYBODY)) for user in users}
+        scaled = {(kind, user): old * users[user][1] / users[user][0] for user, old in held.items() if old}
+        moved = {(kind, user): old + users[user][1] - users[user][0] for user, old in held.items() if old}
+        for form, after in (("other scaled", scaled), ("other moved", moved)):
+            if after and all(value > 0 for value in after.values()):
+                yield Change(acts_between(possible.figures, {**then.figures, **after}), form, kind, "last")
+
+
+def _like_another(possible: Possible) -> Iterator[Change]:
+    """The figure of one user, or a share of it, for others: "8 the same as 3", "half of what 1 gets for 6"."""
+    alone = [(users[0], anchors[0]) for users, anchors in possible.named if len(users) == 1]
+    for group, (model, other) in itertools.product(possible.groups, alone):
+        users = group.users if group.source in _LIKENED else ()
+        if not users or other in group.anchors or model in users:
+            continue
+        side = "of" if not group.anchors else "ahead" if group.anchors[0].start < other.start else "behind"
+        yield from _moved(possible, group, model, other, side)
+        found = {kind: possible.before.get((kind, model)) for kind in FIGURES_OF_USERS}
+        limits = [Limit(kind=kind, value=figure, whom=group.whom) for kind, figure in found.items()
+                  if isinstance(figure, float)]  # fmt: skip
+        if len(limits) > 1:
+            yield group.change(limits, f"all like {side}", model=other)
+        for limit in limits:
+            yield group.change([limit], f"like {side}", limit.kind, model=other)
+            for share in possible.line.figures:
+                sums = [("plus", limit.value + share.value), ("minus", limit.value - share.value)]
+                ways = [(form, limit.value * factor) for form, factor in _ways_of(share)]
+                for form, value in sums if share.kind == "rate" and limit.kind in RATES else ways:
+                    of_it = dataclasses.replace(limit, value=value)
+                    yield group.change([of_it], f"{form} like {side}", limit.kind, share, other)
+    for group in possible.groups:
+        for kind in FIGURES_OF_USERS if len(group.users) == 2 else ():
+            one, other = (possible.figures.get((kind, user)) for user in group.users)
+            if one and other:
+                acts = [Limit(kind=kind, value=other, whom=Named(group.users[:1])),
+                        Limit(kind=kind, value=one, whom=Named(group.users[1:]))]  # fmt: skip
+                yield group.change(acts, "swap", kind)
+
+
+def _moved(possible: Possible, group: Group, model: str, other: Anchor, side: str) -> Iterator[Change]:
+    """What is said of one user, of others instead: "user 4 is the one in the call, not 2"."""
+    for kind in FIGURES_OF_USERS:
+        figure = possible.figures.get((kind, model))
+        if figure:
+            acts = [Drop(kind=kind, whom=Named((model,)), own=True), Limit(kind=kind, value=figure, whom=group.whom)]
+            yield group.change(acts, f"moved {side}", kind, model=other)
+    if model in possible.out:
+        acts = [Serve(whom=Named((model,))), LeaveOut(whom=group.whom)]
+        yield group.change(acts, f"out instead {side}", model=other)
+    elif possible.out:
+        acts = [LeaveOut(whom=Named((model,))), Serve(whom=group.whom)]
+        yield group.change(acts, f"in instead {side}", model=other)
+
+
+def _of_users(possible: Possible) -> Iterator[Change]:
+    """Who is served and who is not, and of whom what was said last is said, too."""
+    for group in possible.groups:
+        if isinstance(group.whom, Named):
+            yield group.change([LeaveOut(whom=group.whom)], "out")
+            yield group.change([Serve(whom=group.whom)], "in")
+            yield group.change([Serve(whom=group.whom, alone=True)], "only")
+            if group.source != "last":
+                yield from _of_these_too(possible, group, group.whom)
+            yield from _of_these_instead(possible, group, group.whom)
+            yield group.change([Serve(whom=Everybody()), LeaveOut(whom=group.whom)], "all in but")
+    yield Change((Serve(whom=Everybody()),), "all in")
+
+
+def _of_these_too(possible: Possible, group: Group, whom: Named) -> Iterator[Change]:
+    """What was said last, of these users too."""
+    for limit in possible.last:
+        if limit.kind in FIGURES_OF_USERS:
+            acts = [dataclasses.replace(limit, whom=whom)]
+            yield group.change(acts, "too", limit.kind)
+            if {*whom.users} & {*possible.out}:  # "6 comes in as well, the same rate"
+                yield group.change([Serve(whom=whom), *acts], "in too", limit.kind)
+    yield from _stepped(possible, group)
+    for act in possible.said:
+        if isinstance(act, Scale) and act.kind in FIGURES_OF_USERS:
+            yield group.change([dataclasses.replace(act, whom=whom)], "too scaled", act.kind)
+        elif isinstance(act, Drop) and act.kind in possible.held and act.kind in FIGURES_OF_USERS:
+            yield group.change(dropped(act.kind, whom, possible.figures, possible.users), "too dropped", act.kind)
+
+
+def _stepped(possible: Possible, group: Group) -> Iterator[Change]:
+    """By as much, or as many times, as somebody's figure was changed last, for others too or in their place."""
+    before = possible.past[0] if possible.past and not possible.supposed else {}
+    for kind in dict.fromkeys(limit.kind for limit in possible.last if limit.kind in FIGURES_OF_USERS):
+        steps = {(before.get((kind, user)) or before.get((kind, EVERYBODY)), possible.figures.get((kind, user)))
+                 for user in possible.last_users}  # fmt: skip
+        old, new = steps.pop() if len(steps) == 1 else (None, None)
+        if not old or not new or old == new:
+            continue
+        for place, base in (("too", possible.figures), ("instead", before)):
+            held = [((kind, user), base.get((kind, user)) or base.get((kind, EVERYBODY))) for user in group.users]
+            by_much = {key: figure + new - old for key, figure in held if figure}
+            by_times = {key: figure * new / old for key, figure in held if figure}
+            for form, figures in (("as much", by_much), ("as many times", by_times)):
+                if figures:
+                    yield group.change(acts_between(possible.figures, {**base, **figures}), f"{form} {place}", kind)
+
+
+def _of_these_instead(possible: Possible, group: Group, whom: Named) -> Iterator[Change]:
+    """What was said last, of these users and not of those of whom it was said."""
+    of_users = [act for act in possible.context.acts if isinstance(act, Serve | LeaveOut)
+                or (isinstance(act, Limit | Scale | Drop) and act.kind in FIGURES_OF_USERS)]  # fmt: skip
+    if possible.past and of_users and not possible.supposed:
+        base = possible.context.past[-1]
+        meant = [dataclasses.replace(act, whom=whom) if act in of_users else act for act in possible.context.acts]
+        held = with_the_assumed(None if base is None else base.objective, possible.past[0], meant)
+        yield group.change(acts_between(possible.figures, changed(held, meant)), "instead")
+
+
+def _of_limits(possible: Possible) -> Iterator[Change]:
+    """Which limit is no more, and of whom."""
+    for kind in (*FIGURES_OF_USERS, *OF_THE_CELL):
+        if kind not in FIGURES_OF_USERS or kind not in possible.held:
+            yield Change((Drop(kind=kind),), "drop", kind)
+            continue
+        for group in possible.groups:
+            if isinstance(group.whom, Named):
+                yield group.change(dropped(kind, group.whom, possible.figures, possible.users), "drop", kind)
+                yield group.change([Drop(kind=kind, whom=group.whom, own=True)], "drop own", kind)
+            else:
+                own = isinstance(group.whom, Others)
+                yield group.change([Drop(kind=kind, whom=group.whom, own=own)], "drop", kind)
+
+
+def dropped(kind: str, whom: Named, figures: Mapping[Key, float], users: Sequence[str]) -> list[Act]:
+    """A limit taken off some users; a ceiling of all is written out for the others, as there is none for nobody."""
+    common = figures.get((kind, EVERYBODY))
+    if kind != "max_rate_bps" or common is None:
+        return [Drop(kind=kind, whom=whom)]
+    kept = [user for user in users if user not in whom.users]
+    return [Drop(kind=kind), *(Limit(kind=kind, value=figures.get((kind, user), common), whom=Named((user,)))
+                               for user in kept)]  # fmt: skip
+
+
+def _back_and_aims(possible: Possible) -> Iterator[Change]:
+    """Another aim, and what was supposed or held before."""
     if possible.supposed:
-        yield changed_by(possible.supposed, "as supposed")
+        yield Change(possible.supposed, "as supposed")
     said = [int(figure.value) for figure in possible.line.figures if figure.kind == "number"]
     for steps in dict.fromkeys((*range(1, _MOST_STEPS + 1), *said)):
-        if 0 < steps <= len(possible.context.past):
+        if 0 < steps <= len(possible.past):
             form = f"undo {min(steps, _MOST_STEPS)}"
-            yield changed_by([Undo(steps=steps)], form, "", "said" if steps in said else "")
+            yield Change((Undo(steps=steps),), form, source="said" if steps in said else "")
     for objective in BUILT_IN:
-        yield changed_by([Aim(objective=objective)], "aim", objective)
-    yield from _as_before(possible)
-    yield from _once_more(possible)
-
-
-def _once_more(possible: Possible) -> Iterator[Change]:
-    """The last change of figures again, by as much or as many times."""
+        yield Change((Aim(objective=objective),), "aim", objective)
+    for kind in (*FIGURES_OF_USERS, *OF_THE_CELL):  # a limit as it last was: "the cap holds again", "back to ten"
+        of_kind = [{key: figure for key, figure in held.items() if key[0] == kind}
+                   for held in (possible.figures, *possible.past)]  # fmt: skip
+        now, *earlier = of_kind
+        then = next((held for held in earlier if held and held != now), None)
+        if then is not None:
+            yield Change(acts_between(now, then), "as before", kind, "held" if now else "gone")
     before = possible.past[0] if possible.past else {}
     stepped = [(key, before[key], after) for key, after in possible.figures.items() if after and before.get(key)]
-    if any(one != other for _, one, other in stepped):
+    if any(one != other for _, one, other in stepped) and not possible.line.figures:  # the last change of figures again
         sums, products = {k: 2 * b - a for k, a, b in stepped}, {k: b * b / a for k, a, b in stepped}
         for form, again in (("again", sums), ("as much again", products)):
-            yield changed_by(acts_between(possible.figures, {**possible.figures, **again}), form, "", "last")
-
-
-def _as_before(possible: Possible) -> Iterator[Change]:
-    """A limit as it last was when it was otherwise: "the cap holds again", "back to ten"."""
-    for kind in (*FIGURES_OF_USERS, *OF_THE_CELL):
-        now = {key: figure for key, figure in possible.figures.items() if key[0] == kind}
-        for held in possible.past:
-            then = {key: figure for key, figure in held.items() if key[0] == kind}
-            if then and then != now:
-                yield changed_by(acts_between(now, then), "as before", kind, "held" if now else "gone")
-                break
+            yield Change(acts_between(possible.figures, {**possible.figures, **again}), form, source="last")

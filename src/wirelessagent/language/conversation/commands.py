@@ -18,20 +18,14 @@ from wirelessagent.language.conversation.line import Line, begins, form, group, 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Detail, Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE
-from wirelessagent.language.named_tools import with_tool
+from wirelessagent.language.number_words import cardinals
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.offline import NAME
 from wirelessagent.language.text import lowered, normalise
+from wirelessagent.language.topics import with_tool
 from wirelessagent.language.word_tables import languages_with, table
 
-_COUNTS = {
-    word: float(number)
-    for number, words in enumerate(
-        ("once one", "twice two both couple", "thrice three", "four", "five", "six", "seven", "eight", "nine", "ten"),
-        start=1,
-    )
-    for word in words.split()
-}
+_COUNTS = {**cardinals(1, 20, ("en",)), "once": 1, "twice": 2, "both": 2, "couple": 2, "thrice": 3}
 _NO_REFERENCE = (
     "off", "on", "up", "down", "around", "over", "back", "out", "in", "into", "to", "it", "the", "this", "that", "last",
     "previous", "left", "right",
@@ -113,10 +107,9 @@ def _named(word: str) -> Detail:
 def _number(word: str) -> float | None:
     if re.fullmatch(r"[-+]?\d+(?:\.\d+)?", word):
         return float(word)
-    value = _COUNTS.get(word)
-    if value is None and re.fullmatch("[一二两三四五六七八九十]+", word):
-        value = float(chinese_value(word) or 0)
-    return value
+    if re.fullmatch("[一二两三四五六七八九十]+", word):
+        return float(chinese_value(word) or 0)
+    return float(_COUNTS[word]) if word in _COUNTS else None
 
 
 def made_certain(line: Line, intent: Intent, text: str) -> Intent:
@@ -197,7 +190,7 @@ def _solved_by(line: Line, name: str) -> Intent:
     """The request that holds by another method; where none holds, a question that finds nothing to work on."""
     if line.context.objective is None:
         return line.question("other")
-    return line.amend({}, details={"method": name})
+    return line.allocate(line.context.objective, {}, amends=True, details={"method": name})
 
 
 def beside_method(text: str) -> tuple[str, str] | None:

@@ -24,7 +24,6 @@ class Read:
         acts, guessed: what they would do, or suppose, and what they ask whether to do.
         effect, guess: what that comes to; None for nothing.
         supposes: whether they would only suppose it.
-        rests: whether it changes what shows only later, such as a promise to a user who is left out.
         order: how likely it orders something.
         kinds: how likely each kind of sentence is.
         roles: by where a figure, a number or users stand, how likely they are there for what.
@@ -37,7 +36,6 @@ class Read:
     effect: Effect | None
     guess: Effect | None
     supposes: bool
-    rests: bool
     order: float
     kinds: Mapping[str, float]
     roles: Mapping[int, Mapping[str, float]]
@@ -50,7 +48,6 @@ class Read:
         return cls(
             kind=intent.kind, topic=f"{intent.recogniser == NAME}:{topic}", acts=acts, guessed=guessed,
             effect=_effect(acts, possible), guess=_effect(guessed, possible), supposes=intent.kind == "question",
-            rests=bool(acts) and possible.is_out_of_sight(acts),
             order=sentence.chances.order, kinds=sentence.chances.kinds, roles=_roles(line),
         )  # fmt: skip
 
@@ -69,12 +66,12 @@ def _roles(line: Line) -> dict[int, Mapping[str, float]]:
     return found
 
 
-def _changing(intent: Intent | None) -> tuple[Act, ...]:
+def _changing(intent: Intent) -> tuple[Act, ...]:
     """What an intent does to the request, or supposes of it."""
-    acts = () if intent is None else acts_of(intent)
+    acts = acts_of(intent)
     if len(acts) == 1 and type(acts[0]) is Suppose and acts[0].missing_share is None:
         return acts[0].acts
-    return acts if intent is not None and (intent.kind == "allocate" or intent.topic == "undo") else ()
+    return acts if intent.kind == "allocate" or intent.topic == "undo" else ()
 
 
 def _guessed(intent: Intent) -> tuple[Act, ...]:

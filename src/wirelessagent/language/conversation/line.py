@@ -7,14 +7,12 @@ Chinese ones, every other by those of the European languages, of which only Engl
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Named
 from wirelessagent.language.base_words import language_in_a_talk
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.guard import READ_IN_A_TALK
@@ -128,69 +126,32 @@ class Line:
         """The line as those who read sentences see it."""
         return read_once(self.text, own_words(), self.context)
 
-    def allocate(
-        self, objective: str, constraints: Mapping[str, Constraint], *, amends: bool, dropped: tuple[str, ...] = (),
-        details: Mapping[str, Detail] | None = None,
-    ) -> Intent:  # fmt: skip
+    def allocate(self, objective: str, constraints: Mapping[str, Constraint], *, amends: bool, **fields: Any) -> Intent:
         """A request, or a change of the one that holds."""
-        said = self.voice.amended if amends else None
-        reply = said(constraints, dropped) if said else self.voice.restated(objective, constraints, ())
-        evidence = {name: self.text.strip() for name in constraints}
-        return self._intent(
-            "allocate", reply, objective=objective, constraints=constraints, evidence=evidence, amends=amends,
-            dropped=dropped, details=details or {},
-        )  # fmt: skip
-
-    def amend(
-        self, constraints: Mapping[str, Constraint], dropped: tuple[str, ...] = (), *,
-        details: Mapping[str, Detail] | None = None,
-    ) -> Intent:  # fmt: skip
-        """A change of the request that holds."""
-        return self.allocate(
-            str(self.context.objective), constraints, amends=True, dropped=dropped, details=details
-        )  # fmt: skip
-
-    def changed_by(self, acts: Sequence[Act]) -> Intent:
-        """A change of the request by these acts."""
-        stated: dict[str, Constraint] = {}
-        for act in acts:
-            if isinstance(act, Limit):
-                named, own = (act.whom.users if isinstance(act.whom, Named) else None), stated.get(act.kind)
-                theirs = dict.fromkeys(named or (), act.value)
-                stated[act.kind] = (
-                    act.value if named is None else {**(own if isinstance(own, Mapping) else {}), **theirs}
-                )
-            elif isinstance(act, LeaveOut) and isinstance(act.whom, Named):
-                stated["leave_out"] = act.whom.users
-        dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
-        intent = self.amend(stated, dropped=dropped)
-        aims = [act.objective for act in acts if isinstance(act, Aim)]
-        if aims:
-            intent = dataclasses.replace(intent, objective=aims[-1], reply=self.voice.restated(aims[-1], stated, ()))
-        return dataclasses.replace(intent, acts=tuple(acts))
+        reply = self.voice.amended(constraints, ()) if amends else self.voice.restated(objective, constraints, ())
+        given = {"reply": reply, "evidence": dict.fromkeys(constraints, self.text.strip()), **fields}
+        return self._intent("allocate", objective=objective, constraints=constraints, amends=amends, **given)
 
     def command(self, topic: str, **details: Detail) -> Intent:
-        return self._intent("command", self.voice.say(f"command.{topic}"), topic=topic, details=details)
+        return self._intent("command", reply=self.voice.say(f"command.{topic}"), topic=topic, details=details)
 
     def question(self, topic: str, **details: Detail) -> Intent:
         said = self.voice.say(f"question.{topic}", user=self.voice.user(str(details.get("user", ""))))
-        return self._intent("question", said, topic=topic, details=details)
+        return self._intent("question", reply=said, topic=topic, details=details)
 
     def courtesy(self, key: str, /, **names: str) -> Intent:
         """Words that ask for nothing, answered in kind."""
-        return self._intent("out_of_scope", self.voice.say(key, **names))
+        return self._intent("out_of_scope", reply=self.voice.say(key, **names))
 
     def ask(self, key: str, pending: Mapping[str, Constraint] | None = None, /, **names: str) -> Intent:
         """A question back, whose answer may use what is pending."""
-        return self._intent("clarify", self.voice.say(key, **names), pending=pending or {}, asks=key)
+        return self._intent("clarify", reply=self.voice.say(key, **names), pending=pending or {}, asks=key)
 
     def ask_whether(self, topic: str) -> Intent:
         """The question of yes or no whether a command was meant."""
         said = self.voice.say("unsure_command", text=self.voice.say(f"command.{topic}"))
-        return self._intent("clarify", said, offered=topic, asks="unsure_command")
+        return self._intent("clarify", reply=said, offered=topic, asks="unsure_command")
 
-    def _intent(self, kind: IntentKind, reply: str, **fields: Any) -> Intent:
+    def _intent(self, kind: IntentKind, **fields: Any) -> Intent:
         given: dict[str, Any] = {"objective": None, "constraints": {}, "evidence": {}, **fields}
-        return Intent(
-            kind=kind, reply=reply, language=self.voice.language, confidence=1.0, recogniser=NAME, **given
-        )  # fmt: skip
+        return Intent(kind=kind, language=self.voice.language, confidence=1.0, recogniser=NAME, **given)

@@ -9,15 +9,10 @@ from dataclasses import dataclass, field
 from wirelessagent.language import forms
 from wirelessagent.language.conversation.assent import is_assent
 from wirelessagent.language.conversation.line import NAME, Line, has, is_all
-from wirelessagent.language.followups import merged, users_in
-from wirelessagent.language.intent import (
-    COMMANDS,
-    EVERYBODY,
-    Constraint,
-    Intent,
-)  # fmt: skip
+from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Intent
 from wirelessagent.language.numerals import too_many_figures
 from wirelessagent.language.recogniser import Context
+from wirelessagent.language.request import merged, users_in
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.text import normalise
 
@@ -79,7 +74,8 @@ def _answered(line: Line) -> Intent | None:
     asked_about = context.pending_users or _users_with_rates(context.pending)
     if not (asked_about or context.pending_objective) or line.users:
         return None
-    if not _only_figures(line) or any(figure.doubtful or figure.value <= 0 for figure in line.figures):
+    bare = line.figures and is_all("only_figures", line.wish) is not None  # and at most what they bound
+    if not bare or any(figure.doubtful or figure.value <= 0 for figure in line.figures):
         return None
     values: dict[str, Constraint] = {}
     for figure in line.figures:
@@ -98,11 +94,6 @@ def with_limits(line: Line, objective: str | None, limits: Mapping[str, Constrai
         key = "rate_only" if "min_rate_bps" in limits else "limits_only"
         return line.ask(key, limits, constraints=line.voice.constraints(limits))
     return line.allocate(objective, limits, amends=line.context.objective is not None)
-
-
-def _only_figures(line: Line) -> bool:
-    """Whether a line says figures, and at most what they bound."""
-    return bool(line.figures) and is_all("only_figures", line.wish) is not None
 
 
 def _users_with_rates(pending: Mapping[str, Constraint]) -> tuple[str, ...]:

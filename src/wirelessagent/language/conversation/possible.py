@@ -47,6 +47,36 @@ Effect: TypeAlias = frozenset[tuple[Key, float | str | None]]
 OBJECTIVE, OUT = "objective", "leave_out"
 
 
+@dataclass(frozen=True)
+class Change:
+    """One change that a line may make, and how the line says it.
+
+    Attributes:
+        acts: what makes it.
+        form: what is done: a figure is set, added, scaled, a user is left out, ...
+        kind: of which limit.
+        source: where the users whom it is about are from: "named" in the line, of the "last" act, "others", ...
+        figure: that the line says, None where it needs none.
+        users: where the line names them.
+        model: where it names the user whose figure it is.
+        effect: what it comes to, nothing until that is worked out.
+    """
+
+    acts: tuple[Act, ...]
+    form: str
+    kind: str = ""
+    source: str = ""
+    figure: Anchor | None = None
+    users: tuple[Anchor, ...] = ()
+    model: Anchor | None = None
+    effect: Effect = frozenset()
+
+    @property
+    def is_supposition(self) -> bool:
+        """Whether it changes nothing, and says of others that they are only supposed."""
+        return not self.acts
+
+
 @dataclass(frozen=True, kw_only=True)
 class Group:
     """For whom a change may be."""
@@ -54,6 +84,17 @@ class Group:
     whom: Whom
     source: str
     anchors: tuple[Anchor, ...] = ()
+
+    @property
+    def users(self) -> tuple[str, ...]:
+        """Those who are named; nobody where it is everybody, or the others."""
+        return self.whom.users if isinstance(self.whom, Named) else ()
+
+    def change(
+        self, acts: Sequence[Act], form: str, kind: str = "", figure: Anchor | None = None, model: Anchor | None = None
+    ) -> Change:
+        """A change for this group."""
+        return Change(tuple(acts), form, kind, self.source, figure, self.anchors, model)
 
 
 class Possible:
@@ -93,10 +134,6 @@ class Possible:
     def changed(self, acts: Sequence[Act]) -> dict[Key, float]:
         """The figures after acts."""
         return changed(self.figures, acts)
-
-    def is_out_of_sight(self, acts: Sequence[Act]) -> bool:
-        """Whether acts change figures, and nothing that is visible."""
-        return self.changed(acts) != self.figures and not self.effect(acts)
 
     def _whom(self) -> Iterator[Group]:
         seen = set[frozenset[str]]()
@@ -221,13 +258,10 @@ def visible(request: Request | None, users: Sequence[str], *, assumed: bool = Fa
 
 def seen(objective: str | None, figures: Mapping[Key, float], users: Sequence[str]) -> dict[Key, float | str]:
     """What is visible of an aim and figures."""
-    return {**({} if objective is None else {(OBJECTIVE, ""): objective}), **_shown(figures, users)}
-
-
-def _shown(figures: Mapping[Key, float], users: Sequence[str]) -> dict[Key, float | str]:
+    shown: dict[Key, float | str] = {} if objective is None else {(OBJECTIVE, ""): objective}
     alone = {user for kind, user in figures if kind == "users"}
     out = {user for user in users if (OUT, user) in figures or (alone and user not in alone)}
-    shown: dict[Key, float | str] = {(OUT, user): 1.0 for user in users if user in out}
+    shown |= {(OUT, user): 1.0 for user in users if user in out}
     for kind in dict.fromkeys(kind for kind, _ in figures):
         if kind in LISTS_OF_USERS:
             continue
@@ -256,9 +290,3 @@ def effect_between(before: Request | None, after: Request | None, users: Sequenc
 def difference(before: Mapping[Key, float | str], after: Mapping[Key, float | str]) -> Effect:
     """What differs between what is visible before and after."""
     return frozenset((key, after.get(key)) for key in {*before, *after} if before.get(key) != after.get(key))
-
-
-def may_hold(effect: Effect) -> bool:
-    """Whether each figure of an effect is one that may hold."""
-    return all(not isinstance(value, float) or 0 < value < (1 if kind == "outage_probability" else math.inf)
-               for (kind, _), value in effect)  # fmt: skip

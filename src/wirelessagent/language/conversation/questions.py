@@ -14,15 +14,14 @@ from wirelessagent.language import forms
 from wirelessagent.language.base_words import languages_of
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.line import NAME, Line, begins, group, has, is_all
-from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
+from wirelessagent.language.intent import COMMANDS, EVERYBODY, Constraint, Detail, Intent
 from wirelessagent.language.moods import places, table_of
-from wirelessagent.language.named_tools import tools_named
 from wirelessagent.language.numerals import chinese_value
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.quantities import Quantity, parse_quantities
 from wirelessagent.language.sentence import Sentence, own_words
 from wirelessagent.language.text import lowered, normalise
-from wirelessagent.language.topics import about
+from wirelessagent.language.topics import about, tools_named
 
 _ASKED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
     "why_not": ("why_infeasible", {}),
@@ -32,14 +31,10 @@ _ASKED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
     "wasting": ("what_if", {"asked": "power"}),
     "whom_to_leave_out": ("users", {"listed": "dearest"}),
     "of_each": ("users", {}),
-}
-"""What questions about the result are about, whichever users or figures they name."""
-
-_ORDERED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
     "was_better": ("compare", {"with": "last"}),
     "result": ("explain", {}),
 }
-"""Questions that a command answers."""
+"""What questions about the result are about, whichever users or figures they name; a command answers the last two."""
 
 _RATES = ("min_rate_bps", "outage_probability", "users", "leave_out")
 _LIMITS = ("max_power_w", "outage_probability", "users", "leave_out")
@@ -61,12 +56,9 @@ def read_question(line: Line) -> Intent | None:
         return None
     for name, (topic, details) in _ASKED.items():
         if is_all(name, line.said):
-            return line.question(topic, **details)
+            return (line.command if topic in COMMANDS else line.question)(topic, **details)
     if not line.figures and has("missing", line.said):
         return line.question("what_if", missing_share=0.0)
-    for name, (topic, details) in _ORDERED.items():
-        if is_all(name, line.said):
-            return line.command(topic, **details)
     return None if line.figures else _of_what_was_measured(line) or _of_shares(line)
 
 
@@ -247,20 +239,6 @@ def _without_the_aim(line: Line, understood: Intent) -> Intent | None:
     return None
 
 
-def supposed(line: Line, intent: Intent) -> Intent:
-    """A what-if of what an intent would ask for; an intent that asks for nothing as it is."""
-    if intent.kind != "allocate":
-        return intent
-    details: dict[str, Detail] = {}
-    if intent.constraints:
-        details["constraints"] = intent.constraints
-    if intent.objective != line.context.objective:
-        details["objective"] = str(intent.objective)
-    if intent.dropped:
-        details["dropped"] = " ".join(intent.dropped)
-    return dataclasses.replace(line.question("what_if", **details), recogniser=intent.recogniser)
-
-
 def only_supposed(line: Line, intent: Intent) -> Intent:
     """A what-if of what a line supposes, weighs or asks about, where it was read as a request; else the intent."""
     supposing = supposes(line.text) and not is_courtesy(line.text)
@@ -268,8 +246,14 @@ def only_supposed(line: Line, intent: Intent) -> Intent:
         return intent
     if not supposing and not intent.constraints and not intent.dropped and not intent.acts:
         return line.question("other")  # "what's the total rate" names no aim
-    said = supposed(line, intent)
-    return dataclasses.replace(said, details=said.details or {"objective": str(intent.objective)})
+    details: dict[str, Detail] = {}
+    if intent.constraints:
+        details["constraints"] = intent.constraints
+    if intent.dropped:
+        details["dropped"] = " ".join(intent.dropped)
+    if intent.objective != line.context.objective or not details:
+        details["objective"] = str(intent.objective)
+    return dataclasses.replace(line.question("what_if", **details), recogniser=intent.recogniser)
 
 
 def is_courtesy(text: str) -> bool:

@@ -18,11 +18,10 @@ import numpy.typing as npt
 
 from wirelessagent.language.base_words import aligned, based
 from wirelessagent.language.conversation.anchors import Anchor
-from wirelessagent.language.conversation.change import Change
 from wirelessagent.language.conversation.changes import changes_of
 from wirelessagent.language.conversation.heard import Read
 from wirelessagent.language.conversation.line import Line
-from wirelessagent.language.conversation.possible import RATES, Effect, Possible
+from wirelessagent.language.conversation.possible import RATES, Change, Effect, Possible
 from wirelessagent.language.moods import classes_in
 from wirelessagent.language.sentence import BUILT_IN
 
@@ -92,7 +91,8 @@ class Signs:
         """How plainly changes say what they come to: of those whom the line names, with few figures that change."""
         before, after = self._possible.figures, self._possible.changed([act for each in changes for act in each.acts])
         written = sum(before.get(key) != after.get(key) for key in {*before, *after})
-        return all(change.is_said for change in changes), -written - len(changes), likely
+        is_said = not any(change.source.startswith(("not:", "alike:")) for change in changes)
+        return is_said, -written - len(changes), likely
 
     def in_order(self, changes: Sequence[Change]) -> list[Change] | None:
         """Changes in an order in which they come to all that each comes to, as they are said if so; None for none."""

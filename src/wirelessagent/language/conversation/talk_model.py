@@ -18,8 +18,7 @@ import numpy.typing as npt
 
 from wirelessagent.language.acts import Act, Undo
 from wirelessagent.language.conversation.anchors import Anchor
-from wirelessagent.language.conversation.change import Change
-from wirelessagent.language.conversation.possible import Effect
+from wirelessagent.language.conversation.possible import Change, Effect
 from wirelessagent.language.conversation.signs import Signs, block_places, place_of
 
 TALKS_FILE = Path(__file__).parent.parent / "talks.npz"
@@ -151,8 +150,10 @@ def weigh(signs: Signs, model: TalkModel | None = None) -> Weighed:
     if parts is None:  # one undoes what the other does
         said, parts = NOTHING, list[Change]()
     acts = tuple(act for change in parts for act in change.acts)
-    used = (anchor for change in parts for anchor in (
-        signs.anchors if change.is_of_readers else (change.figure, change.model, *change.users)))  # fmt: skip
+    used = set[Anchor | None]()
+    for change in parts:  # all that the line names, where it is what its readers make of the whole line
+        whole = change.form in ("read", "guessed")
+        used.update(signs.anchors if whole else (change.figure, change.model, *change.users))
     return Weighed(acts=acts, said=said, shares=shares, used=frozenset(each for each in used if each is not None))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable
 
-from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Named, Suppose, Undo
+from wirelessagent.language.acts import Act, Aim, Drop, LeaveOut, Limit, Named, Suppose, Undo
 from wirelessagent.language.comparators import speaks_of
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.assent import speaks_of_applying
@@ -20,10 +20,11 @@ from wirelessagent.language.conversation.talk_model import Said, Weighed, weigh
 from wirelessagent.language.guard import asking_whether, guarded, stranger
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.lifted import is_denied
-from wirelessagent.language.moods import Span, classes_in
+from wirelessagent.language.moods import classes_in
 from wirelessagent.language.offline import NAME as OFFLINE
 from wirelessagent.language.recogniser import Context
-from wirelessagent.language.request import constraints_of
+from wirelessagent.language.request import changed, constraints_of
+from wirelessagent.language.text import Span
 
 SURE, SURER, AGREED, LIKELY = 0.6, 0.9, 0.5, 0.3
 """From where on a line does what it likeliest means, from where on if that is another aim or hardly an order, from
@@ -54,8 +55,8 @@ def weighed(line: Line, intent: Intent) -> tuple[Intent, bool]:
         return intent, False
     possible = Possible(Anchored.of(line.text, line.voice.language, context.user_names), context)
     read = Read.of(line, intent, possible)
-    if read.rests:
-        return intent, False
+    if read.acts and not read.effect and possible.changed(read.acts) != possible.figures:
+        return intent, False  # it shows only later, such as a promise to a user who is left out
     found = weigh(Signs(line, possible, read, line.voice.language))
     heard: Said = (read.supposes and bool(read.effect), read.effect or frozenset())
     if any(isinstance(getattr(act, "whom", None), Named) for act in found.acts) and stranger(line.text, context):
@@ -171,5 +172,9 @@ def _done(line: Line, possible: Possible, found: Weighed) -> Intent:
     stated = constraints_of({key: figure for key, figure in after.items() if before.get(key) != figure})
     gone = dict.fromkeys(kind for kind, _ in before if kind not in kinds)
     lost = constraints_of({key: figure for key, figure in before.items() if key not in after and key[0] in kinds})
-    aims = [line.voice.label(act.objective) for act in acts if isinstance(act, Aim)]
-    return dataclasses.replace(line.changed_by(acts), reply=line.voice.changed(aims, stated, tuple(gone), lost))
+    aims = [act.objective for act in acts if isinstance(act, Aim)]
+    said = constraints_of(changed({}, [act for act in acts if isinstance(act, Limit | LeaveOut)]))
+    dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
+    reply = line.voice.changed([line.voice.label(aim) for aim in aims], stated, tuple(gone), lost)
+    aim = [str(possible.context.objective), *aims][-1]
+    return line.allocate(aim, said, amends=True, reply=reply, dropped=dropped, acts=acts)

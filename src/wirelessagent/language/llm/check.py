@@ -20,17 +20,24 @@ from typing import Any
 
 from wirelessagent.language import forms
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.followups import keeps_the_limits, with_users_back
 from wirelessagent.language.guard import CHANGING
-from wirelessagent.language.intent import EVERYBODY, LISTS_OF_USERS, Constraint, Detail, Intent, checked_constraints
+from wirelessagent.language.intent import (
+    EVERYBODY,
+    LISTS_OF_USERS,
+    Constraint,
+    Detail,
+    Intent,
+    checked_constraints,
+    same_constraints,
+)
 from wirelessagent.language.leftovers import unread
 from wirelessagent.language.lifted import dropped_in, may_lift
 from wirelessagent.language.llm.client import Objection
-from wirelessagent.language.llm.meaning import Meaning, Reference
-from wirelessagent.language.llm.prompt import KINDS, figures_of, matching, plain
+from wirelessagent.language.llm.prompt import KINDS, Meaning, Reference, figures_of, matching, plain
 from wirelessagent.language.quantities import amount_of_another_time, parse_quantities
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.replies import Voice
+from wirelessagent.language.request import serving
 from wirelessagent.language.sentence import labels_of, own_words, read_once
 from wirelessagent.language.text import normalise
 from wirelessagent.language.vocabulary import OwnWords
@@ -52,6 +59,7 @@ _ADDRESS = deferred(
     r"(?<![0-9])[a-z0-9-]+\.(?:[a-z]{2,24})(?=[/\s:?#,;)\uff1f]|$)"
 )
 _CLAIM = deferred(rf"(?i)(?<!\bbe ){either('talk_forms', 'sentences', 'claims')}")
+_CLOSE = 1e-6
 _NUMBERED = deferred(r"[^0-9]*([0-9]{1,9})[^0-9]*")
 
 
@@ -73,7 +81,7 @@ class Case:
         )
         self.figures = figures_of(self._sentence, context, offline, self.rules)
         self._chances = self._sentence.chances.kinds
-        back = with_users_back(self._reading, context)[1] if self._reading.back else ()
+        _, back = serving(self._reading.back, context.constraints, context.user_names)
         dropped, self._dropped_spans = dropped_in(self._plain, context)
         self._dropped = {*offline.dropped, *dropped, *back} & set(context.constraints)
 
@@ -165,8 +173,8 @@ class Case:
         amends, drops = meaning.amends, set(meaning.drops)
         if (amends and self._context.objective is None) or (drops and not (amends and drops <= set(held))):
             raise Objection("no_request", f"the current request to amend has {', '.join(held) or 'no limits'}")
-        if held and self._context.objective is not None:
-            keeps = amends or bool(self._dropped) or not self._reading.values or keeps_the_limits(self._plain)
+        if held:
+            keeps = amends or bool(self._dropped) or not self._reading.values or forms.keeps_the_limits(self._plain)
             expected = self._offline.amends if self._offline.kind == "allocate" else keeps
             if amends != expected:
                 raise Objection("let_go" if expected else "no_request", f"amends must be {str(expected).lower()} here")
@@ -211,7 +219,7 @@ class Case:
         named = {*self._reading.named, *context.pending_users, str(self._offline.details.get("user", EVERYBODY))}
         for limits in (self.rules, context.pending, context.constraints, context.supposed):
             for value in limits.values():
-                named.update(by_user(value))
+                named.update(value if isinstance(value, Mapping | tuple) else (EVERYBODY,))
         return named
 
     def _agrees(self, constraints: Mapping[str, Constraint]) -> None:
@@ -220,7 +228,7 @@ class Case:
             if name not in self.rules and not self._is_held(name, value):
                 raise Objection("doubtful", f"the sentence is not plain about {plain({name: value})}: use clarify")
         for name, value in self.rules.items():
-            if name not in constraints or not same(constraints[name], value):
+            if not _is_in(constraints, name, value):
                 words = self._offline.evidence.get(name, "") or "the sentence"
                 key = "otherwise" if name in constraints else "left_out"
                 raise Objection(key, f"{words!r} says {plain({name: value})}; say so too, or use clarify")
@@ -233,8 +241,7 @@ class Case:
         """Whether the session holds exactly this limit."""
         context = self._context
         own = {} if name in context.constraints else {"max_power_w": context.max_power_w}
-        held = (context.constraints, context.pending, own)
-        return any(name in limits and same(value, limits[name]) for limits in held)
+        return any(_is_in(limits, name, value) for limits in (context.constraints, context.pending, own))
 
     def _about(self, meaning: Meaning) -> dict[str, Any]:
         """A question or a command."""
@@ -253,24 +260,16 @@ class Case:
             details["user"] = self._user(str(details["user"]))
         if "compared_with" in details:
             details["with"] = details.pop("compared_with")
-        if topic == "what_if":
-            constraints = checked_constraints(self._constraints(meaning))
-            details |= {"constraints": constraints} if constraints else {}
-            details |= {"objective": meaning.objective} if meaning.objective else {}
+        if topic == "what_if" and (constraints := checked_constraints(self._constraints(meaning))):
+            details["constraints"] = constraints
+        if topic == "what_if" and meaning.objective:
+            details["objective"] = meaning.objective
         return {"topic": topic, "details": details}
 
 
-def by_user(value: Constraint) -> Mapping[str, float]:
-    """A constraint by user, everybody being one; users alone count one each."""
-    if isinstance(value, Mapping):
-        return value
-    return dict.fromkeys(value, 1.0) if isinstance(value, tuple) else {EVERYBODY: value}
-
-
-def same(one: Constraint, other: Constraint) -> bool:
-    """Whether two constraints of one name say the same."""
-    a, b = by_user(one), by_user(other)
-    return set(a) == set(b) and all(math.isclose(a[user], b[user], rel_tol=1e-6) for user in a)
+def _is_in(limits: Mapping[str, Constraint], name: str, value: Constraint) -> bool:
+    """Whether a constraint stands among these limits as it is."""
+    return name in limits and same_constraints({name: value}, {name: limits[name]}, _CLOSE)
 
 
 def question_back(text: str, known: Sequence[float]) -> str:

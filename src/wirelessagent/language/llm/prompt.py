@@ -1,22 +1,26 @@
-"""What an LLM is told: the task, with the registered objectives, and one sentence with its figures, as JSON.
+"""What an LLM is told, and the form that it fills in: the meaning of an intent, with figures by reference.
 
-The sentence, the users' names and everything else that others wrote stand in the data only, never in the instructions.
-The figures that the LLM may use are the parser's, what the rules make of them (99 % reliability is an outage of 1 %,
-40 % of the power is 8 W) and the conversation's own; it refers to them by label or by value, and brings none itself.
+It is told the task, with the registered objectives, and one sentence with its figures, as JSON. The sentence, the
+users' names and everything else that others wrote stand in the data only, never in the instructions. The figures that
+the LLM may use are the parser's, what the rules make of them (99 % reliability is an outage of 1 %, 40 % of the power
+is 8 W) and the conversation's own; it refers to them by label or by value, and brings none itself.
 """
 
 from __future__ import annotations
 
+import functools
 import json
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, cast
+
+from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from wirelessagent import plugins
 from wirelessagent.language.comparators import Comparator
-from wirelessagent.language.intent import EVERYBODY, Constraint, Detail, Intent
+from wirelessagent.language.intent import COMMANDS, EVERYBODY, QUESTIONS, Constraint, Detail, Intent, IntentKind
 from wirelessagent.language.numerals import numbers
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.sentence import Sentence
@@ -123,7 +127,17 @@ def case(text: str, figures: Iterable[Figure], context: Context) -> str:
     current = {"objective": context.objective, "constraints": plain(context.constraints)}
     data = {
         "sentence": text,
-        "figures": [_shown(figure) for figure in figures],
+        "figures": [
+            {
+                "label": figure.label,
+                "words": figure.words,
+                "kind": figure.kind,
+                "value": figure.value,
+                "unit": _UNITS.get(figure.kind, ""),
+                "bound": figure.comparator,
+            }
+            for figure in figures
+        ],
         "user_names": names,
         "num_users": len(context.user_names),
         "current_request": None if context.objective is None else current,
@@ -135,15 +149,79 @@ def case(text: str, figures: Iterable[Figure], context: Context) -> str:
 
 def plain(constraints: Mapping[str, Constraint]) -> dict[str, Any]:
     """Constraints as JSON takes them."""
-    return {name: _plain(value) for name, value in constraints.items()}
+    found: dict[str, Any] = {}
+    for name, value in constraints.items():
+        if isinstance(value, Mapping):
+            found[name] = {("everybody else" if user == EVERYBODY else user): each for user, each in value.items()}
+        else:
+            found[name] = list(value) if isinstance(value, tuple) else value
+    return found
 
 
-def _plain(value: Constraint) -> Any:
-    if isinstance(value, Mapping):
-        return {("everybody else" if user == EVERYBODY else user): each for user, each in value.items()}
-    return list(value) if isinstance(value, tuple) else value
+_LONGEST = 600
+
+FiguredConstraint = Literal[
+    "max_power_w", "min_rate_bps", "max_rate_bps", "circuit_power_w", "outage_probability", "weights",
+    "subcarrier_max_power_w", "resource_block_group_size",
+]  # fmt: skip
+AnyConstraint = Literal[FiguredConstraint, "users", "leave_out"]
+Reference = str | float
+_REFERENCE = "label of a figure that is listed, such as F1, or its value"
 
 
-def _shown(figure: Figure) -> dict[str, Any]:
-    told = {"label": figure.label, "words": figure.words, "kind": figure.kind, "value": figure.value}
-    return told | {"unit": _UNITS.get(figure.kind, ""), "bound": figure.comparator}
+class _Filled(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Stated(_Filled):
+    """One constraint that the sentence states."""
+
+    constraint: FiguredConstraint
+    figure: Reference = Field(description=_REFERENCE)
+    users: list[str] = Field(
+        default_factory=list, max_length=1000, description="whose, as the operator calls them ('3'); empty: everybody's"
+    )
+
+
+class Details(_Filled):
+    """Figures and names of a question or a command."""
+
+    user: str | None = Field(None, max_length=100, description="the user it is about, as the operator calls them ('3')")
+    compared_with: str | None = Field(
+        None, max_length=100, description="'last', or the registered name of a method or repairer to compare with"
+    )
+    number: Reference | None = Field(None, description=f"number of an entry of the history: {_REFERENCE}")
+    format: Literal["ts28312", "tmf921"] | None = None
+    missing_share: Reference | None = Field(None, description=f"share of gains that would be missing: {_REFERENCE}")
+    power_w: Reference | None = Field(None, description=f"a step of power: {_REFERENCE}")
+    rate_bps: Reference | None = Field(None, description=f"a step of rate: {_REFERENCE}")
+
+
+class Meaning(_Filled):
+    """The meaning of the operator's sentence. Figures are referred to, never made."""
+
+    kind: IntentKind
+    objective: str | None = Field(None, description="for allocate, or for a what-if question about another objective")
+    objective_words: str = Field("", max_length=_LONGEST, description="the operator's own words for it, copied exactly")
+    constraints: list[Stated] = Field(default_factory=list[Stated], max_length=1000)
+    users: list[str] = Field(default_factory=list, max_length=1000, description="users to serve alone, such as '3'")
+    leave_out: list[str] = Field(default_factory=list, max_length=1000, description="users to leave out, such as '3'")
+    drops: list[AnyConstraint] = Field(
+        default_factory=list[AnyConstraint], description="constraints of the current request that no longer hold"
+    )
+    amends: bool = Field(False, description="whether it changes the current request instead of replacing it")
+    topic: str | None = Field(None, description="for command and question")
+    details: Details = Field(default_factory=lambda: Details.model_validate({}))
+    question: str = Field("", max_length=_LONGEST, description="for clarify: what to ask, in the operator's language")
+    language: str = Field(pattern=r"^[a-z]{2,3}$", description="the operator's language, such as en or zh")
+
+
+@functools.lru_cache(maxsize=8)
+def meaning_with(objectives: tuple[str, ...]) -> type[Meaning]:
+    """The type of a meaning whose objective is one of these, and whose topic is one that there is."""
+    make = cast("Callable[..., type[Meaning]]", create_model)
+    choices: dict[str, Any] = {
+        name: (cast("Any", Literal)[values] | None, Meaning.model_fields[name])
+        for name, values in (("objective", objectives), ("topic", (*COMMANDS, *QUESTIONS)))
+    }
+    return make("Meaning", __base__=Meaning, __doc__=Meaning.__doc__, **choices)

@@ -1,7 +1,7 @@
 """The LLM recogniser: an LLM chooses the meaning, the rules hold it to the figures, and answer where it does not.
 
-Every sentence is read by the offline recogniser first. The LLM then fills in a typed form (:mod:`meaning`), in which
-figures are references to those that the parser found; what it says is checked against the sentence (:mod:`check`), and
+Every sentence is read by the offline recogniser first. The LLM then fills in a typed form (:mod:`.prompt`), in which
+figures are references to those that the parser found; what it says is checked against the sentence (:mod:`.check`), and
 it is asked once more if that fails. After that, and whenever it does not answer in time, the offline recogniser's
 intent stands, and says so. Either goes through the guard that stands behind every recogniser.
 """
@@ -14,9 +14,7 @@ import logging
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.llm import prompt
 from wirelessagent.language.llm.check import NAME, Case
-from wirelessagent.language.llm.client import NoAnswer, ask, require_llm
-from wirelessagent.language.llm.endpoint import LlmSettings
-from wirelessagent.language.llm.meaning import meaning_with
+from wirelessagent.language.llm.client import LlmSettings, NoAnswer, ask, require_llm
 from wirelessagent.language.numerals import too_many_figures
 from wirelessagent.language.offline import OfflineRecogniser
 from wirelessagent.language.recogniser import Context, Recogniser
@@ -54,7 +52,7 @@ class LlmRecogniser(Recogniser):
         case = Case(text, known, offline, own)
         try:
             data = prompt.case(text, case.figures, known)
-            form = meaning_with(tuple(words.objective for words in own))
+            form = prompt.meaning_with(tuple(words.objective for words in own))
             return ask(self._settings, prompt.instructions(own), data, case.read, form=form)
         except NoAnswer as error:
             _log.info("%s", error)

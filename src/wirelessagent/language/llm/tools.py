@@ -13,8 +13,7 @@ from collections.abc import Sequence
 
 from pydantic import BaseModel
 
-from wirelessagent.language.llm.client import LlmTool, Objection, ask, require_llm
-from wirelessagent.language.llm.endpoint import LlmSettings
+from wirelessagent.language.llm.client import LlmSettings, LlmTool, Objection, ask, require_llm
 from wirelessagent.language.quantities import parse_quantities
 
 _TASK = """\

@@ -1,91 +1,66 @@
-"""Sentences with labels, drawn from the templates: wishes among figures, stories and contrasts, and all else."""
+"""Sentences with labels, drawn from the templates: wishes among figures, stories and contrasts, and all else.
+
+Templates are text, ``<language>.txt``: a line ``[label]`` begins the templates of a label, ``= name`` a list that
+``<name>`` refers to; ``(a|b|)`` is a choice and ``%`` begins a comment. What ``<power>``, ``<rate>``, ``<ratio>``,
+``<bare>`` and ``<user_ref>`` stand for, and what sentences are put together with, is in ``fillings/<language>.toml``.
+"""
 
 from __future__ import annotations
 
 import math
 import random
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
-from wirelessagent.language.training.grammar import Grammar, Slot
+from wirelessagent.language.word_tables import table, words_of
+
+Slot: TypeAlias = Callable[[random.Random], str]
 
 OBJECTIVES = ("max_rate", "min_power", "max_energy_efficiency", "proportional_fairness", "max_min_rate")
 LANGUAGES = ("en", "zh", "es", "fr", "de")
 SURROUNDINGS = ("opener", "closer", "neutral", "constraint", "contrast", "wonder")
 
+_FOLDER = Path(__file__).parent
+_FILLINGS = "training/fillings"
 _NOUNS: dict[str, str] = dict(
     zip(OBJECTIVES, ("rate_noun", "power_noun", "ee_noun", "pf_noun", "mm_noun"), strict=True)
 )
 _RIVALS = (("max_rate", "min_power"), ("max_rate", "max_min_rate"), ("proportional_fairness", "max_min_rate"))
+_NUMBERS = ("1", "2", "5", "10", "12", "20", "25", "40", "0.5", "2.5", "300", "100", "1.2")
 _TYPOS, _BARE = 0.1, 0.25
 _GOES_BACK, _LIMIT_ALONE, _AIM_ALONE = 0.06, 0.25, 0.6
-_PER_WISH, _PER_SITUATION, _PER_WORDS = 9.0, 4.0, 12.0
+_PER_WISH, _PER_SITUATION, _PER_WORDS, _PER_OTHER = 9.0, 4.0, 12.0, 5.0
+"""How often a template is drawn, for each doubling of its variety."""
+
+_SPACES = re.compile(r"\s+")
+_TIGHT = re.compile(r"\s+([,.;:!?\uff0c。？])")
 
 
-def _of(*choices: str) -> Slot:
-    return lambda chance: chance.choice(choices)
+def slots(language: str) -> Mapping[str, Slot]:
+    """What draws the figures and users of a language's templates."""
+
+    def slot(name: str, choices: list[str]) -> Slot:
+        if name in ("power", "rate"):
+            return lambda chance: chance.choice(_NUMBERS) + chance.choice(choices)
+        return lambda chance: chance.choice(choices)
+
+    return {name: slot(name, choices) for name, choices in table(_FILLINGS, language)["slots"].items()}
 
 
-def _figures(*units: str) -> Slot:
-    def draw(chance: random.Random) -> str:
-        number = chance.choice(("1", "2", "5", "10", "12", "20", "25", "40", "0.5", "2.5", "300", "100", "1.2"))
-        return number + chance.choice(units)
-
-    return draw
-
-
-SLOTS: dict[str, dict[str, Slot]] = {
-    "en": {
-        "power": _figures(" W", " watts", "W", " mW", " dBm", " dBW"),
-        "rate": _figures(" Mbit/s", " Mbps", " kbit/s", " megabits per second", " kbps", " Mb/s"),
-        "ratio": _of("5 %", "1 %", "95 %", "99 percent", "20 %", "40%", "thirty percent"),
-        "bare": _of("3", "5", "2", "10", "0.5", "7"),
-        "user_ref": _of("user "
-            "3", "user 5", "users 1 and 4", "user 7", "user 2", "UE 6", "users 2, 4 and 8", "the third user"),
-    },
-    "zh": {
-        "power": _figures("瓦", "W", "瓦", "毫瓦", "dBm"),
-        "rate": _figures("兆", "Mbps", "兆", "kbps", "兆比特每秒", "M"),
-        "ratio": _of("5%", "百分之五", "95%", "百分之四十", "20%", "99%"),
-        "bare": _of("3", "5", "2", "10"),
-        "user_ref": _of("用户3", "3号", "3号用户", "用户5", "1号和4号", "用户2", "7号用户", "第三个用户"),
-    },
-    "es": {
-        "power": _figures(" W", " vatios", " dBm", " mW"),
-        "rate": _figures(" Mbit/s", " Mbps", " kbps", " megabits por segundo"),
-        "ratio": _of("5 %", "95 %", "el 40 %"),
-        "bare": _of("3", "2", "5"),
-        "user_ref": _of("el usuario 3", "usuario 5", "los usuarios 1 y 4", "el usuario 2"),
-    },
-    "fr": {
-        "power": _figures(" W", " watts", " dBm", " mW"),
-        "rate": _figures(" Mbit/s", " Mbps", " kbit/s", " mégabits par seconde"),
-        "ratio": _of("5 %", "95 %", "40 %"),
-        "bare": _of("3", "2", "5"),
-        "user_ref": _of("l'utilisateur 3", "l'utilisateur 5", "les utilisateurs 1 et 4", "l'utilisateur 2"),
-    },
-    "de": {
-        "power": _figures(" W", " Watt", " dBm", " mW"),
-        "rate": _figures(" Mbit/s", " Mbps", " kbit/s", " Megabit pro Sekunde"),
-        "ratio": _of("5 %", "95 %", "40 %"),
-        "bare": _of("3", "2", "5"),
-        "user_ref": _of("Nutzer 3", "Nutzer 5", "Nutzer 1 und 4", "Nutzer 2"),
-    },
-}  # fmt: skip
-
-
-def sentences(folder: Path, seed: int = 1) -> Iterator[tuple[str, str]]:
+def sentences(seed: int = 1) -> Iterator[tuple[str, str]]:
     """(sentence, label) for training, the same ones for a seed."""
     chance = random.Random(seed)
     for language in LANGUAGES:
-        maker = _Maker(Grammar.read(folder / f"{language}.txt"), chance)
-        for text, label in maker.all():
+        for text, label in _Maker(language, chance).all():
             yield (mistyped(text, chance) if chance.random() < _TYPOS else text), label
 
 
-def wishes(folder: Path, language: str, chance: random.Random) -> Iterator[tuple[str, str]]:
+def wishes(language: str, chance: random.Random) -> Iterator[tuple[str, str]]:
     """What somebody may want of a cell, with its kind, without end: aims, limits, both, and at times to go back."""
-    maker = _Maker(Grammar.read(folder / f"{language}.txt"), chance)
+    maker = _Maker(language, chance)
     while True:
         yield maker.wish()
 
@@ -101,84 +76,140 @@ def mistyped(text: str, chance: random.Random) -> str:
     return text[:place] + chance.choice((b + a, a, a + a + b)) + text[place + 2 :]
 
 
+@dataclass(frozen=True, kw_only=True)
+class Grammar:
+    """The templates of one language."""
+
+    language: str
+    templates: Mapping[str, tuple[str, ...]]
+    lists: Mapping[str, tuple[str, ...]]
+
+    @classmethod
+    def read(cls, path: Path) -> Grammar:
+        templates, lists, into = dict[str, list[str]](), dict[str, list[str]](), list[str]()
+        for line in path.read_text(encoding="utf-8").splitlines():
+            text = line.strip()
+            if not text or text.startswith("%"):
+                continue
+            if text.startswith("["):
+                into = templates.setdefault(text.strip("[]"), [])
+            elif text.startswith("= "):
+                into = lists.setdefault(text[2:].strip(), [])
+            else:
+                into.append(text)
+        return cls(
+            language=path.stem,
+            templates={name: tuple(lines) for name, lines in templates.items()},
+            lists={name: tuple(lines) for name, lines in lists.items()},
+        )
+
+    def draw(self, template: str, chance: random.Random, slots: Mapping[str, Slot]) -> str:
+        """One of the sentences that a template stands for."""
+        text, end = self._draw(template, 0, chance, slots)
+        assert end == len(template), f"unbalanced brackets in {template!r}"
+        text = _SPACES.sub("" if self.language == "zh" and not text.isascii() else " ", text).strip()
+        return _TIGHT.sub(r"\1", text)
+
+    def _draw(self, template: str, start: int, chance: random.Random, slots: Mapping[str, Slot]) -> tuple[str, int]:
+        options, place = [""], start
+        while place < len(template):
+            letter = template[place]
+            if letter == "(":
+                drawn, place = self._draw(template, place + 1, chance, slots)
+                options[-1] += drawn
+            elif letter == ")":
+                return chance.choice(options), place + 1
+            elif letter == "|" and start > 0:
+                options.append("")
+                place += 1
+            elif letter == "<":
+                end = template.index(">", place)
+                options[-1] += self._slot(template[place + 1 : end], chance, slots)
+                place = end + 1
+            else:
+                options[-1] += letter
+                place += 1
+        return options[0], place
+
+    def _slot(self, name: str, chance: random.Random, slots: Mapping[str, Slot]) -> str:
+        if name in slots:
+            return slots[name](chance)
+        return self.draw(chance.choice(self.lists[name]), chance, slots)
+
+    def variety(self, template: str) -> int:
+        """Roughly how many sentences a template stands for."""
+        several = template.count("|") + 1
+        return several * (1 + 3 * template.count("<"))
+
+
 class _Maker:
     """Sentences of one language."""
 
-    def __init__(self, grammar: Grammar, chance: random.Random) -> None:
-        self._grammar, self._chance = grammar, chance
-        self._slots: Mapping[str, Slot] = SLOTS[grammar.language]
-        self._gap = "" if grammar.language == "zh" else " "
-        self._comma = "\uff0c" if grammar.language == "zh" else ", "
+    def __init__(self, language: str, chance: random.Random) -> None:
+        self._grammar, self._chance = Grammar.read(_FOLDER / f"{language}.txt"), chance
+        self._slots, self._words_by_use = slots(language), table(_FILLINGS, language)["words"]
+        self._gap, self._comma = ("", "\uff0c") if language == "zh" else (" ", ", ")
 
     def wish(self) -> tuple[str, str]:
         """An aim, a limit, both, or a command that goes back, with its kind."""
-        draw, language = self._chance.random(), self._grammar.language
+        draw = self._chance.random()
         if draw < _GOES_BACK:
             command = self._chance.choice(("command.undo", "command.reset"))
             return self._pick(command), command
         objective = self._chance.choice(OBJECTIVES)
-        aim, limit = self._plain(objective), self._pick("constraint")
+        aim, limit = self._pick(objective), self._pick("constraint")
         if draw < _LIMIT_ALONE:
             return limit, "clarify.limits"
-        return (aim if draw < _AIM_ALONE else aim + _AND[language][0] + limit), objective
+        return (aim if draw < _AIM_ALONE else aim + self._words_by_use["and"][0] + limit), objective
 
     def all(self) -> Iterator[tuple[str, str]]:
+        """Sentences of every template, with their labels."""
         for label, templates in self._grammar.templates.items():
             if label in SURROUNDINGS:
                 continue
-            objective, _, kind = label.partition(".")
+            kind, _, use = label.partition(".")
+            if use == "words":
+                make, often, meant = self._words, _PER_WORDS, kind
+            elif kind in OBJECTIVES:
+                make, often, meant = self._wish, _PER_SITUATION if use else _PER_WISH, kind
+            else:
+                make, often, meant = self._other, _PER_OTHER, "question.other" if label == "question.fact" else label
             for template in templates:
-                if kind == "words":
-                    for _ in range(round(_PER_WORDS * math.log2(1 + self._grammar.variety(template)))):
-                        yield self._words(label, template), objective
-                elif objective in OBJECTIVES:
-                    times = round(
-                        (_PER_SITUATION if kind else _PER_WISH) * math.log2(1 + self._grammar.variety(template))
-                    )
-                    for _ in range(times):
-                        yield self._wish(template, objective, situation=bool(kind)), objective
-                else:
-                    for _ in range(round(5 * math.log2(1 + self._grammar.variety(template)))):
-                        yield self._other(template, label), "question.other" if label == "question.fact" else label
+                for _ in range(round(often * math.log2(1 + self._grammar.variety(template)))):
+                    yield make(template, label), meant
         yield from self._turned_round()
 
     def _turned_round(self) -> Iterator[tuple[str, str]]:
         """Wishes that are wondered about, refused, or at odds with each other."""
+        chance = self._chance
         for _ in range(60 if self._grammar.language in ("en", "zh") else 20):
             for objective in OBJECTIVES:
-                wish = self._plain(objective)
+                wish = self._pick(objective)
                 wonder = self._pick("wonder", {"wish": lambda _, wish=wish: wish})
-                yield wonder + ("?" if self._chance.random() < 0.6 else ""), "question.what_if"
-            for one, other in _RIVALS:
-                pair = [self._plain(one), self._plain(other)]
-                self._chance.shuffle(pair)
-                yield self._joined(pair), "clarify.rivals"
-            if self._grammar.language in _DONT:
-                refused = self._chance.choice(_DONT[self._grammar.language]) + self._plain(
-                    self._chance.choice(OBJECTIVES)
-                )
-                yield refused, "clarify.negated"
-
-    def _joined(self, pair: list[str]) -> str:
-        return self._chance.choice(_AND[self._grammar.language]).join(pair)
+                yield wonder + ("?" if chance.random() < 0.6 else ""), "question.what_if"
+            for rivals in _RIVALS:
+                pair = [self._pick(objective) for objective in rivals]
+                chance.shuffle(pair)
+                yield chance.choice(self._words_by_use["and"]).join(pair), "clarify.rivals"
+            refused = chance.choice(self._words_by_use["not"]) + self._pick(chance.choice(OBJECTIVES))
+            yield refused, "clarify.negated"
 
     def _pick(self, name: str, more: Mapping[str, Slot] | None = None) -> str:
         templates = self._grammar.templates[name]
         return self._grammar.draw(self._chance.choice(templates), self._chance, {**self._slots, **(more or {})})
 
-    def _plain(self, objective: str) -> str:
-        return self._pick(objective)
-
-    def _wish(self, template: str, objective: str, *, situation: bool) -> str:
+    def _wish(self, template: str, label: str) -> str:
+        """A wish, or the story of one, among other sentences."""
         chance = self._chance
+        objective, _, situation = label.partition(".")
         core = self._grammar.draw(template, chance, self._slots)
         if chance.random() < _BARE:
             return core
         parts = [core]
         if situation and chance.random() < 0.35:
-            parts.append(self._plain(objective))
+            parts.append(self._pick(objective))
         elif not situation and chance.random() < 0.12:
-            parts.insert(chance.randrange(2), self._plain(objective))
+            parts.insert(chance.randrange(2), self._pick(objective))
         elif not situation and chance.random() < 0.2:
             parts[0] = self._contrasted(core, objective)
         if not situation and chance.random() < 0.07:
@@ -193,23 +224,21 @@ class _Maker:
             parts[-1] += chance.choice((self._gap, self._comma)) + self._pick("closer")
         text = parts[0]
         for part in parts[1:]:
-            text += (
-                chance.choice((self._comma, self._comma, *_AND[self._grammar.language], self._gap or self._comma))
-                + part
-            )
+            joints = (self._comma, self._comma, *self._words_by_use["and"], self._gap or self._comma)
+            text += chance.choice(joints) + part
         return self._as_question(text)
 
     def _as_question(self, text: str) -> str:
         """A polite request often ends like a question: "could you …?"."""
-        polite = text.lower().startswith(_POLITE) or text.endswith(("吗", "好吗"))
+        polite = text.lower().startswith(words_of(_FILLINGS, "words", "polite")) or text.endswith("吗")
         return text + "?" if polite and self._chance.random() < 0.6 else text
 
-    def _words(self, label: str, template: str) -> str:
+    def _words(self, template: str, label: str) -> str:
         """A few words of an objective among small words, in any order."""
-        chance, small = self._chance, _SMALL[self._grammar.language].split()
+        chance = self._chance
         parts = [self._grammar.draw(template, chance, self._slots)]
         parts += [self._pick(label) for _ in range(chance.choice((0, 1, 1)))]
-        parts += chance.sample(small, chance.randrange(2, 7))
+        parts += chance.sample(self._words_by_use["small"], chance.randrange(2, 7))
         chance.shuffle(parts)
         if chance.random() < 0.3:
             parts.insert(chance.choice((0, len(parts))), self._comma.strip() + self._pick("constraint"))
@@ -221,6 +250,7 @@ class _Maker:
         return self._pick(self._chance.choice(names)) if names else self._pick("neutral")
 
     def _contrasted(self, wish: str, objective: str) -> str:
+        """A wish beside an objective that is not wanted."""
         other = self._chance.choice([name for name in OBJECTIVES if name != objective])
         noun = self._grammar.draw(f"<{_NOUNS[other]}>", self._chance, self._slots)
         contrast = self._pick("contrast", {"other": lambda _: noun})
@@ -229,6 +259,7 @@ class _Maker:
         return wish + self._comma + contrast
 
     def _other(self, template: str, label: str) -> str:
+        """What is no wish, at times among other sentences."""
         chance = self._chance
         text = self._grammar.draw(template, chance, self._slots)
         kind = label.partition(".")[0]
@@ -242,43 +273,3 @@ class _Maker:
         if chance.random() < 0.05:
             text = self._pick("neutral") + self._comma + text
         return text
-
-
-_SMALL = {
-    "en": "make it the cell please we want should be as with for today everyone get give so and of to them this "
-    "that can in "
-    "let have need go keep all what you our just by me let's on network users when up do",
-    "zh": "请 把 小区 要 就 给 我 的 了 吧 今天 大家 用户 一下 都 让 来 网络 就行 尽量 现在 可以 这个 按 去 得 能 "
-    "我们 先",
-    "es": "que la celda por favor quiero haz todos para con los usuarios hoy el lo de una en se dame red pon y",
-    "fr": "que la cellule s'il te plaît je veux fais tous pour avec les utilisateurs aujourd'hui le de une en "
-    "donne réseau et",
-    "de": "die Zelle bitte ich will mach alle für mit den Nutzern heute das es so auf ein sollen gib Netz und wir",
-}
-_POLITE = (
-    "can ", "could ", "would ", "will ", "能不能", "能否", "可以", "可不可以", "puedes", "podrías", "peux-tu",
-    "pourrais",
-    "pouvez", "kannst", "könnte",
-)  # fmt: skip
-_DONT = {
-    "en": (
-        "don't ",
-        "do not ",
-        "please don't ",
-        "never ",
-        "I don't want to ",
-        "there's no need to ",
-        "stop trying to ",
-    ),
-    "zh": ("不要", "别", "先别", "不用", "今天别", "没必要"),
-    "es": ("no quiero ", "no hace falta "),
-    "fr": ("je ne veux pas ", "pas besoin de "),
-    "de": ("ich will nicht ", "es ist nicht nötig: "),
-}
-_AND = {
-    "en": (" and ", "; ", ". ", ", and ", " but ", " with ", ", "),
-    "zh": ("\uff0c", "\uff0c同时", "。", "\uff0c并且", "\uff1b"),
-    "es": (" y ", ". ", "; ", ", pero "),
-    "fr": (" et ", ". ", " ; ", ", mais "),
-    "de": (" und ", ". ", "; ", ", aber "),
-}

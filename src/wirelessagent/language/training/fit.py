@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import multiprocessing
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -16,6 +16,9 @@ from wirelessagent.language.training.fit_kernel import one_pass
 
 Item = TypeVar("Item")
 Made = TypeVar("Made")
+_PASSES, _STEP = 6, 0.15
+"""More of them tell sentences apart better that may be orders, and frames in other words worse."""
+
 _AVERAGED, _EPSILON = 2, 1e-3
 """Passes whose weights are averaged, and what squares begin at."""
 
@@ -40,37 +43,26 @@ def in_parallel(
         return pool.map(do, items, chunksize=at_once)
 
 
-def known_words(said: Iterable[Iterable[int]]) -> npt.NDArray[np.uint32]:
-    """The hashes of the words that stand in at least two sentences, ascending."""
-    words, counts = np.unique([word for words in said for word in set(words)], return_counts=True)
-    return np.asarray(words[counts > 1], dtype=np.uint32)
-
-
 @foreground()
 def fit(
-    rows: sparse.csr_matrix,
-    labels: Sequence[str],
-    names: Sequence[str],
-    weight: npt.NDArray[np.float64],
-    passes: int,
-    step: float,
+    rows: sparse.csr_matrix, right: npt.NDArray[np.bool_], weight: npt.NDArray[np.float64]
 ) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
-    """Weights (bucket, label) and intercepts (label,) that make the labels likely.
+    """Weights (bucket, label) and intercepts (label,) that make the ``right`` (sentence, label) labels likely.
 
     ``weight`` (sentence,) says how much each counts. The order of the sentences is drawn with a fixed seed: equal
     sentences make equal weights.
     """
-    right = np.array(labels)[:, None] == np.array(names)
+    sentences, labels = right.shape
     share = right @ (weight @ right) / weight.sum()
-    importance = weight * (len(names) * share) ** -0.4  # rare labels count more, though not equally
+    importance = weight * (labels * share) ** -0.4  # rare labels count more, though not equally
     importance = np.asarray(importance / importance.mean(), dtype=np.float32)
-    weights = np.zeros((rows.shape[1] + 1, len(names)), np.float32)
+    weights = np.zeros((rows.shape[1] + 1, labels), np.float32)
     squares, mean, chance = np.full_like(weights, _EPSILON), np.zeros_like(weights), np.random.default_rng(1)
-    for turn in range(passes):
-        order = chance.permutation(len(labels))
-        lost = one_pass(order, rows.indptr, rows.indices, rows.data, right, importance, weights, squares, step)
-        _LOG.info("pass %d, loss %.3f", turn + 1, lost / len(labels))
-        if turn >= passes - _AVERAGED:
+    for turn in range(_PASSES):
+        order = chance.permutation(sentences)
+        lost = one_pass(order, rows.indptr, rows.indices, rows.data, right, importance, weights, squares, _STEP)
+        _LOG.info("pass %d, loss %.3f", turn + 1, lost / sentences)
+        if turn >= _PASSES - _AVERAGED:
             mean += weights / _AVERAGED
     return mean[:-1], mean[-1]
 

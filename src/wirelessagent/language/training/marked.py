@@ -24,7 +24,7 @@ _CHOICE = re.compile(r"<([^<>]*\|[^<>]*)>")
 _MEANS = {
     "min": "min_rate_bps", "max": "max_rate_bps", "limit": "max_power_w", "circuit": "circuit_power_w",
     "carrier": "subcarrier_max_power_w",
-    "theirs": "unclear", "uncapped": "unclear", "elsewhere": "unclear", "share": "",
+    "theirs": "unclear", "uncapped": "unclear", "elsewhere": "unclear",
 }  # fmt: skip
 
 
@@ -79,7 +79,7 @@ class Marked:
         roles = self._roles(number.start, number.end)
         if roles == {"unclear"}:
             return {"limit"}
-        if roles and roles <= {"user", "weight"}:
+        if roles and roles <= {"user", "weight", "group", "share"}:
             return roles
         means = (means for means in ("user", "rate", "power") if roles and roles <= set(LABELS[means]))
         return {next(means, "harmless")}

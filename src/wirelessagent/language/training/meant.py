@@ -14,12 +14,13 @@ from wirelessagent.language.looks import BORROWING, Look, figures_of
 from wirelessagent.language.mentions import Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.training.spoken import spoken
+from wirelessagent.language.training.examples import spoken
 
 MEANINGS = Path(__file__).with_name("meanings")
 _CLOSE = 1e-6
 _ENDS = re.compile(r"\s*(?:$|[,.;:!?)\uff0c。；、])")
 _NOTHING = {"none", "stale", "refused"}
+_MAX_POWER_W = 20.0  # whose shares sentences say
 
 
 def sentences() -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -66,13 +67,20 @@ class Meant:
         ]
         outage = constraints.get("outage_probability")
         self._complete = {
-            "power": all(self._has("power", value) for value in self._powers.values()),
+            "power": all(
+                self._has("power", value) or self._has("ratio", value / _MAX_POWER_W) for value in self._powers.values()
+            ),
             "rate": all(self._has("rate", value) for value in self._rates),
             "ratio": outage is None or self._has("ratio", outage) or self._has("ratio", 1 - outage),
         }
 
     def _has(self, kind: str, value: float) -> bool:
         return any(kind == known and _close(value, each) for known, each in self._known)
+
+    def _is_share(self, value: float) -> bool:
+        """Whether a ratio is a share of the cell's power."""
+        most = self._powers.get("max_power_w", 0.0)
+        return _close(value * _MAX_POWER_W, most) and not self._has("power", most)
 
     def _worth_of(self, number: Number) -> dict[str, float]:
         """What a number would be worth in each role that borrows a unit."""
@@ -85,10 +93,16 @@ class Meant:
         outage = self._constraints.get("outage_probability")
         missing = {
             "rate": [rate for rate in self._rates if not self._has("rate", rate)],
-            "power": [power for power in self._powers.values() if not self._has("power", power)],
+            "power": [
+                power
+                for power in self._powers.values()
+                if not self._has("power", power) and not self._has("ratio", power / _MAX_POWER_W)
+            ],
             "outage": [outage] if outage is not None and not self._has("ratio", outage) else [],
             "reliability": [1 - outage] if outage is not None and not self._has("ratio", 1 - outage) else [],
         }
+        limits = [power for power in missing["power"] if power == self._powers.get("max_power_w")]
+        missing["share"] = [power / _MAX_POWER_W for power in limits]
         missing["multiple"] = missing["rate"] if number.form == "times" else []
         worth = self._worth[number]
         roles = {role for role, value in worth.items() if any(_close(value, each) for each in missing[role])}
@@ -112,11 +126,10 @@ class Meant:
         if not self._complete[figure.kind]:
             return set()
         if figure.kind == "ratio":
-            outage = self._constraints.get("outage_probability")
-            if outage is None:
-                return {"none", "missing"}
-            roles = {"outage"} if _close(figure.value, outage) else set[str]()
-            return roles | ({"reliability"} if _close(1 - figure.value, outage) else set()) or {"none", "missing"}
+            outage = self._constraints.get("outage_probability", -1.0)
+            meant = {"share": self._is_share(figure.value), "outage": _close(figure.value, outage),
+                     "reliability": _close(1 - figure.value, outage)}  # fmt: skip
+            return {role for role, is_one in meant.items() if is_one} or {"none", "missing"}
         if figure.kind == "power":
             return {name for name, value in self._powers.items() if _close(value, figure.value)} or _NOTHING
         roles = {
@@ -163,10 +176,10 @@ class Meant:
             return {"limit"}
         user = value == int(value) and str(int(value)) in self._all_users | self._values.get("weights", {}).keys()
         weight = any(_close(value, each) for each in self._values.get("weights", {}).values())
-        if user and weight:
-            return set()
-        if user or weight:
-            return {"user"} if user else {"weight"}
+        group = _close(value, self._constraints.get("resource_block_group_size", 0.0))
+        roles = {name for name, is_one in (("user", user), ("weight", weight), ("group", group)) if is_one}
+        if roles:
+            return roles if len(roles) == 1 else set()
         if value == 1 and "weights" in self._values:
             return {"weight", "harmless"}  # "all others 1" is what they count anyway
         return {"harmless"} if all(self._complete.values()) else set()

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 import optax as untyped_optax  # pyright: ignore[reportMissingTypeStubs]
 
-from wirelessagent.language.sentence_layers import (
+from wirelessagent.language.sentence_model import (
     ANSWERS,
     BLOCKS,
     BUCKETS,

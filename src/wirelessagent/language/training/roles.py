@@ -29,8 +29,7 @@ from wirelessagent.language.text import normalise
 from wirelessagent.language.training.fit import rounded
 from wirelessagent.language.training.marked import Marked, marked
 from wirelessagent.language.training.meant import Meant, sentences
-from wirelessagent.language.training.named import named
-from wirelessagent.language.training.shortened import shortened
+from wirelessagent.language.training.variants import named, shortened
 
 _RIDGE = 1e-6
 _STEPS = 200

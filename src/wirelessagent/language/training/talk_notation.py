@@ -28,8 +28,8 @@ from wirelessagent.language.acts import (
     Whom,
 )
 from wirelessagent.language.conversation.anchors import Anchored
+from wirelessagent.language.conversation.changes import dropped
 from wirelessagent.language.conversation.possible import Effect, effect_between
-from wirelessagent.language.conversation.users_said import dropped
 from wirelessagent.language.intent import CONSTRAINTS, EVERYBODY, FIGURES_OF_USERS
 from wirelessagent.language.recogniser import Context
 from wirelessagent.language.request import Request, applied, figures_of

@@ -1,7 +1,12 @@
-"""Sentences in which people and things are called by a name, and such as call nobody by one: ``named/<language>.txt``.
+"""More sentences for the model of roles: said shorter with the same meaning, and with names of users or none.
 
-A name that stands for a user is marked, "[the camera]{name} can wait"; other nouns are nobody's. Beside them count
-those that have a meaning: as they are, and with names in the places of those whom they name by number.
+Users are called by their numbers alone, and units are said only once: "user 3 gets 2 Mbit/s, user 5 gets 1 Mbit/s"
+teaches as well what "3 gets 2 Mbit/s, 5 gets 1 Mbit/s" and "user 3 gets 2 Mbit/s, user 5 gets 1" mean. People shorten
+so, and few who write sentences down do.
+
+People and things are called by a name in ``named/<language>.txt``. A name that stands for a user is marked, "[the
+camera]{name} can wait"; other nouns are nobody's. Beside them count those that have a meaning: as they are, and with
+names in the places of those whom they name by number.
 """
 
 from __future__ import annotations
@@ -15,13 +20,14 @@ from pathlib import Path
 
 from wirelessagent.language.base_words import language_of
 from wirelessagent.language.looks import first_look
+from wirelessagent.language.mentions import mentions
 from wirelessagent.language.quantities import parse_quantities
-from wirelessagent.language.text import normalise
+from wirelessagent.language.readings import readings
+from wirelessagent.language.text import USER_NOUN, normalise
 from wirelessagent.language.training.compose import OBJECTIVES
+from wirelessagent.language.training.examples import FILLED, framed, spoken
 from wirelessagent.language.training.marked import unmarked
 from wirelessagent.language.training.meant import sentences
-from wirelessagent.language.training.orders import FILLED, framed
-from wirelessagent.language.training.spoken import spoken
 from wirelessagent.language.training.talk_notation import talks
 
 NAMED = Path(__file__).with_name("named")
@@ -37,10 +43,60 @@ _OF_TALKS = 3
 
 _LONG_WORD = re.compile(r"[^\W\d_\u3400-\u9fff]{5,}")
 
+_NOUN = re.compile(rf"(?i)(?P<article>\b(?:à\s+l'|de\s+l'|l'))?(?P<noun>{USER_NOUN})\s+(?=[0-9])")
+_ARTICLES = {"à l'": "au ", "de l'": "du ", "l'": "le "}
+_MAY_FOLLOW = re.compile(r"\s*(?:$|[^\W\d_]|[,.;:!?)\uff0c。；、](?!\s*[0-9]))")
 
-def named(seed: int = 1) -> Iterator[tuple[str, list[Span], int]]:
+
+def shortened(text: str) -> Iterator[str]:
+    """The shorter ways to say a sentence, none where there is nothing to leave out."""
+    for shorter in (without_nouns(text), without_units(text)):
+        if shorter != text:
+            yield shorter
+
+
+def without_nouns(text: str) -> str:
+    """The sentence with users called by their numbers alone.
+
+    >>> without_nouns("let user 3 have 1 Mbit/s and drop users 5 and 7")
+    'let 3 have 1 Mbit/s and drop 5 and 7'
+    """
+    plain = normalise(text)
+    spans = [(q.start, q.end) for q in parse_quantities(text)]
+    parts, place = list[str](), 0
+    for mention in mentions(plain, (), spans):
+        noun = _NOUN.search(plain, max(place, mention.start - 5), mention.end)
+        if mention.role != "named" or noun is None or _MAY_FOLLOW.match(plain, mention.end) is None:
+            continue
+        article = _ARTICLES.get(" ".join((noun["article"] or "").lower().split()), "")
+        parts += [text[place : noun.start()], article]
+        place = noun.end()
+    return "".join([*parts, text[place:]])
+
+
+def without_units(text: str) -> str:
+    """The sentence with a unit only where it is not that of the figure before.
+
+    >>> without_units("user 3 gets 2 Mbit/s, the others 1 Mbit/s")
+    'user 3 gets 2 Mbit/s, the others 1'
+    """
+    plain = normalise(text)
+    said, parts, place = dict[str, str](), list[str](), 0
+    for reading in readings(plain):
+        unit = reading.unit
+        if unit is None or unit.kind == "ratio" or reading.number.value is None or unit.end != reading.end:
+            continue
+        words = plain[reading.number.end : unit.end].strip().lower()
+        if said.get(unit.kind) == words and words:
+            parts.append(text[place : reading.number.end])
+            place = unit.end
+        said[unit.kind] = words
+    return "".join([*parts, text[place:]])
+
+
+def named() -> Iterator[tuple[str, list[Span], int]]:
     """Sentences, the names in them, and how often each counts."""
-    chance, names = random.Random(seed), defaultdict[str, list[str]](list)
+    chance, names = random.Random(1), defaultdict[str, list[str]](list)
     for path in sorted(NAMED.glob("*.txt")):
         for line in path.read_text(encoding="utf-8").splitlines():
             text, marks = unmarked(line)
