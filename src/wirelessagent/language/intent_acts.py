@@ -126,7 +126,8 @@ def _compared(details: Details) -> Act:
     changes += [(acts.Aim(objective=aim),) for aim in str(details.get("aims", "")).split()]
     if changes:
         return acts.CompareRequests(changes=tuple(changes))
-    names = tuple(name for name in re.split(r"[\s,，、;]+", str(details.get("with", ""))) if name not in ("", "last"))
+    said = " ".join(str(details.get(name, "")) for name in ("with", "methods", "repairers"))  # the latter of old turns
+    names = tuple(name for name in re.split(r"[\s,，、;]+", said) if name not in ("", "last"))
     return acts.CompareTools(names=names) if names else acts.CompareLast()
 
 

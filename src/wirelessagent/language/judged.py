@@ -262,7 +262,8 @@ def _borrowing(look: Look, roles: _Roles, users: Sequence[Number]) -> dict[Numbe
     found: dict[Number, str] = {}
     for number, chances in roles.items():
         role = max(BORROWING, key=lambda each: chances[each])
-        scaled, foreign = (pattern.match(look.plain, number.end) is not None for pattern in (SCALED, FOREIGN_UNIT))
+        scaled = SCALED.match(look.plain, number.end) is not None
+        foreign = FOREIGN_UNIT.match(look.plain, number.end) is not None
         if number not in users and (scaled or not foreign) and _is_a_figure(look, number, chances, role):
             found[number] = role
     return found

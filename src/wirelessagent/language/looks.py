@@ -82,7 +82,7 @@ def first_look(
 
 def with_strangers(look: Look, names: Sequence[Span]) -> Look:
     """The same with those among the users mentioned who are called by ``names`` that nobody is known by."""
-    found = _with_named(look, ((look.plain[slice(*name)], name) for name in names))
+    found = _with_named(look, ((look.plain[start:end], (start, end)) for start, end in names))
     return dataclasses.replace(look, mentions=found)
 
 

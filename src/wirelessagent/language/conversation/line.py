@@ -128,7 +128,8 @@ class Line:
 
     def allocate(self, objective: str, constraints: Mapping[str, Constraint], *, amends: bool, **fields: Any) -> Intent:
         """A request, or a change of the one that holds."""
-        reply = self.voice.amended(constraints, ()) if amends else self.voice.restated(objective, constraints, ())
+        dropped = fields.get("dropped", ())
+        reply = self.voice.amended(constraints, dropped) if amends else self.voice.restated(objective, constraints, ())
         given = {"reply": reply, "evidence": dict.fromkeys(constraints, self.text.strip()), **fields}
         return self._intent("allocate", objective=objective, constraints=constraints, amends=amends, **given)
 

@@ -34,7 +34,7 @@ _ASKED: Mapping[str, tuple[str, Mapping[str, Detail]]] = {
     "was_better": ("compare", {"with": "last"}),
     "result": ("explain", {}),
 }
-"""What questions about the result are about, whichever users or figures they name; a command answers the last two."""
+"""What questions about the result are about, whichever users or figures they name; some a command answers."""
 
 _RATES = ("min_rate_bps", "outage_probability", "users", "leave_out")
 _LIMITS = ("max_power_w", "outage_probability", "users", "leave_out")
@@ -56,7 +56,8 @@ def read_question(line: Line) -> Intent | None:
         return None
     for name, (topic, details) in _ASKED.items():
         if is_all(name, line.said):
-            return (line.command if topic in COMMANDS else line.question)(topic, **details)
+            answer = line.command if topic in COMMANDS else line.question
+            return answer(topic, **details)
     if not line.figures and has("missing", line.said):
         return line.question("what_if", missing_share=0.0)
     return None if line.figures else _of_what_was_measured(line) or _of_shares(line)

@@ -176,5 +176,5 @@ def _done(line: Line, possible: Possible, found: Weighed) -> Intent:
     said = constraints_of(changed({}, [act for act in acts if isinstance(act, Limit | LeaveOut)]))
     dropped = tuple(act.kind for act in acts if isinstance(act, Drop))
     reply = line.voice.changed([line.voice.label(aim) for aim in aims], stated, tuple(gone), lost)
-    aim = [str(possible.context.objective), *aims][-1]
+    aim = aims[-1] if aims else str(possible.context.objective)
     return line.allocate(aim, said, amends=True, reply=reply, dropped=dropped, acts=acts)

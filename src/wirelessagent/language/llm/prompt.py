@@ -29,6 +29,15 @@ from wirelessagent.language.vocabulary import OwnWords
 _MOST_USERS = 300
 _LONGEST_NAME = 60
 _UNITS = {"power": "W", "rate": "bit/s"}
+_LONGEST = 600
+
+FiguredConstraint = Literal[
+    "max_power_w", "min_rate_bps", "max_rate_bps", "circuit_power_w", "outage_probability", "weights",
+    "subcarrier_max_power_w", "resource_block_group_size",
+]  # fmt: skip
+AnyConstraint = Literal[FiguredConstraint, "users", "leave_out"]
+Reference = str | float
+_REFERENCE = "label of a figure that is listed, such as F1, or its value"
 
 FigureKind: TypeAlias = Literal["power", "rate", "ratio", "number"]
 
@@ -156,17 +165,6 @@ def plain(constraints: Mapping[str, Constraint]) -> dict[str, Any]:
         else:
             found[name] = list(value) if isinstance(value, tuple) else value
     return found
-
-
-_LONGEST = 600
-
-FiguredConstraint = Literal[
-    "max_power_w", "min_rate_bps", "max_rate_bps", "circuit_power_w", "outage_probability", "weights",
-    "subcarrier_max_power_w", "resource_block_group_size",
-]  # fmt: skip
-AnyConstraint = Literal[FiguredConstraint, "users", "leave_out"]
-Reference = str | float
-_REFERENCE = "label of a figure that is listed, such as F1, or its value"
 
 
 class _Filled(BaseModel):
