@@ -67,15 +67,17 @@ class Meant:
         ]
         outage = constraints.get("outage_probability")
         self._complete = {
-            "power": all(
-                self._has("power", value) or self._has("ratio", value / _MAX_POWER_W) for value in self._powers.values()
-            ),
+            "power": all(map(self._is_said, self._powers.values())),
             "rate": all(self._has("rate", value) for value in self._rates),
             "ratio": outage is None or self._has("ratio", outage) or self._has("ratio", 1 - outage),
         }
 
     def _has(self, kind: str, value: float) -> bool:
         return any(kind == known and _close(value, each) for known, each in self._known)
+
+    def _is_said(self, power: float) -> bool:
+        """Whether a power stands there, or as a share of the cell's."""
+        return self._has("power", power) or self._has("ratio", power / _MAX_POWER_W)
 
     def _is_share(self, value: float) -> bool:
         """Whether a ratio is a share of the cell's power."""
@@ -93,11 +95,7 @@ class Meant:
         outage = self._constraints.get("outage_probability")
         missing = {
             "rate": [rate for rate in self._rates if not self._has("rate", rate)],
-            "power": [
-                power
-                for power in self._powers.values()
-                if not self._has("power", power) and not self._has("ratio", power / _MAX_POWER_W)
-            ],
+            "power": [power for power in self._powers.values() if not self._is_said(power)],
             "outage": [outage] if outage is not None and not self._has("ratio", outage) else [],
             "reliability": [1 - outage] if outage is not None and not self._has("ratio", 1 - outage) else [],
         }
