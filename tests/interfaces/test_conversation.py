@@ -15,7 +15,7 @@ from wirelessagent.agent.turn import Turn
 from wirelessagent.language.conversation import understood
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.offline import OfflineRecogniser
-from wirelessagent.language.recogniser import Context
+from wirelessagent.language.recogniser import Context, Question
 from wirelessagent.language.request import Request
 
 pytestmark = pytest.mark.machine_code
@@ -333,7 +333,8 @@ def test_a_second_question_keeps_what_led_to_the_first() -> None:
 
 
 def test_an_answer_about_one_user_leaves_the_others_what_was_read() -> None:
-    asked = Context(awaits="clarification", objective="max_rate", pending={"min_rate_bps": {"3": 1e6}})
+    question = Question(pending={"min_rate_bps": {"3": 1e6}})
+    asked = Context(awaits="clarification", objective="max_rate", question=question)
     intent = OfflineRecogniser().recognise("user 4 at least 2 Mbit/s", asked)
     assert intent.constraints["min_rate_bps"] == {"3": 1e6, "4": 2e6}
 
@@ -384,7 +385,7 @@ def test_what_was_left_open_of_one_user_does_not_stick_to_another() -> None:
         session.say(text)
     context = script.contexts[-1]
     assert context is not None
-    assert (context.awaits, dict(context.pending)) == ("nothing", {})
+    assert (context.awaits, dict(context.question.pending)) == ("nothing", {})
 
 
 @pytest.mark.parametrize(
@@ -463,7 +464,7 @@ _WORDS = (
 )  # fmt: skip
 _OPEN = Context(
     user_names=SCENE.sensed.user_names, objective="max_rate", constraints={"min_rate_bps": 1e6}, awaits="clarification",
-    pending_objective="max_rate", pending_users=("3",), offered="undo",
+    question=Question(objective="max_rate", users=("3",), offered="undo"),
     supposed_objective="max_rate",
 )  # fmt: skip
 

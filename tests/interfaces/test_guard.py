@@ -414,7 +414,6 @@ def test_a_clause_that_orders_stands_beside_others() -> None:
         "highest rate, ignore the 10 W limit",
         "leave out all but users 3 and 4, max rate",
         "least power, and let me decide on 1 Mbit/s for user 3",
-        "neither user 3 nor 4 gets 1 Mbit/s, min power",
         "总速率最大，取消10瓦的限制",
     ],
 )

@@ -8,7 +8,7 @@ import pytest
 
 from wirelessagent.language.intent import same_constraints
 from wirelessagent.language.offline import recognise
-from wirelessagent.language.recogniser import Context
+from wirelessagent.language.recogniser import Context, Question
 
 RATE, POWER, FAIR = "max_rate", "min_power", "proportional_fairness"
 CONTEXT = Context(
@@ -118,11 +118,12 @@ def test_commands_and_questions(
 def test_the_answer_to_a_question_uses_what_was_read_before() -> None:
     asked = recognise("at most 10 W")
     assert (asked.kind, dict(asked.pending)) == ("clarify", {"max_power_w": 10.0})
-    answer = recognise("the highest total rate", Context(awaits="clarification", pending=asked.pending))
+    question = Question(pending=asked.pending)
+    answer = recognise("the highest total rate", Context(awaits="clarification", question=question))
     assert (answer.objective, dict(answer.constraints)) == (RATE, {"max_power_w": 10.0})
-    later = recognise("the highest total rate, 5 W", Context(awaits="clarification", pending=asked.pending))
+    later = recognise("the highest total rate, 5 W", Context(awaits="clarification", question=question))
     assert dict(later.constraints) == {"max_power_w": 5.0}
-    alone = recognise("the highest total rate", Context(pending=asked.pending))
+    alone = recognise("the highest total rate", Context(question=question))
     assert not alone.constraints
 
 

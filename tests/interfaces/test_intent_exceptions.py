@@ -139,7 +139,8 @@ def test_whoever_has_no_cap_is_not_left_out(text: str) -> None:
 
 @pytest.mark.parametrize("text", ALONE)
 def test_whoever_is_the_only_exception_is_served_alone(text: str) -> None:
-    constraints = recognise(f"proportional fairness, {text}").constraints
+    aim = "proportional fairness, " if text.isascii() else "公平分配，"
+    constraints = recognise(f"{aim}{text}").constraints
     assert "leave_out" not in constraints
     assert isinstance(constraints["users"], tuple)
     assert len(constraints["users"]) == 1

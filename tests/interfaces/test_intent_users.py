@@ -155,7 +155,6 @@ DOUBTED = [
     ("单号用户1兆", "some_users"),
     ("1 Mbit/s for all users except the last", "some_users"),
     ("leave users out who have bad channels", "some_users"),
-    ("1 Mbit/s for each, double for user 3", "named_user"),
     ("groups of 0 subcarriers", "impossible"),
     ("120 % of the power", "impossible"),
     ("a 100 W bulb next door", "whose_power"),

@@ -227,8 +227,8 @@ def test_a_question_back_hands_what_was_read_to_the_recogniser() -> None:
     first, second, third, last = (context for context in script.contexts if context is not None)
     assert (first.objective, first.awaits, first.language, first.user_names) == (None, "nothing", "", NAMES[:4])
     assert (second.objective, dict(second.constraints)) == ("max_rate", {"max_power_w": 10.0})
-    assert (third.awaits, dict(third.pending)) == ("clarification", {"min_rate_bps": 1e6})
-    assert (last.awaits, dict(last.pending), last.objective) == ("nothing", {}, "min_power")
+    assert (third.awaits, dict(third.question.pending)) == ("clarification", {"min_rate_bps": 1e6})
+    assert (last.awaits, dict(last.question.pending), last.objective) == ("nothing", {}, "min_power")
     assert turns[3].reply.startswith("当前要求")
 
 

@@ -21,7 +21,7 @@ from wirelessagent.agent.state import InsteadError, Replies, Reply, State, Talk,
 from wirelessagent.agent.turn import Run, shift_between
 from wirelessagent.language.acts import Act, Apply, AskStatus, Export, Forget, No, Undo, Yes
 from wirelessagent.language.conversation.assent import assent, is_assent, speaks_of_applying
-from wirelessagent.language.conversation.open_question import Question
+from wirelessagent.language.recogniser import Question
 from wirelessagent.language.request import applied
 from wirelessagent.model.units import human
 from wirelessagent.telling.catalogue import Said

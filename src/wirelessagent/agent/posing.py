@@ -17,9 +17,8 @@ from wirelessagent import chain, plugins
 from wirelessagent.language.acts import with_another
 from wirelessagent.language.conversation.anchors import Anchored
 from wirelessagent.language.conversation.line import Line
-from wirelessagent.language.conversation.open_question import Missing
 from wirelessagent.language.intent import EVERYBODY, FIGURES_OF_USERS, LISTS_OF_USERS, Constraint, Detail, Intent
-from wirelessagent.language.recogniser import Context
+from wirelessagent.language.recogniser import Context, Missing
 from wirelessagent.language.request import ASSUMED_MIN_RATE_BPS, Diff, Request
 from wirelessagent.model.arrays import FloatArray
 from wirelessagent.model.cell import Cell

@@ -30,11 +30,10 @@ from wirelessagent.language.acts import Act, Aim, Apply, Ask, No, Press, Suppose
 from wirelessagent.language.conversation import NAME as READ_HERE
 from wirelessagent.language.conversation import called, unanswered, understood, with_users
 from wirelessagent.language.conversation.anchors import Anchored
-from wirelessagent.language.conversation.open_question import Missing, Question
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import OWN_CHOICE, acts_of
 from wirelessagent.language.offline import OfflineRecogniser
-from wirelessagent.language.recogniser import Context, Recogniser
+from wirelessagent.language.recogniser import Context, Missing, Question, Recogniser
 from wirelessagent.language.request import Request, difference, users_in
 from wirelessagent.model.errors import UnclearRequestError, UnsupportedProblemError, WirelessAgentError
 from wirelessagent.model.scene import Loss, Scene
@@ -178,7 +177,6 @@ class Session:
 
     def _context(self) -> Context:
         state, request, supposed = self._state, self._state.request, self._state.supposed
-        question = state.question or Question()
         names = dict(called([turn.text for turn in self._turns]))
         for turn in self._turns:  # who "the ambulance" is was asked, and answered
             told = cast("Mapping[str, tuple[str]]", turn.intent.details.get("called") or {})
@@ -187,9 +185,7 @@ class Session:
             user_names=self._site.user_names, max_power_w=self._site.scene.cell.max_power_w, language=self._language,
             objective=None if request is None else request.objective,
             constraints={} if request is None else request.constraints,
-            awaits=state.awaits, pending=question.pending, pending_objective=question.objective,
-            pending_users=question.users, pending_caps=question.caps, offered=question.offered,
-            guess=question.guess,
+            awaits=state.awaits, question=state.question or Question(),
             supposed_objective=None if supposed is None else supposed.objective,
             supposed={} if supposed is None else supposed.constraints,
             ways=asking.unmet(self._turns) is not None, offers=len(state.offers),

@@ -12,9 +12,8 @@ from wirelessagent.agent.posing import ASSUMED_OUTAGE_PROBABILITY
 from wirelessagent.agent.site import Site
 from wirelessagent.agent.turn import Lines, Run, Stage, Turn
 from wirelessagent.language.acts import Act, Press
-from wirelessagent.language.conversation.open_question import Question
 from wirelessagent.language.intent import Intent
-from wirelessagent.language.recogniser import Awaited
+from wirelessagent.language.recogniser import Awaited, Question
 from wirelessagent.language.request import Request
 from wirelessagent.model.errors import WirelessAgentError
 from wirelessagent.model.outcome import Outcome

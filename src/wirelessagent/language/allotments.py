@@ -50,6 +50,7 @@ class Allotments:
         self._given: dict[str, dict[str, _Given]] = {name: {} for name in FIGURES_OF_USERS}
         self._lists: dict[str, dict[str, str]] = {"users": {}, "leave_out": {}, "back": {}}
         self._used: set[Mention] = set()
+        self._conflicts: list[Doubt] = []
         self._unsure: list[Mention] = []
         self._excepted: list[Mention] = []
         self._of_others: set[str] = set()
@@ -180,7 +181,9 @@ class Allotments:
             self.spans.append((number.start, number.end))
             given = _Given(value=float(number.value), text=self._text[number.start : number.end])
             for user in target.keys:
-                self._given["weights"].setdefault(user, given)
+                first = self._given["weights"].setdefault(user, given)
+                if first.value != given.value:
+                    self._conflicts.append(Doubt(key="conflict", names={"one": first.text, "other": given.text}))
 
     @property
     def back(self) -> tuple[str, ...]:
@@ -259,6 +262,7 @@ class Allotments:
 
     def crossed(self) -> Iterator[Doubt]:
         """The questions that figures raise which cannot hold together."""
+        yield from self._conflicts
         low, high = (self._given[name] for name in _RATES)
         for user in low | high:
             least, most = low.get(user, low.get(EVERYBODY)), high.get(user, high.get(EVERYBODY))

@@ -55,7 +55,7 @@ _WORD = deferred(r"[A-Za-zÀ-ÿ]++")
 # What may stand between a comparator and its figure.
 _BETWEEN = frozenset([*_words("between"), *_POWER_NOUNS, *_RATE_NOUNS])
 _SIGNS = "|".join(sorted((word for word in _BETWEEN if not _WORD.match(word)), key=len, reverse=True))
-_GAP = deferred(rf"(?:\s|{_WORD.pattern}|{_SIGNS}){{0,16}}$")
+_GAP = deferred(rf"(?:\s++|{_WORD.pattern}|{_SIGNS}){{0,16}}$")
 _FEW_WORDS = rf"(?:(?!(?:and|y|et|und)\s+(?!{USER_NOUN}|[0-9]))[\w'’#-]+\s+){{0,6}}?"
 _CAP = (  # "cap users at", "limite l'utilisateur 5 à", "limitado a", "auf … begrenzt" stands behind
     rf"\b(?:rate-)?(?:cap|limit|restrict|throttl|clamp|polic|chok|stop|held\s+down|cut\s+off)(?:s|e|es|p?ed|t?ing|ping|ing)?\s+{_FEW_WORDS}"
@@ -185,4 +185,4 @@ def _foreign_noun(gap: str, kind: str) -> bool:
     """ "min power 1 Mbit/s", "max rate with 1 Mbit/s each": the word is of a wish, not of the rate that follows."""
     if kind == "rate":
         return _POWER_RE.search(gap) is not None or _WISH_WITH.search(gap) is not None
-    return kind == "power" and _RATE_RE.search(gap) is not None
+    return _RATE_RE.search(gap) is not None

@@ -15,7 +15,7 @@ from wirelessagent.language.allotments import Allotments
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.judged import Judged
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.stated import Reading, doubt_parts, take_blocks, take_counts, take_share
+from wirelessagent.language.stated import Reading, doubt_parts, take_blocks, take_counts
 from wirelessagent.language.text import Phrases, clause_start, overlaps
 from wirelessagent.language.word_tables import either
 
@@ -32,6 +32,7 @@ _SINGLY_AHEAD, _SINGLY_BEHIND = (
     deferred(rf"(?i)(?:{_SINGLY})\s*(?:(?:{_TAKES})\s*)?$"),
     deferred(rf"(?i)\s*(?:(?:for|für|para|pour)\s+)?(?:{_SINGLY})"),
 )
+_NEITHER = deferred(rf"(?i)(?:{either('figures', 'users', 'neither')})\s*$")
 _GIVEN = 0.5
 _LIMITS = (
     "min_rate_bps", "max_rate_bps", "both", "max_power_w", "circuit_power_w", "subcarrier_max_power_w", "outage",
@@ -45,6 +46,9 @@ _UNSURE = {"rate": "status", "power": "whose_power", "ratio": "share"}
 _NEAR = 60
 _HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
 _TINY_POWER_W = 1e-8  # nor so little: that is noise
+_MOST_OUTAGE, _CERTAIN_OF_A_SHARE = 0.3, 0.9
+"""A promise that is kept so seldom is a share of something else, unless the words surely say so."""
+
 _SURE, _SURE_OF_A_LIMIT = 0.6, {"power": 0.75, "rate": 0.6, "ratio": 0.6}
 """Most figures are limits, so that the model takes a strange one for one too easily."""
 
@@ -70,7 +74,6 @@ def read_constraints(
     """
     reading = Reading(text=text, plain=plain, quantities=quantities)
     take_blocks(reading)
-    take_share(reading, max_power_w)
     reader = _Reader(reading, names, max_power_w)
     reader.take_numbers()
     reader.take_figures()
@@ -113,6 +116,8 @@ class _Reader:
                 continue
             reading.masked.append((figure.phrase_start, figure.phrase_end))
             reading.doubt("unit_missing", text=figure.text)
+        for number in judged.multiplied:
+            reading.doubt("calculated", text=reading.text[number.start : number.end])
         for start, end in judged.doubtful:
             reading.doubt("unit_missing", text=reading.text[start:end])
 
@@ -140,6 +145,8 @@ class _Reader:
             return "bits_or_bytes"
         if figure.kind != "ratio" and not 0 < figure.value < math.inf:
             return "impossible"
+        if figure.kind == "ratio" and self._reading.changes_by(figure):
+            return "change"
         reading, chances = self._reading, self._judged.figure(index)
         role = self._judged.role(index)
         limits = sum(chances.get(name, 0.0) for name in _LIMITS)
@@ -165,9 +172,9 @@ class _Reader:
             return ""
         if limits < _SURE_OF_A_LIMIT[figure.kind] or chances[role] < _SURE * limits:
             return _UNSURE[figure.kind]
-        if figure.kind == "ratio" and not 0 < figure.value < 1:
+        if figure.kind == "ratio" and not (0 < figure.value < 1 or (role == "share" and figure.value == 1)):
             return "impossible"
-        return self._limited(role, figure)
+        return self._limited(index, role, figure)
 
     def _mask_a_correction(self, index: int, figure: Quantity) -> None:
         """The words by which a figure takes the place of the one before it wish and deny nothing."""
@@ -183,7 +190,7 @@ class _Reader:
             return ""
         return _UNSURE[figure.kind]
 
-    def _limited(self, role: str, figure: Quantity) -> str:
+    def _limited(self, index: int, role: str, figure: Quantity) -> str:
         """Take a figure as a limit, or say what is to be asked."""
         setting = _SET_TO.search(self._reading.plain, max(0, figure.start - _NEAR), figure.start)
         if setting is not None:
@@ -194,11 +201,13 @@ class _Reader:
         elif figure.kind == "rate" and self._with(_OF_SEVERAL, figure):
             return "total_rate"
         elif role == "share":
-            self._reading.take("max_power_w", figure.value * self._max_power_w, figure)
+            self._reading.take_share(figure.value, figure, self._max_power_w)
         elif figure.kind == "ratio":
             if self._with(_OF_ANOTHER_SHARE, figure):
                 return "share"
             outage = figure.value if role == "outage" else round(1 - figure.value, 15)
+            if outage > _MOST_OUTAGE and self._judged.figure(index)[role] < _CERTAIN_OF_A_SHARE:
+                return "share"
             self._reading.take("outage_probability", outage, figure)
         elif figure.kind == "power":
             if self._is_of_a_user(figure):
@@ -210,7 +219,8 @@ class _Reader:
             self._reading.take(role, figure.value, figure)
         else:
             target = self._allotments.target_of(figure.start)
-            if not target.sure:
+            denied = target.mention and _NEITHER.search(self._reading.plain, 0, target.mention.start)
+            if not target.sure or (denied and figure.comparator is None):  # "neither 3 nor 4 gets 1 Mbit/s"
                 return "whose_rate"
             for name in ("min_rate_bps", "max_rate_bps") if role == "both" else (role,):
                 earlier = self._allotments.give(name, target, figure)

@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from wirelessagent.language.base_words import based, is_listed, language_of
 from wirelessagent.language.deferred import deferred
-from wirelessagent.language.mentions import Mention
+from wirelessagent.language.mentions import NOUN, ZH_NOUN, Mention
 from wirelessagent.language.numerals import Number
 from wirelessagent.language.quantities import Quantity
 from wirelessagent.language.role_features import Token, around, around_base, hashed, in_base_words, tokens_of
@@ -55,9 +55,10 @@ _EACH = deferred(r"(?i)(?:each|apiece|je|jeweils|cada un[oa]|chacune?|各)(?!\w)
 _NOBODY = deferred(r"(?i)no|nadie|ning|personne|aucun|niemand|kein|[谁没无]")
 _PEOPLE = (*_PLACEHOLDERS.values(), "@each", "@nobody", "@weighed")
 Answer = TypeVar("Answer")
-_SIZES = {"part": 0.999, "small": 20, "some": 99, "large": math.inf}  # of numbers, up to
-SCALED = deferred(r"\s?[kKMG](?![^\W\d_])")
+_SIZES = {"part": 1 - 1e-9, "small": 20, "some": 99, "large": math.inf}  # of numbers, up to
+SCALED = deferred(r"\s?(?:[kKM]|(?<![2-6])(?<![2-6] )G)(?![^\W\d_])")  # "5G" may be a network
 _FAR = 8
+_USERS = deferred(rf"(?i){NOUN}|{ZH_NOUN}")  # which is nobody's name
 _SURE_OF_A_NAME, _PART_OF_A_NAME, _SHORTEST_NAME = 0.6, 0.2, 2
 _MOST_TELLING, _TELLS, _NEARLY, _TINY = 3, 1.0, 0.85, 1e-6
 _JOINT = deferred(r"(?i)\b(?:and|then|y|et|und)\b")
@@ -222,8 +223,9 @@ class View:
                 found[-1] = (beside[0][0], end, max(beside[0][2], chance))
             else:
                 found.append((start, end, chance))
+        sure = ((start, end) for start, end, chance in found if chance > _SURE_OF_A_NAME)
         return [
-            (start, end) for start, end, chance in found if chance > _SURE_OF_A_NAME and end - start >= _SHORTEST_NAME
+            span for span in sure if span[1] - span[0] >= _SHORTEST_NAME and not _USERS.fullmatch(self._plain, *span)
         ]
 
     def span(self, place: int) -> tuple[int, int]:

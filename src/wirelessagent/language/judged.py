@@ -28,19 +28,23 @@ from wirelessagent.language.text import Phrases, is_within
 from wirelessagent.language.word_tables import either
 
 _Answer = TypeVar("_Answer")
-_Item = TypeVar("_Item", Quantity, Number)
+_Item = TypeVar("_Item", bound=Quantity | Number)
 # The share of those who have a rate or a weight, among all users named and among those of each role.
 _OWN, _OWNS = 0.7, {"users": 0.4, "given": 0.95, "unclear": 0.2}
 _OWNS_ELSE = 0.02
 _ONE_OF_A_LIST = 0.3
 _MOST_WEIGHT = 10**6
 _ITEMS = deferred(rf"{LISTED.pattern}|\s*[:/]\s*")  # "weights 2:1:1"
+_WITH_A_JOINT = deferred(rf"(?i)(?=\s*\S)(?:{LISTED.pattern.removeprefix('(?i)')})")
 _WEIGHTS = deferred(  # what follows are weights, whatever else they may look like
     r"(?i)(?:\b(?:weights?|weigh(?:s|ing|ed)?|pesos?|poids|gewichten?)(?:\s+(?:of|are|is|being|de|von|sind))?|权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
 )
+_OF_WEIGHTS = Phrases(either("figures", "users", "weighs"))
+_OF_EACH = deferred(rf"(?i)\s*(?:{either('figures', 'users', 'each_behind')})")
+_NEAR_BY, _ENDS = 40, deferred(r"[0-9.;!?。；]")  # of a list and its users, and what stands between neither
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
-_SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.7, 0.6, 0.6, 0.6, 0.5
-_SURE_OF_A_GROUP, _LIKELY, _PERHAPS = 0.6, 0.4, 0.2
+_SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.6, 0.6, 0.6, 0.6, 0.5
+_CERTAIN_OF_A_USER, _SURE_OF_A_GROUP, _LIKELY, _PERHAPS = 0.85, 0.5, 0.4, 0.2
 _CARRIERS = Phrases(either("figures", "bounds", "carriers"))
 _CEILINGS = ("max_power_w", "subcarrier_max_power_w")
 _BOUNDED = {"at_least": "min_rate_bps", "at_most": "max_rate_bps"}
@@ -57,6 +61,7 @@ class Judged:
         mentions: everybody spoken of, from left to right.
         weights: numbers and words that say how much somebody counts.
         groups: numbers that say how many subcarriers go together.
+        multiplied: words that multiply the figure behind them, "twice 1 Mbit/s".
         recounted: the spans of numbers that only count the users of a mention again ("users 2 and 5, those two").
         lists: where the rates or the weights of each list begin.
         doubtful: the spans of words such as "one" that may be figures and may be nothing.
@@ -80,17 +85,25 @@ class Judged:
             number: answers("number", view.number(number, first.bound(number)))
             for number in (*first.loose, *first.ones)
         }
+        if _OF_WEIGHTS.search(plain) is None:  # what doubles there is a rate that was said before
+            first_rate = min((figure.end for figure in first.figures if figure.kind == "rate"), default=len(plain))
+            doubles = [n for n in chances if n.form == "times" and n.start >= first_rate]
+            chances |= {n: _moved(chances[n], ("weight",), "multiple") for n in doubles}
         weighing = _weighing_lists(first, chances)
-        plausible = _no_limits(first, weighing)
+        rates = _rates_of_lists(first, chances)
+        plausible = _no_limits(first, [*weighing, *rates])
         read = [*first.figures, *first.loose, *first.mentions]
-        alone = ones(plain, [*taken, *((each.start, each.end) for each in read)]) if plausible else ()
-        users = _users(plain, plausible, [number for number in alone if number.value == 1], chances)
-        look = second_look(first, users, _borrowing(first, chances, [*users, *weighing]))
+        others = [n for n in first.loose if n not in {*plausible, *weighing, *rates}]
+        able = [*plausible, *(n for n in others if _is_surely_a_user(first, n, chances))]
+        alone = ones(plain, [*taken, *((each.start, each.end) for each in read)]) if able else ()
+        users = _users(plain, able, [number for number in alone if number.value == 1], chances)
+        look = second_look(first, users, _borrowing(first, chances, [*users, *weighing]) | dict.fromkeys(rates, "rate"))
         self._look, self._view = look, view if look is first else look.view()
         self.mentions = look.mentions
         self.figures = sorted([*look.figures, *look.unread], key=lambda figure: figure.start)
         self.doubtful = [(n.start, n.end) for n in _doubtful(first, look, chances)]
         self.weights = [n for n in look.loose if n in weighing or _weighs(plain, n, chances[n])]
+        self.multiplied = [n for n in look.loose if n.form == "times" and _multiplies(look, n)]
         self.groups = [n for n in look.loose if n.value is not None and chances[n]["group"] > _SURE_OF_A_GROUP]
         unread = [number for number in plausible if number in look.loose]
         together = {len(mention.users) for mention in look.mentions if len(mention.users) > 1}
@@ -250,6 +263,19 @@ def _no_limits(look: Look, weighing: Sequence[Number]) -> list[Number]:
     ]
 
 
+def _is_surely_a_user(look: Look, number: Number, chances: _Roles) -> bool:
+    """Whether a number is somebody, though it stands where a limit may: "cap 12 at 2 Mbit/s", "18 W: 2 and 3 …"."""
+    digits = [figure for figure in look.figures if look.plain[figure.start].isdigit()]
+    measured = any(figure.start - 1 <= number.end and number.start < figure.end for figure in digits)
+    scaled = SCALED.match(look.plain, number.end) is not None
+    return chances[number]["user"] > _CERTAIN_OF_A_USER and not measured and not scaled
+
+
+def _multiplies(look: Look, number: Number) -> bool:
+    """Whether a figure follows right behind a word that multiplies."""
+    return any(look.plain[number.end : figure.start].isspace() for figure in look.figures)
+
+
 def _doubtful(first: Look, look: Look, chances: _Roles) -> list[Number]:
     """The words such as "one" that may be figures and may be nothing; ``look`` is the second."""
     figures = {figure.start for figure in look.figures}
@@ -274,6 +300,8 @@ def _is_a_figure(look: Look, number: Number, chances: Mapping[str, float], role:
     if role == "multiple":
         return chances[role] > _SURE_OF_A_FIGURE
     sure = sum(chances[each] for each in BORROWING if BORROWING[each] == BORROWING[role] and each != "multiple")
+    if look.bound(number) not in ("", "None") and chances["user"] < _LIKELY:  # which nobody is
+        sure /= 1 - chances["user"]
     if number in look.ones:
         return sure > _SURE_OF_ONE
     if SCALED.match(look.plain, number.end):
@@ -306,15 +334,45 @@ def _weighing_lists(look: Look, chances: _Roles) -> list[Number]:
     ]
 
 
+def _rates_of_lists(look: Look, chances: _Roles) -> list[Number]:
+    """The numbers of lists that end with a rate, next to as many users: "2, 3 and 5 Mbit/s for 1, 4 and 6".
+
+    Of two, the first has to be no likely user, and what is likely a power or a weight is no rate.
+    """
+    plain = look.plain
+    able = [n for n in look.loose if n.value is not None and n.value > 0 and n.form != "times"]
+    rates = [figure for figure in look.figures if figure.kind == "rate"]
+    items: list[Number | Quantity] = sorted([*able, *rates], key=lambda item: item.start)
+    users = [each for each in _runs(plain, able, JOINT) if all(chances[n]["user"] > _ONE_OF_A_LIST for n in each)]
+    named = [(m.start, m.end, len(m.users)) for m in look.mentions if m.users]
+    named += [(each[0].start, each[-1].end, len(each)) for each in users]
+    found = list[Number]()
+    for each in _runs(plain, items, _WITH_A_JOINT):
+        numbers, figure = [item for item in each[:-1] if isinstance(item, Number)], each[-1]
+        if len(numbers) < len(each) - 1 or not numbers or not isinstance(figure, Quantity):
+            continue
+        strange = any(chances[n]["power"] + chances[n]["weight"] > _PERHAPS for n in numbers)
+        likely_users = len(numbers) == 1 and chances[numbers[0]]["user"] > _PERHAPS
+        if strange or likely_users or _WEIGHTS.search(plain, 0, each[0].start) or _OF_EACH.match(plain, figure.end):
+            continue
+        as_many = [(start, end) for start, end, count in named if count == len(each)]
+        gaps = [(end, each[0].start) if end <= each[0].start else (figure.end, start) for start, end in as_many]
+        if any(0 <= end - start <= _NEAR_BY and not _ENDS.search(plain, start, end) for start, end in gaps):
+            found += numbers
+    return found
+
+
 def _users(plain: str, numbers: Sequence[Number], singles: Sequence[Number], chances: _Roles) -> list[Number]:
     """The numbers that are users: surely, or likelier than not beside one that surely is ("2, 5 and 7").
 
     One of the ``singles`` ("one") is a user in a list with others: "for the one and the three".
     """
     able = [n for n in numbers if n.value is not None and 0 <= n.value == int(n.value) < _MOST_BARE_USERS]
+    able = [n for n in able if n.form != "times"]
     able = [n for n in able if COUNTED_USERS.match(plain, n.start) is None and FOREIGN_UNIT.match(plain, n.end) is None]
     able = sorted([*able, *singles], key=lambda number: number.start)
     lists = [each for each in _runs(plain, able, JOINT) if _WEIGHTS.search(plain, 0, each[0].start) is None]
-    lists = [each for each in lists if len({number.value for number in each}) == len(each)]  # "w = [2, 1, 1]"
+    lists = [each for each in lists if len({number.value for number in each}) == len(each)  # "w = [2, 1, 1]"
+             or all(n not in singles and chances[n]["user"] > _CERTAIN_OF_A_USER for n in each)]  # fmt: skip
     sure = [each for each in lists if any(n not in singles and chances[n]["user"] > _SURE_OF_A_USER for n in each)]
     return [n for each in sure for n in each if n in singles or chances[n]["user"] > _ONE_OF_A_LIST]

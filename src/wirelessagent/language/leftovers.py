@@ -52,6 +52,7 @@ _VAGUE = deferred(
     r"(?<=a )number)\s+(?:of\s+)?"
 )
 _SETS_A_LIMIT = deferred(rf"(?i)(?:{either('figures', 'bounds', 'names')}|[=:<>≤≥])\s*$")
+_IS_GIVEN = deferred(r"\s*(?:→|[-=]>|[=:])\s*[0-9.]")  # "floors: 1 → 300k, 2 → 1M"
 _UNIT_OF_ANOTHER_KIND = deferred(
     r"(?i)\s?(?:[kMG](?![^\W\d_])|dB|J|[km]?A|joules?|julios?|amps?|amperes?|decibels?)(?![^\W\d_])|\s*[千兆毫]?(?:焦|安培|分贝)"
 )
@@ -63,7 +64,7 @@ _RATING = deferred(  # what a device has, and a limit only where nothing else is
     r"(?i:[km]?V|volts?|voltios?|[km]?Wh|[kMG]?Hz|hertz|(?:kilo|mega|giga)hertz))(?![^\W\d_])|\s*[千兆毫]?(?:伏|赫)"
 )
 FOREIGN_UNIT = deferred(  # no user's number stands before one
-    r"(?i)\s?-?(?:[kMG]?Hz|hertz|[km]?V|volts?|voltios?|[km]?A|[km]?Wh|J|joules?|julios?|dB|°|[kMGT]?B|bits?|bytes?|"
+    r"(?i)\s?-?(?:[kMG]?Hz|hertz|[km]?V|volts?|voltios?|(?-i:[km]?A)|[km]?Wh|J|joules?|julios?|dB|°|[kMGT]?B|bits?|bytes?|"
     r"kilo\w+|mega\w+|giga\w+|cm|mm|km|m²|ms|s|secs?|se[cg]\w{3,6}|sekunden?|min|minut\w+|h|grad|degrees?|percent)"
     r"(?![^\W\d_])"
 )
@@ -74,6 +75,8 @@ _IDIOMS = frozenset(
         "medio", "media", "medios", "medias", "demi", "demie", "halb", "halbe", "halben", "halbes", "halber",
     )
 )  # fmt: skip
+POWER_NOUNS = "power|potencia|puissance|leistung|sendeleistung"
+_OF_POWER = deferred(rf"(?i)[\s-](?:{POWER_NOUNS})\b")  # "halbe Leistung"
 _CHINESE_FIGURE = deferred(r"[二三四五六七八九]|十(?!分)|两(?=\s*[个名位台倍])")
 _TO_THE_RIGHT = deferred(r"[^\s,;:!?\uff0c\uff1b。、)]*(?:\s*[\^*×·/+÷x]\s*[^\s,;]+)*(?:\s?(?:of\s+)?[A-Za-zμΩ/]+)?")
 
@@ -140,8 +143,9 @@ def may_be_a_limit(plain: str, number: Number) -> bool:
     rating = _RATING.match(plain, number.end)
     if rating is not None and is_all_said(plain, number.start, rating.end()):
         return True
-    foreign = _UNIT_OF_ANOTHER_KIND.match(plain, number.end)
-    return foreign is not None or _SETS_A_LIMIT.search(plain, 0, number.start) is not None
+    if _UNIT_OF_ANOTHER_KIND.match(plain, number.end) is not None:
+        return True
+    return _SETS_A_LIMIT.search(plain, 0, number.start) is not None and _IS_GIVEN.match(plain, number.end) is None
 
 
 def _numbers_at(plain: str) -> Iterator[int]:
@@ -157,5 +161,5 @@ def _is_figure(plain: str, number: Number) -> bool:
     if number.value is None:
         return False
     if number.form in ("words", "foreign"):
-        return plain[number.start : number.end].lower() not in _IDIOMS
+        return plain[number.start : number.end].lower() not in _IDIOMS or _OF_POWER.match(plain, number.end) is not None
     return number.form == "chinese" and _CHINESE_FIGURE.search(plain, number.start, number.end + 1) is not None

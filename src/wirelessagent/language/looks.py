@@ -132,11 +132,13 @@ def figures_of(
         if value is None:
             continue
         own = [q for q in quantities if q.start <= number.start < q.end]
-        start, end = (own[0].phrase_start, own[0].phrase_end) if own else (number.start, number.end)
+        scaled = SCALED.match(plain, number.end) if BORROWING[role] == "rate" else None
+        end = scaled.end() if scaled is not None else number.end  # "400k"
         found[number] = Quantity(
-            value=value, kind=BORROWING[role], text=plain[number.start : number.end], start=number.start,
-            end=number.end, comparator=own[0].comparator if own else None, phrase_start=start,
-            phrase_end=max(number.end, end),
+            value=value, kind=BORROWING[role], text=plain[number.start : end], start=number.start, end=end,
+            comparator=own[0].comparator if own else None,
+            phrase_start=own[0].phrase_start if own else number.start,
+            phrase_end=max(end, own[0].phrase_end if own else end),
         )  # fmt: skip
     return found
 

@@ -7,6 +7,7 @@ users count as they are. Whether a user is to be served, left out or promised so
 from __future__ import annotations
 
 import functools
+import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,7 +16,7 @@ from typing import Literal, TypeAlias
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.number_words import cardinals, listed, tens_and_ones, whole
 from wirelessagent.language.numerals import TIGHT_LIST, chinese_value
-from wirelessagent.language.text import Phrases, is_chinese, overlaps
+from wirelessagent.language.text import Phrases, clause_start, is_chinese, overlaps
 from wirelessagent.language.units import unit_at
 from wirelessagent.language.word_tables import either, words_of
 
@@ -26,11 +27,12 @@ _NUMBER_WORDS = {word: str(value) for word, value in cardinals(1, 20).items() if
 
 NOUN = f"(?:{'|'.join(words_of('figures', 'users', 'nouns', 'things'))})"
 _EACH = f"(?:{'|'.join(words_of('figures', 'users', 'each'))})"
-_WORD_NUMBER = f"(?:{tens_and_ones()}|{'|'.join(sorted(_NUMBER_WORDS, key=len, reverse=True))})"
-_JOINS, _ARTICLES = (either("figures", "users", name) for name in ("joins", "articles"))
-_AND = rf"(?:\s*(?:,|&|\+|/)\s*(?:(?:and|y|et|und|or)\s+)?|\s+(?:{_JOINS})\s+(?:(?:{_ARTICLES})\s+)?)"
+WORD_NUMBER = f"(?:{tens_and_ones()}|{'|'.join(sorted(_NUMBER_WORDS, key=len, reverse=True))})"
+JOINT_WORDS, ARTICLES = (either("figures", "users", name) for name in ("joins", "articles"))
+_AND = rf"(?:\s*(?:,|&|\+|/)\s*(?:(?:and|y|et|und|or)\s+)?|\s+(?:{JOINT_WORDS})\s+(?:(?:{ARTICLES})\s+)?)"
 _TO = (
-    r"(?:\s*(?:-|–|~|\.{2,3}|…)\s*|\s+(?:up\s+to|to|through|al?|hasta\s+el|hasta|à|au|jusqu'(?:à|au)|bis(?:\s+zu)?)\s+)"
+    r"(?:\s*(?:-|–|~|\.{2,3}|…)\s*|"
+    r"\s+(?:up\s+to|to|thru|through|al?|hasta\s+el|hasta|à|au|jusqu'(?:à|au)|bis(?:\s+zu)?)\s+)"
 )
 _OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 to have …", "1 to 4 for now" are
     r"(?!\s+(?:for(?!\s+(?:now|today|tonight|good|once|the\s+moment|this|next)\b)|"
@@ -39,14 +41,19 @@ _OF_ITS_OWN = (  # "6 for user 2, 3 for user 3": no list of users, as "1 and 5 t
 )
 _NO = r"(?:(?:no|nr|num|núm)\.?|n[°º]|#|numbers?|n[úu]mero|numéro|nummer)"
 _DIGITS = r"[0-9]{1,4}(?!(?!\.\.)[0-9.,]*[0-9%]|[A-Za-z])"
-_WORD_LIST = rf"{_WORD_NUMBER}\b(?:(?:{_AND}|{_TO}){_WORD_NUMBER}\b)*"
+_WORD_LIST = rf"{WORD_NUMBER}\b(?:(?:{_AND}|{_TO}){WORD_NUMBER}\b)*"
 _SPACED = (  # "users 1 2 3", and nothing that is counted behind
     r"(?<=s )[0-9]{1,2}(?:\s+[0-9]{1,2}){1,11}(?:\s+(?:and|y|et|und)\s+[0-9]{1,2})?(?![0-9.,]*[0-9%]|\s+[0-9])"
     r"(?!\s*(?!(?:at|have|get|need|want|should|must|are|with|each|and|only|out|alone|excluded|to|left|not|may|shall|will|"
     r"in|for|on|please)\b)[A-Za-zμ%×*^/])"
 )
+_SPACED_WORDS = (  # "users one three and four", and no number goes on behind
+    rf"(?<=s ){WORD_NUMBER}(?:\s+{WORD_NUMBER})+(?:\s+(?:and|y|et|und)\s+{WORD_NUMBER})?\b"
+    rf"(?!\s+(?:{'|'.join(listed('scales'))}|point|and\s+an?\s|coma|y\s+medi|virgule|et\s+demi|komma)\b)"
+)
 _LIST = (
-    rf"(?:{_SPACED}|(?:{TIGHT_LIST}|{_DIGITS})(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
+    rf"(?:{_SPACED}|{_SPACED_WORDS}|"
+    rf"(?:{TIGHT_LIST}|{_DIGITS})(?:(?:{_AND}|{_TO})(?:{_NO}\s*)?{_DIGITS}{_OF_ITS_OWN})*|{_WORD_LIST})"
 )
 _OPENS = rf"\s*(?::\s*(?={_DIGITS}{_AND}{_DIGITS})|[\[({{{{]\s*(?=[0-9]))"  # "users: 1, 2", "users {{1, 2}}"
 _BOUND = r"(?:≥|≤|>=?|<=?|=|min\.?|max\.?|at (?:least|most))"
@@ -61,7 +68,7 @@ _NAMED = Phrases(
     rf"|(?<![A-Za-z])(?P<ordinal>{'|'.join(sorted(ORDINALS, key=len, reverse=True))})\s+{NOUN}(?![A-Za-z])"
 )
 _ZH_NUMBER = r"(?:[0-9]{1,4}|[一二三四五六七八九十]{1,3})"
-_ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手机|节点)"
+ZH_NOUN = r"(?:用户|終端|终端|用戶|UE|ue|客户|客戶|订户|设备|手机|节点)"
 
 
 def _zh_list(number: str) -> str:
@@ -71,9 +78,9 @@ def _zh_list(number: str) -> str:
 
 _ZH_LIST = rf"(?:{_zh_list('[0-9]{1,4}')}|{_zh_list('[一二三四五六七八九十]{1,3}')})"
 _ZH = deferred(
-    rf"(?<!其他)(?<!其它)(?<!其余)(?:{_ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致下])号?)"
-    rf"|(?<![权重乘取为=.0-9月])(?!(?<=重[设是给算])[0-9]{{1,4}}\s*[,\uff0c])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{_ZH_NOUN}?"
-    rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{_ZH_NOUN}"
+    rf"(?<!其他)(?<!其它)(?<!其余)(?:{ZH_NOUN}\s*(?P<after>{_ZH_LIST})(?!\s*[个名位台户兆瓦点起样直定边次共切致下])号?)"
+    rf"|(?<![权重乘取为=.0-9月])(?!(?<=重[设是给算])[0-9]{{1,4}}\s*[,\uff0c])(?P<hao>{_ZH_LIST})\s*[号號](?!线|楼|院|机房|站|小区|基站|人|桌|门|馆|店|厅|早|晚)\s*{ZH_NOUN}?"
+    rf"|第\s*(?P<nth>{_ZH_NUMBER})\s*[个位名]\s*{ZH_NOUN}"
 )
 _OTHERS = Phrases(
     either("figures", "users", "others"),
@@ -83,7 +90,7 @@ _EVERYBODY = Phrases(
     rf"{either('figures', 'users', 'everybody')}|\b(?:(?:per|a|/)\s?(?:{_EACH}|capita)|(?:por|par|pro|je) {_EACH})\b"
 )
 _PRONOUN = Phrases(either("figures", "users", "pronouns"))
-_FEW = rf"(?:[0-9]{{1,2}}|{_WORD_NUMBER}|beiden)"
+_FEW = rf"(?:[0-9]{{1,2}}|{WORD_NUMBER}|beiden)"
 _ENDS = {name: f"(?:{either('figures', 'users', name)})" for name in ("first", "last")}
 _ON = either("figures", "users", "from_on")
 _UNIT = r"%|(?:[kmg]|mega|kilo|giga)?(?:bit|bps|b/s)|[km]\b|m?w\b|(?:milli)?watt|db|megs?\b|兆|瓦"
@@ -104,29 +111,31 @@ BY_PLACE = Phrases(
                 for name, end in _ENDS.items()
             ),
             *(
-                rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{_ZH_NOUN}"
+                rf"{end}\s*(?P<{name}__>[0-9]{{1,2}}|[一二两三四五六七八九十])\s*[个位名]\s*{ZH_NOUN}"
                 for name, end in _ENDS.items()
             ),
-            rf"(?:(?<![A-Za-z0-9]){NOUN}|{_ZH_NOUN})\s*(?P<from>[0-9]{{1,3}})\s*(?:{_ON}|\+(?!\s*(?:[0-9]|{NOUN})))",
+            rf"(?:(?<![A-Za-z0-9]){NOUN}|{ZH_NOUN})\s*(?P<from>[0-9]{{1,3}})\s*(?:{_ON}|\+(?!\s*(?:[0-9]|{NOUN})))",
         ]
     )
 )
 """Users by where they stand among all; which ones they are, the cell's size says."""
 JOINT = deferred(
-    rf"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|{_JOINS}|\s)+\s*(?:(?:also|{_ARTICLES})\s+)?(?:l'|à\s+l')?"
+    rf"(?i)\s*(?:,|、|\uff0c|&|/|和|与|跟|及|以及|{JOINT_WORDS}|\s)+\s*(?:(?:also|{ARTICLES})\s+)?(?:l'|à\s+l')?"
 )
 LISTED = deferred(  # between the figures of a list
     rf"(?i)\s*(?:[,;、\uff0c]|{JOINT.pattern.removeprefix('(?i)')}|,?\s*(?:and then|beziehungsweise|bzw\.?|"
     r"respectively))\s*"
 )
 _EACH_OF = deferred(
-    rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*(?:{NOUN}|{_ZH_NOUN})?\s*(?:from|de|von|entre)?\s*$"
+    rf"(?i)(?:{either('figures', 'users', 'each_of')})\s*(?:{NOUN}|{ZH_NOUN})?\s*(?:from|de|von|entre)?\s*$"
 )
-_LONGEST_RANGE = 100
+_LONGEST_RANGE, _NEAR = 100, 25
 _RANGE = deferred(rf"(?i){_TO}(?:l')?|\s*[到至]\s*")
 _UP_TO = deferred(rf"(?i)号?{_TO}|\s*号?\s*[到至]\s*")
-_ITEM = deferred(rf"(?i)[0-9]+|\b(?:{'|'.join(ORDINALS)})\b|{_WORD_NUMBER}\b|[一二三四五六七八九十]+")
+_ITEM = deferred(rf"(?i)[0-9]+|\b(?:{'|'.join(ORDINALS)})\b|{WORD_NUMBER}\b|[一二三四五六七八九十]+")
 _AND_BETWEEN = deferred(r"(?i)[a-z和与跟及&/、]")
+_LAST_COMMA = deferred(r"(?i)\s*[,\uff0c]\s*(?:(?:and|y|e|et|und)\s+)?(?=[^,\uff0c]*$)")
+_WITHOUT = Phrases(either("figures", "users", "without"))
 _GOES_ON = deferred(r"(?i)\s*(?:$|[=≥≤<>:,.;!?、\uff0c。；]|and\b|or\b|和|y\b|et\b|und\b)")
 
 
@@ -204,6 +213,10 @@ def _without_quantity(plain: str, match: re.Match[str], group: str) -> int:
         return match.end()
     parts = list(_ITEM.finditer(match.group(group)))
     offset = match.start(group)
+    for one, other in itertools.pairwise(parts):  # "4, 6 and 7 to 1, 2 and 5 Mbit/s"
+        reaches = _UP_TO.fullmatch(plain, offset + one.end(), offset + other.start()) is not None
+        if reaches and int(_number(other.group().lower()) or 0) < int(_number(one.group().lower()) or 0):
+            return offset + one.end()
     measured = bool(parts) and unit_at(plain, offset + parts[-1].end()) is not None
     if measured and len(parts) == 2 and is_of_each(plain, match.start(group)):
         return offset  # "each user 1 to 5 Mbit/s"
@@ -264,7 +277,8 @@ def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
     for mention in found:
         last = merged[-1] if merged else mention
         between: list[str] | None = None
-        if merged and last.role == mention.role == "named":
+        again = {*mention.users} <= {*last.users}  # "to 1 and 6, 1 at least …"
+        if merged and last.role == mention.role == "named" and not again:
             if _RANGE.fullmatch(plain, last.end, mention.start):
                 between = [*_listed(f"{last.users[-1]} to {mention.users[0]}")]
             elif _lists(plain, last, mention) and JOINT.fullmatch(plain, last.end, mention.start):
@@ -274,4 +288,24 @@ def merged(plain: str, found: Sequence[Mention]) -> list[Mention]:
         else:
             users = tuple(dict.fromkeys([*last.users, *between, *mention.users]))
             merged[-1] = Mention(role="named", users=users, start=last.start, end=mention.end)
-    return merged
+    return [part for mention in merged for part in _parted(plain, mention)]
+
+
+def _parted(plain: str, mention: Mention) -> tuple[Mention, ...]:
+    """Whoever is named ahead of a comma and again behind, or is left out while those behind have something else.
+
+    "3号和8号，3号至少1兆", "sin el 7, el 4 con 1 Mbit/s".
+    """
+    comma = _LAST_COMMA.search(plain, mention.start, mention.end)
+    if comma is None:
+        return (mention,)
+    first, last = _listed(plain[mention.start : comma.start()]), _listed(plain[comma.end() : mention.end])
+    ahead = plain[max(clause_start(plain, mention.start), mention.start - _NEAR) : mention.start]
+    own = not plain[comma.end()].isdigit() or plain[comma.start() - 1] in "号號"  # "el 4", "8号"
+    apart = own and len(last) == 1 and _WITHOUT.search(ahead) is not None and not _GOES_ON.match(plain, mention.end)
+    if not last or not ({*last} <= {*first} or (apart and (*first, *last) == mention.users)):
+        return (mention,)
+    return (
+        Mention(role="named", users=first, start=mention.start, end=comma.start()),
+        Mention(role="named", users=last, start=comma.end(), end=mention.end),
+    )

@@ -44,10 +44,12 @@ class _Grammar:
         self.articles, self.joins, self.points, self.links, self.vague, self.dozens = (
             frozenset(map(plain, words[name])) for name in ("articles", "joins", "points", "links", "vague", "dozens")
         )
+        ordinals = set(map(plain, words["ordinals"])) - set(map(plain, words.get("alone", ())))
+        self.alone = self.parts.keys() - ordinals  # "half", but "a third"
 
     def knows(self, word: str) -> bool:
         """Whether a number may begin with this word."""
-        beginning = (self.values, self.scales, self.parts, self.vague, self.articles, self.dozens, self.points)
+        beginning = (self.values, self.scales, self.alone, self.vague, self.articles, self.dozens, self.points)
         return any(word in words for words in beginning)
 
 
@@ -300,7 +302,7 @@ class _Reader:
 
     def _with_parts(self, value: Decimal | None) -> Decimal | None:
         """The value with its halves and quarters: "three quarters", "two and a half"."""
-        if self._is_part(0):
+        if self._is_part(0) and (value is not None or self._word() in self._grammar.alone):
             share = self._grammar.parts[self._word()]
             self._place += 1
             return share if value is None else value * share

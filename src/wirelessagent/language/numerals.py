@@ -57,6 +57,7 @@ _AND_PART = deferred(
     r"\s?(?P<sign>[½¼¾]))"
 )
 _OVER = deferred(r"/(?P<below>[1-9][0-9]?)(?![0-9/])(?:\s+(?:of\s+an?|de|d'un))?")
+_SCALED, _LISTED_AHEAD = deferred(r"[kKM](?![A-Za-z])"), deferred(r"(?i)[0-9]\s*(?:,|&|和|、|\b(?:and|und|y|et)\b)\s*$")
 _VAGUELY = deferred(r"[来多余几]")
 _THOUSANDFOLD = deferred(r"比特|字节|瓦(?!时)")
 _AS_FEW = deferred(r"(?i)\b(?:as|so|too|tan|aussi|zu|very|muy|trop)\s+$")
@@ -191,7 +192,7 @@ def _signed(match: re.Match[str], text: str, number: Number) -> Number:
 def _in_digits(text: str, match: re.Match[str], language: str) -> Number:
     start, end = match.start("digits" if match["digits"] else "fraction"), match.end()
     digits = match["digits"] or match["fraction"]
-    if " " in digits and _is_name(text, start):
+    if " " in digits and (_is_name(text, start) or _is_user_and_figure(text, match)):
         digits = digits.split(" ")[0]  # "UE 2 750 kbit/s": a name, then a figure
         return Number(value=Decimal(digits), start=start, end=start + len(digits), form="digits")
     value = _PARTS.get(digits) or _digits_value(digits, language)
@@ -212,6 +213,12 @@ def _in_digits(text: str, match: re.Match[str], language: str) -> Number:
     if _VAGUELY.match(text, end) and unit_at(text, end + 1) is not None:
         value, end = None, end + 1
     return _signed(match, text, Number(value=value, start=start, end=end, form="digits"))
+
+
+def _is_user_and_figure(text: str, match: re.Match[str]) -> bool:
+    """Whether digits with a space are the last of some users and a figure: "1 and 2 300k"."""
+    scaled = _SCALED.match(text, match.end("digits")) is not None
+    return scaled and _LISTED_AHEAD.search(text, 0, match.start("digits")) is not None
 
 
 def _is_name(text: str, start: int) -> bool:

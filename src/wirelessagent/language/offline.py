@@ -139,7 +139,7 @@ class _Understanding:
         """The constraints to state and those to drop; an answer to a question has what was read before it, too."""
         served, dropped = serving(self._reading.back, self._context.constraints, self._context.user_names)
         values = {**self._reading.values, **served}
-        values = merged(self._context.pending, values) if is_answer else values
+        values = merged(self._context.question.pending, values) if is_answer else values
         return values, tuple(dict.fromkeys((*self._dropped, *dropped)))
 
     def _whether(self, objective: str) -> Intent:

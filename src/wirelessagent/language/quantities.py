@@ -26,11 +26,14 @@ from wirelessagent.language.word_tables import either
 
 QuantityKind: TypeAlias = Literal["power", "rate", "ratio", "bare", "other"]
 
+_NO_UNITS = (("users", "joins"), ("users", "articles"), ("users", "takes"), ("bounds", "at_least_behind"),
+             ("bounds", "at_most_behind"))  # fmt: skip
 # A bare number may be followed by these; any other word makes it a count of that word or an unknown unit.
 _AFTER_BARE = deferred(
-    r"\s*(?:$|[,;:!?。\uff0c\uff1b、)\]]|\.(?![0-9])|(?i:(?:please|and|or|for|each|per|max|maximum|min|minimum|"
-    r"with|at|but|then|now|thanks|"
-    r"to|in|on|the|while|when|apiece)\b|(?:de\s+)?(?:probabilit|outage|wahrscheinlich)))"
+    r"\s*(?:$|[,;:!?。\uff0c\uff1b、)\]]|\.(?![0-9])|(?i:(?:please|for|each|per|max|min|with|at|but|then|now|thanks|to|in|"
+    r"on|while|when|apiece|für|an|bei|mit|je|pro|aber|para|por|con|a|en|cada|pero|pour|avec|à|par|mais|chac\w+|"
+    r"como)\b|(?:de\s+)?(?:probabilit|outage|wahrscheinlich)|"
+    rf"{'|'.join(either('figures', *each) for each in _NO_UNITS)}))"
 )
 _NAMES = deferred(rf"(?i)(?:{either('figures', 'named', 'numbered')}|\bno\.|[#№])\s*$")
 _USERS = deferred(rf"(?i){NUMBERED_USERS}")
@@ -121,7 +124,8 @@ def parse_quantities(text: str) -> tuple[Quantity, ...]:
             if quantity is None:
                 continue
             found.append(quantity)
-        after = found[-1].phrase_end
+        if found[-1].kind != "bare" or found[-1].comparator is not None:  # "neither 3 nor 4 below 1 Mbit/s"
+            after = found[-1].phrase_end
     return tuple(_said_once(text, plain, found))
 
 

@@ -43,7 +43,7 @@ _TRAILING_DIGIT = deferred(
     r"(?P<digit>[一二三四五六七八九])(?![零〇一二三四五六七八九十百千万亿点半个号户位人台家成兆瓦毫kKM])"
 )
 _FRACTION = deferred(r"(?P<below>[0-9]+|[一二三四五六七八九十百千万两]+)分之$")
-_TENTHS = deferred(r"成(?P<more>[一二三四五六七八九半]{0,3})(?![员立为功本交绩效长了就品]|不变)")
+_TENTHS = deferred(r"成(?P<more>[一二三四五六七八九半]{0,3})(?![员立为本交绩效长了就品]|功(?!率)|不变)")
 _COUNTED = deferred(rf"(?i)\s+(?:of\s+(?:the|our|my)\s+)?(?:{USER_NOUN}|people|persons|personas|personnes|sensor\w*)\b")
 
 

@@ -16,6 +16,37 @@ Awaited: TypeAlias = Literal["nothing", "confirmation", "clarification"]
 
 
 @dataclass(frozen=True, kw_only=True)
+class Missing:
+    """A question back about a user: the intent that waits, and whom it names that is not there ("" for nobody)."""
+
+    intent: Intent
+    reference: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Question:
+    """A question back that is open, and what was understood before it.
+
+    Attributes:
+        pending: constraints.
+        objective: the aim that was named; None where none was.
+        users: users who were named, and of whom nothing was understood.
+        caps: whether the most of something was named, without its figure: "cap user 3".
+        offered: the objective or the command that a yes means; None where it is no question of yes or no.
+        guess: what a yes carries out; None where it is no question of yes or no.
+        missing: the user who is not there, where the question is about one.
+    """
+
+    pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
+    objective: str | None = None
+    users: tuple[str, ...] = ()
+    caps: bool = False
+    offered: str | None = None
+    guess: Intent | None = None
+    missing: Missing | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Context:
     """What a sentence may refer to.
 
@@ -24,12 +55,7 @@ class Context:
         max_power_w: the cell's limit, which shares of the power refer to.
         objective, constraints: of the current request; None and empty where there is none.
         awaits: what the agent asked for last.
-        pending: constraints that were read before a clarifying question, for its answer to use.
-        pending_objective: the aim that was named before it; None where none was.
-        pending_users: users who were named before it, and of whom nothing was understood.
-        pending_caps: whether the most of something was named before it, without its figure.
-        offered: the objective or the command that a yes to the question means; None where it has no such meaning.
-        guess: what a yes to the question carries out; None where it has no such meaning.
+        question: that is open, and what was understood before it; that of nothing where none is.
         supposed_objective, supposed: the request of a what-if right before; None and empty where there was none.
         ways: whether the line right before was told that it can't be met, and what can be met instead.
         offers: how many ways were offered that the next line may choose from.
@@ -46,12 +72,7 @@ class Context:
     objective: str | None = None
     constraints: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     awaits: Awaited = "nothing"
-    pending: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
-    pending_objective: str | None = None
-    pending_users: tuple[str, ...] = ()
-    pending_caps: bool = False
-    offered: str | None = None
-    guess: Intent | None = None
+    question: Question = field(default_factory=Question)
     supposed_objective: str | None = None
     supposed: Mapping[str, Constraint] = field(default_factory=dict[str, Constraint])
     ways: bool = False

@@ -10,6 +10,7 @@ from wirelessagent import plugins
 from wirelessagent.language import goals
 from wirelessagent.language.base_words import aligned, is_listed, language_of
 from wirelessagent.language.constraints import read_constraints
+from wirelessagent.language.corrected import without_corrected
 from wirelessagent.language.goals import Goal
 from wirelessagent.language.mentions import mentions
 from wirelessagent.language.moods import classes_in
@@ -39,8 +40,9 @@ class Sentence:
     def __init__(
         self, text: str, own: tuple[OwnWords, ...], *, names: Sequence[str] = (), max_power_w: float = 20.0
     ) -> None:
-        self.text, self.plain, self.language = text, normalise(text), language_of(text)
-        self._own, self._names, self._max_power_w, self.quantities = own, names, max_power_w, parse_quantities(text)
+        said = without_corrected(text)
+        self.text, self.plain, self.language = text, normalise(said), language_of(text)
+        self._own, self._names, self._max_power_w, self.quantities = own, names, max_power_w, parse_quantities(said)
         self.reading: Reading = read_constraints(
             text, self.plain, self.quantities, names=names, max_power_w=max_power_w
         )

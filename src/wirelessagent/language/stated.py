@@ -7,23 +7,25 @@ raise a doubt.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from wirelessagent.language.deferred import deferred
 from wirelessagent.language.intent import Constraint
+from wirelessagent.language.leftovers import POWER_NOUNS
 from wirelessagent.language.mentions import BY_PLACE, PLACED
 from wirelessagent.language.number_words import cardinals, german_value, plain_word
 from wirelessagent.language.quantities import Quantity
-from wirelessagent.language.text import Phrases, Span, clause_end, clause_start, is_within, overlaps
-from wirelessagent.language.word_tables import either
+from wirelessagent.language.text import Phrases, Span, clause_end, clause_start, is_chinese, is_within, overlaps
+from wirelessagent.language.word_tables import either, languages_with, table
 
 _CARRIER = (
     r"(?:sub-?carriers?|tones?|carriers?|rbs?|resource blocks?|subportadoras?|sous-porteuses?|"
     r"(?:unter|sub)träger[ns]?)"
 )
-_CHANGE_BEFORE = deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$")
-_CHANGE_BEHIND = deferred(rf"(?i)\s*(?:{either('figures', 'one', 'changed_behind')})(?!\w)")
+_CHANGED_BY = deferred(rf"(?i)(?:{either('figures', 'one', 'changed_by')})\s*(?:about|around|roughly)?\s*$")
+_CHANGED_BEHIND = deferred(rf"(?i)\s*(?:{either('figures', 'one', 'changed_behind')})(?!\w)")
 _ALL = deferred(r"(?i)\b(?:all|all of|all the|every one of)\s*(?:the\s+|our\s+|these\s+)?$|(?:所有|全部)的?\s*$")
 _DESCRIBED_BEFORE = deferred(rf"(?i)(?:^|{either('figures', 'users', 'ahead_of_all')})\s*$")
 _DESCRIBED_AFTER = deferred(rf"(?i)\s*(?:$|(?:{either('figures', 'users', 'behind_all')}))")
@@ -42,8 +44,7 @@ _OTHERS_HALVED = Phrases(
     r"(?:其余|其他|别人|剩下|剩余|旁人|另外)[^,\uff0c。0-9]{0,5}(?:一半|减半|翻倍|双倍|加倍)",
     marks="一半 减半 翻倍 双倍 加倍",
 )
-_POWER_NOUNS = "power|potencia|puissance|leistung|sendeleistung"
-_POWER = rf"(?:maximalleistung|{_POWER_NOUNS}|budget|watts|wattage|presupuesto)\b(?:\s+(?:budget|limit))?"
+_POWER = rf"(?:maximalleistung|{POWER_NOUNS}|budget|watts|wattage|presupuesto)\b(?:\s+(?:budget|limit))?"
 _MOST = (
     r"(?:(?:max|máx)\w*\.?|limitée?|limitada|begrenzt|limited|at|to|of|auf|à|a|al|is|=|<=|≤|:|at most|up to)?\s*"
     r"(?:(?:max|to|auf|à|a|al|au|at)\.?\s*)?"
@@ -52,52 +53,38 @@ _FULL = (
     r"(?:\s+|of|de|d'|the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|el|del|notre|nuestra|der|die|"
     r"unserer|vollen|maximalen)*"
 )
-_SHARES = {
-    **dict.fromkeys(("half", "mitad", "moitié", "halbe", "halber", "halben", "hälfte", "一半"), 1 / 2),
-    **dict.fromkeys(("third", "tercio", "tiers", "drittel", "三分之一"), 1 / 3),
-    **dict.fromkeys(("two thirds", "dos tercios", "deux tiers", "zwei drittel", "zwei dritteln", "三分之二"), 2 / 3),
-    **dict.fromkeys(("quarter", "cuarto", "quart", "viertel", "四分之一"), 1 / 4),
-    **dict.fromkeys(
-        ("three quarters", "tres cuartos", "trois quarts", "drei viertel", "drei vierteln", "dreiviertel"), 3 / 4
+_SHARED = (
+    deferred(
+        rf"(?i)(?:\b(?:p_?max|(?:max\w*\.?\s+)?(?:{POWER_NOUNS}))\s*{_MOST}|功率(?:用|压|降|限制|上限)?[到在为是]?)$"
     ),
-    **{f"{letter}成": place / 10 for place, letter in enumerate("一二三四五六七八九", start=1)},
+    deferred(rf"(?i){_FULL}\s*{_POWER}|的?(?:发射|总)?(?:功率|预算)(?!放大)"),
+)
+_TOGETHER: dict[str, int] = {
+    word: size
+    for language in languages_with("figures")
+    for word, size in table("figures", language).get("together", {}).items()
 }
-_SHARE_WORDS = "|".join(sorted(_SHARES, key=len, reverse=True))
-_SHARE = Phrases(
-    r"(?<!save )(?<!by )(?<!saving )(?<!cut )"
-    rf"(?:\b(?:(?:a|one|un|ein|einem) (?![hm])|la (?=m))?(?P<word>{_SHARE_WORDS})\b|"
-    r"(?<![\w.,])(?P<percent>[0-9]{1,3}(?:[.,][0-9]+)?)\s*(?:%|percent|per cent|prozent|por ciento|pour cent))"
-    rf"{_FULL}\s*{_POWER}|(?:用|以|只用|最多用|不超过)?(?:(?P<zh_word>{_SHARE_WORDS})|"
-    r"(?<![0-9.,])(?P<zh_percent>[0-9]{1,3}(?:[.,][0-9]+)?)%|百分之(?P<hundredths>[0-9]{1,3}))的?(?:发射|總|总)?(?:功率|预算)(?!放大)"
-    rf"|功率(?:只用|最多用|用|不超过|最多|压到|降到)?(?:到)?(?P<of_word>{_SHARE_WORDS})(?!五)"
-    rf"|\b(?:p_?max|(?:max\w*\.?\s+)?(?:{_POWER_NOUNS}))\s*{_MOST}(?P<of_percent>[0-9]{{1,3}}(?:[.,][0-9]+)?)\s*%"
-    r"|功率(?:只用|最多用|用|不超过|最多|压到|降到|限制在|限制到|上限为?)(?P<zh_of_percent>[0-9]{1,3}(?:[.,][0-9]+)?)%",
-    marks="half mitad moitié halbe hälfte third tercio tiers drittel quart cuarto viertel % percent per_cent prozent "
-    "por_ciento pour_cent 一半 百分之 分之 成",
-)
-_TOGETHER = {
-    "pairs": 2, "twos": 2, "threes": 3, "fours": 4, "sixes": 6, "eights": 8, "dozens": 12, "parejas": 2, "paires": 2,
-    "paaren": 2,
-}  # fmt: skip
+_TOGETHER_WORDS = "|".join(word if is_chinese(word) else rf"\b{word}\b" for word in _TOGETHER)
 _BLOCKS = Phrases(
-    rf"{_CARRIER}(?:\s+\w+){{0,3}}?\s+(?:in|by|par|por|en)\s+(?P<together>{'|'.join(_TOGETHER)})\b"
-    rf"|\b(?:por|par|in|by)\s+(?P<of>{'|'.join(_TOGETHER)})\s+(?:of|de|von)\s+{_CARRIER}"
+    rf"(?P<ahead>{_TOGETHER_WORDS})(?=\s*(?:(?:of|de|von|的)\s*)?(?:{_CARRIER}|子载波))|"
+    rf"(?:{_CARRIER}|子载波)(?:\s+\w+){{0,3}}?\s*(?P<behind>{_TOGETHER_WORDS})"
     r"|\b(?P<fold>[a-zäöüß]{3,})er-?(?:gruppen?|blöcken?|blöcke|päckchen|packs?|bündeln?)\b",
-    marks="pair twos threes fours sixes eights dozens parej paire paar gruppe blöck päck pack bündel",
+    marks=" ".join({word.split()[-1] for word in _TOGETHER} | {"gruppe", "blöck", "päck", "pack", "bündel"}),
 )
-
 _GROUP = (  # nouns and verbs that say of a number beside them that it is the size of a group
     rf"(?:{_CARRIER}|(?:resource[- ])?(?:group|block|bundle|chunk|cluster|pack|rb)(?:s|ed|ing)?|rbgs?|p?rbs?|size|"
     r"bloques?|blocs?|grupos?|groupes?|paquet(?:e?s)?|recursos|ressources|tamaño|taille|"
     r"(?:ressourcen)?(?:blöcken?|block)(?:größe)?|gruppen?(?:größe)?)"
 )
 _JOINT = r"(?:of|with|in|into|by|per|an?|each|the|adjacent|neighbouring|de|du|von|zu|à|aus|mit|je|pro|por|par|en)"
-_GROUPED_AHEAD = deferred(
-    rf"(?i)\b(?:in\s+)?{_GROUP}\b(?:[\s:=-]+(?:{_GROUP}|{_JOINT})\b)*[\s:=-]*$|(?:[每按以]|资源块|子载波|块|大小|[为是=])+$"
-)
-_GROUPED_BEHIND = deferred(
-    rf"(?i)(?:[\s-]+(?:{_JOINT}[\s-]+)*{_GROUP}\b)+|个?(?:子载波|资源块)?(?:[为成]?一[组块个]|捆绑|绑定|分组|[组构]成一个|"
-    r"资源块|块|组)*"
+_GROUPED = (
+    deferred(
+        rf"(?i)\b(?:in\s+)?{_GROUP}\b(?:[\s:=-]+(?:{_GROUP}|{_JOINT})\b)*[\s:=-]*$|(?:[每按以]|资源块|子载波|块|大小|[为是=])+$"
+    ),
+    deferred(
+        rf"(?i)(?:[\s-]+(?:{_JOINT}[\s-]+)*{_GROUP}\b)+|个?(?:子载波|资源块)?(?:[为成]?一[组块个]|捆绑|绑定|分组|[组构]成一个|"
+        r"资源块|块|组)*"
+    ),
 )
 
 
@@ -164,10 +151,27 @@ class Reading:
         if figure.comparator == "exactly":
             self.exact.add(name)
 
+    def take_share(self, share: float, figure: Quantity, max_power_w: float) -> None:
+        """Take a share of the power, with the words beside that say so."""
+        span = self._with_words_beside((figure.phrase_start, figure.phrase_end), _SHARED)
+        self.masked.append(span)
+        self.spoken_for.append(span)
+        self.take("max_power_w", share * max_power_w, figure)
+
+    def changes_by(self, figure: Quantity) -> bool:
+        """Whether something is to become more or less by a share: "half the power less"."""
+        start, end = self._with_words_beside((figure.phrase_start, figure.phrase_end), _SHARED)
+        itself = "减" in figure.text  # 减半
+        return itself or bool(_CHANGED_BY.search(self.plain, 0, start) or _CHANGED_BEHIND.match(self.plain, end))
+
+    def _with_words_beside(self, span: Span, words: tuple[re.Pattern[str], re.Pattern[str]]) -> Span:
+        """A span with such words right ahead of it, and right behind."""
+        ahead, behind = words[0].search(self.plain, 0, span[0]), words[1].match(self.plain, span[1])
+        return ahead.start() if ahead else span[0], behind.end() if behind else span[1]
+
     def take_group(self, size: float, span: Span) -> None:
         """Take how many subcarriers go together, with the words beside that say so."""
-        ahead, behind = _GROUPED_AHEAD.search(self.plain, 0, span[0]), _GROUPED_BEHIND.match(self.plain, span[1])
-        span = ahead.start() if ahead else span[0], behind.end() if behind else span[1]
+        span = self._with_words_beside(span, _GROUPED)
         self.spoken_for.append(span)
         self.masked.append(span)
         if size < 1 or not size.is_integer():
@@ -183,26 +187,6 @@ def take_blocks(reading: Reading) -> None:
     size = _TOGETHER.get(word) or german_value(plain_word(word, "de"))
     if match is not None and size:
         reading.take_group(float(size), match.span())
-
-
-def take_share(reading: Reading, max_power_w: float) -> None:
-    """A share of the power, of the cell's limit: "with half the power"."""
-    match = _SHARE.search(reading.plain)
-    before = reading.plain[: match.start()] if match is not None else ""
-    if match is None or _CHANGE_BEFORE.search(before):
-        return
-    if any(each.start < match.start() < each.end for each in reading.quantities):  # "two and a half watts"
-        return
-    group = match.lastgroup or ""
-    share = _SHARES[match[group]] if group.endswith("word") else float(match[group].replace(",", ".")) / 100
-    reading.spoken_for.append(match.span())
-    reading.masked.append(match.span())
-    if _CHANGE_BEHIND.match(reading.plain, match.end()):  # "power 10 % lower"
-        reading.doubt("change", text=reading.text[slice(*match.span())])
-    elif 0 < share <= 1:
-        reading.put("max_power_w", share * max_power_w, match.span())
-    else:
-        reading.doubt("impossible", text=reading.text[slice(*match.span())])
 
 
 def take_counts(reading: Reading, recounted: Sequence[Span], allotted: Sequence[Span]) -> None:

@@ -36,7 +36,7 @@ from wirelessagent.language.guard import guarded
 from wirelessagent.language.intent import Intent
 from wirelessagent.language.intent_acts import acts_of, stated
 from wirelessagent.language.offline import OfflineRecogniser
-from wirelessagent.language.recogniser import Context, Recogniser
+from wirelessagent.language.recogniser import Context, Question, Recogniser
 from wirelessagent.language.request import Request, applied
 from wirelessagent.language.sentence import BUILT_IN
 
@@ -71,15 +71,17 @@ def understood(text: str, context: Context, recogniser: Recogniser) -> Intent:
 
 def _waits_for_an_aim(context: Context) -> bool:
     """Whether limits were said, and nothing is open but their aim."""
-    return bool(context.pending) and not (context.objective or context.pending_objective or context.pending_users)
+    question = context.question
+    return bool(question.pending) and not (context.objective or question.objective or question.users)
 
 
 def _beside_what_waits(line: Line, intent: Intent, recogniser: Recogniser) -> Intent:
     """What a line changes of limits that wait for their aim, and asks for it again; else what is read of it."""
-    pending, aim = line.context.pending, BUILT_IN[0]  # any
+    pending, aim = line.context.question.pending, BUILT_IN[0]  # any
     held = dataclasses.replace(
-        line.context, objective=aim, constraints=pending, acts=tuple(stated(pending)), awaits="nothing", pending={}
-    )
+        line.context, objective=aim, constraints=pending, acts=tuple(stated(pending)), awaits="nothing",
+        question=Question(),
+    )  # fmt: skip
     found = understood(line.text, held, recogniser)
     if found.kind != "allocate" or not found.amends or found.objective != aim or "objective" in found.evidence:
         return intent
@@ -116,9 +118,7 @@ def _read(text: str, line: Line, context: Context, recogniser: Recogniser) -> In
         if intent is not None:
             return intent
     if leaves_the_question(line):
-        context = dataclasses.replace(
-            context, awaits="nothing", pending={}, pending_objective=None, pending_users=()
-        )  # fmt: skip
+        context = dataclasses.replace(context, awaits="nothing", question=Question())
     intent = recogniser.read(text, context)
     read = asked_instead(line, intent) or by_method(line, intent)
     return given_instead(line, read)

@@ -115,6 +115,7 @@ class Possible:
         self.past = [{} if held is None else figures_of(held.constraints) for held in context.past[::-1]]
         self.last = [limit for act in self.said for limit in _as_limits(act, self.figures)]
         self.last_users = {*users_of(self.said)}
+        self.shares_power = any(_is_a_share(limit, context.max_power_w) for limit in self.last)
         self.last_kinds = {act.kind for act in self.said if isinstance(act, Limit | Scale | Drop)}
         self.named = [(users, anchors) for users, anchors in line.groups(len(self.users)) if {*users} <= {*self.users}]
         self.groups = list(self._whom())
@@ -193,6 +194,8 @@ class Possible:
             return (
                 {value} if (unitless or (figure.kind == "factor" and kind == "weights")) and whole and value else set()
             )
+        if figure.kind == "ratio" and self.shares_power:  # "70 % of the power", "no, 60 %"
+            return {value * self.context.max_power_w} if kind == "max_power_w" else set()
         if kind == "outage_probability":
             share = value if figure.kind == "ratio" or value < 1 else value / 100
             known = figure.kind == "ratio" or (unitless and (value < 1 or kind in self.held))
@@ -210,6 +213,12 @@ class Possible:
         held = [figure for (name, _), figure in self.figures.items() if name == kind]
         models = models or [Limit(kind=kind, value=figure) for figure in held[:1]]
         return found | {worth for limit in models if (worth := in_its_unit(value, limit)) > 0}
+
+
+def _is_a_share(limit: Limit, max_power_w: float) -> bool:
+    """Whether a power was said as a share of the cell's."""
+    shares = (figure.value for figure in parse_quantities(limit.words) if figure.kind == "ratio")
+    return limit.kind == "max_power_w" and any(math.isclose(share * max_power_w, limit.value) for share in shares)
 
 
 def users_of(acts: Iterable[Act]) -> tuple[str, ...]:

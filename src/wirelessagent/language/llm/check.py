@@ -216,8 +216,8 @@ class Case:
     def _named(self) -> set[str]:
         """Everybody whom the sentence or the session names."""
         context = self._context
-        named = {*self._reading.named, *context.pending_users, str(self._offline.details.get("user", EVERYBODY))}
-        for limits in (self.rules, context.pending, context.constraints, context.supposed):
+        named = {*self._reading.named, *context.question.users, str(self._offline.details.get("user", EVERYBODY))}
+        for limits in (self.rules, context.question.pending, context.constraints, context.supposed):
             for value in limits.values():
                 named.update(value if isinstance(value, Mapping | tuple) else (EVERYBODY,))
         return named
@@ -241,7 +241,7 @@ class Case:
         """Whether the session holds exactly this limit."""
         context = self._context
         own = {} if name in context.constraints else {"max_power_w": context.max_power_w}
-        return any(_is_in(limits, name, value) for limits in (context.constraints, context.pending, own))
+        return any(_is_in(limits, name, value) for limits in (context.constraints, context.question.pending, own))
 
     def _about(self, meaning: Meaning) -> dict[str, Any]:
         """A question or a command."""

@@ -91,7 +91,7 @@ def figures_of(
     said = {**sentence.reading.evidence, **offline.evidence}
     held = [("max_power_w", context.max_power_w, "the cell's limit")]
     held += [(name, value, f"{name} of the current request") for name, value in _values(context.constraints)]
-    held += [(name, value, f"{name}, said before the question") for name, value in _values(context.pending)]
+    held += [(name, value, f"{name}, said before the question") for name, value in _values(context.question.pending)]
     read = [(name, value, said.get(name) or name) for name, value in _values({**offline.details, **rules})]
     held += [each for each in read if matching(known, each[1], each[0]) is None]
     for place, (name, value, words) in enumerate(held, start=1):
@@ -151,7 +151,7 @@ def case(text: str, figures: Iterable[Figure], context: Context) -> str:
         "num_users": len(context.user_names),
         "current_request": None if context.objective is None else current,
         "awaited": context.awaits,
-        "before_the_question": plain(context.pending),
+        "before_the_question": plain(context.question.pending),
     }
     return json.dumps(data, ensure_ascii=False)
 

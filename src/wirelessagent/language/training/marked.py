@@ -75,8 +75,10 @@ class Marked:
         return {role for first, last, role in self._marks if start < last and first < end}
 
     def of_number(self, number: Number) -> set[str]:
-        """A user, or a figure that borrows a unit; it describes where it is not marked."""
+        """A user, or a figure that borrows a unit; it describes where it is not marked, but for "twice"."""
         roles = self._roles(number.start, number.end)
+        if not roles and number.form == "times":
+            return set()
         if roles == {"unclear"}:
             return {"limit"}
         if roles and roles <= {"user", "weight", "group", "share"}:

@@ -172,7 +172,8 @@ class Meant:
         outage = self._constraints.get("outage_probability")
         if not self._complete["ratio"] and outage is not None:
             return {"limit"}
-        user = value == int(value) and str(int(value)) in self._all_users | self._values.get("weights", {}).keys()
+        known = self._all_users | self._values.get("weights", {}).keys()
+        user = number.form != "times" and value == int(value) and str(int(value)) in known
         weight = any(_close(value, each) for each in self._values.get("weights", {}).values())
         group = _close(value, self._constraints.get("resource_block_group_size", 0.0))
         roles = {name for name, is_one in (("user", user), ("weight", weight), ("group", group)) if is_one}

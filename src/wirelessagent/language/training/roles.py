@@ -19,6 +19,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import optimize, sparse
 
+from wirelessagent.language.corrected import without_corrected
 from wirelessagent.language.figure_roles import LABELS, ROLES_FILE, View
 from wirelessagent.language.intent import EVERYBODY
 from wirelessagent.language.looks import BORROWING, Look, first_look, second_look
@@ -57,6 +58,7 @@ class Example:
 
 def examples(text: str, constraints: Mapping[str, Any]) -> Iterator[Example]:
     """What a sentence with its meaning shows."""
+    text = without_corrected(text)
     look = first_look(normalise(text), parse_quantities(text))
     yield from _shown(look, Meant(constraints, look))
 
@@ -64,7 +66,8 @@ def examples(text: str, constraints: Mapping[str, Any]) -> Iterator[Example]:
 def shown_by(line: str) -> Iterator[Example]:
     """What a sentence shows whose figures and users are marked."""
     marked_one = Marked(line)
-    yield from _shown(first_look(normalise(marked_one.text), parse_quantities(marked_one.text)), marked_one)
+    text = without_corrected(marked_one.text)
+    yield from _shown(first_look(normalise(text), parse_quantities(text)), marked_one)
 
 
 def named_in(text: str, names: Sequence[tuple[int, int]]) -> Iterator[Example]:
@@ -72,7 +75,7 @@ def named_in(text: str, names: Sequence[tuple[int, int]]) -> Iterator[Example]:
 
     The small words of a name show nothing: "my", "on the".
     """
-    plain = normalise(text)
+    plain = normalise(text := without_corrected(text))
     view = first_look(plain, parse_quantities(text)).view()
     for place in view.words:
         start, end = view.span(place)

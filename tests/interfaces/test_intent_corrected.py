@@ -1,0 +1,117 @@
+"""What is taken back in the same breath, and figures and users that stand close to others."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from wirelessagent.language.corrected import without_corrected
+from wirelessagent.language.quantities import parse_quantities
+from wirelessagent.language.sentence import Sentence, own_words
+
+
+def read(text: str) -> dict[str, Any]:
+    reading = Sentence(text, own_words()).reading
+    assert not reading.doubts
+    return {name: dict(value) if hasattr(value, "items") else value for name, value in reading.values.items()}
+
+
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [
+        ("user 6 at least 1, no, 2 Mbit/s", "user 6 at least 2 Mbit/s"),
+        ("power at most 12, make that 10 W", "power at most 10 W"),
+        ("höchstens 8, Quatsch, höchstens 6 Watt", "höchstens höchstens 6 Watt"),
+        ("al menos 2, no, 3 Mbit/s", "al menos 3 Mbit/s"), ("au moins 1, non, 1,5 Mbit/s", "au moins 1,5 Mbit/s"),
+        ("至少1，不对，2 Mbit/s", "至少 2 Mbit/s"), ("for user 3 - sorry, I mean user 5 -", "for user 5 -"),
+        ("Nutzer 5 – äh, falsch, Nutzer 7 – braucht", "Nutzer 7 – braucht"), ("给5号，哦不，给6号", "给 给6号"),
+        ("users 1, 2 and 3, no more than 10 W", "users 1, 2 and 3, no more than 10 W"),
+        ("drop 1, 2 and 3, sorry, cap is 10 W", "drop 1, 2 and 3, sorry, cap is 10 W"),
+        ("1 Mbit/s for 3, no, 2 Mbit/s", "1 Mbit/s for 3, no, 2 Mbit/s"),
+        ("drop 7, no, 7 stays", "drop 7, no, 7 stays"),
+        ("user 3 no, user 5 at least 1 Mbit/s", "user 3 no, user 5 at least 1 Mbit/s"),
+        ("user 1: no, user 2: 1 Mbit/s", "user 1: no, user 2: 1 Mbit/s"),
+        ("users 1 and 2, no, 3 and 4", "users 1 and 2, no, 3 and 4"), ("users 1 to 3, no, 4", "users 1 to 3, no, 4"),
+        ("weight for user 3: make it 2", "weight for user 3: make it 2"),
+        ("user 3 gets 500, sorry, user 4 gets 500", "user 3 gets 500, sorry, user 4 gets 500"),
+    ],
+)  # fmt: skip
+def test_what_is_taken_back_is_blanked(said: str, meant: str) -> None:
+    left = without_corrected(said)
+    assert " ".join(left.split()) == meant
+    assert len(left) == len(said)
+    assert all(one in (" ", other) for one, other in zip(left, said, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a third of the power", {"max_power_w": 20 / 3}), ("zwei Drittel der Leistung", {"max_power_w": 40 / 3}),
+        ("trois quarts de la puissance", {"max_power_w": 15.0}),
+        ("la quinta parte de la potencia", {"max_power_w": 4.0}),
+        ("halbe Leistung, maximaler Durchsatz", {"max_power_w": 10.0}), ("最多用八成功率", {"max_power_w": 16.0}),
+        ("95 % reliability and no more than 50 % of the power", {"outage_probability": 0.05, "max_power_w": 10.0}),
+        ("max throughput at 60% of the power", {"max_power_w": 12.0}),
+    ],
+)  # fmt: skip
+def test_a_share_of_the_power_is_a_figure_in_words_too(text: str, expected: dict[str, float]) -> None:
+    assert read(text) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("for users 3, 6 and 9: 200k, 400k and 800k minimum", {"3": 2e5, "6": 4e5, "9": 8e5}),
+        ("2, 3 and 5 Mbit/s for users 1, 2 and 3 at least", {"1": 2e6, "2": 3e6, "3": 5e6}),
+        ("Nutzer 2, 3 und 8 mindestens 1, 2 und 4 Mbit/s", {"2": 1e6, "3": 2e6, "8": 4e6}),
+        ("1 Mbit/s for each, double for user 3", {"all": 1e6, "3": 2e6}),
+        ("1 → 400k, 4 → 1M, rest 200k", {"1": 4e5, "4": 1e6, "all": 2e5}),
+        ("users 1 and 2 get 300k, 3 and 4 1M", {"1": 3e5, "2": 3e5, "3": 1e6, "4": 1e6}),
+        ("least power, 750 kbit/s for 1, 2 and 6, and twice as much for 8",
+         {"1": 7.5e5, "2": 7.5e5, "6": 7.5e5, "8": 1.5e6}),
+    ],
+)  # fmt: skip
+def test_lists_have_one_figure_for_each_user(text: str, expected: dict[str, float]) -> None:
+    assert read(text) == {"min_rate_bps": expected}
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("sin el usuario 7, el 4 con 450 kbit/s como mínimo", {"leave_out": ("7",), "min_rate_bps": {"4": 4.5e5}}),
+        ("ohne Nutzer 1, und Nutzer 6 nicht unter 750 kbit/s", {"leave_out": ("1",), "min_rate_bps": {"6": 7.5e5}}),
+        ("不服务3号，8号的速率至少1兆", {"leave_out": ("3",), "min_rate_bps": {"8": 1e6}}),
+        ("without users 1, 2, and 3", {"leave_out": ("1", "2", "3")}),
+        ("只管3号和8号，3号至少2兆，8号至少1兆", {"users": ("3", "8"), "min_rate_bps": {"3": 2e6, "8": 1e6}}),
+        ("max rate, cap 12 at 2 Mbit/s", {"max_rate_bps": {"12": 2e6}}),
+        ("energy-efficient, only users one six and nine", {"users": ("1", "6", "9")}),
+        ("max rate but users 7, 4 get 1 Mbit/s", {"min_rate_bps": {"7": 1e6, "4": 1e6}}),
+        ("max rate, leave out 5 and 6, give 2, 3 Mbit/s", {"leave_out": ("5", "6"), "min_rate_bps": {"2": 3e6}}),
+        ("users 5 and 6 have weight 2, 3 Mbit/s each",
+         {"weights": {"5": 2.0, "6": 2.0}, "min_rate_bps": {"5": 3e6, "6": 3e6}}),
+        ("users 1 thru 4 only", {"users": ("1", "2", "3", "4")}),
+    ],
+)  # fmt: skip
+def test_neighbours_are_not_thrown_together(text: str, expected: dict[str, Any]) -> None:
+    assert read(text) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "asked"),
+    [("max rate at 45 %", "share"), ("功率减半", "change"), ("max rate, half the power less", "change"),
+     ("user 3 gets twice 1 Mbit/s", "calculated"), ("max rate, user 3 no, user 5 at least 1 Mbit/s", "named_user"),
+     ("neither user 3 nor 4 gets 1 Mbit/s, min power", "whose_rate")],
+)  # fmt: skip
+def test_what_no_limit_can_be_is_asked_about(text: str, asked: str) -> None:
+    """A promise that is hardly kept is a share of something else; nor is a change a share, or a multiple a rate."""
+    assert asked in [doubt.key for doubt in Sentence(text, own_words()).reading.doubts]
+
+
+def test_the_whole_power_is_a_share_too() -> None:
+    assert read("max rate with 100 % of the power") == {"max_power_w": 20.0}
+
+
+@pytest.mark.parametrize(("text", "bare"), [("au moins 200 pour le 1", "200"), ("0,001 como máximo", "0,001")])
+def test_a_small_word_is_no_unit(text: str, bare: str) -> None:
+    assert [(each.kind, each.text) for each in parse_quantities(text)][:1] == [("bare", bare)]
