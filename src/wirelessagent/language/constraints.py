@@ -131,11 +131,12 @@ class _Reader:
                 self._reading.doubt(doubt, text=figure.text)
 
     def _mark(self, index: int, figure: Quantity) -> str:
-        """What a figure was read as, and whose a rate is."""
+        """What a figure was read as, and whose a rate is; a share of the power limits it as any other figure does."""
         if figure.kind not in _SURE_OF_A_LIMIT:
             return figure.kind
         whose = self._allotments.target_of(figure.start).role if figure.kind == "rate" else ""
-        return f"{self._judged.role(index)} {whose}".strip()
+        role = self._judged.role(index)
+        return f"{'max_power_w' if role == 'share' else role} {whose}".strip()
 
     def _taken(self, index: int, figure: Quantity) -> str:
         """Take a figure for what it is there for; the key of the question that it raises, "" for none."""
