@@ -115,3 +115,9 @@ def test_the_whole_power_is_a_share_too() -> None:
 @pytest.mark.parametrize(("text", "bare"), [("au moins 200 pour le 1", "200"), ("0,001 como máximo", "0,001")])
 def test_a_small_word_is_no_unit(text: str, bare: str) -> None:
     assert [(each.kind, each.text) for each in parse_quantities(text)][:1] == [("bare", bare)]
+
+
+def test_a_share_before_many_blanks_is_read_at_once() -> None:
+    """Where each blank could belong to two parts of a pattern, two dozen took ten seconds."""
+    assert read("max rate at half" + " " * 400 + "the power") == {"max_power_w": 10.0}
+    assert Sentence("max rate at 50 %" + " " * 400 + "x", own_words()).reading.doubts

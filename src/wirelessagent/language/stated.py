@@ -50,8 +50,8 @@ _MOST = (
     r"(?:(?:max|to|auf|à|a|al|au|at)\.?\s*)?"
 )
 _FULL = (
-    r"(?:\s+|of|de|d'|the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|el|del|notre|nuestra|der|die|"
-    r"unserer|vollen|maximalen)*"
+    r"(?:\s++|of|de|d'|the|our|its|full|max|maximum|total|available|allowed|transmit|tx|la|el|del|notre|nuestra|der|die|"
+    r"unserer|vollen|maximalen)*+"
 )
 _SHARED = (
     deferred(
