@@ -46,7 +46,7 @@ _UNSURE = {"rate": "status", "power": "whose_power", "ratio": "share"}
 _NEAR = 60
 _HUGE_POWER_W = 1e5  # no cell radiates this much: a megawatt is a misspelt milliwatt
 _TINY_POWER_W = 1e-8  # nor so little: that is noise
-_MOST_OUTAGE, _CERTAIN_OF_A_SHARE = 0.3, 0.9
+_MOST_OUTAGE, _SURE_OF_A_PROMISE = 0.3, 0.9
 """A promise that is kept so seldom is a share of something else, unless the words surely say so."""
 
 _SURE, _SURE_OF_A_LIMIT = 0.6, {"power": 0.75, "rate": 0.6, "ratio": 0.6}
@@ -175,7 +175,7 @@ class _Reader:
             return _UNSURE[figure.kind]
         if figure.kind == "ratio" and not (0 < figure.value < 1 or (role == "share" and figure.value == 1)):
             return "impossible"
-        return self._limited(index, role, figure)
+        return self._limited(index, figure)
 
     def _mask_a_correction(self, index: int, figure: Quantity) -> None:
         """The words by which a figure takes the place of the one before it wish and deny nothing."""
@@ -191,8 +191,9 @@ class _Reader:
             return ""
         return _UNSURE[figure.kind]
 
-    def _limited(self, index: int, role: str, figure: Quantity) -> str:
+    def _limited(self, index: int, figure: Quantity) -> str:
         """Take a figure as a limit, or say what is to be asked."""
+        role = self._judged.role(index)
         setting = _SET_TO.search(self._reading.plain, max(0, figure.start - _NEAR), figure.start)
         if setting is not None:
             self._reading.masked.append((setting.start(), figure.end))
@@ -202,12 +203,12 @@ class _Reader:
         elif figure.kind == "rate" and self._with(_OF_SEVERAL, figure):
             return "total_rate"
         elif role == "share":
-            self._reading.take_share(figure.value, figure, self._max_power_w)
+            self._reading.take_share(figure, self._max_power_w)
         elif figure.kind == "ratio":
             if self._with(_OF_ANOTHER_SHARE, figure):
                 return "share"
             outage = figure.value if role == "outage" else round(1 - figure.value, 15)
-            if outage > _MOST_OUTAGE and self._judged.figure(index)[role] < _CERTAIN_OF_A_SHARE:
+            if outage > _MOST_OUTAGE and self._judged.figure(index)[role] < _SURE_OF_A_PROMISE:
                 return "share"
             self._reading.take("outage_probability", outage, figure)
         elif figure.kind == "power":

@@ -40,7 +40,6 @@ _WEIGHTS = deferred(  # what follows are weights, whatever else they may look li
     r"(?i)(?:\b(?:weights?|weigh(?:s|ing|ed)?|pesos?|poids|gewichten?)(?:\s+(?:of|are|is|being|de|von|sind))?|权重(?:分别|依次|各)?[是为]?)\s*[:=]?\s*$"
 )
 _OF_WEIGHTS = Phrases(either("figures", "users", "weighs"))
-_OF_EACH = deferred(rf"(?i)\s*(?:{either('figures', 'users', 'each_behind')})")
 _NEAR_BY, _ENDS = 40, deferred(r"[0-9.;!?。；]")  # of a list and its users, and what stands between neither
 _MOST_BARE_USERS = 100  # who is called by a number alone has a small one
 _SURE_OF_A_USER, _SURE_OF_A_WEIGHT, _SURE_OF_NOTHING, _SURE_OF_A_FIGURE, _SURE_OF_ONE = 0.6, 0.6, 0.6, 0.6, 0.5
@@ -353,7 +352,8 @@ def _rates_of_lists(look: Look, chances: _Roles) -> list[Number]:
             continue
         strange = any(chances[n]["power"] + chances[n]["weight"] > _PERHAPS for n in numbers)
         likely_users = len(numbers) == 1 and chances[numbers[0]]["user"] > _PERHAPS
-        if strange or likely_users or _WEIGHTS.search(plain, 0, each[0].start) or _OF_EACH.match(plain, figure.end):
+        for_each = any(m.role == "everybody" and plain[figure.end : m.start].isspace() for m in look.mentions)
+        if strange or likely_users or for_each or _WEIGHTS.search(plain, 0, each[0].start):
             continue
         as_many = [(start, end) for start, end, count in named if count == len(each)]
         gaps = [(end, each[0].start) if end <= each[0].start else (figure.end, start) for start, end in as_many]
@@ -368,8 +368,13 @@ def _users(plain: str, numbers: Sequence[Number], singles: Sequence[Number], cha
     One of the ``singles`` ("one") is a user in a list with others: "for the one and the three".
     """
     able = [n for n in numbers if n.value is not None and 0 <= n.value == int(n.value) < _MOST_BARE_USERS]
-    able = [n for n in able if n.form != "times"]
-    able = [n for n in able if COUNTED_USERS.match(plain, n.start) is None and FOREIGN_UNIT.match(plain, n.end) is None]
+    able = [
+        n
+        for n in able
+        if n.form != "times"
+        and COUNTED_USERS.match(plain, n.start) is None
+        and FOREIGN_UNIT.match(plain, n.end) is None
+    ]
     able = sorted([*able, *singles], key=lambda number: number.start)
     lists = [each for each in _runs(plain, able, JOINT) if _WEIGHTS.search(plain, 0, each[0].start) is None]
     lists = [each for each in lists if len({number.value for number in each}) == len(each)  # "w = [2, 1, 1]"

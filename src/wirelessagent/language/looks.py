@@ -8,6 +8,7 @@ the model of roles says (``judged``); here they get their unit and their value.
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
@@ -128,11 +129,11 @@ def figures_of(
     units = units or list(_declared(plain))
     found: dict[Number, Quantity] = {}
     for number, role in roles.items():
-        value = _value(plain, number, role, units, [*stated, *found.values()])
+        scaled = SCALED.match(plain, number.end) if BORROWING[role] == "rate" else None
+        value = _value(number, role, scaled, units, [*stated, *found.values()])
         if value is None:
             continue
         own = [q for q in quantities if q.start <= number.start < q.end]
-        scaled = SCALED.match(plain, number.end) if BORROWING[role] == "rate" else None
         end = scaled.end() if scaled is not None else number.end  # "400k"
         found[number] = Quantity(
             value=value, kind=BORROWING[role], text=plain[number.start : end], start=number.start, end=end,
@@ -152,8 +153,10 @@ def _declared(plain: str) -> Iterator[Reading]:
             yield Reading(number=number, unit=unit, start=match.end(), end=unit.end)
 
 
-def _value(plain: str, number: Number, role: str, units: Sequence[Reading], stated: Sequence[Quantity]) -> float | None:
-    """What a number is worth in SI units, or None where there is nothing to borrow from."""
+def _value(
+    number: Number, role: str, scaled: re.Match[str] | None, units: Sequence[Reading], stated: Sequence[Quantity]
+) -> float | None:
+    """What a number is worth in SI units, ``scaled`` by a letter or not; None where there is nothing to borrow from."""
     if number.value is None:
         return None
     kind = BORROWING[role]
@@ -162,7 +165,6 @@ def _value(plain: str, number: Number, role: str, units: Sequence[Reading], stat
     if role == "multiple":
         earlier = [figure.value for figure in stated if figure.kind == "rate" and figure.end <= number.start]
         return float(number.value) * earlier[-1] if earlier else None
-    scaled = SCALED.match(plain, number.end) if kind == "rate" else None
     if scaled is not None:
         return float(number.value * _SCALES[scaled.group().strip()])
     able = [reading for reading in units if reading.unit is not None and reading.unit.kind == kind]

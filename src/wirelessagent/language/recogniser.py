@@ -55,7 +55,7 @@ class Context:
         max_power_w: the cell's limit, which shares of the power refer to.
         objective, constraints: of the current request; None and empty where there is none.
         awaits: what the agent asked for last.
-        question: that is open, and what was understood before it; that of nothing where none is.
+        question: the one that is open, with what was understood before it; an empty one where none is.
         supposed_objective, supposed: the request of a what-if right before; None and empty where there was none.
         ways: whether the line right before was told that it can't be met, and what can be met instead.
         offers: how many ways were offered that the next line may choose from.

@@ -151,12 +151,12 @@ class Reading:
         if figure.comparator == "exactly":
             self.exact.add(name)
 
-    def take_share(self, share: float, figure: Quantity, max_power_w: float) -> None:
+    def take_share(self, figure: Quantity, max_power_w: float) -> None:
         """Take a share of the power, with the words beside that say so."""
         span = self._with_words_beside((figure.phrase_start, figure.phrase_end), _SHARED)
         self.masked.append(span)
         self.spoken_for.append(span)
-        self.take("max_power_w", share * max_power_w, figure)
+        self.take("max_power_w", figure.value * max_power_w, figure)
 
     def changes_by(self, figure: Quantity) -> bool:
         """Whether something is to become more or less by a share: "half the power less"."""

@@ -56,18 +56,22 @@ class Example:
     right: tuple[bool, ...]
 
 
+def _look(text: str) -> Look:
+    """What a sentence holds, without what it takes back, before anybody asks what its numbers are."""
+    said = without_corrected(text)
+    return first_look(normalise(said), parse_quantities(said))
+
+
 def examples(text: str, constraints: Mapping[str, Any]) -> Iterator[Example]:
     """What a sentence with its meaning shows."""
-    text = without_corrected(text)
-    look = first_look(normalise(text), parse_quantities(text))
+    look = _look(text)
     yield from _shown(look, Meant(constraints, look))
 
 
 def shown_by(line: str) -> Iterator[Example]:
     """What a sentence shows whose figures and users are marked."""
     marked_one = Marked(line)
-    text = without_corrected(marked_one.text)
-    yield from _shown(first_look(normalise(text), parse_quantities(text)), marked_one)
+    yield from _shown(_look(marked_one.text), marked_one)
 
 
 def named_in(text: str, names: Sequence[tuple[int, int]]) -> Iterator[Example]:
@@ -75,8 +79,8 @@ def named_in(text: str, names: Sequence[tuple[int, int]]) -> Iterator[Example]:
 
     The small words of a name show nothing: "my", "on the".
     """
-    plain = normalise(text := without_corrected(text))
-    view = first_look(plain, parse_quantities(text)).view()
+    look = _look(text)
+    plain, view = look.plain, look.view()
     for place in view.words:
         start, end = view.span(place)
         name = any(first < end and start < last for first, last in names)
